@@ -1,0 +1,237 @@
+//! The state of a contact, and its path through the branches of the law.
+
+use super::loading::Loading;
+use super::path::Sum;
+use super::segment::Segment;
+use super::unloading::Unloading;
+use super::{Model, Surface};
+use core::f64::consts::PI;
+use libm::sqrt;
+
+/// The indentation up to which the laws are evaluated [m]: far beyond anything physical, and small enough that no force
+/// or energy overflows.
+pub const LARGEST_INDENTATION: f64 = 1e100;
+
+/// The smallest positive indentation [m]: an elastic contact is open at zero and closed here.
+const TOUCHING: f64 = f64::from_bits(1);
+
+/// Which part of the law a contact is on. The numbers are those of the variable `regime`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Regime {
+    /// No contact.
+    Apart = 0,
+    /// Hertz: nothing has yielded.
+    Elastic = 1,
+    /// Elastoplastic loading, first region.
+    ElastoplasticFirst = 2,
+    /// Elastoplastic loading, second region.
+    ElastoplasticSecond = 3,
+    /// Fully plastic loading.
+    FullyPlastic = 4,
+    /// Below the largest indentation of a contact that has yielded: unloading or reloading.
+    Unloaded = 5,
+}
+
+/// The indentation left the range in which the law can be evaluated, or isn't a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TooDeep {
+    /// The indentation that was refused [m].
+    pub indentation: f64,
+}
+
+/// Everything a contact remembers.
+///
+/// The branch it is on follows from the indentation, the largest indentation and the last direction of motion; it is
+/// kept so that a step that stays on it needs nothing else.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct History {
+    indentation: Sum,
+    max_indentation: f64,
+    segment: Segment,
+    regime: Regime,
+    /// Energy lost in dents that were left behind [J] ([`Surface::Fresh`]).
+    left_behind: f64,
+}
+
+impl History {
+    /// A contact at `gap` [m] before any motion; a negative gap is an indentation reached along the loading curve.
+    pub fn start<L: Loading, U: Unloading>(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
+        let mut history = History {
+            // not -gap, so that no gap is 0.0 and not -0.0
+            indentation: Sum::new(0.0 - gap),
+            max_indentation: 0.0,
+            segment: Segment::apart(0.0, 0.0),
+            regime: Regime::Apart,
+            left_behind: 0.0,
+        };
+        let indentation = history.indentation.value;
+        history.enter(model, indentation, false)?;
+        Ok(history)
+    }
+
+    /// Moves the contact by `increment` [m], monotonically.
+    ///
+    /// # Errors
+    /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN; the history is left as it was.
+    #[inline]
+    pub fn advance<L: Loading, U: Unloading>(
+        &mut self,
+        increment: f64,
+        model: impl FnOnce() -> Model<L, U>,
+    ) -> Result<(), TooDeep> {
+        let sum = self.indentation.plus(increment);
+        let indentation = sum.value;
+        if self.segment.contains(indentation) {
+            self.max_indentation = if indentation > self.max_indentation { indentation } else { self.max_indentation };
+            self.segment.lower = if self.yields() { indentation } else { self.segment.lower };
+        } else {
+            self.enter(&model(), indentation, increment > 0.0)?;
+        }
+        self.indentation = sum;
+        Ok(())
+    }
+
+    /// Whether the contact is yielding now: then the way back leads to another branch.
+    #[inline]
+    fn yields(&self) -> bool {
+        matches!(self.regime, Regime::ElastoplasticFirst | Regime::ElastoplasticSecond | Regime::FullyPlastic)
+    }
+
+    /// Finds the branch that holds at `indentation`; at a corner the one that lies in the direction of motion.
+    #[cold]
+    #[inline(never)]
+    fn enter<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        indentation: f64,
+        rising: bool,
+    ) -> Result<(), TooDeep> {
+        let within = indentation > -LARGEST_INDENTATION && indentation < LARGEST_INDENTATION;
+        if !within {
+            return Err(TooDeep { indentation });
+        }
+        let yield_indentation = model.loading.yield_point(&model.pair).indentation;
+        if model.surface == Surface::Fresh && indentation <= 0.0 {
+            self.left_behind += self.dissipated_in_dent(model);
+            self.max_indentation = 0.0;
+        }
+        if indentation > self.max_indentation {
+            self.max_indentation = indentation;
+        }
+        let largest = self.max_indentation;
+        if indentation > 0.0 && indentation >= largest {
+            self.regime = model.loading.regime(&model.pair, indentation);
+            let lower = if self.yields() { indentation } else { TOUCHING };
+            self.segment = Segment { lower, ..model.loading.segment(&model.pair, indentation) };
+        } else if largest <= yield_indentation {
+            if indentation > 0.0 {
+                self.regime = Regime::Elastic;
+                self.segment = Segment { lower: TOUCHING, ..model.loading.segment(&model.pair, 0.0) };
+            } else {
+                self.regime = Regime::Apart;
+                self.segment = Segment::apart(-LARGEST_INDENTATION, TOUCHING);
+            }
+        } else {
+            let unloading = model.unloading_segment(largest);
+            let residual = unloading.lower;
+            if indentation > residual || (rising && indentation == residual) {
+                self.regime = Regime::Unloaded;
+                self.segment = Segment { lower: residual.next_up(), ..unloading };
+            } else {
+                self.regime = Regime::Apart;
+                // a fresh surface forgets the dent at zero, so that the border must be noticed
+                let forgets = model.surface == Surface::Fresh && indentation > 0.0;
+                let lower = if forgets { TOUCHING } else { -LARGEST_INDENTATION };
+                self.segment = Segment::apart(lower, residual);
+            }
+        }
+        Ok(())
+    }
+
+    /// Indentation [m]; negative while apart.
+    #[inline]
+    pub fn indentation(&self) -> f64 {
+        self.indentation.value
+    }
+
+    /// Largest indentation of the present dent [m].
+    pub fn max_indentation(&self) -> f64 {
+        self.max_indentation
+    }
+
+    /// The part of the law the contact is on.
+    pub fn regime(&self) -> Regime {
+        self.regime
+    }
+
+    /// Normal force [N], compressive positive; exactly zero while apart.
+    #[inline]
+    pub fn force(&self) -> f64 {
+        self.segment.force(self.indentation.value)
+    }
+
+    /// dF/d(indentation) on the present branch [N/m]; at a corner the one in the direction of the last motion.
+    pub fn stiffness(&self) -> f64 {
+        self.segment.stiffness(self.indentation.value)
+    }
+
+    /// Whether `model` has yielded under the largest indentation so far.
+    fn has_yielded<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> bool {
+        self.max_indentation > model.loading.yield_point(&model.pair).indentation
+    }
+
+    /// Depth of the dent that would remain if the load were taken off now [m].
+    pub fn residual_indentation<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+        if self.has_yielded(model) { model.unloading_segment(self.max_indentation).lower } else { 0.0 }
+    }
+
+    /// Contact radius [m], 0 while apart: that of the loading law up to the largest indentation, and from there down
+    /// `a = a_m sqrt((d - d_f)/d_e)`, the radius of a Hertzian recovery.
+    pub fn contact_radius<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+        let indentation = self.indentation.value;
+        match self.regime {
+            Regime::Apart => 0.0,
+            Regime::Unloaded => {
+                let Segment { lower, upper, .. } = model.unloading_segment(self.max_indentation);
+                let radius = model.loading.contact_radius(&model.pair, self.max_indentation);
+                radius * sqrt((indentation - lower) / (upper - lower))
+            }
+            _ => model.loading.contact_radius(&model.pair, indentation),
+        }
+    }
+
+    /// Force over contact area [Pa], 0 while apart.
+    pub fn mean_pressure<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+        let radius = self.contact_radius(model);
+        if radius > 0.0 { self.force() / (PI * radius * radius) } else { 0.0 }
+    }
+
+    /// What unloading would give back [J].
+    pub fn elastic_energy<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+        match self.regime {
+            Regime::Apart => 0.0,
+            Regime::Elastic => model.loading.work(&model.pair, self.indentation.value),
+            _ => model.unloading_segment(self.max_indentation).work(self.indentation.value),
+        }
+    }
+
+    /// Work turned into plastic deformation since the start [J].
+    pub fn dissipated_energy<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+        self.left_behind + self.dissipated_in_dent(model)
+    }
+
+    /// Loading work up to the largest indentation, less what unloading from there gives back [J].
+    fn dissipated_in_dent<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+        let largest = self.max_indentation;
+        if !self.has_yielded(model) {
+            return 0.0;
+        }
+        model.loading.work(&model.pair, largest) - model.unloading_segment(largest).work(largest)
+    }
+
+    /// Work done on the contact by the bodies since the start [J]: the sum of the other two energies, and so a function
+    /// of the state, not of the steps that led there. A contact that starts pressed in counts the way there as done.
+    pub fn work<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+        self.elastic_energy(model) + self.dissipated_energy(model)
+    }
+}

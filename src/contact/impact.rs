@@ -1,0 +1,178 @@
+//! What an impact will do, from the energy balance: no time stepping.
+
+use super::history::LARGEST_INDENTATION;
+use super::loading::Loading;
+use super::unloading::Unloading;
+use super::{Model, Regime};
+use libm::sqrt;
+
+/// A body of `mass` that meets the other at `speed`, with nothing else pushing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// Effective mass [kg] > 0: `1/m = 1/m1 + 1/m2`.
+    pub mass: f64,
+    /// Closing speed at first contact [m/s] > 0.
+    pub speed: f64,
+}
+
+/// The course of an impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prediction {
+    /// Largest indentation [m].
+    pub max_indentation: f64,
+    /// Largest force [N].
+    pub max_force: f64,
+    /// Contact radius at the largest indentation [m].
+    pub max_contact_radius: f64,
+    /// Regime reached at the largest indentation.
+    pub regime: Regime,
+    /// Depth of the dent [m].
+    pub residual_indentation: f64,
+    /// Kinetic energy before the impact [J].
+    pub energy: f64,
+    /// Kinetic energy after it [J].
+    pub rebound_energy: f64,
+    /// Rebound speed over incoming speed.
+    pub restitution: f64,
+    /// From first contact to the largest indentation [s].
+    pub loading_time: f64,
+    /// From the largest indentation to separation [s].
+    pub unloading_time: f64,
+}
+
+impl Prediction {
+    /// Duration of the contact [s].
+    pub fn contact_time(&self) -> f64 {
+        self.loading_time + self.unloading_time
+    }
+}
+
+/// The impact of `impact` on an untouched contact: `W(d_m) = m v^2/2`, rebound energy the work given back on unloading.
+///
+/// `None` if mass or speed aren't positive and finite, or the indentation would leave [`LARGEST_INDENTATION`].
+///
+/// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 11.5; the energy balance is that of section 4 of
+/// A. Big-Alabo et al., *Computers & Structures* 151 (2015) 20-29, with the root found to rounding.
+pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<Prediction> {
+    let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
+    if !positive(impact.mass) || !positive(impact.speed) {
+        return None;
+    }
+    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+    let max_indentation = indentation_of_work(model, energy)?;
+    let unloading = model.unloading_segment(max_indentation);
+    let rebound_energy = unloading.work(max_indentation);
+    let peak = model.peak(max_indentation);
+    // the energy at which the numbers themselves balance, so that the speed at the turning point is exactly zero
+    let work = model.loading.work(&model.pair, max_indentation);
+    let loading_time = travel_time(
+        impact.mass,
+        0.0,
+        max_indentation,
+        |d| work - model.loading.work(&model.pair, d),
+        |d| model.loading.segment(&model.pair, d).upper,
+    );
+    let unloading_time = travel_time(
+        impact.mass,
+        unloading.lower,
+        max_indentation,
+        |d| rebound_energy - unloading.work(d),
+        |_| max_indentation,
+    );
+    Some(Prediction {
+        max_indentation,
+        max_force: peak.force,
+        max_contact_radius: peak.contact_radius,
+        regime: model.loading.regime(&model.pair, max_indentation),
+        residual_indentation: unloading.lower,
+        energy,
+        rebound_energy,
+        restitution: sqrt(rebound_energy / energy),
+        loading_time,
+        unloading_time,
+    })
+}
+
+/// The indentation [m] at which the loading work is `energy` [J]: bisection to rounding, since the work is monotone.
+fn indentation_of_work<L: Loading, U: Unloading>(model: &Model<L, U>, energy: f64) -> Option<f64> {
+    let work = |d: f64| model.loading.work(&model.pair, d);
+    if work(LARGEST_INDENTATION) <= energy {
+        return None;
+    }
+    // f64 keeps its order when the bits of positive numbers are read as integers: 64 halvings find the neighbours
+    let (mut low, mut high) = (0u64, LARGEST_INDENTATION.to_bits());
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if work(f64::from_bits(middle)) <= energy {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(f64::from_bits(high))
+}
+
+/// Time [s] between `from` and the turning point `to` [m] of a `mass` [kg] whose kinetic energy at `d` is
+/// `kinetic_energy(d)` [J], zero at `to`.
+///
+/// `t = integral dd / sqrt(2 T(d)/m)`; with `d = to - (to - from) s^2` the end where the speed vanishes is regular. The
+/// integral is split where the law has a corner (`next_corner(d)`: the first corner above `d`), since Gauss's rule needs
+/// a smooth integrand.
+fn travel_time(
+    mass: f64,
+    from: f64,
+    to: f64,
+    kinetic_energy: impl Fn(f64) -> f64,
+    next_corner: impl Fn(f64) -> f64,
+) -> f64 {
+    let length = to - from;
+    let integrand = |s: f64| {
+        let energy = kinetic_energy(to - length * (s * s));
+        if energy > 0.0 { 2.0 * length * s / sqrt(2.0 * energy / mass) } else { 0.0 }
+    };
+    let mut time = 0.0;
+    let mut start = from;
+    while start < to {
+        let corner = next_corner(start);
+        let end = if corner < to { corner } else { to };
+        time += graded_integral(sqrt((to - end) / length), sqrt((to - start) / length), &integrand);
+        start = end;
+    }
+    time
+}
+
+/// Integral over `[low, high]` with panels that shrink towards both ends, where a fractional power may begin.
+fn graded_integral(low: f64, high: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
+    const PANELS: u32 = 12;
+    let middle = 0.5 * (low + high);
+    let mut sum = 0.0;
+    for end in [low, high] {
+        let mut outer = middle;
+        for _ in 1..PANELS {
+            let inner = 0.5 * (outer + end);
+            sum += gauss(inner, outer, integrand);
+            outer = inner;
+        }
+        sum += gauss(end, outer, integrand);
+    }
+    sum
+}
+
+/// Gauss-Legendre rule with ten points; the sign of the interval doesn't matter.
+///
+/// Reference: M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, table 25.4.
+fn gauss(a: f64, b: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
+    const NODES_AND_WEIGHTS: [(f64, f64); 5] = [
+        (0.148_874_338_981_631_22, 0.295_524_224_714_752_87),
+        (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
+        (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
+        (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
+        (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
+    ];
+    let (centre, half) = (0.5 * (a + b), 0.5 * (b - a));
+    let mut sum = 0.0;
+    for (node, weight) in NODES_AND_WEIGHTS {
+        sum += weight * (integrand(centre - half * node) + integrand(centre + half * node));
+    }
+    sum * if half < 0.0 { -half } else { half }
+}

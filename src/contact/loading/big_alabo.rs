@@ -1,0 +1,138 @@
+//! Big-Alabo, Harrison and Cartmell: elastic, elastoplastic in two regions, fully plastic.
+
+use super::{Loading, hertz};
+use crate::contact::history::{LARGEST_INDENTATION, Regime};
+use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::segment::Segment;
+use libm::{log, sqrt};
+
+/// The loading curve of Big-Alabo et al., with `x = d/d_y`, `f = F/F_y`:
+///
+/// | regime | where | `f` |
+/// |---|---|---|
+/// | elastic (Hertz) | `x < 1` | `x^1.5` |
+/// | elastoplastic, first region | `1 <= x < x_tep` | `(x - 1)^1.5 + 1` |
+/// | elastoplastic, second region | `x_tep <= x < x_p` | `k_l (x - x_tep) + f_tep` |
+/// | fully plastic | `x_p <= x` | `k_p (x - x_p) + f_p` |
+///
+/// `k_l = 1.5 sqrt(x_tep - 1)` and `f_tep`, `f_p` follow from continuity: force is continuous everywhere, the slope at
+/// `x_tep`. The slope drops from 1.5 to zero at yield and from 5.394 to 5.091 at `x_p`: properties of the published curve.
+///
+/// Reference: A. Big-Alabo, P. Harrison, M. P. Cartmell, *Computers & Structures* 151 (2015) 20-29.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BigAlabo {
+    /// Mean pressure at yield over the yield strength.
+    pub yield_pressure_factor: f64,
+    /// Mean pressure in the fully plastic regime over the yield strength.
+    pub plastic_pressure_factor: f64,
+    /// `x_tep`: where the second elastoplastic region begins, in yield indentations.
+    pub second_region: f64,
+    /// `x_p`: where the fully plastic regime begins, in yield indentations.
+    pub fully_plastic: f64,
+    /// `k_p`: slope of the fully plastic regime [F_y/d_y].
+    pub plastic_slope: f64,
+}
+
+/// The curve in multiples of `d_y` and `F_y`.
+struct Normalised {
+    second_force: f64,
+    second_slope: f64,
+    plastic_force: f64,
+}
+
+impl BigAlabo {
+    /// The constants as published: pressures 1.1 S and 2.8 S, borders 13.93 and 82.5.
+    ///
+    /// `x_p = 82.5` is the point of full plasticity of Stronge (*Impact Mechanics*, 2000, section 6.3), and 13.93 the
+    /// border from which a line with continuous slope meets Stronge's plastic line there (13.938 unrounded). `k_p` is
+    /// not in the paper's introduction; it follows from a constant pressure of 2.8 S on an area `pi R d_y (2x - 1)`:
+    /// `k_p = 2 * 2.8/1.1 = 5.0909`.
+    pub const REFERENCE: BigAlabo = BigAlabo {
+        yield_pressure_factor: 1.1,
+        plastic_pressure_factor: 2.8,
+        second_region: 13.93,
+        fully_plastic: 82.5,
+        plastic_slope: 2.0 * 2.8 / 1.1,
+    };
+
+    fn normalised(&self) -> Normalised {
+        let from_yield = self.second_region - 1.0;
+        let second_slope = 1.5 * sqrt(from_yield);
+        let second_force = from_yield * sqrt(from_yield) + 1.0;
+        let plastic_force = second_slope * (self.fully_plastic - self.second_region) + second_force;
+        Normalised { second_force, second_slope, plastic_force }
+    }
+}
+
+impl Loading for BigAlabo {
+    fn yield_point(&self, pair: &Pair) -> YieldPoint {
+        pair.yield_point(self.yield_pressure_factor)
+    }
+
+    fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
+        let YieldPoint { indentation: d_y, force: f_y } = self.yield_point(pair);
+        if indentation < d_y {
+            return hertz::segment(pair, d_y);
+        }
+        let (second, plastic) = (self.second_region * d_y, self.fully_plastic * d_y);
+        if indentation < second {
+            let power = pair.hertz_stiffness();
+            return Segment { lower: d_y, upper: second, origin: d_y, constant: f_y, linear: 0.0, power };
+        }
+        let Normalised { second_force, second_slope, plastic_force } = self.normalised();
+        let slope_unit = f_y / d_y;
+        if indentation < plastic {
+            let (constant, linear) = (second_force * f_y, second_slope * slope_unit);
+            return Segment { lower: second, upper: plastic, origin: second, constant, linear, power: 0.0 };
+        }
+        let (constant, linear) = (plastic_force * f_y, self.plastic_slope * slope_unit);
+        Segment { lower: plastic, upper: LARGEST_INDENTATION, origin: plastic, constant, linear, power: 0.0 }
+    }
+
+    /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + (x-1) + 0.4 (x-1)^2.5`, then `w_tep + f_tep (x-x_tep) + k_l (x-x_tep)^2/2`,
+    /// then `w_p + f_p (x-x_p) + k_p (x-x_p)^2/2`: the whole pieces below `indentation` and the begun one.
+    fn work(&self, pair: &Pair, indentation: f64) -> f64 {
+        let d_y = self.yield_point(pair).indentation;
+        let (mut work, mut reached) = (0.0, 0.0);
+        for border in [d_y, self.second_region * d_y, self.fully_plastic * d_y] {
+            if indentation <= border {
+                break;
+            }
+            work += self.segment(pair, reached).work(border);
+            reached = border;
+        }
+        work + self.segment(pair, reached).work(indentation)
+    }
+
+    /// From the mean pressure `p_m/S = 1.1 sqrt(x)` up to yield, then `min(1.1 + ln(2x-1)/3, 2.8)`: `a^2 = F/(pi p_m)`,
+    /// never below `R d_y` once yielded, which makes `a` continuous and non-decreasing.
+    ///
+    /// The paper's introduction gives no contact radius. The logarithm is Stronge's mean pressure (*Impact Mechanics*,
+    /// 2000, section 6.3), which is 1.1 S at yield and 2.8 S at `x_p`.
+    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
+        let d_y = self.yield_point(pair).indentation;
+        if indentation <= d_y {
+            return sqrt(pair.radius * indentation);
+        }
+        let logarithmic = self.yield_pressure_factor + log(2.0 * (indentation / d_y) - 1.0) / 3.0;
+        let factor =
+            if logarithmic < self.plastic_pressure_factor { logarithmic } else { self.plastic_pressure_factor };
+        let force = self.segment(pair, indentation).force(indentation);
+        let area = force / (core::f64::consts::PI * factor * pair.yield_strength);
+        let area_at_yield = pair.radius * d_y;
+        sqrt(if area > area_at_yield { area } else { area_at_yield })
+    }
+
+    fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
+        let d_y = self.yield_point(pair).indentation;
+        if indentation < d_y {
+            Regime::Elastic
+        } else if indentation < self.second_region * d_y {
+            Regime::ElastoplasticFirst
+        } else if indentation < self.fully_plastic * d_y {
+            Regime::ElastoplasticSecond
+        } else {
+            Regime::FullyPlastic
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Loading laws, one file each: the curve that the force follows while the indentation is the largest so far.
+
+pub mod big_alabo;
+pub mod hertz;
+
+pub use big_alabo::BigAlabo;
+pub use hertz::Hertz;
+
+use super::history::Regime;
+use super::material::{Pair, YieldPoint};
+use super::segment::Segment;
+
+/// A loading law: the law's own constants, without the bodies.
+///
+/// All indentations are in m and not negative. The curve is a chain of [`Segment`]s that begins at zero indentation.
+pub trait Loading: Copy {
+    /// The end of the elastic part; infinite if the law never yields.
+    fn yield_point(&self, pair: &Pair) -> YieldPoint;
+
+    /// The piece of the curve that holds at `indentation` and just above it, with the bounds it has on the curve.
+    fn segment(&self, pair: &Pair, indentation: f64) -> Segment;
+
+    /// Work of the loading from first contact to `indentation` [J], in closed form.
+    fn work(&self, pair: &Pair, indentation: f64) -> f64;
+
+    /// Contact radius [m] while loading.
+    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64;
+
+    /// The regime of the loading at `indentation` and just above it.
+    fn regime(&self, pair: &Pair, indentation: f64) -> Regime;
+}
+
+/// A loading law chosen while the program runs. The FMU doesn't need it: a scene names its law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyLoading {
+    /// See [`Hertz`].
+    Hertz(Hertz),
+    /// See [`BigAlabo`].
+    BigAlabo(BigAlabo),
+}
+
+impl AnyLoading {
+    /// Every law under the name it has in a scene, with its reference constants.
+    pub const ALL: [(&'static str, AnyLoading); 2] =
+        [("hertz", AnyLoading::Hertz(Hertz)), ("big-alabo", AnyLoading::BigAlabo(BigAlabo::REFERENCE))];
+}
+
+impl Loading for AnyLoading {
+    fn yield_point(&self, pair: &Pair) -> YieldPoint {
+        match self {
+            AnyLoading::Hertz(law) => law.yield_point(pair),
+            AnyLoading::BigAlabo(law) => law.yield_point(pair),
+        }
+    }
+
+    fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
+        match self {
+            AnyLoading::Hertz(law) => law.segment(pair, indentation),
+            AnyLoading::BigAlabo(law) => law.segment(pair, indentation),
+        }
+    }
+
+    fn work(&self, pair: &Pair, indentation: f64) -> f64 {
+        match self {
+            AnyLoading::Hertz(law) => law.work(pair, indentation),
+            AnyLoading::BigAlabo(law) => law.work(pair, indentation),
+        }
+    }
+
+    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
+        match self {
+            AnyLoading::Hertz(law) => law.contact_radius(pair, indentation),
+            AnyLoading::BigAlabo(law) => law.contact_radius(pair, indentation),
+        }
+    }
+
+    fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
+        match self {
+            AnyLoading::Hertz(law) => law.regime(pair, indentation),
+            AnyLoading::BigAlabo(law) => law.regime(pair, indentation),
+        }
+    }
+}

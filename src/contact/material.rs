@@ -1,0 +1,78 @@
+//! Sphere, half-space, effective radius and modulus, yield point.
+
+use libm::sqrt;
+
+/// One of the two bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Radius of curvature [m]; infinite: flat; negative: a socket.
+    pub radius: f64,
+    /// Young's modulus [Pa] > 0; infinite: rigid.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio, above -1 and at most 0.5.
+    pub poissons_ratio: f64,
+}
+
+impl Body {
+    /// Plane-strain modulus `E / (1 - nu^2)` [Pa].
+    pub fn plane_strain_modulus(&self) -> f64 {
+        self.youngs_modulus / (1.0 - self.poissons_ratio * self.poissons_ratio)
+    }
+}
+
+/// The two bodies as the contact laws see them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// Effective radius `R` [m]: `1/R = 1/R1 + 1/R2`.
+    pub radius: f64,
+    /// Effective modulus `E*` [Pa]: `1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`.
+    pub modulus: f64,
+    /// Yield strength `S` of the body that yields [Pa]; infinite for an elastic contact.
+    pub yield_strength: f64,
+}
+
+/// Where a contact begins to yield.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct YieldPoint {
+    /// Indentation `d_y` [m].
+    pub indentation: f64,
+    /// Force `F_y` [N].
+    pub force: f64,
+}
+
+impl Pair {
+    /// The pair of `impactor` and `target`, of which the softer yields at `yield_strength` [Pa].
+    ///
+    /// Written so that a rigid impactor and a flat target leave `E/(1-nu^2)` and `R` of the other body unrounded.
+    /// `None` if the bodies cannot touch in one point: a socket must be wider than the impactor (`R2 < -R1`).
+    ///
+    /// Reference: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 4.2.
+    pub fn new(impactor: &Body, target: &Body, yield_strength: f64) -> Option<Pair> {
+        let curvature_ratio = 1.0 + impactor.radius / target.radius;
+        let soft = target.plane_strain_modulus();
+        let stiffness_ratio = 1.0 + soft / impactor.plane_strain_modulus();
+        // written positively, so that a NaN fails
+        (curvature_ratio > 0.0).then_some(Pair {
+            radius: impactor.radius / curvature_ratio,
+            modulus: soft / stiffness_ratio,
+            yield_strength,
+        })
+    }
+
+    /// `K_h = (4/3) E* sqrt(R)` [N/m^1.5], the constant of Hertz's law `F = K_h d^1.5`.
+    ///
+    /// Reference: Johnson 1985, eq. 4.23.
+    pub fn hertz_stiffness(&self) -> f64 {
+        4.0 / 3.0 * self.modulus * sqrt(self.radius)
+    }
+
+    /// The point of Hertz's curve where the mean pressure reaches `pressure_factor` times the yield strength.
+    ///
+    /// `d_y = R (3 pi p / (4 E*))^2` and `F_y = K_h d_y^1.5`, with `p = pressure_factor S`. The force is computed from
+    /// `K_h`, not from its own closed form, so that it continues Hertz's law to the last bit.
+    pub fn yield_point(&self, pressure_factor: f64) -> YieldPoint {
+        let strain = 0.75 * core::f64::consts::PI * pressure_factor * self.yield_strength / self.modulus;
+        let indentation = self.radius * strain * strain;
+        YieldPoint { indentation, force: self.hertz_stiffness() * (indentation * sqrt(indentation)) }
+    }
+}

@@ -1,0 +1,74 @@
+//! The physics: a rigid or elastic sphere pressed into an elastoplastic half-space.
+//!
+//! `f64` only; no allocation, no input or output, no panic, no `unsafe`, and nothing of FMI. A [`Model`] says what is in
+//! contact and by which law; a [`History`] is everything a contact remembers. [`History::advance`] moves it along a path,
+//! and force, stiffness, energies and dent are functions of the two.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`material`] | bodies, effective radius and modulus, yield point |
+//! | [`segment`] | the form that every branch of these laws has: `F = c0 + c1 z + c2 z^1.5` |
+//! | [`loading`] | one file for each loading law |
+//! | [`unloading`] | one file for each unloading law |
+//! | [`path`] | the indentation, summed without loss |
+//! | [`history`] | the state of a contact and its path through the branches |
+//! | [`impact`] | what an impact will do, from the energy balance |
+
+pub mod history;
+pub mod impact;
+pub mod loading;
+pub mod material;
+pub mod path;
+pub mod segment;
+pub mod unloading;
+
+pub use history::{History, Regime, TooDeep};
+pub use loading::Loading;
+pub use material::{Body, Pair};
+pub use segment::Segment;
+pub use unloading::{Peak, Unloading};
+
+/// What a new contact meets after the bodies have parted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Surface {
+    /// The dent that the last contact left: the force begins again at the residual indentation.
+    #[default]
+    Dented,
+    /// An untouched spot: once the bodies have parted beyond the original surface the dent is forgotten, its energy isn't.
+    Fresh,
+}
+
+/// What is in contact, and by which laws.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Model<L, U> {
+    /// The two bodies.
+    pub pair: Pair,
+    /// The loading curve.
+    pub loading: L,
+    /// How the load comes off.
+    pub unloading: U,
+    /// What a new contact meets.
+    pub surface: Surface,
+}
+
+impl<L: Loading, U: Unloading> Model<L, U> {
+    /// The point of the loading curve at `indentation` [m], as the start of an unloading.
+    pub fn peak(&self, indentation: f64) -> Peak {
+        Peak {
+            indentation,
+            force: self.loading.segment(&self.pair, indentation).force(indentation),
+            contact_radius: self.loading.contact_radius(&self.pair, indentation),
+            yield_force: self.loading.yield_point(&self.pair).force,
+        }
+    }
+
+    /// The branch on which the load comes off from `max_indentation` [m] > 0, from the residual indentation (its lower
+    /// end) to `max_indentation` (its upper end). Up to the yield point it is the loading curve itself.
+    pub fn unloading_segment(&self, max_indentation: f64) -> Segment {
+        if max_indentation <= self.loading.yield_point(&self.pair).indentation {
+            Segment { upper: max_indentation, ..self.loading.segment(&self.pair, 0.0) }
+        } else {
+            self.unloading.segment(&self.pair, &self.peak(max_indentation))
+        }
+    }
+}

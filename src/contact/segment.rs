@@ -1,0 +1,65 @@
+//! One branch of a force-indentation curve.
+
+use libm::sqrt;
+
+/// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5`, `z = indentation - origin`.
+///
+/// Every branch of these laws has this form: Hertz and its shifted copies by `c2`, the linear ones by `c1`. It holds for
+/// `lower <= indentation < upper`, never below `origin` unless all three constants are zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Smallest indentation on the branch [m].
+    pub lower: f64,
+    /// The indentation where the next branch begins [m].
+    pub upper: f64,
+    /// Where `z` is zero [m].
+    pub origin: f64,
+    /// `c0` [N].
+    pub constant: f64,
+    /// `c1` [N/m].
+    pub linear: f64,
+    /// `c2` [N/m^1.5].
+    pub power: f64,
+}
+
+impl Segment {
+    /// Apart: no force, over `[lower, upper)` [m].
+    pub const fn apart(lower: f64, upper: f64) -> Segment {
+        Segment { lower, upper, origin: 0.0, constant: 0.0, linear: 0.0, power: 0.0 }
+    }
+
+    /// Whether `indentation` [m] lies on the branch; false for NaN.
+    #[inline]
+    pub fn contains(&self, indentation: f64) -> bool {
+        indentation >= self.lower && indentation < self.upper
+    }
+
+    /// `z` [m], and zero below the origin, where only an empty segment reaches.
+    #[inline]
+    fn above_origin(&self, indentation: f64) -> f64 {
+        let z = indentation - self.origin;
+        if z > 0.0 { z } else { 0.0 }
+    }
+
+    /// Force [N].
+    #[inline]
+    pub fn force(&self, indentation: f64) -> f64 {
+        let z = self.above_origin(indentation);
+        self.constant + z * (self.linear + self.power * sqrt(z))
+    }
+
+    /// dF/d(indentation) [N/m].
+    #[inline]
+    pub fn stiffness(&self, indentation: f64) -> f64 {
+        self.linear + 1.5 * self.power * sqrt(self.above_origin(indentation))
+    }
+
+    /// Integral of the force from the lower end of the branch to `indentation` [J].
+    pub fn work(&self, indentation: f64) -> f64 {
+        self.antiderivative(self.above_origin(indentation)) - self.antiderivative(self.above_origin(self.lower))
+    }
+
+    fn antiderivative(&self, z: f64) -> f64 {
+        z * (self.constant + z * (0.5 * self.linear + 0.4 * self.power * sqrt(z)))
+    }
+}

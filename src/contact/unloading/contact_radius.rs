@@ -1,0 +1,20 @@
+//! Recovery from the contact radius at the largest load.
+
+use super::{Peak, Unloading, hertzian};
+use crate::contact::material::Pair;
+use crate::contact::segment::Segment;
+
+/// `d_e = 3 F_m / (4 E* a_m)`: the dent springs back as the Hertz contact with the same force and contact radius.
+///
+/// Equivalent radius of curvature on unloading `4 E* a_m^3 / (3 F_m)`. The contact radius is continuous at the peak, the
+/// recovery at yield.
+///
+/// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 6.4(b).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactRadius;
+
+impl Unloading for ContactRadius {
+    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+        hertzian(peak, 0.75 * peak.force / (pair.modulus * peak.contact_radius))
+    }
+}

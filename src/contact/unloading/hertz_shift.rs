@@ -1,0 +1,34 @@
+//! Hertz's curve, lowered until it meets the largest load.
+
+use super::{Peak, Unloading};
+use crate::contact::material::Pair;
+use crate::contact::segment::Segment;
+use libm::{cbrt, sqrt};
+
+/// `F = F_m - K_h (d_m^1.5 - d^1.5)`, which vanishes at `d_f = (d_m^1.5 - F_m/K_h)^(2/3)`.
+///
+/// Not a pure power of `d - d_f`: the stiffness at the residual indentation isn't zero. Where the loading law lies above
+/// Hertz's curve nothing is lowered.
+///
+/// Reference: A. S. Yigit, A. P. Christoforou, *Composites Engineering* 4 (1994) 1143-1152.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HertzShift;
+
+impl Unloading for HertzShift {
+    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+        let stiffness = pair.hertz_stiffness();
+        let hertz_force = stiffness * (peak.indentation * sqrt(peak.indentation));
+        let difference = hertz_force - peak.force;
+        let lowered_by = if difference > 0.0 { difference } else { 0.0 };
+        let root = cbrt(lowered_by / stiffness);
+        Segment {
+            // two units in the last place up: the difference of two large numbers must not round to a tension there
+            lower: root * root * (1.0 + 4.0 * f64::EPSILON),
+            upper: peak.indentation,
+            origin: 0.0,
+            constant: -lowered_by,
+            linear: 0.0,
+            power: stiffness,
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Unloading laws, one file each: the path from the largest indentation down to the dent that remains.
+//!
+//! All are closures: from the point of the loading curve where the load begins to come off they give the elastic recovery
+//! `d_e = d_m - d_f`, and with it the whole path. Reloading follows the same path back.
+
+pub mod contact_radius;
+pub mod deformed_radius;
+pub mod hertz_shift;
+pub mod original_radius;
+pub mod thornton;
+
+pub use contact_radius::ContactRadius;
+pub use deformed_radius::DeformedRadius;
+pub use hertz_shift::HertzShift;
+pub use original_radius::OriginalRadius;
+pub use thornton::Thornton;
+
+use super::material::Pair;
+use super::segment::Segment;
+use libm::sqrt;
+
+/// The point of the loading curve from which the load comes off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// Largest indentation `d_m` [m].
+    pub indentation: f64,
+    /// Force there `F_m` [N].
+    pub force: f64,
+    /// Contact radius there `a_m` [m].
+    pub contact_radius: f64,
+    /// Force at which the loading law begins to yield `F_y` [N].
+    pub yield_force: f64,
+}
+
+/// An unloading law.
+pub trait Unloading: Copy {
+    /// The path from the residual indentation `d_f` (`lower`) to `peak` (`upper`), for a peak beyond the yield point.
+    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment;
+}
+
+/// `F = F_m ((d - d_f)/d_e)^1.5`: Hertzian unloading with the elastic recovery `d_e` [m].
+///
+/// `d_e` is taken again from the rounded `d_f`, so that the path ends in the peak to the last bits. A residual of a few
+/// units in the last place of the peak is none: the recovery just beyond yield is the whole indentation, rounded.
+fn hertzian(peak: &Peak, recovery: f64) -> Segment {
+    let difference = peak.indentation - recovery;
+    let rounding = 8.0 * f64::EPSILON * peak.indentation;
+    let residual = if difference > -rounding && difference < rounding { 0.0 } else { difference };
+    let recovery = peak.indentation - residual;
+    Segment {
+        lower: residual,
+        upper: peak.indentation,
+        origin: residual,
+        constant: 0.0,
+        linear: 0.0,
+        power: peak.force / (recovery * sqrt(recovery)),
+    }
+}
+
+/// An unloading law chosen while the program runs. The FMU doesn't need it: a scene names its law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyUnloading {
+    /// See [`ContactRadius`].
+    ContactRadius(ContactRadius),
+    /// See [`Thornton`].
+    Thornton(Thornton),
+    /// See [`OriginalRadius`].
+    OriginalRadius(OriginalRadius),
+    /// See [`DeformedRadius`].
+    DeformedRadius(DeformedRadius),
+    /// See [`HertzShift`].
+    HertzShift(HertzShift),
+}
+
+impl AnyUnloading {
+    /// Every law under the name it has in a scene, with its reference constants.
+    pub const ALL: [(&'static str, AnyUnloading); 5] = [
+        ("contact-radius", AnyUnloading::ContactRadius(ContactRadius)),
+        ("thornton", AnyUnloading::Thornton(Thornton)),
+        ("original-radius", AnyUnloading::OriginalRadius(OriginalRadius)),
+        ("deformed-radius", AnyUnloading::DeformedRadius(DeformedRadius::REFERENCE)),
+        ("hertz-shift", AnyUnloading::HertzShift(HertzShift)),
+    ];
+}
+
+impl Unloading for AnyUnloading {
+    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+        match self {
+            AnyUnloading::ContactRadius(law) => law.segment(pair, peak),
+            AnyUnloading::Thornton(law) => law.segment(pair, peak),
+            AnyUnloading::OriginalRadius(law) => law.segment(pair, peak),
+            AnyUnloading::DeformedRadius(law) => law.segment(pair, peak),
+            AnyUnloading::HertzShift(law) => law.segment(pair, peak),
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Recovery of the sphere with its original radius.
+
+use super::{Peak, Unloading, hertzian};
+use crate::contact::material::Pair;
+use crate::contact::segment::Segment;
+use libm::cbrt;
+
+/// `d_e = (F_m / K_h)^(2/3)`: Hertz's law with the undeformed radius, shifted to the residual indentation.
+///
+/// Simple and widely used; with it the restitution falls as `v^(-1/6)` at high speed instead of Johnson's `v^(-1/4)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OriginalRadius;
+
+impl Unloading for OriginalRadius {
+    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+        let root = cbrt(peak.force / pair.hertz_stiffness());
+        hertzian(peak, root * root)
+    }
+}

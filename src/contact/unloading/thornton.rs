@@ -1,0 +1,19 @@
+//! Recovery from the ratio of the force to Hertz's force.
+
+use super::{Peak, Unloading, hertzian};
+use crate::contact::material::Pair;
+use crate::contact::segment::Segment;
+use libm::sqrt;
+
+/// `d_e = d_m F_m / (K_h d_m^1.5)`: the recovery of [`super::ContactRadius`] if the contact radius were `sqrt(R d_m)`.
+///
+/// Reference: C. Thornton, *J. Appl. Mech.* 64 (1997) 383-386; the same closure in M. R. W. Brake, *Int. J. Solids
+/// Struct.* 49 (2012) 3129-3141.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thornton;
+
+impl Unloading for Thornton {
+    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+        hertzian(peak, peak.force / (pair.hertz_stiffness() * sqrt(peak.indentation)))
+    }
+}
