@@ -1,5 +1,10 @@
 //! Elastoplastic contact of a sphere and a half-space.
-#![no_std]
+#![cfg_attr(not(test), no_std)]
 #![warn(missing_docs)]
 
 pub mod contact;
+pub mod fault;
+#[cfg(feature = "fmu")]
+pub mod fmi2;
+pub mod instance;
+pub mod scene;

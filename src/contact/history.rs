@@ -12,6 +12,9 @@ use libm::sqrt;
 /// or energy overflows.
 pub const LARGEST_INDENTATION: f64 = 1e100;
 
+/// Number of words that hold a history.
+pub const WORDS: usize = 11;
+
 /// The smallest positive indentation [m]: an elastic contact is open at zero and closed here.
 const TOUCHING: f64 = f64::from_bits(1);
 
@@ -51,6 +54,18 @@ pub struct History {
     regime: Regime,
     /// Energy lost in dents that were left behind [J] ([`Surface::Fresh`]).
     left_behind: f64,
+}
+
+impl Regime {
+    /// Every regime, in the order of its number.
+    pub const ALL: [Regime; 6] = [
+        Regime::Apart,
+        Regime::Elastic,
+        Regime::ElastoplasticFirst,
+        Regime::ElastoplasticSecond,
+        Regime::FullyPlastic,
+        Regime::Unloaded,
+    ];
 }
 
 impl History {
@@ -233,5 +248,33 @@ impl History {
     /// of the state, not of the steps that led there. A contact that starts pressed in counts the way there as done.
     pub fn work<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         self.elastic_energy(model) + self.dissipated_energy(model)
+    }
+
+    /// The history as words, to be stored.
+    pub fn to_words(&self) -> [u64; WORDS] {
+        let Segment { lower, upper, origin, constant, linear, power } = self.segment;
+        let [sum, rest, largest] =
+            [self.indentation.value, self.indentation.rest, self.max_indentation].map(f64::to_bits);
+        let [lower, upper, origin, constant, linear, power] =
+            [lower, upper, origin, constant, linear, power].map(f64::to_bits);
+        let left_behind = self.left_behind.to_bits();
+        [sum, rest, largest, lower, upper, origin, constant, linear, power, left_behind, self.regime as u64]
+    }
+
+    /// The history that [`History::to_words`] stored; `None` if a word is not a finite number or not a regime.
+    pub fn from_words(words: &[u64; WORDS]) -> Option<History> {
+        let [numbers @ .., regime] = words.map(f64::from_bits);
+        if numbers.iter().any(|number| !number.is_finite()) {
+            return None;
+        }
+        let [value, rest, max_indentation, lower, upper, origin, constant, linear, power, left_behind] = numbers;
+        let regime = Regime::ALL.into_iter().find(|&candidate| candidate as u64 == regime.to_bits())?;
+        Some(History {
+            indentation: Sum { value, rest },
+            max_indentation,
+            segment: Segment { lower, upper, origin, constant, linear, power },
+            regime,
+            left_behind,
+        })
     }
 }

@@ -1,0 +1,146 @@
+//! What an `fmi2Component` points to, and the guard that every call passes.
+
+use super::abi::fmi2ComponentEnvironment;
+use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2Error, fmi2OK, fmi2Status, fmi2String};
+use super::order::Function;
+use super::report::{Category, Report};
+use crate::fault::Fault;
+use crate::instance::Instance;
+use core::ffi::c_char;
+
+/// An instance with what its importer gave it. The name of the instance follows it in memory.
+pub struct Component {
+    /// The instance.
+    pub instance: Instance,
+    /// The importer's logger.
+    pub logger: Logger,
+    /// Categories that are logged; errors always are.
+    pub categories: u8,
+}
+
+/// Where messages go.
+#[derive(Clone, Copy)]
+pub struct Logger {
+    function: Option<fmi2CallbackLogger>,
+    environment: fmi2ComponentEnvironment,
+}
+
+impl Logger {
+    /// The logger among the importer's functions.
+    pub fn of(callbacks: &fmi2CallbackFunctions) -> Logger {
+        Logger { function: callbacks.logger, environment: callbacks.componentEnvironment }
+    }
+
+    /// Hands `report` to the importer; without logger it is lost.
+    ///
+    /// # Safety
+    /// `instance_name` is a string that ends with 0.
+    #[cold]
+    pub unsafe fn log(&self, instance_name: fmi2String, report: &Report) {
+        let Some(function) = self.function else { return };
+        // SAFETY: the importer's function, with strings that end with 0 and a format without commands.
+        unsafe {
+            function(
+                self.environment,
+                instance_name,
+                report.status,
+                report.category.name().as_ptr(),
+                report.text.as_ptr(),
+            )
+        };
+    }
+}
+
+impl Component {
+    /// The name of the instance, which lies behind the component.
+    fn name(&self) -> fmi2String {
+        // SAFETY: fmi2Instantiate allocates the component and the name behind it in one piece.
+        unsafe { core::ptr::from_ref(self).add(1).cast::<c_char>() }
+    }
+
+    /// Logs `fault` of `function` and gives the status to return; an error ends the simulation.
+    #[cold]
+    #[inline(never)]
+    fn refuse(&mut self, function: &Function, fault: &Fault) -> fmi2Status {
+        let report = Report::new(function.name, fault);
+        if report.status == fmi2Error {
+            self.instance.fail();
+        }
+        if report.category == Category::Error || self.categories & report.category as u8 != 0 {
+            // SAFETY: the name ends with 0.
+            unsafe { self.logger.log(self.name(), &report) };
+        }
+        report.status
+    }
+}
+
+/// The guard: refuses a null component and a call out of order, runs `body`, and turns a fault into a status.
+///
+/// # Safety
+/// `component` is null, or came from fmi2Instantiate, was not freed, and no other call is using it.
+#[inline(always)]
+pub unsafe fn call(
+    component: fmi2Component,
+    function: &'static Function,
+    body: impl FnOnce(&mut Component) -> Result<(), Fault>,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    let Some(component) = (unsafe { component.cast::<Component>().as_mut() }) else { return fmi2Error };
+    let phase = component.instance.phase();
+    let result = if function.is_allowed_in(phase) { body(component) } else { Err(Fault::OutOfOrder { phase }) };
+    match result {
+        Ok(()) => fmi2OK,
+        Err(fault) => component.refuse(function, &fault),
+    }
+}
+
+/// The array of `length` elements at `pointer`.
+///
+/// # Errors
+/// [`Fault::NullPointer`] if it is null and not empty.
+///
+/// # Safety
+/// A pointer that isn't null points to `length` initialized elements that nothing writes to meanwhile.
+#[inline]
+pub unsafe fn array<'a, T>(pointer: *const T, length: usize, argument: &'static str) -> Result<&'a [T], Fault> {
+    if length == 0 {
+        Ok(&[])
+    } else if pointer.is_null() {
+        Err(Fault::NullPointer { argument })
+    } else {
+        // SAFETY: as the caller promises.
+        Ok(unsafe { core::slice::from_raw_parts(pointer, length) })
+    }
+}
+
+/// The array of `length` elements at `pointer`, to be written to.
+///
+/// # Errors
+/// As for [`array`].
+///
+/// # Safety
+/// As for [`array`], and nothing else uses the elements meanwhile.
+#[inline]
+pub unsafe fn array_mut<'a, T>(pointer: *mut T, length: usize, argument: &'static str) -> Result<&'a mut [T], Fault> {
+    if length == 0 {
+        Ok(&mut [])
+    } else if pointer.is_null() {
+        Err(Fault::NullPointer { argument })
+    } else {
+        // SAFETY: as the caller promises.
+        Ok(unsafe { core::slice::from_raw_parts_mut(pointer, length) })
+    }
+}
+
+/// The object at `pointer`, to be written to.
+///
+/// # Errors
+/// [`Fault::NullPointer`] if it is null.
+///
+/// # Safety
+/// A pointer that isn't null points to an object that nothing else uses meanwhile.
+#[inline]
+pub unsafe fn object<'a, T>(pointer: *mut T, argument: &'static str) -> Result<&'a mut T, Fault> {
+    // SAFETY: as the caller promises.
+    unsafe { pointer.as_mut() }.ok_or(Fault::NullPointer { argument })
+}

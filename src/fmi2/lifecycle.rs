@@ -1,0 +1,185 @@
+//! Versions, instantiation, logging, initialization, termination, reset.
+
+use super::abi::*;
+use super::component::{Component, Logger, array, call};
+use super::memory;
+use super::order;
+use super::report::{ALL_CATEGORIES, Category, Report};
+use crate::fault::Fault;
+use crate::instance::Instance;
+use crate::scene;
+use core::ffi::CStr;
+
+/// The platform types: those of `fmi2TypesPlatform.h`, "default".
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetTypesPlatform() -> *const fmi2Char {
+    c"default".as_ptr()
+}
+
+/// The version of the standard, "2.0".
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetVersion() -> *const fmi2Char {
+    c"2.0".as_ptr()
+}
+
+/// Makes an instance. The name and the callbacks are copied; resources and `visible` are not used.
+///
+/// Returns null, with a message if there is a logger, for a missing name, a GUID other than that of the model
+/// description, a type other than co-simulation, or missing callbacks.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    instanceName: fmi2String,
+    fmuType: fmi2Type,
+    fmuGUID: fmi2String,
+    fmuResourceLocation: fmi2String,
+    functions: *const fmi2CallbackFunctions,
+    visible: fmi2Boolean,
+    loggingOn: fmi2Boolean,
+) -> fmi2Component {
+    let _ = (fmuResourceLocation, visible);
+    // SAFETY: the callbacks are null or live during this call.
+    let Some(callbacks) = (unsafe { functions.as_ref() }) else { return core::ptr::null_mut() };
+    let logger = Logger::of(callbacks);
+    // SAFETY: the caller's strings are null or end with 0.
+    match unsafe { instantiate(instanceName, fmuType, fmuGUID, logger, loggingOn != fmi2False) } {
+        Ok(component) => component,
+        Err(fault) => {
+            let name = if instanceName.is_null() { c"".as_ptr() } else { instanceName };
+            // SAFETY: the name ends with 0.
+            unsafe { logger.log(name, &Report::new("fmi2Instantiate", &fault)) };
+            core::ptr::null_mut()
+        }
+    }
+}
+
+/// # Safety
+/// `name` and `guid` are null or end with 0.
+unsafe fn instantiate(
+    name: fmi2String,
+    kind: fmi2Type,
+    guid: fmi2String,
+    logger: Logger,
+    logging_on: bool,
+) -> Result<fmi2Component, Fault> {
+    if name.is_null() || guid.is_null() {
+        return Err(Fault::NullPointer { argument: if name.is_null() { "instanceName" } else { "fmuGUID" } });
+    }
+    // SAFETY: neither is null, and both end with 0.
+    let (name, guid) = unsafe { (CStr::from_ptr(name), CStr::from_ptr(guid)) };
+    if name.to_bytes().iter().all(u8::is_ascii_whitespace) {
+        return Err(Fault::BadInstance { reason: "instanceName is empty" });
+    }
+    if kind != fmi2CoSimulation {
+        return Err(Fault::BadInstance { reason: "fmuType must be fmi2CoSimulation: this unit has no model exchange" });
+    }
+    if guid.to_bytes() != scene::GUID.as_bytes() {
+        return Err(Fault::BadInstance {
+            reason: "fmuGUID is not the one of this library: modelDescription.xml and binary are from different exports",
+        });
+    }
+    let instance = Instance::new()?;
+    let name = name.to_bytes_with_nul();
+    let memory = memory::allocate(size_of::<Component>() + name.len());
+    if memory.is_null() {
+        return Err(Fault::NoMemory);
+    }
+    let component = memory.cast::<Component>();
+    let categories = if logging_on { ALL_CATEGORIES } else { 0 };
+    // SAFETY: the memory is large enough for the component and, behind it, the name, and aligned for any object.
+    unsafe {
+        component.write(Component { instance, logger, categories });
+        core::ptr::copy_nonoverlapping(name.as_ptr(), component.add(1).cast(), name.len());
+    }
+    Ok(memory)
+}
+
+/// Frees an instance; null is ignored.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
+    if !c.is_null() {
+        // SAFETY: it came from fmi2Instantiate, and the caller doesn't use it again.
+        unsafe { memory::release(c) };
+    }
+}
+
+/// Switches logging of the named categories on or off, of all if none is named. Errors are logged in any case.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetDebugLogging(
+    c: fmi2Component,
+    loggingOn: fmi2Boolean,
+    nCategories: usize,
+    categories: *const fmi2String,
+) -> fmi2Status {
+    // SAFETY: the caller's component, and as many categories as announced.
+    unsafe {
+        call(c, &order::SET_DEBUG_LOGGING, |component| {
+            let mut bits = if nCategories == 0 { ALL_CATEGORIES } else { 0 };
+            for &name in array(categories, nCategories, "categories")? {
+                if name.is_null() {
+                    return Err(Fault::NullPointer { argument: "categories" });
+                }
+                bits |= Category::bits(CStr::from_ptr(name)).ok_or(Fault::UnknownCategory)?;
+            }
+            if loggingOn != fmi2False {
+                component.categories |= bits;
+            } else {
+                component.categories &= !bits;
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Sets start and stop time; may be called again before initialization. The tolerance is not used: steps are exact.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetupExperiment(
+    c: fmi2Component,
+    toleranceDefined: fmi2Boolean,
+    tolerance: fmi2Real,
+    startTime: fmi2Real,
+    stopTimeDefined: fmi2Boolean,
+    stopTime: fmi2Real,
+) -> fmi2Status {
+    let _ = (toleranceDefined, tolerance);
+    let stop = (stopTimeDefined != fmi2False).then_some(stopTime);
+    // SAFETY: the caller's component.
+    unsafe { call(c, &order::SETUP_EXPERIMENT, |component| component.instance.set_experiment(startTime, stop)) }
+}
+
+/// Begins initialization; fmi2SetupExperiment must have been called.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterInitializationMode(c: fmi2Component) -> fmi2Status {
+    // SAFETY: the caller's component.
+    unsafe { call(c, &order::ENTER_INITIALIZATION_MODE, |component| component.instance.enter_initialization()) }
+}
+
+/// Ends initialization; refused if the parameters don't fit together.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Status {
+    // SAFETY: the caller's component.
+    unsafe { call(c, &order::EXIT_INITIALIZATION_MODE, |component| component.instance.exit_initialization()) }
+}
+
+/// Ends the simulation.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
+    // SAFETY: the caller's component.
+    unsafe {
+        call(c, &order::TERMINATE, |component| {
+            component.instance.terminate();
+            Ok(())
+        })
+    }
+}
+
+/// Makes the instance as it was after fmi2Instantiate. Name, callbacks and log settings stay.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> fmi2Status {
+    // SAFETY: the caller's component.
+    unsafe {
+        call(c, &order::RESET, |component| {
+            component.instance = Instance::new()?;
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,40 @@
+//! The C interface of FMI 2.0 for co-simulation: 34 functions, and the only `unsafe` of the project.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`abi`] | the types of the standard's headers |
+//! | [`component`] | what an `fmi2Component` points to; the guard that every call passes |
+//! | [`order`] | which function may be called in which phase: the standard's state table |
+//! | [`report`] | a [`Fault`](crate::fault::Fault) as status, log category and text |
+//! | [`text`] | text without allocation and without panic |
+//! | [`memory`] | memory from the process |
+//! | [`state`] | FMU states and their bytes |
+//! | [`lifecycle`], [`variables`], [`stepping`], [`states`] | the functions |
+//!
+//! # Safety
+//! Every function trusts its caller for what C can't check: a component that this library made and has not freed, arrays
+//! as long as announced, strings that end. Null pointers, unknown references, wrong order and damaged state are refused.
+#![allow(non_camel_case_types, non_snake_case, non_upper_case_globals, clippy::missing_safety_doc)]
+
+pub mod abi;
+pub mod component;
+pub mod lifecycle;
+pub mod memory;
+pub mod order;
+pub mod report;
+pub mod state;
+pub mod states;
+pub mod stepping;
+pub mod text;
+pub mod variables;
+
+// A panic would kill the importer's process. There is none: this handler calls a function that nobody defines, so that a
+// panic path that survives shows up as an undefined symbol, which the exporter refuses.
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    unsafe extern "C" {
+        fn brinell_a_panic_path_survived() -> !;
+    }
+    // SAFETY: never reached; a library in which it could be reached is not packed.
+    unsafe { brinell_a_panic_path_survived() }
+}

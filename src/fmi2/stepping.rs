@@ -1,0 +1,154 @@
+//! The step, its derivatives and its status.
+
+use super::abi::*;
+use super::component::{call, object};
+use super::order::{self, Function};
+use crate::fault::Fault;
+
+/// Moves the contact over a step with the indentation rate held; complete when it returns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DoStep(
+    c: fmi2Component,
+    currentCommunicationPoint: fmi2Real,
+    communicationStepSize: fmi2Real,
+    noSetFMUStatePriorToCurrentPoint: fmi2Boolean,
+) -> fmi2Status {
+    let _ = noSetFMUStatePriorToCurrentPoint;
+    // SAFETY: the caller's component.
+    unsafe {
+        call(c, &order::DO_STEP, |component| {
+            component.instance.do_step(currentCommunicationPoint, communicationStepSize)
+        })
+    }
+}
+
+/// The answer of a function that this unit doesn't support.
+///
+/// # Safety
+/// The caller's component.
+unsafe fn unsupported(c: fmi2Component, function: &'static Function) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { call(c, function, |_| Err(Fault::Unsupported)) }
+}
+
+/// Refused: no step is ever in progress.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
+    // SAFETY: the caller's component.
+    unsafe { unsupported(c, &order::CANCEL_STEP) }
+}
+
+/// Refused: see `canInterpolateInputs`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *const fmi2Real,
+) -> fmi2Status {
+    let _ = (vr, nvr, order, value);
+    // SAFETY: the caller's component.
+    unsafe { unsupported(c, &order::SET_REAL_INPUT_DERIVATIVES) }
+}
+
+/// Refused: see `maxOutputDerivativeOrder`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    let _ = (vr, nvr, order, value);
+    // SAFETY: the caller's component.
+    unsafe { unsupported(c, &order::GET_REAL_OUTPUT_DERIVATIVES) }
+}
+
+/// Refused: see `providesDirectionalDerivative`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
+    c: fmi2Component,
+    vUnknown_ref: *const fmi2ValueReference,
+    nUnknown: usize,
+    vKnown_ref: *const fmi2ValueReference,
+    nKnown: usize,
+    dvKnown: *const fmi2Real,
+    dvUnknown: *mut fmi2Real,
+) -> fmi2Status {
+    let _ = (vUnknown_ref, nUnknown, vKnown_ref, nKnown, dvKnown, dvUnknown);
+    // SAFETY: the caller's component.
+    unsafe { unsupported(c, &order::GET_DIRECTIONAL_DERIVATIVE) }
+}
+
+/// Writes `answer` for the status `kind`, if `kind` is the one that there is an answer to.
+///
+/// # Safety
+/// The caller's component and pointer.
+unsafe fn status<T: Copy>(
+    c: fmi2Component,
+    function: &'static Function,
+    value: *mut T,
+    answer: impl FnOnce(&crate::instance::Instance) -> Option<T>,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe {
+        call(c, function, |component| {
+            let value = object(value, "value")?;
+            *value = answer(&component.instance).ok_or(Fault::Unavailable)?;
+            Ok(())
+        })
+    }
+}
+
+/// For fmi2DoStepStatus: fmi2OK, since no step runs on after its call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
+    // SAFETY: the caller's component and pointer.
+    unsafe { status(c, &order::GET_STATUS, value, |_| (s == fmi2DoStepStatus).then_some(fmi2OK)) }
+}
+
+/// For fmi2LastSuccessfulTime: the end of the last step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
+    // SAFETY: the caller's component and pointer.
+    unsafe {
+        status(c, &order::GET_REAL_STATUS, value, |instance| (s == fmi2LastSuccessfulTime).then_some(instance.time()))
+    }
+}
+
+/// There is no status of this type.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetIntegerStatus(
+    c: fmi2Component,
+    s: fmi2StatusKind,
+    value: *mut fmi2Integer,
+) -> fmi2Status {
+    let _ = s;
+    // SAFETY: the caller's component and pointer.
+    unsafe { status(c, &order::GET_INTEGER_STATUS, value, |_| None) }
+}
+
+/// For fmi2Terminated: false, since the unit never wants to end by itself.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBooleanStatus(
+    c: fmi2Component,
+    s: fmi2StatusKind,
+    value: *mut fmi2Boolean,
+) -> fmi2Status {
+    // SAFETY: the caller's component and pointer.
+    unsafe { status(c, &order::GET_BOOLEAN_STATUS, value, |_| (s == fmi2Terminated).then_some(fmi2False)) }
+}
+
+/// There is no status of this type: no step is ever pending.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStringStatus(
+    c: fmi2Component,
+    s: fmi2StatusKind,
+    value: *mut fmi2String,
+) -> fmi2Status {
+    let _ = s;
+    // SAFETY: the caller's component and pointer.
+    unsafe { status(c, &order::GET_STRING_STATUS, value, |_| None) }
+}

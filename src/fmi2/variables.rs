@@ -1,0 +1,169 @@
+//! Getting and setting variables.
+
+use super::abi::*;
+use super::component::{array, array_mut, call};
+use super::order::{self, Function};
+use crate::fault::Fault;
+use crate::instance::Real;
+use crate::scene;
+
+/// The Real variable with this reference.
+#[inline]
+fn real(reference: fmi2ValueReference) -> Result<Real, Fault> {
+    scene::real(reference).ok_or(Fault::UnknownReference { kind: "Real", reference })
+}
+
+/// Reads Real variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetReal(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    // SAFETY: the caller's component, and arrays as long as announced.
+    unsafe {
+        call(c, &order::GET_REAL, |component| {
+            let references = array(vr, nvr, "vr")?;
+            let values = array_mut(value, nvr, "value")?;
+            for (value, &reference) in values.iter_mut().zip(references) {
+                *value = component.instance.real(real(reference)?);
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Reads Integer variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetInteger(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Integer,
+) -> fmi2Status {
+    // SAFETY: the caller's component, and arrays as long as announced.
+    unsafe {
+        call(c, &order::GET_INTEGER, |component| {
+            let references = array(vr, nvr, "vr")?;
+            let values = array_mut(value, nvr, "value")?;
+            for (value, &reference) in values.iter_mut().zip(references) {
+                let fault = Fault::UnknownReference { kind: "Integer", reference };
+                *value = component.instance.integer(scene::integer(reference).ok_or(fault)?);
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Sets Real variables: the input, and parameters before initialization ends. If one is refused none is set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetReal(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Real,
+) -> fmi2Status {
+    // SAFETY: the caller's component, and arrays as long as announced.
+    unsafe {
+        call(c, &order::SET_REAL, |component| {
+            let references = array(vr, nvr, "vr")?;
+            let values = array(value, nvr, "value")?;
+            for (&value, &reference) in values.iter().zip(references) {
+                component.instance.check_real(real(reference)?, value)?;
+            }
+            for (&value, &reference) in values.iter().zip(references) {
+                component.instance.set_real(real(reference)?, value);
+            }
+            Ok(())
+        })
+    }
+}
+
+/// The answer of a function for a type that only outputs, or no variables, have: nothing to do, or a refusal.
+///
+/// # Safety
+/// The caller's component, and an array of `length` references.
+unsafe fn none_of_type(
+    c: fmi2Component,
+    function: &'static Function,
+    kind: &'static str,
+    references: *const fmi2ValueReference,
+    length: usize,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe {
+        call(c, function, |_| match array(references, length, "vr")?.first() {
+            Some(&reference) => Err(match scene::integer(reference) {
+                Some(_) if kind == "Integer" => Fault::NotSettable,
+                _ => Fault::UnknownReference { kind, reference },
+            }),
+            None => Ok(()),
+        })
+    }
+}
+
+/// There are no Boolean variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBoolean(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Boolean,
+) -> fmi2Status {
+    let _ = value;
+    // SAFETY: the caller's component, and an array as long as announced.
+    unsafe { none_of_type(c, &order::GET_BOOLEAN, "Boolean", vr, nvr) }
+}
+
+/// There are no String variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetString(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2String,
+) -> fmi2Status {
+    let _ = value;
+    // SAFETY: the caller's component, and an array as long as announced.
+    unsafe { none_of_type(c, &order::GET_STRING, "String", vr, nvr) }
+}
+
+/// No Integer variable can be set: they are outputs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetInteger(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Integer,
+) -> fmi2Status {
+    let _ = value;
+    // SAFETY: the caller's component, and an array as long as announced.
+    unsafe { none_of_type(c, &order::SET_INTEGER, "Integer", vr, nvr) }
+}
+
+/// There are no Boolean variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetBoolean(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Boolean,
+) -> fmi2Status {
+    let _ = value;
+    // SAFETY: the caller's component, and an array as long as announced.
+    unsafe { none_of_type(c, &order::SET_BOOLEAN, "Boolean", vr, nvr) }
+}
+
+/// There are no String variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetString(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2String,
+) -> fmi2Status {
+    let _ = value;
+    // SAFETY: the caller's component, and an array as long as announced.
+    unsafe { none_of_type(c, &order::SET_STRING, "String", vr, nvr) }
+}

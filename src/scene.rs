@@ -1,0 +1,78 @@
+//! The scene: which laws, which variables, which start values.
+//!
+//! `brinell export` writes this file for every scene that it builds. The one in the source tree is that of
+//! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
+
+use crate::contact::{Surface, loading, unloading};
+use crate::instance::{Integer, Parameter, Real, Settable, Values};
+
+/// What the model description and the binary recognise each other by.
+pub const GUID: &str = "unpacked";
+
+/// The loading law.
+pub type Loading = loading::BigAlabo;
+/// The loading law with its constants.
+pub const LOADING: Loading = loading::BigAlabo {
+    yield_pressure_factor: 1.1,
+    plastic_pressure_factor: 2.8,
+    second_region: 13.93,
+    fully_plastic: 82.5,
+    plastic_slope: 5.09090909090909,
+};
+
+/// The unloading law.
+pub type Unloading = unloading::ContactRadius;
+/// The unloading law with its constants.
+pub const UNLOADING: Unloading = unloading::ContactRadius;
+
+/// What a new contact meets.
+pub const SURFACE: Surface = Surface::Dented;
+
+/// The parameters that can be set.
+pub const SETTABLE: [Settable; 5] = [
+    Settable { name: "impactor.radius", unit: "m", start: 0.005, minimum: 1e-12, maximum: 1e9 },
+    Settable { name: "target.youngs_modulus", unit: "Pa", start: 2.06e11, minimum: 1.0, maximum: 1e18 },
+    Settable { name: "target.poissons_ratio", unit: "", start: 0.3, minimum: -0.99, maximum: 0.5 },
+    Settable { name: "target.yield_strength", unit: "Pa", start: 3e8, minimum: 1e-9, maximum: 1e18 },
+    Settable { name: "initial_gap", unit: "m", start: 0.0, minimum: -1e6, maximum: 1e6 },
+];
+
+/// The value of any parameter: set, or constant in this scene.
+pub fn parameter(parameter: Parameter, settable: &Values) -> f64 {
+    match parameter {
+        Parameter::ImpactorRadius => settable[0],
+        Parameter::ImpactorYoungsModulus => f64::INFINITY,
+        Parameter::ImpactorPoissonsRatio => 0.0,
+        Parameter::TargetRadius => f64::INFINITY,
+        Parameter::TargetYoungsModulus => settable[1],
+        Parameter::TargetPoissonsRatio => settable[2],
+        Parameter::TargetYieldStrength => settable[3],
+        Parameter::InitialGap => settable[4],
+    }
+}
+
+/// The Real variable with this value reference.
+#[inline]
+pub fn real(value_reference: u32) -> Option<Real> {
+    Some(match value_reference {
+        0 => Real::IndentationRate,
+        1 => Real::Force,
+        2 => Real::Indentation,
+        3 => Real::ResidualIndentation,
+        4 => Real::DissipatedEnergy,
+        6 => Real::Parameter(0),
+        7 => Real::Parameter(1),
+        8 => Real::Parameter(2),
+        9 => Real::Parameter(3),
+        10 => Real::Parameter(4),
+        _ => return None,
+    })
+}
+
+/// The Integer variable with this value reference.
+pub fn integer(value_reference: u32) -> Option<Integer> {
+    Some(match value_reference {
+        5 => Integer::Regime,
+        _ => return None,
+    })
+}
