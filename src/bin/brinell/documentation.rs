@@ -1,0 +1,214 @@
+//! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
+
+use crate::interface::{Entry, experiment, prediction};
+use crate::scene::{Scene, is_elastic};
+use crate::table::{self, Causality};
+use brinell::contact::History;
+use plotters::prelude::*;
+use std::fmt::Write;
+
+const STYLE: &str = "\
+:root { color-scheme: light dark; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 50rem; margin: 0 auto; padding: 1rem; }
+table { border-collapse: collapse; display: block; overflow-x: auto; }
+th, td { text-align: left; padding: .25rem .75rem .25rem 0; border-bottom: 1px solid #8886; vertical-align: top; }
+td.n { text-align: right; white-space: nowrap; }
+figure { margin: 1rem 0; } svg { max-width: 100%; height: auto; background: #fff; }
+code { font-size: .95em; }";
+
+/// The page of the scene's unit with the variables `entries`.
+pub fn write(scene: &Scene, entries: &[Entry]) -> String {
+    let mut page = String::new();
+    body(&mut page, scene, entries).expect("a String takes everything");
+    page
+}
+
+fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result {
+    let (name, description) = (escape(&scene.name), escape(&scene.description));
+    writeln!(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>")?;
+    writeln!(
+        page,
+        "<meta name=\"viewport\" content=\"width=device-width\">\n<style>\n{STYLE}\n</style>\n</head>\n<body>"
+    )?;
+    writeln!(page, "<h1>{name}</h1>\n<p>{description}</p>")?;
+    writeln!(
+        page,
+        "<p>FMI 2.0 co-simulation unit of the normal contact of a sphere and a half-space: the closing speed of the \
+         bodies goes in, the contact force comes out. The rate is held over a step, and the law is followed exactly: the \
+         result doesn't depend on how time is cut.</p>"
+    )?;
+    writeln!(page, "<h2>The scene&#8217;s impact</h2>")?;
+    impact(page, scene)?;
+    writeln!(page, "<figure>\n{}</figure>", curve(scene))?;
+    writeln!(page, "<h2>Law</h2>")?;
+    law(page, "Loading", table::loading_law(scene.loading.0))?;
+    if let Some((name, _)) = scene.unloading {
+        law(page, "Unloading and reloading", table::unloading_law(name))?;
+    }
+    writeln!(page, "<h2>Variables</h2>")?;
+    variables(page, entries)?;
+    constants(page, scene)?;
+    writeln!(
+        page,
+        "<p>Brinell {}. Licenses: <a href=\"licenses/license.txt\">license.txt</a></p>",
+        env!("CARGO_PKG_VERSION")
+    )?;
+    writeln!(page, "</body>\n</html>")
+}
+
+/// What the energy balance says of the impact, and which step suits it.
+fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
+    let prediction = prediction(scene);
+    let experiment = experiment(scene);
+    let assumed = if scene.impact_is_assumed { " (the scene names none; a solid steel ball is assumed)" } else { "" };
+    writeln!(
+        page,
+        "<p>{} kg at {} m/s{assumed}; by energy balance:</p>\n<table>",
+        scene.impact.mass, scene.impact.speed
+    )?;
+    let rows = [
+        ("Largest force", prediction.max_force, "N"),
+        ("Largest indentation", prediction.max_indentation, "m"),
+        ("Dent", prediction.residual_indentation, "m"),
+        ("Largest contact radius", prediction.max_contact_radius, "m"),
+        ("Coefficient of restitution", prediction.restitution, ""),
+        ("Contact time", prediction.contact_time(), "s"),
+        ("Step that suits it", experiment.step, "s"),
+    ];
+    for (quantity, value, unit) in rows {
+        writeln!(page, "<tr><td>{quantity}</td><td class=\"n\">{}</td><td>{unit}</td></tr>", digits(value))?;
+    }
+    writeln!(page, "</table>")?;
+    let ratio = prediction.max_contact_radius / scene.model().pair.radius;
+    if ratio > LARGEST_RADIUS_RATIO {
+        writeln!(
+            page,
+            "<p><strong>Beyond the validity of the law:</strong> the contact radius reaches {ratio:.2} effective radii; \
+             above {LARGEST_RADIUS_RATIO} the sphere is no paraboloid any more.</p>"
+        )?;
+    }
+    Ok(())
+}
+
+/// Contact radius over effective radius above which small-strain laws of a paraboloid don't hold.
+const LARGEST_RADIUS_RATIO: f64 = 0.3;
+
+fn law(page: &mut String, heading: &str, law: &table::Law) -> std::fmt::Result {
+    writeln!(page, "<h3>{heading}: {}</h3>\n<ul>", escape(&law.title))?;
+    for formula in &law.formulas {
+        writeln!(page, "<li><code>{}</code></li>", escape(formula))?;
+    }
+    writeln!(page, "</ul>\n<p>{} Reference: {}.</p>", escape(&law.notes), escape(&law.reference))
+}
+
+fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
+    writeln!(
+        page,
+        "<table>\n<tr><th>Name</th><th></th><th>Start</th><th>Allowed</th><th>Unit</th><th>Meaning</th></tr>"
+    )?;
+    for Entry { variable, start, .. } in entries {
+        let causality = match variable.causality {
+            Causality::Input => "input",
+            Causality::Output => "output",
+            Causality::Parameter => "parameter",
+        };
+        let start = start.map(digits).unwrap_or_default();
+        let allowed = match (variable.causality, variable.minimum, variable.maximum) {
+            (Causality::Parameter, Some(low), Some(high)) => format!("{} to {}", digits(low), digits(high)),
+            _ => String::new(),
+        };
+        let unit = variable.unit.as_deref().unwrap_or("");
+        writeln!(
+            page,
+            "<tr><td><code>{}</code></td><td>{causality}</td><td class=\"n\">{start}</td><td class=\"n\">{allowed}</td>\
+             <td>{unit}</td><td>{}</td></tr>",
+            variable.name,
+            escape(&variable.description)
+        )?;
+    }
+    writeln!(page, "</table>")
+}
+
+/// The parameters that can't be set in this unit.
+fn constants(page: &mut String, scene: &Scene) -> std::fmt::Result {
+    let constants: Vec<_> = scene.parameters.iter().filter(|parameter| !parameter.settable).collect();
+    if constants.is_empty() {
+        return Ok(());
+    }
+    writeln!(page, "<p>Constants of this unit:</p>\n<table>")?;
+    for parameter in constants {
+        let unit = table::variable(parameter.name).unit.as_deref().unwrap_or("");
+        let value = digits(parameter.value);
+        writeln!(page, "<tr><td><code>{}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>", parameter.name)?;
+    }
+    writeln!(page, "</table>")
+}
+
+/// Six significant digits at most.
+fn digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().expect("a number");
+    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// Force against indentation: up to the largest indentation of the scene's impact, off, and half way back.
+fn curve(scene: &Scene) -> String {
+    const POINTS: u32 = 100;
+    let model = scene.model();
+    let prediction = prediction(scene);
+    let largest = prediction.max_indentation;
+    let residual = prediction.residual_indentation;
+    let mut history = History::start(&model, 0.0).expect("zero is not too deep");
+    let mut branch = |to: f64| -> Vec<(f64, f64)> {
+        let from = history.indentation();
+        let mut points = vec![(1e6 * from, history.force())];
+        for point in 1..=POINTS {
+            let goal = from + (to - from) * f64::from(point) / f64::from(POINTS);
+            history.advance(goal - history.indentation(), || model).expect("not beyond the largest indentation");
+            points.push((1e6 * history.indentation(), history.force()));
+        }
+        points
+    };
+    let (loading, unloading) = (branch(largest), branch(residual));
+    let mut svg = String::new();
+    {
+        let root = SVGBackend::with_string(&mut svg, (640, 400)).into_drawing_area();
+        let mut chart = ChartBuilder::on(&root)
+            .margin(12)
+            .x_label_area_size(44)
+            .y_label_area_size(64)
+            .build_cartesian_2d(0.0..1.05e6 * largest, 0.0..1.08 * prediction.max_force)
+            .expect("a drawing in memory");
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .x_desc("indentation [um]")
+            .y_desc("force [N]")
+            .axis_desc_style(("sans-serif", 15))
+            .label_style(("sans-serif", 13))
+            .draw()
+            .expect("a drawing in memory");
+        let lines = [("loading", loading, RGBColor(31, 78, 140)), ("unloading", unloading, RGBColor(200, 90, 40))];
+        for (label, points, colour) in lines {
+            if is_elastic(scene) && label == "unloading" {
+                continue;
+            }
+            let series =
+                chart.draw_series(LineSeries::new(points, colour.stroke_width(2))).expect("a drawing in memory");
+            series.label(label).legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperLeft)
+            .label_font(("sans-serif", 14))
+            .background_style(WHITE)
+            .border_style(TRANSPARENT)
+            .draw()
+            .expect("a drawing in memory");
+        root.present().expect("a drawing in memory");
+    }
+    svg
+}

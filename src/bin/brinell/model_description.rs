@@ -1,0 +1,188 @@
+//! `modelDescription.xml`.
+
+use crate::interface::{Entry, experiment};
+use crate::scene::Scene;
+use crate::table::{Causality, Type, UNITS, Unit};
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, Event};
+use std::collections::BTreeSet;
+use std::io::{self, Cursor};
+
+type Xml = Writer<Cursor<Vec<u8>>>;
+
+/// The log categories of `src/fmi2/report.rs`.
+const LOG_CATEGORIES: [(&str, &str); 3] = [
+    ("logStatusDiscard", "information that is not available"),
+    ("logStatusError", "refused calls; logged in any case"),
+    ("logAll", "all of them"),
+];
+
+/// The model description of `scene` with the variables `entries`, under the identification `guid`.
+pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
+    let mut xml = Writer::new_with_indent(Cursor::new(Vec::new()), b' ', 2);
+    document(&mut xml, scene, entries, guid).expect("memory takes everything");
+    let mut text = String::from_utf8(xml.into_inner().into_inner()).expect("XML is written as UTF-8");
+    text.push('\n');
+    text
+}
+
+fn document(xml: &mut Xml, scene: &Scene, entries: &[Entry], guid: &str) -> io::Result<()> {
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let tool = concat!("Brinell ", env!("CARGO_PKG_VERSION"));
+    let attributes = [
+        ("fmiVersion", "2.0"),
+        ("modelName", &scene.name),
+        ("guid", guid),
+        ("description", &scene.description),
+        ("generationTool", tool),
+        ("variableNamingConvention", "structured"),
+    ];
+    let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
+    xml.create_element("fmiModelDescription").with_attributes(given).write_inner_content(|xml| {
+        co_simulation(xml, scene)?;
+        units(xml, entries)?;
+        xml.create_element("LogCategories").write_inner_content(|xml| {
+            for (name, description) in LOG_CATEGORIES {
+                let category = xml.create_element("Category");
+                category.with_attributes([("name", name), ("description", description)]).write_empty()?;
+            }
+            Ok(())
+        })?;
+        let experiment = experiment(scene);
+        let times = [("startTime", 0.0), ("stopTime", experiment.stop), ("stepSize", experiment.step)];
+        let times = times.map(|(name, value)| (name, number(value)));
+        let times = times.iter().map(|(name, value)| (*name, value.as_str()));
+        xml.create_element("DefaultExperiment").with_attributes(times).write_empty()?;
+        variables(xml, entries)?;
+        structure(xml, entries)
+    })?;
+    Ok(())
+}
+
+fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
+    let attributes = [
+        ("modelIdentifier", scene.name.as_str()),
+        ("needsExecutionTool", "false"),
+        ("canHandleVariableCommunicationStepSize", "true"),
+        ("canInterpolateInputs", "false"),
+        ("maxOutputDerivativeOrder", "0"),
+        ("canRunAsynchronuously", "false"),
+        ("canBeInstantiatedOnlyOncePerProcess", "false"),
+        ("canNotUseMemoryManagementFunctions", "true"),
+        ("canGetAndSetFMUstate", "true"),
+        ("canSerializeFMUstate", "true"),
+        ("providesDirectionalDerivative", "false"),
+    ];
+    xml.create_element("CoSimulation").with_attributes(attributes).write_empty()?;
+    Ok(())
+}
+
+/// The units that the variables use, with their display units.
+fn units(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
+    let used: BTreeSet<_> = entries.iter().filter_map(|entry| entry.variable.unit.as_deref()).collect();
+    xml.create_element("UnitDefinitions").write_inner_content(|xml| {
+        for unit in UNITS.iter().filter(|unit| used.contains(unit.name.as_str())) {
+            xml.create_element("Unit")
+                .with_attribute(("name", unit.name.as_str()))
+                .write_inner_content(|xml| definition(xml, unit))?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
+
+fn definition(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
+    let exponents = [("kg", unit.kg), ("m", unit.m), ("s", unit.s)];
+    let exponents = exponents.into_iter().filter(|(_, exponent)| *exponent != 0);
+    let exponents: Vec<_> = exponents.map(|(name, exponent)| (name, exponent.to_string())).collect();
+    let exponents = exponents.iter().map(|(name, exponent)| (*name, exponent.as_str()));
+    xml.create_element("BaseUnit").with_attributes(exponents).write_empty()?;
+    for display in &unit.display {
+        let factor = number(display.factor);
+        let element = xml.create_element("DisplayUnit");
+        element.with_attributes([("name", display.name.as_str()), ("factor", &factor)]).write_empty()?;
+    }
+    Ok(())
+}
+
+fn variables(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
+    xml.create_element("ModelVariables").write_inner_content(|xml| {
+        for (reference, entry) in entries.iter().enumerate() {
+            scalar_variable(xml, reference, entry)?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
+
+fn scalar_variable(xml: &mut Xml, reference: usize, entry: &Entry) -> io::Result<()> {
+    let variable = entry.variable;
+    let (causality, variability, initial) = match (variable.causality, variable.r#type) {
+        (Causality::Input, _) => ("input", "continuous", ""),
+        (Causality::Output, Type::Real) => ("output", "continuous", "calculated"),
+        (Causality::Output, Type::Integer) => ("output", "discrete", "calculated"),
+        (Causality::Parameter, _) => ("parameter", "fixed", "exact"),
+    };
+    let reference = reference.to_string();
+    let attributes = [
+        ("name", variable.name.as_str()),
+        ("valueReference", &reference),
+        ("description", &variable.description),
+        ("causality", causality),
+        ("variability", variability),
+        ("initial", initial),
+    ];
+    let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
+    let real = variable.r#type == Type::Real;
+    let limit = |value: Option<f64>| value.map(number).unwrap_or_default();
+    let kind = [
+        ("unit", variable.unit.clone().unwrap_or_default()),
+        ("displayUnit", variable.display_unit.clone().unwrap_or_default()),
+        ("min", limit(variable.minimum)),
+        ("max", limit(variable.maximum)),
+        ("nominal", limit(entry.nominal)),
+        ("start", limit(entry.start)),
+    ];
+    let kind = kind.iter().filter(|(_, value)| !value.is_empty()).map(|(name, value)| (*name, value.as_str()));
+    xml.create_element("ScalarVariable").with_attributes(given).write_inner_content(|xml| {
+        xml.create_element(if real { "Real" } else { "Integer" }).with_attributes(kind).write_empty()?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+/// Outputs depend on no input at the same instant; before the first step they follow the parameters.
+fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
+    let outputs = || entries.iter().enumerate().filter(|(_, entry)| entry.variable.causality == Causality::Output);
+    xml.create_element("ModelStructure").write_inner_content(|xml| {
+        xml.create_element("Outputs").write_inner_content(|xml| {
+            for (place, _) in outputs() {
+                unknown(xml, place, &[])?;
+            }
+            Ok(())
+        })?;
+        xml.create_element("InitialUnknowns").write_inner_content(|xml| {
+            for (place, entry) in outputs() {
+                unknown(xml, place, &entry.dependencies)?;
+            }
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+/// Indices count from 1.
+fn unknown(xml: &mut Xml, place: usize, dependencies: &[usize]) -> io::Result<()> {
+    let index = (place + 1).to_string();
+    let dependencies: Vec<_> = dependencies.iter().map(|place| (place + 1).to_string()).collect();
+    let dependencies = dependencies.join(" ");
+    let element = xml.create_element("Unknown");
+    element.with_attributes([("index", index.as_str()), ("dependencies", &dependencies)]).write_empty()?;
+    Ok(())
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+}

@@ -1,0 +1,284 @@
+//! From a scene to an `.fmu`: cargo builds the library, its symbols are checked, everything is zipped.
+
+use crate::interface::entries;
+use crate::scene::Scene;
+use crate::symbols::{self, SymbolError};
+use crate::{constants, documentation, model_description};
+use serde::Deserialize;
+use sha2::{Digest, Sha256};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs, io};
+use zip::CompressionMethod;
+use zip::write::SimpleFileOptions;
+
+include!(concat!(env!("OUT_DIR"), "/library_source.rs"));
+
+const LICENSE: &str = include_str!("../../../LICENSE");
+const THIRD_PARTY: &str = include_str!("../../../modelDescription/licenses.txt");
+const ICON: &[u8] = include_bytes!("../../../modelDescription/model.png");
+const LOCK: &str = include_str!("../../../Cargo.lock");
+
+/// A unit that couldn't be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    #[error("{path}: {source}", path = path.display())]
+    File { path: PathBuf, source: io::Error },
+    #[error("cargo can't be started ({0}): exporting needs a Rust toolchain on PATH, see rustup.rs")]
+    NoCargo(io::Error),
+    #[error("cargo didn't build the library:\n{0}")]
+    Build(String),
+    #[error("the library is not packed: {0}")]
+    Symbols(#[from] SymbolError),
+    #[error("the archive can't be written: {0}")]
+    Zip(#[from] zip::result::ZipError),
+    #[error("units for {0} can't be made here: FMI 2.0 has no folder for this platform")]
+    Platform(String),
+}
+
+/// What was exported.
+pub struct Exported {
+    pub path: PathBuf,
+    pub guid: String,
+    /// Size of the archive [bytes].
+    pub size: usize,
+    /// Size of the library in it [bytes].
+    pub library_size: usize,
+    pub imports: Vec<String>,
+}
+
+/// Folder of the binaries for this machine, and how libraries are called there.
+pub fn platform() -> Result<(&'static str, &'static str), ExportError> {
+    match (env::consts::OS, env::consts::ARCH) {
+        ("linux", "x86_64") => Ok(("linux64", "so")),
+        ("linux", "aarch64") => Ok(("aarch64-linux", "so")),
+        ("windows", "x86_64") => Ok(("win64", "dll")),
+        ("macos", "x86_64") => Ok(("darwin64", "dylib")),
+        ("macos", "aarch64") => Ok(("aarch64-darwin", "dylib")),
+        (os, arch) => Err(ExportError::Platform(format!("{os} on {arch}"))),
+    }
+}
+
+/// Builds the unit of `scene` and writes it to `path`, which is replaced only when everything has gone well.
+///
+/// # Errors
+/// [`ExportError`]; nothing is then written.
+pub fn export(scene: &Scene, path: &Path) -> Result<Exported, ExportError> {
+    let (folder, extension) = platform()?;
+    let entries = entries(scene);
+    let guid = identification(scene);
+    let library = build(scene, &constants::write(scene, &entries, &guid), &guid)?;
+    let imports = symbols::check(&library)?;
+    let license = format!("{LICENSE}\n{THIRD_PARTY}");
+    let page = documentation::write(scene, &entries);
+    let description = model_description::write(scene, &entries, &guid);
+    let files: [(String, &[u8]); 6] = [
+        ("modelDescription.xml".into(), description.as_bytes()),
+        ("model.png".into(), ICON),
+        (format!("binaries/{folder}/{}.{extension}", scene.name), &library),
+        ("documentation/index.html".into(), page.as_bytes()),
+        ("documentation/licenses/license.txt".into(), license.as_bytes()),
+        ("resources/scene.toml".into(), scene.text.as_bytes()),
+    ];
+    let archive = archive(&files)?;
+    write_whole(path, &archive)?;
+    Ok(Exported { path: path.into(), guid, size: archive.len(), library_size: library.len(), imports })
+}
+
+/// Hash of all that the unit is made of: description, constants, source of the library.
+fn identification(scene: &Scene) -> String {
+    let entries = entries(scene);
+    let mut hash = Sha256::new();
+    hash.update(model_description::write(scene, &entries, ""));
+    hash.update(constants::write(scene, &entries, ""));
+    for (name, text) in LIBRARY_SOURCE {
+        hash.update(name);
+        hash.update(text);
+    }
+    hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The manifest of the package that cargo builds: the library alone, with nothing but `libm`.
+fn manifest(guid: &str) -> String {
+    let libm = libm();
+    let version = env!("CARGO_PKG_VERSION");
+    // the name is unique for each unit, so that units built at the same time don't overwrite each other
+    format!(
+        r#"[package]
+name = "fmu-{guid}"
+version = "{version}"
+edition = "2024"
+
+[lib]
+crate-type = ["cdylib"]
+
+[features]
+default = ["fmu"]
+fmu = []
+
+[dependencies]
+libm = {{ version = "={}", default-features = false, features = ["arch"] }}
+
+[profile.release]
+opt-level = 3
+lto = "fat"
+codegen-units = 1
+panic = "abort"
+strip = "symbols"
+
+[workspace]
+"#,
+        libm.version
+    )
+}
+
+#[derive(Deserialize)]
+struct LockFile {
+    package: Vec<Locked>,
+}
+
+#[derive(Clone, Deserialize)]
+struct Locked {
+    name: String,
+    version: String,
+    source: Option<String>,
+    checksum: Option<String>,
+}
+
+/// The version of `libm` that this program was tested with.
+fn libm() -> Locked {
+    let lock: LockFile = toml::from_str(LOCK).expect("Cargo.lock is written by cargo");
+    lock.package.into_iter().find(|package| package.name == "libm").expect("the library needs libm")
+}
+
+/// Pins `libm` to exactly the tested text, so that the same scene gives the same binary everywhere.
+fn lock_file(guid: &str) -> String {
+    let Locked { version, source, checksum, .. } = libm();
+    let (source, checksum) = (source.unwrap_or_default(), checksum.unwrap_or_default());
+    let own = env!("CARGO_PKG_VERSION");
+    format!(
+        "version = 4\n\n[[package]]\nname = \"fmu-{guid}\"\nversion = \"{own}\"\ndependencies = [\n \"libm\",\n]\n\n\
+         [[package]]\nname = \"libm\"\nversion = \"{version}\"\nsource = \"{source}\"\nchecksum = \"{checksum}\"\n"
+    )
+}
+
+/// Arguments for the linker: no start files and no library, symbols bound inside the unit first and at once.
+fn link_arguments() -> &'static [&'static str] {
+    match env::consts::OS {
+        "linux" => &[
+            "-Clink-arg=-nostartfiles",
+            "-Clink-arg=-nodefaultlibs",
+            "-Clink-arg=-Wl,-z,now,-Bsymbolic,--build-id=none,--hash-style=gnu",
+        ],
+        "windows" => &["-Clink-arg=/NOENTRY", "-Clink-arg=/DEBUG:NONE", "-Clink-arg=/Brepro"],
+        _ => &[],
+    }
+}
+
+/// One line of `cargo --message-format=json`.
+#[derive(Deserialize)]
+struct Message {
+    reason: String,
+    target: Option<Target>,
+    #[serde(default)]
+    filenames: Vec<PathBuf>,
+}
+
+#[derive(Deserialize)]
+struct Target {
+    crate_types: Vec<String>,
+}
+
+/// Compiles the library with `constants` as its scene and gives its bytes.
+fn build(scene: &Scene, constants: &str, guid: &str) -> Result<Vec<u8>, ExportError> {
+    let folder = tempfile::Builder::new().prefix("brinell-").tempdir();
+    let folder = folder.map_err(|source| ExportError::File { path: env::temp_dir(), source })?;
+    let root = folder.path();
+    let own = [("src/scene.rs", constants), ("Cargo.toml", &manifest(guid)), ("Cargo.lock", &lock_file(guid))];
+    for (name, text) in LIBRARY_SOURCE.iter().copied().chain(own) {
+        write_file(&root.join(name), text.as_bytes())?;
+    }
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.current_dir(root).args(["rustc", "--release", "--lib", "--locked", "--message-format=json", "--"]);
+    command.args(link_arguments()).env("CARGO_TARGET_DIR", cache_folder());
+    // the machine's own flags must not reach the unit: the same scene gives the same bytes
+    command.env("CARGO_ENCODED_RUSTFLAGS", "").env_remove("RUSTFLAGS");
+    for name in ["CARGO_BUILD_TARGET", "RUSTC_WRAPPER", "RUSTC_WORKSPACE_WRAPPER"] {
+        command.env_remove(name);
+    }
+    for (name, _) in env::vars_os() {
+        if name.to_string_lossy().starts_with("CARGO_PROFILE_") {
+            command.env_remove(name);
+        }
+    }
+    let output = command.output().map_err(ExportError::NoCargo)?;
+    if !output.status.success() {
+        return Err(ExportError::Build(String::from_utf8_lossy(&output.stderr).into_owned()));
+    }
+    let messages = String::from_utf8_lossy(&output.stdout);
+    let built = messages.lines().filter_map(|line| serde_json::from_str::<Message>(line).ok());
+    let is_library = |message: &Message| {
+        let cdylib = |target: &Target| target.crate_types.iter().any(|kind| kind == "cdylib");
+        message.reason == "compiler-artifact" && message.target.as_ref().is_some_and(cdylib)
+    };
+    let missing = || ExportError::Build(format!("cargo named no library for {}", scene.name));
+    let path = built.filter(is_library).flat_map(|message| message.filenames).next().ok_or_else(missing)?;
+    let library = fs::read(&path).map_err(|source| ExportError::File { path: path.clone(), source })?;
+    // what is left in the cache is `libm`; the unit itself is rebuilt in a second
+    let _ = fs::remove_file(&path);
+    Ok(library)
+}
+
+/// Where compiled dependencies stay between exports: `BRINELL_CACHE`, or the user's cache.
+fn cache_folder() -> PathBuf {
+    if let Some(chosen) = env::var_os("BRINELL_CACHE") {
+        return chosen.into();
+    }
+    let home = |name: &str| env::var_os(name).map(PathBuf::from);
+    let base = home("XDG_CACHE_HOME").or_else(|| home("LOCALAPPDATA")).or_else(|| Some(home("HOME")?.join(".cache")));
+    base.unwrap_or_else(env::temp_dir).join("brinell")
+}
+
+/// The files as a zip archive: the same bytes for the same files.
+fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
+    let mut archive = zip::ZipWriter::new(io::Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(9))
+        .last_modified_time(zip::DateTime::default())
+        .unix_permissions(0o644);
+    for (name, bytes) in files {
+        archive.start_file(name.as_str(), options)?;
+        archive.write_all(bytes).map_err(zip::result::ZipError::from)?;
+    }
+    Ok(archive.finish()?.into_inner())
+}
+
+fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+    let file_error = |source| ExportError::File { path: path.into(), source };
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(file_error)?;
+    }
+    fs::write(path, bytes).map_err(file_error)
+}
+
+/// Writes beside the goal and renames, so that no half of a unit is ever found there.
+fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+    let file_error = |source| ExportError::File { path: path.into(), source };
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let mut file = tempfile::Builder::new().prefix(".brinell-").tempfile_in(folder).map_err(file_error)?;
+    file.write_all(bytes).map_err(file_error)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let readable = fs::Permissions::from_mode(0o644);
+        fs::set_permissions(file.path(), readable).map_err(file_error)?;
+    }
+    file.persist(path).map_err(|error| file_error(error.error))?;
+    Ok(())
+}

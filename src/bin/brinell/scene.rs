@@ -1,0 +1,383 @@
+//! The scene file: what is in contact, by which laws, and what the unit shows of it.
+
+use crate::table::{self, Causality, MATERIALS, VARIABLES};
+use brinell::contact::impact::Impact;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Body, Loading, Model, Pair, Surface};
+use serde::Deserialize;
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+/// A scene that has been checked.
+#[derive(Debug)]
+pub struct Scene {
+    /// Name of the unit: a C identifier.
+    pub name: String,
+    pub description: String,
+    /// The parameters the scene has, in the order of the table.
+    pub parameters: Vec<Parameter>,
+    /// The chosen outputs beside force.
+    pub outputs: Vec<String>,
+    pub loading: (&'static str, AnyLoading),
+    /// None for an elastic contact.
+    pub unloading: Option<(&'static str, AnyUnloading)>,
+    pub surface: Surface,
+    pub impact: Impact,
+    /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
+    pub impact_is_assumed: bool,
+    /// The file as it is.
+    pub text: String,
+}
+
+/// A parameter of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    pub name: &'static str,
+    pub value: f64,
+    /// Whether it stays settable; otherwise it is a constant of the unit.
+    pub settable: bool,
+}
+
+/// A scene that can't be used: where, and why.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    #[error("{}: {source}", path.display())]
+    Unreadable { path: PathBuf, source: std::io::Error },
+    #[error("{}:{line}:{column}: {message}", path.display())]
+    Wrong { path: PathBuf, line: usize, column: usize, message: String },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    name: Spanned<String>,
+    #[serde(default)]
+    description: String,
+    impactor: Impactor,
+    target: Spanned<Target>,
+    #[serde(default)]
+    law: Law,
+    #[serde(default)]
+    fmu: Fmu,
+    impact: Option<ImpactTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Impactor {
+    radius: Spanned<f64>,
+    youngs_modulus: Option<Spanned<f64>>,
+    poissons_ratio: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Target {
+    material: Option<Spanned<String>>,
+    youngs_modulus: Option<Spanned<f64>>,
+    poissons_ratio: Option<Spanned<f64>>,
+    yield_strength: Option<Spanned<f64>>,
+    radius: Option<Spanned<f64>>,
+    #[serde(default)]
+    surface: SurfaceName,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum SurfaceName {
+    #[default]
+    Dented,
+    Fresh,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Law {
+    loading: Option<Spanned<String>>,
+    unloading: Option<Spanned<String>>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Fmu {
+    #[serde(default)]
+    outputs: Vec<Spanned<String>>,
+    parameters: Option<Vec<Spanned<String>>>,
+    initial_gap: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ImpactTable {
+    mass: Spanned<f64>,
+    speed: Spanned<f64>,
+}
+
+/// A mistake at a place in the text.
+struct Mistake(std::ops::Range<usize>, String);
+
+impl Scene {
+    /// Reads and checks the scene at `path`.
+    ///
+    /// # Errors
+    /// [`SceneError`] with line and column of the first mistake, and what is allowed there.
+    pub fn read(path: &Path) -> Result<Scene, SceneError> {
+        let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
+        Scene::parse(std::fs::read_to_string(path).map_err(unreadable)?, path)
+    }
+
+    /// Checks the scene `text`; `path` is for messages.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn parse(text: String, path: &Path) -> Result<Scene, SceneError> {
+        let checked = toml::from_str::<File>(&text)
+            .map_err(|error| Mistake(error.span().unwrap_or(0..0), error.message().to_string()))
+            .and_then(check);
+        match checked {
+            Ok(scene) => Ok(Scene { text, ..scene }),
+            Err(Mistake(span, message)) => {
+                let before = &text[..span.start];
+                let line = before.matches('\n').count() + 1;
+                let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+                Err(SceneError::Wrong { path: path.into(), line, column, message })
+            }
+        }
+    }
+
+    /// The value of a parameter, or of what it stands for if the scene hasn't got it.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| parameter.value)
+    }
+
+    /// The parameters that stay settable.
+    pub fn settable(&self) -> impl Iterator<Item = &Parameter> {
+        self.parameters.iter().filter(|parameter| parameter.settable)
+    }
+
+    /// The contact as the physics sees it; the unloading of an elastic contact is never asked for.
+    pub fn model(&self) -> Model<AnyLoading, AnyUnloading> {
+        let value = |name| self.value(name);
+        let impactor = Body {
+            radius: value("impactor.radius").unwrap_or(f64::NAN),
+            youngs_modulus: value("impactor.youngs_modulus").unwrap_or(f64::INFINITY),
+            poissons_ratio: value("impactor.poissons_ratio").unwrap_or(0.0),
+        };
+        let target = Body {
+            radius: value("target.radius").unwrap_or(f64::INFINITY),
+            youngs_modulus: value("target.youngs_modulus").unwrap_or(f64::NAN),
+            poissons_ratio: value("target.poissons_ratio").unwrap_or(f64::NAN),
+        };
+        let strength = value("target.yield_strength").unwrap_or(f64::INFINITY);
+        let pair = Pair::new(&impactor, &target, strength).expect("a checked scene has bodies that fit");
+        let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
+        Model { pair, loading: self.loading.1, unloading, surface: self.surface }
+    }
+}
+
+fn check(file: File) -> Result<Scene, Mistake> {
+    let name = check_name(&file.name)?;
+    let impactor = &file.impactor;
+    let target = file.target.get_ref();
+    let material = target.material.as_ref().map(find_material).transpose()?;
+    // a number in the scene stands before the material's
+    let property = |given: &Option<Spanned<f64>>, of: fn(&table::Material) -> f64| match (given, material) {
+        (Some(value), _) => Some(value.clone()),
+        (None, Some(material)) => {
+            let span = target.material.as_ref().map_or(0..0, Spanned::span);
+            Some(Spanned::new(span, of(material)))
+        }
+        (None, None) => None,
+    };
+    let modulus = property(&target.youngs_modulus, |material| material.youngs_modulus);
+    let ratio = property(&target.poissons_ratio, |material| material.poissons_ratio);
+    let strength = property(&target.yield_strength, |material| material.yield_strength);
+    if modulus.is_none() || ratio.is_none() {
+        let names = MATERIALS.iter().map(|material| material.name.as_str()).collect::<Vec<_>>().join("`, `");
+        let message =
+            format!("the target needs `youngs_modulus` and `poissons_ratio`, or a `material`: there are `{names}`");
+        return Err(Mistake(file.target.span(), message));
+    }
+    if impactor.youngs_modulus.is_some() != impactor.poissons_ratio.is_some() {
+        let given = impactor.youngs_modulus.as_ref().or(impactor.poissons_ratio.as_ref());
+        let message = "an elastic impactor needs both `youngs_modulus` and `poissons_ratio`; a rigid one neither";
+        return Err(Mistake(given.map_or(0..0, Spanned::span), message.into()));
+    }
+    let loading = check_loading(file.law.loading.as_ref(), strength.is_some())?;
+    let elastic = matches!(loading.1, AnyLoading::Hertz(_));
+    let unloading = check_unloading(file.law.unloading.as_ref(), elastic)?;
+
+    let values = [
+        ("impactor.radius", Some(impactor.radius.clone())),
+        ("impactor.youngs_modulus", impactor.youngs_modulus.clone()),
+        ("impactor.poissons_ratio", impactor.poissons_ratio.clone()),
+        ("target.radius", target.radius.clone()),
+        ("target.youngs_modulus", modulus),
+        ("target.poissons_ratio", ratio),
+        ("target.yield_strength", if elastic { None } else { strength }),
+        ("initial_gap", Some(file.fmu.initial_gap.clone().unwrap_or(Spanned::new(0..0, 0.0)))),
+    ];
+    let mut parameters = Vec::new();
+    for (name, value) in values {
+        let Some(value) = value else { continue };
+        check_limits(name, &value)?;
+        parameters.push(Parameter { name, value: *value.get_ref(), settable: true });
+    }
+    choose_settable(&mut parameters, file.fmu.parameters.as_deref())?;
+    let outputs = check_outputs(&file.fmu.outputs)?;
+
+    let radius = *impactor.radius.get_ref();
+    let steel_ball = Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 };
+    let impact_is_assumed = file.impact.is_none();
+    let impact = match file.impact {
+        Some(table) => {
+            Impact { mass: positive("impact.mass", &table.mass)?, speed: positive("impact.speed", &table.speed)? }
+        }
+        None => steel_ball,
+    };
+    if let Some(socket) = &target.radius
+        && let value = *socket.get_ref()
+        && (value == 0.0 || (value < 0.0 && -value <= radius))
+    {
+        let message = format!(
+            "target.radius = {value:?} does not fit impactor.radius = {radius:?}: a socket (negative) must be wider than \
+             the impactor, and no radius is 0"
+        );
+        return Err(Mistake(socket.span(), message));
+    }
+    let surface = match target.surface {
+        SurfaceName::Dented => Surface::Dented,
+        SurfaceName::Fresh => Surface::Fresh,
+    };
+    let scene = Scene {
+        name,
+        description: file.description,
+        parameters,
+        outputs,
+        loading,
+        unloading,
+        surface,
+        impact,
+        impact_is_assumed,
+        text: String::new(),
+    };
+    if brinell::contact::impact::predict(&scene.model(), &scene.impact).is_none() {
+        let message = "the impact drives the bodies deeper than the law can be evaluated".to_string();
+        return Err(Mistake(0..0, message));
+    }
+    Ok(scene)
+}
+
+fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
+    let text = name.get_ref();
+    let mut characters = text.chars();
+    let begins = characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
+    if begins && characters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        return Ok(text.clone());
+    }
+    let message = format!("name = {text:?} is not a C identifier: letters, digits and `_`, not beginning with a digit");
+    Err(Mistake(name.span(), message))
+}
+
+fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mistake> {
+    MATERIALS.iter().find(|material| &material.name == name.get_ref()).ok_or_else(|| {
+        let names = MATERIALS.iter().map(|material| material.name.as_str());
+        Mistake(name.span(), unknown("material", name.get_ref(), names))
+    })
+}
+
+fn check_loading(name: Option<&Spanned<String>>, yields: bool) -> Result<(&'static str, AnyLoading), Mistake> {
+    let default = if yields { "big-alabo" } else { "hertz" };
+    let asked = name.map_or(default, |name| name.get_ref().as_str());
+    let span = name.map_or(0..0, Spanned::span);
+    let law = AnyLoading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
+        let names = AnyLoading::ALL.iter().map(|(name, _)| *name);
+        Mistake(span.clone(), unknown("law.loading", asked, names))
+    })?;
+    if !yields && law.0 != "hertz" {
+        let message =
+            format!("law.loading = \"{asked}\" needs target.yield_strength (or a material); \"hertz\" doesn't");
+        return Err(Mistake(span, message));
+    }
+    Ok(law)
+}
+
+fn check_unloading(
+    name: Option<&Spanned<String>>,
+    elastic: bool,
+) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
+    let Some(name) = name else {
+        return Ok((!elastic).then_some(AnyUnloading::ALL[0]));
+    };
+    let asked = name.get_ref().as_str();
+    if elastic {
+        let message = format!("law.unloading = \"{asked}\" has no meaning here: hertz unloads along the loading curve");
+        return Err(Mistake(name.span(), message));
+    }
+    AnyUnloading::ALL.into_iter().find(|(name, _)| *name == asked).map(Some).ok_or_else(|| {
+        let names = AnyUnloading::ALL.iter().map(|(name, _)| *name);
+        Mistake(name.span(), unknown("law.unloading", asked, names))
+    })
+}
+
+fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let names = names.collect::<Vec<_>>().join("`, `");
+    format!("unknown {what} `{asked}`, expected one of `{names}`")
+}
+
+fn check_limits(name: &str, value: &Spanned<f64>) -> Result<(), Mistake> {
+    let variable = table::variable(name);
+    let (minimum, maximum) = (variable.minimum.unwrap_or(f64::MIN), variable.maximum.unwrap_or(f64::MAX));
+    if (minimum..=maximum).contains(value.get_ref()) {
+        return Ok(());
+    }
+    let unit = variable.unit.as_deref().unwrap_or("");
+    let message =
+        format!("{name} = {:?} is out of range: allowed is {minimum:?} to {maximum:?} {unit}", value.get_ref());
+    Err(Mistake(value.span(), message.trim_end().into()))
+}
+
+fn positive(name: &str, value: &Spanned<f64>) -> Result<f64, Mistake> {
+    let number = *value.get_ref();
+    if number > 0.0 && number.is_finite() {
+        return Ok(number);
+    }
+    Err(Mistake(value.span(), format!("{name} = {number:?} must be positive and finite")))
+}
+
+/// Leaves settable what `chosen` names, or everything.
+fn choose_settable(parameters: &mut [Parameter], chosen: Option<&[Spanned<String>]>) -> Result<(), Mistake> {
+    let Some(chosen) = chosen else { return Ok(()) };
+    for name in chosen {
+        if !parameters.iter().any(|parameter| parameter.name == name.get_ref()) {
+            let names = parameters.iter().map(|parameter| parameter.name);
+            return Err(Mistake(name.span(), unknown("parameter", name.get_ref(), names)));
+        }
+    }
+    for parameter in parameters {
+        parameter.settable = chosen.iter().any(|name| name.get_ref() == parameter.name);
+    }
+    Ok(())
+}
+
+fn check_outputs(chosen: &[Spanned<String>]) -> Result<Vec<String>, Mistake> {
+    let available = || VARIABLES.iter().filter(|v| v.causality == Causality::Output).map(|v| v.name.as_str());
+    let mut outputs: Vec<String> = Vec::new();
+    for name in chosen {
+        let text = name.get_ref();
+        if !available().any(|output| output == text) {
+            return Err(Mistake(name.span(), unknown("output", text, available())));
+        }
+        if text != "force" && !outputs.contains(text) {
+            outputs.push(text.clone());
+        }
+    }
+    Ok(outputs)
+}
+
+/// Whether `loading` never yields, so that the unit needs nothing plastic.
+pub fn is_elastic(scene: &Scene) -> bool {
+    scene.loading.1.yield_point(&scene.model().pair).indentation.is_infinite()
+}

@@ -1,0 +1,147 @@
+//! The tables in `modelDescription/`, as data: variables, units, materials, laws.
+
+use serde::Deserialize;
+use std::sync::LazyLock;
+
+/// A variable that a unit can have; see `modelDescription/variables.toml`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Variable {
+    pub name: String,
+    /// Variant of the library's enum.
+    pub rust: String,
+    #[serde(default)]
+    pub r#type: Type,
+    pub causality: Causality,
+    pub unit: Option<String>,
+    pub display_unit: Option<String>,
+    pub minimum: Option<f64>,
+    pub maximum: Option<f64>,
+    /// Parameters that the value before the first step follows.
+    #[serde(default)]
+    pub depends_on: Vec<String>,
+    pub nominal_from: Option<String>,
+    pub description: String,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum Type {
+    #[default]
+    Real,
+    Integer,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Causality {
+    Input,
+    Output,
+    Parameter,
+}
+
+/// A unit with its SI exponents; see `modelDescription/units.toml`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Unit {
+    pub name: String,
+    #[serde(default)]
+    pub kg: i32,
+    #[serde(default)]
+    pub m: i32,
+    #[serde(default)]
+    pub s: i32,
+    pub display: Vec<DisplayUnit>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DisplayUnit {
+    pub name: String,
+    pub factor: f64,
+}
+
+/// A built-in material; see `modelDescription/materials.toml`.
+#[derive(Debug, Deserialize, serde::Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    pub name: String,
+    /// [Pa]
+    pub youngs_modulus: f64,
+    pub poissons_ratio: f64,
+    /// [Pa]
+    pub yield_strength: f64,
+    pub source: String,
+}
+
+/// What the documentation says of a law; see `modelDescription/laws.toml`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Law {
+    pub name: String,
+    pub title: String,
+    pub formulas: Vec<String>,
+    pub notes: String,
+    pub reference: String,
+}
+
+#[derive(Deserialize)]
+struct Variables {
+    variable: Vec<Variable>,
+}
+
+#[derive(Deserialize)]
+struct Units {
+    unit: Vec<Unit>,
+}
+
+#[derive(Deserialize)]
+struct Materials {
+    material: Vec<Material>,
+}
+
+#[derive(Deserialize)]
+struct Laws {
+    loading: Vec<Law>,
+    unloading: Vec<Law>,
+}
+
+/// The tables are part of the program: a mistake in one is a mistake in the program, which every test would show.
+const PART_OF_THE_PROGRAM: &str = "the program's own tables are well-formed";
+
+/// Every variable there can be.
+pub static VARIABLES: LazyLock<Vec<Variable>> = LazyLock::new(|| {
+    let text = include_str!("../../../modelDescription/variables.toml");
+    toml::from_str::<Variables>(text).expect(PART_OF_THE_PROGRAM).variable
+});
+
+/// Every unit.
+pub static UNITS: LazyLock<Vec<Unit>> = LazyLock::new(|| {
+    let text = include_str!("../../../modelDescription/units.toml");
+    toml::from_str::<Units>(text).expect(PART_OF_THE_PROGRAM).unit
+});
+
+/// Every built-in material.
+pub static MATERIALS: LazyLock<Vec<Material>> = LazyLock::new(|| {
+    let text = include_str!("../../../modelDescription/materials.toml");
+    toml::from_str::<Materials>(text).expect(PART_OF_THE_PROGRAM).material
+});
+
+static LAWS: LazyLock<Laws> = LazyLock::new(|| {
+    let text = include_str!("../../../modelDescription/laws.toml");
+    toml::from_str(text).expect(PART_OF_THE_PROGRAM)
+});
+
+/// What is said of the loading law `name`.
+pub fn loading_law(name: &str) -> &'static Law {
+    LAWS.loading.iter().find(|law| law.name == name).expect(PART_OF_THE_PROGRAM)
+}
+
+/// What is said of the unloading law `name`.
+pub fn unloading_law(name: &str) -> &'static Law {
+    LAWS.unloading.iter().find(|law| law.name == name).expect(PART_OF_THE_PROGRAM)
+}
+
+/// The variable `name`.
+pub fn variable(name: &str) -> &'static Variable {
+    VARIABLES.iter().find(|variable| variable.name == name).expect(PART_OF_THE_PROGRAM)
+}
