@@ -250,23 +250,31 @@ impl Instance {
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooDeep`]; the contact is
     /// then where it was.
-    #[inline]
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
-        let end = time + step;
-        let plain =
-            step > 0.0 && step < f64::INFINITY && (time - self.time).abs() <= TIME_TOLERANCE * step && end <= self.stop;
-        if !plain {
-            self.check_step(time, step)?;
-        }
-        let pair = &self.pair;
-        self.history.advance(self.rate * step, || model_of(*pair))?;
-        self.time = end;
+        self.check_step(time, step)?;
+        let pair = self.pair;
+        self.history.advance(self.rate * step, || model_of(pair))?;
+        self.time = time + step;
         Ok(())
     }
 
-    /// The checks of a step that isn't plainly right.
-    #[cold]
-    #[inline(never)]
+    /// The step that nearly every step is: plainly in order, and on the branch that the contact is on. It does what
+    /// [`Instance::do_step`] does; if it isn't such a step nothing is done, and false.
+    #[inline(always)]
+    pub fn do_plain_step(&mut self, time: f64, step: f64) -> bool {
+        let end = time + step;
+        // without a stop time `stop` is the largest number, so that an infinite step isn't plain
+        let in_order = self.phase == Phase::StepComplete
+            && step > 0.0
+            && (time - self.time).abs() <= TIME_TOLERANCE * step
+            && end <= self.stop;
+        let done = in_order && self.history.advance_on_branch(self.rate * step);
+        if done {
+            self.time = end;
+        }
+        done
+    }
+
     fn check_step(&self, time: f64, step: f64) -> Result<(), Fault> {
         if !(step > 0.0 && step < f64::INFINITY) {
             return Err(Fault::StepSize { step });
@@ -288,7 +296,6 @@ impl Instance {
     ///
     /// # Errors
     /// [`Fault::NotFinite`], [`Fault::OutOfRange`], [`Fault::NotSettable`], [`Fault::FixedParameter`].
-    #[inline]
     pub fn check_real(&self, variable: Real, value: f64) -> Result<(), Fault> {
         match variable {
             Real::IndentationRate if value.is_finite() => Ok(()),
@@ -309,7 +316,6 @@ impl Instance {
     }
 
     /// Sets `variable` to a `value` that [`Instance::check_real`] has allowed.
-    #[inline]
     pub fn set_real(&mut self, variable: Real, value: f64) {
         match variable {
             Real::IndentationRate => self.rate = value,
@@ -330,8 +336,23 @@ impl Instance {
         }
     }
 
+    /// Sets the input and reports true if that is all there is to do: the input may be set now, and `rate` is finite.
+    #[inline(always)]
+    pub fn set_plain_rate(&mut self, rate: f64) -> bool {
+        let plain = self.phase == Phase::StepComplete && rate.abs() <= f64::MAX;
+        if plain {
+            self.rate = rate;
+        }
+        plain
+    }
+
+    /// The force [N], if outputs are plainly there: during the simulation.
+    #[inline(always)]
+    pub fn plain_force(&self) -> Option<f64> {
+        (self.phase == Phase::StepComplete).then(|| self.history.force())
+    }
+
     /// The value of `variable` now.
-    #[inline]
     pub fn real(&self, variable: Real) -> f64 {
         let model = model_of(self.pair);
         match variable {

@@ -1,4 +1,57 @@
-//! Elastoplastic contact of a sphere and a half-space.
+//! Elastoplastic contact of a sphere and a half-space: the physics, and the library of an FMI 2.0 co-simulation unit.
+//!
+//! # Model
+//! A sphere of effective radius `R` is pressed into a half-space of effective modulus `E*` and yield strength `S`. The
+//! normal force `F` is a function of the indentation and of the largest indentation so far:
+//!
+//! - *loading* follows the curve of a [loading law](contact::loading): Hertz's until the mean pressure reaches 1.1 S, then
+//!   the elastoplastic and the fully plastic branches of the law;
+//! - *unloading* follows the path of an [unloading law](contact::unloading) down to the dent that remains, and reloading
+//!   follows it back up, and on along the loading curve.
+//!
+//! Work, elastic and dissipated energy are functions of the state; nothing is accumulated. With the rate held over a step
+//! the result doesn't depend on how time is cut.
+//!
+//! # Validity
+//! Quasi-static, frictionless normal contact of a paraboloid: `a/R` up to about 0.3, contact long against the travel of
+//! waves, no hardening, no dependence on the rate of strain.
+//!
+//! # Units
+//! SI throughout: m, kg, s, N, Pa, J. Each public item says its unit.
+//!
+//! # Example
+//! ```
+//! use brinell::contact::{Body, History, Model, Pair, Surface, impact, loading::BigAlabo, unloading::ContactRadius};
+//!
+//! let ball = Body { radius: 5e-3, youngs_modulus: f64::INFINITY, poissons_ratio: 0.0 };
+//! let block = Body { radius: f64::INFINITY, youngs_modulus: 206e9, poissons_ratio: 0.3 };
+//! let pair = Pair::new(&ball, &block, 300e6).unwrap();
+//! let model = Model { pair, loading: BigAlabo::REFERENCE, unloading: ContactRadius, surface: Surface::Dented };
+//!
+//! let mut history = History::start(&model, 0.0).unwrap();
+//! history.advance(10e-6, || model).unwrap(); // 10 um in
+//! history.advance(-1e-6, || model).unwrap(); // 1 um back
+//! assert!(history.force() > 0.0 && history.residual_indentation(&model) > 7e-6);
+//!
+//! let outcome = impact::predict(&model, &impact::Impact { mass: 4.11e-3, speed: 1.0 }).unwrap();
+//! assert!((outcome.restitution - 0.4463).abs() < 1e-4);
+//! ```
+//!
+//! # The house
+//! | where | what |
+//! |---|---|
+//! | [`contact`] | the physics: not one word of FMI |
+//! | [`instance`] | co-simulation as safe Rust: phase, time, variables, step, reset |
+//! | [`scene`] | which laws and variables a unit has: written by the exporter |
+//! | `fmi2` (feature `fmu`) | the C interface, and the only `unsafe` of the library |
+//!
+//! The library needs neither `std` nor `alloc`, and cannot panic.
+//!
+//! # References
+//! - A. Big-Alabo, P. Harrison, M. P. Cartmell, "Contact model for elastoplastic analysis of half-space indentation by a
+//!   spherical impactor", *Computers & Structures* 151 (2015) 20-29.
+//! - K. L. Johnson, *Contact Mechanics*, Cambridge University Press, 1985.
+//! - *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.5.
 #![cfg_attr(not(test), no_std)]
 #![warn(missing_docs)]
 

@@ -88,22 +88,31 @@ impl History {
     ///
     /// # Errors
     /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN; the history is left as it was.
-    #[inline]
     pub fn advance<L: Loading, U: Unloading>(
         &mut self,
         increment: f64,
         model: impl FnOnce() -> Model<L, U>,
     ) -> Result<(), TooDeep> {
+        if !self.advance_on_branch(increment) {
+            let sum = self.indentation.plus(increment);
+            self.enter(&model(), sum.value, increment > 0.0)?;
+            self.indentation = sum;
+        }
+        Ok(())
+    }
+
+    /// Moves the contact by `increment` [m] if that leaves it on its branch; otherwise nothing is done, and false.
+    #[inline(always)]
+    pub fn advance_on_branch(&mut self, increment: f64) -> bool {
         let sum = self.indentation.plus(increment);
         let indentation = sum.value;
-        if self.segment.contains(indentation) {
+        let stays = self.segment.contains(indentation);
+        if stays {
             self.max_indentation = if indentation > self.max_indentation { indentation } else { self.max_indentation };
             self.segment.lower = if self.yields() { indentation } else { self.segment.lower };
-        } else {
-            self.enter(&model(), indentation, increment > 0.0)?;
+            self.indentation = sum;
         }
-        self.indentation = sum;
-        Ok(())
+        stays
     }
 
     /// Whether the contact is yielding now: then the way back leads to another branch.

@@ -74,18 +74,30 @@ impl Component {
     }
 }
 
+/// The component behind the importer's pointer; none if that is null.
+///
+/// # Safety
+/// As for [`call`].
+#[inline(always)]
+pub unsafe fn component<'a>(component: fmi2Component) -> Option<&'a mut Component> {
+    // SAFETY: as the caller promises.
+    unsafe { component.cast::<Component>().as_mut() }
+}
+
 /// The guard: refuses a null component and a call out of order, runs `body`, and turns a fault into a status.
 ///
 /// # Safety
-/// `component` is null, or came from fmi2Instantiate, was not freed, and no other call is using it.
-#[inline(always)]
+/// `c` is null, or came from fmi2Instantiate, was not freed, and no other call is using it.
+///
+/// The functions that are called in every step look for the plain case before they come here; what they find to be
+/// anything else is repeated here with every check and its message.
 pub unsafe fn call(
-    component: fmi2Component,
+    c: fmi2Component,
     function: &'static Function,
     body: impl FnOnce(&mut Component) -> Result<(), Fault>,
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
-    let Some(component) = (unsafe { component.cast::<Component>().as_mut() }) else { return fmi2Error };
+    let Some(component) = (unsafe { component(c) }) else { return fmi2Error };
     let phase = component.instance.phase();
     let result = if function.is_allowed_in(phase) { body(component) } else { Err(Fault::OutOfOrder { phase }) };
     match result {

@@ -47,25 +47,25 @@ impl Snapshot {
     ///
     /// # Safety
     /// As for [`Snapshot::at`].
-    pub unsafe fn store(state: &mut fmi2FMUstate, instance: Instance) -> Result<(), Fault> {
+    pub unsafe fn store(state: &mut fmi2FMUstate, instance: &Instance) -> Result<(), Fault> {
         if state.is_null() {
             let made = memory::allocate(size_of::<Snapshot>());
             if made.is_null() {
                 return Err(Fault::NoMemory);
             }
             // SAFETY: the memory is large enough and aligned for any object.
-            unsafe { made.cast::<Snapshot>().write(Snapshot { mark: MARK, instance }) };
+            unsafe { made.cast::<Snapshot>().write(Snapshot { mark: MARK, instance: *instance }) };
             *state = made;
         } else {
             // SAFETY: as the caller promises.
-            unsafe { Snapshot::at(*state)? }.instance = instance;
+            unsafe { Snapshot::at(*state)? }.instance = *instance;
         }
         Ok(())
     }
 
     /// The instance as it was.
-    pub fn instance(&self) -> Instance {
-        self.instance
+    pub fn instance(&self) -> &Instance {
+        &self.instance
     }
 
     /// Frees the snapshot at `state`; null is nothing to free.

@@ -11,7 +11,7 @@ use crate::fault::Fault;
 pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
     // SAFETY: the caller's component and state.
     unsafe {
-        call(c, &order::GET_FMU_STATE, |component| Snapshot::store(object(FMUstate, "FMUstate")?, component.instance))
+        call(c, &order::GET_FMU_STATE, |component| Snapshot::store(object(FMUstate, "FMUstate")?, &component.instance))
     }
 }
 
@@ -21,7 +21,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, FMUstate: fmi2FMUstat
     // SAFETY: the caller's component and state.
     unsafe {
         call(c, &order::SET_FMU_STATE, |component| {
-            component.instance = Snapshot::at(FMUstate)?.instance();
+            component.instance = *Snapshot::at(FMUstate)?.instance();
             Ok(())
         })
     }
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     unsafe {
         call(c, &order::DESERIALIZE_FMU_STATE, |_| {
             let instance = deserialize(array(serializedState.cast::<u8>(), size, "serializedState")?)?;
-            Snapshot::store(object(FMUstate, "FMUstate")?, instance)
+            Snapshot::store(object(FMUstate, "FMUstate")?, &instance)
         })
     }
 }

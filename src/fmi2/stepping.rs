@@ -1,7 +1,7 @@
 //! The step, its derivatives and its status.
 
 use super::abi::*;
-use super::component::{call, object};
+use super::component::{call, component, object};
 use super::order::{self, Function};
 use crate::fault::Fault;
 
@@ -16,10 +16,24 @@ pub unsafe extern "C" fn fmi2DoStep(
     let _ = noSetFMUStatePriorToCurrentPoint;
     // SAFETY: the caller's component.
     unsafe {
-        call(c, &order::DO_STEP, |component| {
-            component.instance.do_step(currentCommunicationPoint, communicationStepSize)
-        })
+        if let Some(component) = component(c)
+            && component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize)
+        {
+            return fmi2OK;
+        }
+        do_any_step(c, currentCommunicationPoint, communicationStepSize)
     }
+}
+
+/// Every step that isn't plain, with all checks.
+///
+/// # Safety
+/// The caller's component.
+#[cold]
+#[inline(never)]
+unsafe fn do_any_step(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { call(c, &order::DO_STEP, |component| component.instance.do_step(time, step)) }
 }
 
 /// The answer of a function that this unit doesn't support.

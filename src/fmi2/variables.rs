@@ -1,7 +1,7 @@
 //! Getting and setting variables.
 
 use super::abi::*;
-use super::component::{array, array_mut, call};
+use super::component::{array, array_mut, call, component};
 use super::order::{self, Function};
 use crate::fault::Fault;
 use crate::instance::Real;
@@ -13,6 +13,16 @@ fn real(reference: fmi2ValueReference) -> Result<Real, Fault> {
     scene::real(reference).ok_or(Fault::UnknownReference { kind: "Real", reference })
 }
 
+/// Whether a call is for the one variable `wanted`, with pointers that aren't null.
+///
+/// # Safety
+/// A pointer to references that isn't null points to as many as announced.
+#[inline(always)]
+unsafe fn is_for<T>(wanted: Real, vr: *const fmi2ValueReference, nvr: usize, value: *const T) -> bool {
+    // SAFETY: as the caller promises.
+    unsafe { nvr == 1 && !vr.is_null() && !value.is_null() && scene::real(*vr) == Some(wanted) }
+}
+
 /// Reads Real variables.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetReal(
@@ -22,6 +32,30 @@ pub unsafe extern "C" fn fmi2GetReal(
     value: *mut fmi2Real,
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
+    unsafe {
+        if is_for(Real::Force, vr, nvr, value)
+            && let Some(component) = component(c)
+            && let Some(force) = component.instance.plain_force()
+        {
+            *value = force;
+            return fmi2OK;
+        }
+        get_any_real(c, vr, nvr, value)
+    }
+}
+
+/// Every reading that isn't plain, with all checks.
+///
+/// # Safety
+/// The caller's component, and arrays as long as announced.
+#[inline(never)]
+unsafe fn get_any_real(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
     unsafe {
         call(c, &order::GET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
@@ -65,6 +99,29 @@ pub unsafe extern "C" fn fmi2SetReal(
     value: *const fmi2Real,
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
+    unsafe {
+        if is_for(Real::IndentationRate, vr, nvr, value)
+            && let Some(component) = component(c)
+            && component.instance.set_plain_rate(*value)
+        {
+            return fmi2OK;
+        }
+        set_any_real(c, vr, nvr, value)
+    }
+}
+
+/// Every setting that isn't plain, with all checks.
+///
+/// # Safety
+/// The caller's component, and arrays as long as announced.
+#[inline(never)]
+unsafe fn set_any_real(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
     unsafe {
         call(c, &order::SET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
