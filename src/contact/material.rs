@@ -40,11 +40,15 @@ pub struct YieldPoint {
     pub force: f64,
 }
 
+/// The smallest radius of curvature of a body [m]: below the size of an atom there is no contact mechanics.
+pub const SMALLEST_RADIUS: f64 = 1e-12;
+
 impl Pair {
     /// The pair of `impactor` and `target`, of which the softer yields at `yield_strength` [Pa].
     ///
     /// Written so that a rigid impactor and a flat target leave `E/(1-nu^2)` and `R` of the other body unrounded.
-    /// `None` if the bodies cannot touch in one point: a socket must be wider than the impactor (`R2 < -R1`).
+    /// `None` if the bodies cannot touch in one point: a socket must be wider than the impactor (`R2 < -R1`), and no
+    /// radius is smaller than [`SMALLEST_RADIUS`].
     ///
     /// Reference: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 4.2.
     pub fn new(impactor: &Body, target: &Body, yield_strength: f64) -> Option<Pair> {
@@ -52,7 +56,9 @@ impl Pair {
         let soft = target.plane_strain_modulus();
         let stiffness_ratio = 1.0 + soft / impactor.plane_strain_modulus();
         // written positively, so that a NaN fails
-        (curvature_ratio > 0.0).then_some(Pair {
+        let touch =
+            curvature_ratio > 0.0 && impactor.radius >= SMALLEST_RADIUS && target.radius.abs() >= SMALLEST_RADIUS;
+        touch.then_some(Pair {
             radius: impactor.radius / curvature_ratio,
             modulus: soft / stiffness_ratio,
             yield_strength,

@@ -102,7 +102,7 @@ fn describe(text: &mut Text, fault: &Fault) {
             .number(impactor)
             .string(" m does not fit target.radius = ")
             .number(target)
-            .string(" m: a socket (negative) must be wider than the impactor, and no radius is 0"),
+            .string(" m: a socket (negative) must be wider than the impactor, and no radius is below 1e-12 m"),
         Fault::Experiment { start, stop } => text
             .string("startTime = ")
             .number(start)

@@ -157,8 +157,8 @@ impl Scene {
         self.parameters.iter().filter(|parameter| parameter.settable)
     }
 
-    /// The contact as the physics sees it; the unloading of an elastic contact is never asked for.
-    pub fn model(&self) -> Model<AnyLoading, AnyUnloading> {
+    /// The bodies; none if they don't fit.
+    fn pair(&self) -> Option<Pair> {
         let value = |name| self.value(name);
         let impactor = Body {
             radius: value("impactor.radius").unwrap_or(f64::NAN),
@@ -171,7 +171,12 @@ impl Scene {
             poissons_ratio: value("target.poissons_ratio").unwrap_or(f64::NAN),
         };
         let strength = value("target.yield_strength").unwrap_or(f64::INFINITY);
-        let pair = Pair::new(&impactor, &target, strength).expect("a checked scene has bodies that fit");
+        Pair::new(&impactor, &target, strength)
+    }
+
+    /// The contact as the physics sees it; the unloading of an elastic contact is never asked for.
+    pub fn model(&self) -> Model<AnyLoading, AnyUnloading> {
+        let pair = self.pair().expect("a checked scene has bodies that fit");
         let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
         Model { pair, loading: self.loading.1, unloading, surface: self.surface }
     }
@@ -237,16 +242,6 @@ fn check(file: File) -> Result<Scene, Mistake> {
         }
         None => steel_ball,
     };
-    if let Some(socket) = &target.radius
-        && let value = *socket.get_ref()
-        && (value == 0.0 || (value < 0.0 && -value <= radius))
-    {
-        let message = format!(
-            "target.radius = {value:?} does not fit impactor.radius = {radius:?}: a socket (negative) must be wider than \
-             the impactor, and no radius is 0"
-        );
-        return Err(Mistake(socket.span(), message));
-    }
     let surface = match target.surface {
         SurfaceName::Dented => Surface::Dented,
         SurfaceName::Fresh => Surface::Fresh,
@@ -263,6 +258,15 @@ fn check(file: File) -> Result<Scene, Mistake> {
         impact_is_assumed,
         text: String::new(),
     };
+    if scene.pair().is_none() {
+        let socket = target.radius.clone().unwrap_or(Spanned::new(0..0, f64::NAN));
+        let message = format!(
+            "target.radius = {:?} does not fit impactor.radius = {radius:?}: a socket (negative) must be wider than the \
+             impactor, and no radius is below 1e-12 m",
+            socket.get_ref()
+        );
+        return Err(Mistake(socket.span(), message));
+    }
     if brinell::contact::impact::predict(&scene.model(), &scene.impact).is_none() {
         let message = "the impact drives the bodies deeper than the law can be evaluated".to_string();
         return Err(Mistake(0..0, message));
