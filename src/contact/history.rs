@@ -12,6 +12,9 @@ use libm::sqrt;
 /// or energy overflows.
 pub const LARGEST_INDENTATION: f64 = 1e100;
 
+/// The farthest that bodies can be apart [m].
+const FARTHEST: f64 = (-LARGEST_INDENTATION).next_up();
+
 /// Number of words that hold a history.
 pub const WORDS: usize = 11;
 
@@ -95,7 +98,10 @@ impl History {
     ) -> Result<(), TooDeep> {
         if !self.advance_on_branch(increment) {
             let sum = self.indentation.plus(increment);
-            self.enter(&model(), sum.value, increment > 0.0)?;
+            // no motion, no other branch: at its very end a branch that was entered from below is still the right one
+            if sum.value != self.indentation.value {
+                self.enter(&model(), sum.value, increment > 0.0)?;
+            }
             self.indentation = sum;
         }
         Ok(())
@@ -153,7 +159,7 @@ impl History {
                 self.segment = Segment { lower: TOUCHING, ..model.loading.segment(&model.pair, 0.0) };
             } else {
                 self.regime = Regime::Apart;
-                self.segment = Segment::apart(-LARGEST_INDENTATION, TOUCHING);
+                self.segment = Segment::apart(FARTHEST, TOUCHING);
             }
         } else {
             let unloading = model.unloading_segment(largest);
@@ -165,7 +171,7 @@ impl History {
                 self.regime = Regime::Apart;
                 // a fresh surface forgets the dent at zero, so that the border must be noticed
                 let forgets = model.surface == Surface::Fresh && indentation > 0.0;
-                let lower = if forgets { TOUCHING } else { -LARGEST_INDENTATION };
+                let lower = if forgets { TOUCHING } else { FARTHEST };
                 self.segment = Segment::apart(lower, residual);
             }
         }

@@ -46,23 +46,23 @@ pub const SMALLEST_RADIUS: f64 = 1e-12;
 impl Pair {
     /// The pair of `impactor` and `target`, of which the softer yields at `yield_strength` [Pa].
     ///
-    /// Written so that a rigid impactor and a flat target leave `E/(1-nu^2)` and `R` of the other body unrounded.
-    /// `None` if the bodies cannot touch in one point: a socket must be wider than the impactor (`R2 < -R1`), and no
-    /// radius is smaller than [`SMALLEST_RADIUS`].
+    /// Written so that a rigid body and a flat target leave `E/(1-nu^2)` and `R` of the other one unrounded.
+    /// `None` if the bodies cannot touch in one point (a socket must be wider than the impactor, `R2 < -R1`, the impactor
+    /// is not flat, and no radius is smaller than [`SMALLEST_RADIUS`]), and if both are rigid.
     ///
     /// Reference: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 4.2.
     pub fn new(impactor: &Body, target: &Body, yield_strength: f64) -> Option<Pair> {
         let curvature_ratio = 1.0 + impactor.radius / target.radius;
-        let soft = target.plane_strain_modulus();
-        let stiffness_ratio = 1.0 + soft / impactor.plane_strain_modulus();
+        let (one, other) = (impactor.plane_strain_modulus(), target.plane_strain_modulus());
+        let (soft, hard) = if other <= one { (other, one) } else { (one, other) };
+        let modulus = soft / (1.0 + soft / hard);
         // written positively, so that a NaN fails
-        let touch =
-            curvature_ratio > 0.0 && impactor.radius >= SMALLEST_RADIUS && target.radius.abs() >= SMALLEST_RADIUS;
-        touch.then_some(Pair {
-            radius: impactor.radius / curvature_ratio,
-            modulus: soft / stiffness_ratio,
-            yield_strength,
-        })
+        let touch = curvature_ratio > 0.0
+            && impactor.radius >= SMALLEST_RADIUS
+            && impactor.radius < f64::INFINITY
+            && target.radius.abs() >= SMALLEST_RADIUS;
+        let deform = modulus > 0.0 && modulus < f64::INFINITY;
+        (touch && deform).then_some(Pair { radius: impactor.radius / curvature_ratio, modulus, yield_strength })
     }
 
     /// `K_h = (4/3) E* sqrt(R)` [N/m^1.5], the constant of Hertz's law `F = K_h d^1.5`.

@@ -9,6 +9,7 @@ use crate::instance::Instance;
 use core::ffi::c_char;
 
 /// An instance with what its importer gave it. The name of the instance follows it in memory.
+#[repr(C)]
 pub struct Component {
     /// The instance.
     pub instance: Instance,

@@ -7,9 +7,13 @@ use crate::instance::{Instance, WORDS};
 use crate::scene;
 
 /// What an `fmi2FMUstate` points to.
+///
+/// The instance comes first, as in a component: both then have it at the same alignment, and a processor hands the stores
+/// of a save straight on to the loads of a restore.
+#[repr(C)]
 pub struct Snapshot {
-    mark: u64,
     instance: Instance,
+    mark: u64,
 }
 
 /// Tells a snapshot from other memory ("snapshot" in ASCII); taken away when it is freed.
@@ -54,7 +58,7 @@ impl Snapshot {
                 return Err(Fault::NoMemory);
             }
             // SAFETY: the memory is large enough and aligned for any object.
-            unsafe { made.cast::<Snapshot>().write(Snapshot { mark: MARK, instance: *instance }) };
+            unsafe { made.cast::<Snapshot>().write(Snapshot { instance: *instance, mark: MARK }) };
             *state = made;
         } else {
             // SAFETY: as the caller promises.

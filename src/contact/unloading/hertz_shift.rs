@@ -1,6 +1,6 @@
 //! Hertz's curve, lowered until it meets the largest load.
 
-use super::{Peak, Unloading};
+use super::{Peak, Unloading, hertzian};
 use crate::contact::material::Pair;
 use crate::contact::segment::Segment;
 use libm::{cbrt, sqrt};
@@ -21,9 +21,13 @@ impl Unloading for HertzShift {
         let difference = hertz_force - peak.force;
         let lowered_by = if difference > 0.0 { difference } else { 0.0 };
         let root = cbrt(lowered_by / stiffness);
+        // a few units in the last place up: the difference of two large numbers must not round to a tension there
+        let residual = root * root * (1.0 + 4.0 * f64::EPSILON);
+        if residual >= peak.indentation {
+            return hertzian(peak, 0.0);
+        }
         Segment {
-            // two units in the last place up: the difference of two large numbers must not round to a tension there
-            lower: root * root * (1.0 + 4.0 * f64::EPSILON),
+            lower: residual,
             upper: peak.indentation,
             origin: 0.0,
             constant: -lowered_by,

@@ -46,6 +46,8 @@ fn hertzian(peak: &Peak, recovery: f64) -> Segment {
     let difference = peak.indentation - recovery;
     let rounding = 8.0 * f64::EPSILON * peak.indentation;
     let residual = if difference > -rounding && difference < rounding { 0.0 } else { difference };
+    // far beyond anything physical the recovery is less than the last digit of the indentation, but it isn't nothing
+    let residual = if residual < peak.indentation { residual } else { peak.indentation.next_down() };
     let recovery = peak.indentation - residual;
     Segment {
         lower: residual,

@@ -1,0 +1,245 @@
+//! A contact moved along paths: what counts is where it has been, not in how many steps.
+
+#[path = "support/physics.rs"]
+mod physics;
+
+use brinell::contact::history::WORDS;
+use brinell::contact::{History, Regime, Surface};
+use physics::{
+    AnyModel, Random, TURNS, advance, all_models, corners, exactly, go, loading_force, mild, model, on_grid, pressed,
+    unit,
+};
+
+/// What a path shows: force, energies, dent, contact radius.
+fn readings(history: &History, model: &AnyModel) -> [f64; 5] {
+    [
+        history.force(),
+        history.elastic_energy(model),
+        history.dissipated_energy(model),
+        history.residual_indentation(model),
+        history.contact_radius(model),
+    ]
+}
+
+#[test]
+fn a_path_gives_the_same_however_it_is_cut() {
+    for (name, dented) in all_models(mild()) {
+        for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
+            let (mut whole, mut cut) = (pressed(&model, 0.0), pressed(&model, 0.0));
+            let deepest = pressed(&model, on_grid(200.0));
+            let largest = readings(&deepest, &model).map(f64::abs);
+            for turn in TURNS {
+                let increment = on_grid(turn) - whole.indentation();
+                advance(&mut whole, &model, increment);
+                for _ in 0..1000 {
+                    advance(&mut cut, &model, increment / 1000.0);
+                }
+                let pairs = readings(&whole, &model).into_iter().zip(readings(&cut, &model));
+                for (index, (one, thousand)) in pairs.enumerate() {
+                    // 1e-13 of the largest: the thousandth is rounded once, which moves the end by 1e-16 of the way.
+                    // The root in the contact radius makes 1e-8 of that at the residual indentation; none turns there.
+                    let size = if index < 3 { largest[index].max(largest[0] * on_grid(200.0)) } else { largest[index] };
+                    let size = if index == 0 { largest[0] } else { size };
+                    assert!(
+                        (one - thousand).abs() <= 1e-13 * size,
+                        "{name}, {:?} at {turn}, {index}: {one:e} in one step, {thousand:e} in 1000",
+                        model.surface
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn ten_million_small_steps_lose_nothing() {
+    let model = model("big-alabo", "contact-radius");
+    let steps = 10_000_000;
+    // from nothing; and steps so small beside the indentation that a plain sum would not move at all
+    for (start, step) in [(0.0, 1.1e-15), (1.0, 1.1e-17)] {
+        let mut history = pressed(&model, start);
+        for _ in 0..steps {
+            advance(&mut history, &model, step);
+        }
+        let exact = start + f64::from(steps) * step;
+        let unit = exact.next_up() - exact;
+        let ulps = (history.indentation() - exact) / unit;
+        assert!(ulps.abs() <= 4.0, "from {start}: {ulps} units in the last place off");
+        assert_eq!(history.max_indentation(), history.indentation());
+    }
+}
+
+#[test]
+fn one_step_from_apart_goes_through_the_whole_curve_and_back() {
+    for (name, model) in all_models(mild()) {
+        let mut history = History::start(&model, on_grid(7.0)).expect("within range");
+        assert_eq!((history.regime(), history.force()), (Regime::Apart, 0.0), "{name}");
+        let deep = on_grid(300.0);
+        advance(&mut history, &model, on_grid(7.0) + deep);
+        assert_eq!(history.force(), loading_force(&model, deep), "{name}");
+        assert_eq!(history.dissipated_energy(&model), pressed(&model, deep).dissipated_energy(&model), "{name}");
+        advance(&mut history, &model, -on_grid(7.0) - deep);
+        assert_eq!((history.regime(), history.force(), history.stiffness()), (Regime::Apart, 0.0, 0.0), "{name}");
+        assert_eq!(history.indentation(), -on_grid(7.0), "{name}");
+    }
+}
+
+#[test]
+fn reloading_comes_back_to_the_same_bits() {
+    for (name, model) in all_models(mild()) {
+        for x in [0.7, 1.0, 1.5, 20.0, 150.0] {
+            let mut history = pressed(&model, on_grid(x));
+            let before = history;
+            for part in [0.999, 0.75, 0.5, 0.1, -3.0] {
+                go(&mut history, &model, on_grid(part * x));
+                let halfway = history.force();
+                assert!(halfway < before.force(), "{name}: to {part} of {x}");
+                go(&mut history, &model, on_grid(0.3 * x));
+                go(&mut history, &model, on_grid(part * x));
+                assert_eq!(history.force(), halfway, "{name}: to {part} of {x}, by another way");
+                go(&mut history, &model, on_grid(x));
+                assert_eq!(history, before, "{name}: back from {part} of {x}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_negative_gap_is_an_indentation_reached_by_loading() {
+    for (name, model) in all_models(mild()) {
+        for x in [1e-9, 0.5, 1.0, 5.0, 13.93, 40.0, 82.5, 1000.0] {
+            let indentation = on_grid(x);
+            let mut loaded = pressed(&model, 0.0);
+            advance(&mut loaded, &model, indentation);
+            assert_eq!(pressed(&model, indentation), loaded, "{name} at {x}");
+        }
+    }
+}
+
+#[test]
+fn a_fresh_surface_forgets_the_dent_beyond_the_original_surface_but_not_its_energy() {
+    for (name, dented) in all_models(mild()) {
+        let fresh = AnyModel { surface: Surface::Fresh, ..dented };
+        let first = pressed(&fresh, on_grid(20.0));
+        let (lost, dent) = (first.dissipated_energy(&fresh), first.residual_indentation(&fresh));
+        let mut history = first;
+        if dent > 0.0 {
+            // parted, but not beyond the original surface: the dent is still met
+            exactly(&mut history, &fresh, 0.5 * dent);
+            assert_eq!((history.regime(), history.force()), (Regime::Apart, 0.0), "{name}");
+            exactly(&mut history, &fresh, on_grid(20.0));
+            assert_eq!(history, first, "{name}");
+        }
+        for parted in [0.0, -1e-300, -on_grid(3.0)] {
+            let mut history = first;
+            go(&mut history, &fresh, parted);
+            assert_eq!(history.dissipated_energy(&fresh), lost, "{name}: parted to {parted:e}");
+            assert_eq!((history.max_indentation(), history.residual_indentation(&fresh)), (0.0, 0.0), "{name}");
+            go(&mut history, &fresh, on_grid(10.0));
+            assert_eq!(history.force(), loading_force(&fresh, on_grid(10.0)), "{name}");
+            let second = pressed(&fresh, on_grid(10.0)).dissipated_energy(&fresh);
+            assert_eq!(history.dissipated_energy(&fresh), lost + second, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_dented_surface_keeps_its_dent() {
+    for (name, model) in all_models(mild()) {
+        let first = pressed(&model, on_grid(20.0));
+        let mut history = first;
+        go(&mut history, &model, -on_grid(1000.0));
+        assert_eq!(history.residual_indentation(&model), first.residual_indentation(&model), "{name}");
+        assert_eq!(history.dissipated_energy(&model), first.dissipated_energy(&model), "{name}");
+        go(&mut history, &model, on_grid(15.0));
+        assert_eq!(history.force(), model.unloading_segment(on_grid(20.0)).force(on_grid(15.0)), "{name}");
+    }
+}
+
+#[test]
+fn increments_that_leave_the_range_are_refused_and_change_nothing() {
+    for (name, dented) in all_models(mild()) {
+        for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
+            for path in [&[-1.0][..], &[0.5], &[20.0], &[100.0, 90.0], &[20.0, 0.1], &[20.0, -1.0, 0.5]] {
+                let mut history = pressed(&model, 0.0);
+                for &x in path {
+                    go(&mut history, &model, on_grid(x));
+                }
+                let before = history;
+                for increment in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e101, -1e101, f64::MAX, f64::MIN] {
+                    let refused = history.advance(increment, || model).expect_err("out of range").indentation;
+                    // the refused indentation is named: so far away, the increment itself
+                    assert_eq!(refused.to_bits(), increment.to_bits(), "{name}: {increment} from {path:?}");
+                    assert_eq!(history, before, "{name}: {increment} from {path:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn dissipated_energy_never_falls_along_a_long_path() {
+    for (name, dented) in all_models(mild()) {
+        for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
+            let (mut history, mut random, mut before, mut largest) = (pressed(&model, 0.0), Random(7), 0.0, 0.0_f64);
+            for _ in 0..5000 {
+                // over five decades of the yield indentation, a fifth of the turns apart
+                let x = 10f64.powf(5.0 * random.next() - 1.5) * if random.next() < 0.2 { -1.0 } else { 1.0 };
+                go(&mut history, &model, on_grid(x));
+                largest = largest.max(history.indentation());
+                let lost = history.dissipated_energy(&model);
+                // a few roundings of the energies whose difference it is, and of the sum of all the dents so far
+                let hertz = 0.4 * model.pair.hertz_stiffness() * largest.powf(2.5);
+                let rounding = 16.0 * f64::EPSILON * hertz.max(lost);
+                assert!(lost >= before - rounding, "{name}, {:?}: from {before:e} to {lost:e} at {x}", model.surface);
+                before = lost;
+            }
+            assert_eq!(before > 0.0, !corners(&model).is_empty(), "{name}: only a law that yields dissipates");
+        }
+    }
+}
+
+#[test]
+fn a_history_comes_back_from_its_words() {
+    for (name, model) in all_models(mild()) {
+        let mut history = pressed(&model, 0.0);
+        for turn in TURNS {
+            go(&mut history, &model, 1.1 * turn * unit(&model.pair).indentation);
+            let restored = History::from_words(&history.to_words()).expect("its own words");
+            assert_eq!(restored, history, "{name} at {turn}");
+            assert_eq!(restored.to_words(), history.to_words(), "{name} at {turn}");
+        }
+    }
+}
+
+#[test]
+fn words_that_are_no_history_are_refused() {
+    let words = pressed(&model("big-alabo", "contact-radius"), on_grid(20.0)).to_words();
+    assert!(History::from_words(&words).is_some());
+    for index in 0..WORDS {
+        for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut words = words;
+            words[index] = wrong.to_bits();
+            assert_eq!(History::from_words(&words), None, "word {index} is {wrong}");
+        }
+    }
+    for regime in [6, u64::MAX] {
+        let mut words = words;
+        words[WORDS - 1] = regime;
+        assert_eq!(History::from_words(&words), None, "there is no regime {regime}");
+    }
+}
+
+#[test]
+fn on_the_way_down_the_contact_radius_falls_with_the_root_of_the_recovery() {
+    for (name, model) in all_models(mild()) {
+        let mut history = pressed(&model, on_grid(20.0));
+        let (radius, dent) = (history.contact_radius(&model), history.residual_indentation(&model));
+        for part in [0.9, 0.25, 0.01] {
+            go(&mut history, &model, dent + part * (on_grid(20.0) - dent));
+            let ratio = history.contact_radius(&model) / radius;
+            // the rounding of d - d_f, a hundredth of numbers of the size of d
+            assert!((ratio / part.sqrt() - 1.0).abs() < 1e-13, "{name}: {ratio} after {part} of the recovery");
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! The sphere and the half-space of the reference tables, and every pairing of the laws.
+
+#![allow(dead_code)] // each test file uses a part of it
+
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::material::YieldPoint;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Body, History, Loading, Model, Pair, Surface};
+use std::f64::consts::PI;
+
+/// A model whose laws are chosen while the program runs.
+pub type AnyModel = Model<AnyLoading, AnyUnloading>;
+
+/// Mass of the sphere of [`mild`]: radius 5 mm, 7850 kg/m^3 [kg].
+pub const MASS: f64 = 4.0 / 3.0 * PI * 0.005 * 0.005 * 0.005 * 7850.0;
+
+/// The "mild" pair of the tables: a rigid sphere of 5 mm on steel with a yield strength of 300 MPa.
+pub fn mild() -> Pair {
+    let sphere = Body { radius: 0.005, youngs_modulus: f64::INFINITY, poissons_ratio: 0.3 };
+    let steel = Body { radius: f64::INFINITY, youngs_modulus: 206e9, poissons_ratio: 0.3 };
+    Pair::new(&sphere, &steel, 300e6).expect("a sphere on a plane touches in one point")
+}
+
+/// The unit of indentation and force of every table: the point where the mean pressure reaches 1.1 S.
+///
+/// Taken for all laws, so that Hertz, which never yields, has a scale too.
+pub fn unit(pair: &Pair) -> YieldPoint {
+    pair.yield_point(1.1)
+}
+
+/// The loading law of that name.
+pub fn loading(name: &str) -> AnyLoading {
+    let found = AnyLoading::ALL.into_iter().find(|(candidate, _)| *candidate == name);
+    found.unwrap_or_else(|| panic!("no loading law is called {name}")).1
+}
+
+/// The unloading law of that name.
+pub fn unloading(name: &str) -> AnyUnloading {
+    let found = AnyUnloading::ALL.into_iter().find(|(candidate, _)| *candidate == name);
+    found.unwrap_or_else(|| panic!("no unloading law is called {name}")).1
+}
+
+/// The mild pair with two laws of these names on a surface that keeps its dent.
+pub fn model(loading_name: &str, unloading_name: &str) -> AnyModel {
+    Model {
+        pair: mild(),
+        loading: loading(loading_name),
+        unloading: unloading(unloading_name),
+        surface: Surface::Dented,
+    }
+}
+
+/// Every loading law with every unloading law on `pair`, with a name for messages.
+pub fn all_models(pair: Pair) -> Vec<(String, AnyModel)> {
+    let mut models = Vec::new();
+    for (loading_name, loading) in AnyLoading::ALL {
+        for (unloading_name, unloading) in AnyUnloading::ALL {
+            let model = Model { pair, loading, unloading, surface: Surface::Dented };
+            models.push((format!("{loading_name} with {unloading_name}"), model));
+        }
+    }
+    models
+}
+
+/// A contact of `model` that has been loaded to `indentation` [m].
+pub fn pressed(model: &AnyModel, indentation: f64) -> History {
+    History::start(model, -indentation).expect("within range")
+}
+
+/// Moves `history` by `increment` [m], which must be within range.
+pub fn advance(history: &mut History, model: &AnyModel, increment: f64) {
+    history.advance(increment, || *model).expect("within range");
+}
+
+/// Moves `history` to `indentation` [m], up to the rounding of one sum.
+pub fn go(history: &mut History, model: &AnyModel, indentation: f64) {
+    advance(history, model, indentation - history.indentation());
+}
+
+/// Force on the loading curve [N].
+pub fn loading_force(model: &AnyModel, indentation: f64) -> f64 {
+    model.loading.segment(&model.pair, indentation).force(indentation)
+}
+
+/// The corners of the loading curve [m], in order: every end of a branch but the last.
+pub fn corners(model: &AnyModel) -> Vec<f64> {
+    let mut corners = Vec::new();
+    let mut segment = model.loading.segment(&model.pair, 0.0);
+    while segment.upper < brinell::contact::history::LARGEST_INDENTATION {
+        corners.push(segment.upper);
+        segment = model.loading.segment(&model.pair, segment.upper);
+    }
+    corners
+}
+
+/// `count` numbers from `first` to `last`, each the same multiple of the one before.
+pub fn logarithmic(first: f64, last: f64, count: usize) -> impl Iterator<Item = f64> {
+    // in logarithms throughout: the ratio of the two may overflow
+    let step = (last.ln() - first.ln()) / (count - 1) as f64;
+    (0..count).map(move |index| (first.ln() + step * index as f64).exp())
+}
+
+/// A small deterministic generator of numbers in [0, 1): PCG's output of a linear congruential state.
+///
+/// Reference: M. E. O'Neill, *PCG*, HMC-CS-2014-0905.
+pub struct Random(pub u64);
+
+impl Random {
+    /// The next number.
+    pub fn next(&mut self) -> f64 {
+        let state = self.0;
+        self.0 = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let shifted = (((state >> 18) ^ state) >> 27) as u32;
+        f64::from(shifted.rotate_right((state >> 59) as u32)) / 4_294_967_296.0
+    }
+}
+
+/// `x` yield indentations [m] on a grid of powers of two, on which sums and differences are exact.
+pub fn on_grid(x: f64) -> f64 {
+    const GRID: f64 = (1u64 << 62) as f64;
+    (x * unit(&mild()).indentation * GRID).round() / GRID
+}
+
+/// Moves to `target` [m] > 0 exactly, from one side: each step at most halves or doubles, which has no rounding.
+pub fn exactly(history: &mut History, model: &AnyModel, target: f64) {
+    while history.indentation() != target {
+        let now = history.indentation();
+        let step = if target < 0.5 * now {
+            -0.5 * now
+        } else if target > 2.0 * now {
+            now
+        } else {
+            target - now
+        };
+        advance(history, model, step);
+    }
+}
+
+/// Turning points in yield indentations: through yield, reversal, separation, a new contact, deeper than before.
+pub const TURNS: [f64; 13] = [0.5, 0.2, 3.0, 2.5, -1.0, 2.0, 40.0, 30.0, 39.0, -5.0, 100.0, 90.0, 200.0];
