@@ -1,6 +1,7 @@
 //! What can go wrong in an instance, with the data that a message needs.
 
-use crate::instance::{Phase, Settable};
+use crate::instance::Phase;
+use crate::variable::Settable;
 
 /// A refused call.
 #[derive(Clone, Copy, Debug)]

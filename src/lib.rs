@@ -42,6 +42,7 @@
 //! |---|---|
 //! | [`contact`] | the physics: not one word of FMI |
 //! | [`instance`] | co-simulation as safe Rust: phase, time, variables, step, reset |
+//! | [`variable`] | the variables that there can be |
 //! | [`scene`] | which laws and variables a unit has: written by the exporter |
 //! | `fmi2` (feature `fmu`) | the C interface, and the only `unsafe` of the library |
 //!
@@ -61,3 +62,4 @@ pub mod fault;
 pub mod fmi2;
 pub mod instance;
 pub mod scene;
+pub mod variable;

@@ -4,7 +4,8 @@
 //! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
 
 use crate::contact::{Surface, loading, unloading};
-use crate::instance::{Integer, Parameter, Real, Settable, Values};
+use crate::instance::Values;
+use crate::variable::{Integer, Parameter, Real, Settable};
 
 /// What the model description and the binary recognise each other by.
 pub const GUID: &str = "unpacked";

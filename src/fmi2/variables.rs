@@ -4,8 +4,8 @@ use super::abi::*;
 use super::component::{array, array_mut, call, component};
 use super::order::{self, Function};
 use crate::fault::Fault;
-use crate::instance::Real;
 use crate::scene;
+use crate::variable::Real;
 
 /// The Real variable with this reference.
 #[inline]

@@ -49,7 +49,8 @@ const HEAD: &str = "\
 //! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
 
 use crate::contact::{Surface, loading, unloading};
-use crate::instance::{Integer, Parameter, Real, Settable, Values};
+use crate::instance::Values;
+use crate::variable::{Integer, Parameter, Real, Settable};
 ";
 
 fn add(text: &mut String, paragraph: &str) {

@@ -121,7 +121,7 @@ fmu = []
 libm = {{ version = "={}", default-features = false, features = ["arch"] }}
 
 [profile.release]
-opt-level = 3
+opt-level = "s"
 lto = "fat"
 codegen-units = 1
 panic = "abort"

@@ -1,0 +1,73 @@
+//! The variables that a unit can have, as the library sees them; `modelDescription/variables.toml` is their table.
+
+/// A parameter that a scene can have; each scene has a value or a variable for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// `impactor.radius` [m].
+    ImpactorRadius,
+    /// `impactor.youngs_modulus` [Pa]; infinite for a rigid impactor.
+    ImpactorYoungsModulus,
+    /// `impactor.poissons_ratio`.
+    ImpactorPoissonsRatio,
+    /// `target.radius` [m]; infinite for a flat target.
+    TargetRadius,
+    /// `target.youngs_modulus` [Pa].
+    TargetYoungsModulus,
+    /// `target.poissons_ratio`.
+    TargetPoissonsRatio,
+    /// `target.yield_strength` [Pa]; infinite for an elastic contact.
+    TargetYieldStrength,
+    /// `initial_gap` [m].
+    InitialGap,
+}
+
+/// A parameter of the scene that can be set, with its limits.
+#[derive(Clone, Copy, Debug)]
+pub struct Settable {
+    /// Name of the variable.
+    pub name: &'static str,
+    /// Unit, or "".
+    pub unit: &'static str,
+    /// Value before anyone sets it.
+    pub start: f64,
+    /// Smallest value allowed.
+    pub minimum: f64,
+    /// Largest value allowed.
+    pub maximum: f64,
+}
+
+/// A variable of type Real.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Real {
+    /// The input [m/s].
+    IndentationRate,
+    /// [N]
+    Force,
+    /// [m]
+    Indentation,
+    /// [m]
+    MaxIndentation,
+    /// [m]
+    ResidualIndentation,
+    /// [m]
+    ContactRadius,
+    /// [Pa]
+    MeanPressure,
+    /// [N/m]
+    Stiffness,
+    /// [J]
+    Work,
+    /// [J]
+    ElasticEnergy,
+    /// [J]
+    DissipatedEnergy,
+    /// The settable parameter with this index in [`SETTABLE`](crate::scene::SETTABLE).
+    Parameter(usize),
+}
+
+/// A variable of type Integer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integer {
+    /// Number of the [`Regime`](crate::contact::Regime).
+    Regime,
+}
