@@ -6,28 +6,42 @@
 use quick_xml::events::{BytesStart, Event};
 use std::collections::{BTreeSet, HashMap};
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::{fs, io};
 
 /// A unit that can't be loaded, or a call that failed.
 #[derive(Debug, thiserror::Error)]
 pub enum ImportError {
-    #[error("{}: {source}", path.display())]
-    File { path: PathBuf, source: io::Error },
+    #[error("{0}")]
+    Unreadable(io::Error),
+    #[error("{name} is missing or can't be read: {source}")]
+    Part { name: &'static str, source: io::Error },
+    #[error("it can't be unpacked: {0}")]
+    Unpack(io::Error),
     #[error("it is no zip archive: {0}")]
     Zip(#[from] zip::result::ZipError),
     #[error("modelDescription.xml can't be read: {0}")]
     Xml(String),
-    #[error("there is no binary for this platform ({wanted}); there is {present}")]
+    #[error("there is no binary for this platform ({wanted}), {present}")]
     Platform { wanted: String, present: String },
-    #[error("the library can't be loaded: {0}")]
-    Library(#[from] libloading::Error),
+    #[error("the library can't be loaded: {}", chain(.0))]
+    Library(libloading::Error),
+    #[error("the library has no function {name}: {}", chain(.source))]
+    Function { name: &'static str, source: libloading::Error },
     #[error("fmi2Instantiate gave no instance: {0}")]
     Instantiate(String),
     #[error("{function} returned status {status}: {message}")]
     Call { function: &'static str, status: c_int, message: String },
     #[error("there is no variable {0}")]
     Variable(String),
+}
+
+/// An error with what caused it.
+fn chain(error: &dyn std::error::Error) -> String {
+    match error.source() {
+        Some(source) => format!("{error}: {}", chain(source)),
+        None => error.to_string(),
+    }
 }
 
 /// A variable as the model description has it.
@@ -61,14 +75,13 @@ pub struct Archive {
 impl Archive {
     /// Unpacks the unit at `path`.
     pub fn open(path: &Path) -> Result<Archive, ImportError> {
-        let file_error = |source| ImportError::File { path: path.into(), source };
-        let mut archive = zip::ZipArchive::new(fs::File::open(path).map_err(file_error)?)?;
-        let folder = tempfile::Builder::new().prefix("brinell-check-").tempdir().map_err(file_error)?;
+        let mut archive = zip::ZipArchive::new(fs::File::open(path).map_err(ImportError::Unreadable)?)?;
+        let folder = tempfile::Builder::new().prefix("brinell-check-").tempdir().map_err(ImportError::Unpack)?;
         archive.extract(folder.path())?;
         let names = archive.file_names().map(|name| Ok(name?.into_owned())).collect::<Result<Vec<_>, ImportError>>()?;
         let platform = |name: &String| Some(name.strip_prefix("binaries/")?.split('/').next()?.to_string());
         let description_path = folder.path().join("modelDescription.xml");
-        let xml_error = |source| ImportError::File { path: path.join("modelDescription.xml"), source };
+        let xml_error = |source| ImportError::Part { name: "modelDescription.xml", source };
         let description = Description::parse(&fs::read_to_string(description_path).map_err(xml_error)?)?;
         let scene = fs::read_to_string(folder.path().join("resources/scene.toml")).ok();
         Ok(Archive { description, platforms: names.iter().filter_map(platform).collect(), scene, folder })
@@ -80,11 +93,14 @@ impl Archive {
         let name = format!("{}.{extension}", self.description.identifier);
         let path = self.folder.path().join("binaries").join(folder).join(name);
         if !path.exists() {
-            let present = self.platforms.iter().cloned().collect::<Vec<_>>().join(", ");
+            let present = match self.platforms.iter().cloned().collect::<Vec<_>>().join(", ") {
+                none if none.is_empty() => "nor for any other".into(),
+                some => format!("only for {some}"),
+            };
             return Err(ImportError::Platform { wanted: folder.into(), present });
         }
         // SAFETY: loading runs the library's initializers; a unit of FMI has none that could harm.
-        Ok(Unit { library: unsafe { libloading::Library::new(path)? } })
+        Ok(Unit { library: unsafe { libloading::Library::new(path) }.map_err(ImportError::Library)? })
     }
 }
 
@@ -196,6 +212,15 @@ pub struct Instance<'a> {
 }
 
 impl Unit {
+    /// The function `name`.
+    ///
+    /// # Safety
+    /// `T` is its type.
+    unsafe fn get<T>(&self, name: &'static str) -> Result<libloading::Symbol<'_, T>, ImportError> {
+        // SAFETY: as the caller promises.
+        unsafe { self.library.get(name.as_bytes()) }.map_err(|source| ImportError::Function { name, source })
+    }
+
     /// Makes an instance.
     pub fn instantiate(&self, guid: &str) -> Result<Instance<'_>, ImportError> {
         type Instantiate = unsafe extern "C" fn(
@@ -219,18 +244,18 @@ impl Unit {
         });
         // SAFETY: the functions have the standard's signatures; strings and callbacks live long enough.
         unsafe {
-            let instantiate = self.library.get::<Instantiate>(b"fmi2Instantiate")?;
+            let instantiate = self.get::<Instantiate>("fmi2Instantiate")?;
             let mut by_name = HashMap::new();
             for name in simple {
-                by_name.insert(name, self.library.get(name.as_bytes())?);
+                by_name.insert(name, self.get(name)?);
             }
             let functions = Functions {
-                get_real: self.library.get(b"fmi2GetReal")?,
-                set_real: self.library.get(b"fmi2SetReal")?,
-                do_step: self.library.get(b"fmi2DoStep")?,
+                get_real: self.get("fmi2GetReal")?,
+                set_real: self.get("fmi2SetReal")?,
+                do_step: self.get("fmi2DoStep")?,
                 simple: by_name,
-                setup: self.library.get(b"fmi2SetupExperiment")?,
-                free: self.library.get(b"fmi2FreeInstance")?,
+                setup: self.get("fmi2SetupExperiment")?,
+                free: self.get("fmi2FreeInstance")?,
             };
             let location = c"file:///resources";
             let component =

@@ -120,18 +120,24 @@ fmu = []
 [dependencies]
 libm = {{ version = "={}", default-features = false, features = ["arch"] }}
 
-[profile.release]
-opt-level = "s"
-lto = "fat"
-codegen-units = 1
-panic = "abort"
-strip = "symbols"
-
 [workspace]
 "#,
         libm.version
     )
 }
+
+/// How the library is compiled: as small as it can be, since the few lines of a plain step are the same in any case.
+///
+/// Given on the command line, where nothing in the user's configuration stands before it.
+const PROFILE: [&str; 7] = [
+    "profile.release.opt-level='s'",
+    "profile.release.lto='fat'",
+    "profile.release.codegen-units=1",
+    "profile.release.panic='abort'",
+    "profile.release.strip='symbols'",
+    "profile.release.debug=false",
+    "profile.release.overflow-checks=false",
+];
 
 #[derive(Deserialize)]
 struct LockFile {
@@ -199,20 +205,13 @@ fn build(scene: &Scene, constants: &str, guid: &str) -> Result<Vec<u8>, ExportEr
     for (name, text) in LIBRARY_SOURCE.iter().copied().chain(own) {
         write_file(&root.join(name), text.as_bytes())?;
     }
+    let cache = Cache::lock()?;
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
-    command.current_dir(root).args(["rustc", "--release", "--lib", "--locked", "--message-format=json", "--"]);
-    command.args(link_arguments()).env("CARGO_TARGET_DIR", cache_folder());
-    // the machine's own flags must not reach the unit: the same scene gives the same bytes
-    command.env("CARGO_ENCODED_RUSTFLAGS", "").env_remove("RUSTFLAGS");
-    for name in ["CARGO_BUILD_TARGET", "RUSTC_WRAPPER", "RUSTC_WORKSPACE_WRAPPER"] {
-        command.env_remove(name);
-    }
-    for (name, _) in env::vars_os() {
-        if name.to_string_lossy().starts_with("CARGO_PROFILE_") {
-            command.env_remove(name);
-        }
-    }
+    command.current_dir(root).env("CARGO_TARGET_DIR", &cache.folder);
+    command.args(PROFILE.iter().flat_map(|setting| ["--config", setting]));
+    command.args(["rustc", "--release", "--lib", "--locked", "--message-format=json", "--"]).args(link_arguments());
+    isolate(&mut command);
     let output = command.output().map_err(ExportError::NoCargo)?;
     if !output.status.success() {
         return Err(ExportError::Build(String::from_utf8_lossy(&output.stderr).into_owned()));
@@ -225,16 +224,65 @@ fn build(scene: &Scene, constants: &str, guid: &str) -> Result<Vec<u8>, ExportEr
     };
     let missing = || ExportError::Build(format!("cargo named no library for {}", scene.name));
     let path = built.filter(is_library).flat_map(|message| message.filenames).next().ok_or_else(missing)?;
-    let library = fs::read(&path).map_err(|source| ExportError::File { path: path.clone(), source })?;
-    // what is left in the cache is `libm`; the unit itself is rebuilt in a second
-    let _ = fs::remove_file(&path);
+    let library = fs::read(&path).map_err(|source| ExportError::File { path, source })?;
+    cache.forget(guid);
     Ok(library)
 }
 
-/// Where compiled dependencies stay between exports: `BRINELL_CACHE`, or the user's cache.
+/// Keeps the user's own flags, wrappers and profiles from the unit: the same scene gives the same bytes.
+fn isolate(command: &mut Command) {
+    for name in ["CARGO_ENCODED_RUSTFLAGS", "RUSTC_WRAPPER", "RUSTC_WORKSPACE_WRAPPER"] {
+        // empty is none, and stands before the configuration
+        command.env(name, "");
+    }
+    command.env("CARGO_INCREMENTAL", "0");
+    let ours = |name: &str| {
+        name.starts_with("CARGO_PROFILE_")
+            || ["RUSTFLAGS", "RUSTC_BOOTSTRAP", "CARGO_BUILD_TARGET", "CARGO_BUILD_INCREMENTAL"].contains(&name)
+    };
+    for (name, _) in env::vars_os() {
+        if ours(&name.to_string_lossy()) {
+            command.env_remove(name);
+        }
+    }
+}
+
+/// Where compiled dependencies stay between exports; one export at a time.
+struct Cache {
+    folder: PathBuf,
+    // the lock ends when the file is closed
+    _lock: fs::File,
+}
+
+impl Cache {
+    fn lock() -> Result<Cache, ExportError> {
+        let folder = cache_folder();
+        let file_error = |source| ExportError::File { path: folder.clone(), source };
+        fs::create_dir_all(&folder).map_err(file_error)?;
+        let lock = fs::File::create(folder.join("lock")).map_err(file_error)?;
+        lock.lock().map_err(file_error)?;
+        Ok(Cache { folder, _lock: lock })
+    }
+
+    /// Removes what belongs to one unit: it is rebuilt in a second, and units would pile up. Dependencies stay.
+    fn forget(&self, guid: &str) {
+        for folder in ["release", "release/deps", "release/.fingerprint"] {
+            let Ok(entries) = fs::read_dir(self.folder.join(folder)) else { continue };
+            for path in entries.flatten().map(|entry| entry.path()) {
+                if path.file_name().is_some_and(|name| name.to_string_lossy().contains(guid)) {
+                    // what can't be removed is only in the way
+                    let _ = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+                }
+            }
+        }
+    }
+}
+
+/// `BRINELL_CACHE`, or the user's cache.
 fn cache_folder() -> PathBuf {
     if let Some(chosen) = env::var_os("BRINELL_CACHE") {
-        return chosen.into();
+        // cargo runs in another folder than the user
+        return std::path::absolute(&chosen).unwrap_or_else(|_| chosen.into());
     }
     let home = |name: &str| env::var_os(name).map(PathBuf::from);
     let base = home("XDG_CACHE_HOME").or_else(|| home("LOCALAPPDATA")).or_else(|| Some(home("HOME")?.join(".cache")));

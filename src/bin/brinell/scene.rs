@@ -61,7 +61,7 @@ struct File {
     law: Law,
     #[serde(default)]
     fmu: Fmu,
-    impact: Option<ImpactTable>,
+    impact: Option<Spanned<ImpactTable>>,
 }
 
 #[derive(Deserialize)]
@@ -134,7 +134,14 @@ impl Scene {
     /// As for [`Scene::read`].
     pub fn parse(text: String, path: &Path) -> Result<Scene, SceneError> {
         let checked = toml::from_str::<File>(&text)
-            .map_err(|error| Mistake(error.span().unwrap_or(0..0), error.message().to_string()))
+            .map_err(|error| {
+                let span = error.span().unwrap_or(0..0);
+                // the parser speaks of Rust's types and doesn't name the key: the line does
+                let message = error.message().replace("expected f64", "expected a number");
+                let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
+                let line = text[line..].lines().next().unwrap_or_default().trim();
+                Mistake(span, format!("{message} in `{line}`"))
+            })
             .and_then(check);
         match checked {
             Ok(scene) => Ok(Scene { text, ..scene }),
@@ -236,7 +243,8 @@ fn check(file: File) -> Result<Scene, Mistake> {
     let radius = *impactor.radius.get_ref();
     let steel_ball = Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 };
     let impact_is_assumed = file.impact.is_none();
-    let impact = match file.impact {
+    let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
+    let impact = match file.impact.as_ref().map(Spanned::get_ref) {
         Some(table) => {
             Impact { mass: positive("impact.mass", &table.mass)?, speed: positive("impact.speed", &table.speed)? }
         }
@@ -268,8 +276,11 @@ fn check(file: File) -> Result<Scene, Mistake> {
         return Err(Mistake(socket.span(), message));
     }
     if brinell::contact::impact::predict(&scene.model(), &scene.impact).is_none() {
-        let message = "the impact drives the bodies deeper than the law can be evaluated".to_string();
-        return Err(Mistake(0..0, message));
+        let Impact { mass, speed } = scene.impact;
+        let message = format!(
+            "the impact of mass = {mass:?} kg and speed = {speed:?} m/s drives the bodies deeper than the law can be evaluated"
+        );
+        return Err(Mistake(impact_span, message));
     }
     Ok(scene)
 }
@@ -278,10 +289,14 @@ fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
     let text = name.get_ref();
     let mut characters = text.chars();
     let begins = characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
-    if begins && characters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
+    // the name is that of a file too
+    let short = text.len() <= 100;
+    if short && begins && characters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
         return Ok(text.clone());
     }
-    let message = format!("name = {text:?} is not a C identifier: letters, digits and `_`, not beginning with a digit");
+    let message = format!(
+        "name = {text:?} is not a C identifier of at most 100 letters, digits and `_`, not beginning with a digit"
+    );
     Err(Mistake(name.span(), message))
 }
 

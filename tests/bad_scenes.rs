@@ -1,0 +1,242 @@
+//! A scene that can't be used: the message says where, what and what would be allowed, and no file is touched.
+//!
+//! In the scenes below `§` marks the place that the message must name; it is taken out before the file is written.
+
+#[path = "support/command.rs"]
+mod command;
+
+use command::{contents, empty_folder, run};
+use std::fs;
+
+/// A scene with nothing wrong in it, to be altered.
+const SCENE: &str = "\
+name = \"ball\"
+
+[impactor]
+radius = 5e-3
+
+[target]
+youngs_modulus = 206e9
+poissons_ratio = 0.3
+yield_strength = 300e6
+";
+
+/// Exports `bytes` over an old unit; gives the message, after a look that the unit is as it was.
+#[track_caller]
+fn message_of(bytes: &[u8]) -> String {
+    let folder = empty_folder();
+    fs::write(folder.path().join("scene.toml"), bytes).unwrap();
+    fs::write(folder.path().join("unit.fmu"), "an older unit").unwrap();
+    let run = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(1);
+    assert_eq!(contents(folder.path()), ["scene.toml", "unit.fmu"], "files were left");
+    assert_eq!(fs::read(folder.path().join("unit.fmu")).unwrap(), b"an older unit");
+    assert_eq!(run.out, "", "results of a job that failed");
+    run.err
+}
+
+/// Exports the good scene with `from` replaced by `to`: the message must name the marked place and contain `parts`.
+#[track_caller]
+fn refused(from: &str, to: &str, parts: &[&str]) {
+    assert!(SCENE.contains(from), "the scene has no {from:?} to alter");
+    refused_text(&SCENE.replacen(from, to, 1), parts);
+}
+
+/// Exports the good scene with `more` at its end.
+#[track_caller]
+fn refused_with(more: &str, parts: &[&str]) {
+    refused_text(&format!("{SCENE}\n{more}"), parts);
+}
+
+#[track_caller]
+fn refused_text(marked: &str, parts: &[&str]) {
+    let (before, after) = marked.split_once('§').expect("a marked place");
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+    let message = message_of(format!("{before}{after}").as_bytes());
+    let place = format!("brinell: scene.toml:{line}:{column}: ");
+    assert!(message.starts_with(&place), "not at {place}: {message}");
+    for part in parts {
+        assert!(message.contains(part), "nothing of {part:?} in: {message}");
+    }
+}
+
+#[test]
+fn the_scene_that_the_tests_alter_is_good() {
+    let folder = empty_folder();
+    fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+    run(folder.path(), ["constants", "scene.toml"]).with_status(0);
+}
+
+#[test]
+fn an_unknown_key_is_refused_in_each_table() {
+    refused(
+        "name",
+        "§colour = 1\nname",
+        &["`colour`", "`name`", "`impactor`", "`target`", "`law`", "`fmu`", "`impact`"],
+    );
+    refused("[impactor]", "[impactor]\n§mass = 1", &["`mass`", "`radius`", "`youngs_modulus`", "`poissons_ratio`"]);
+    refused("[target]", "[target]\n§density = 1", &["`density`", "`material`", "`yield_strength`", "`surface`"]);
+    refused_with("[law]\n§laoding = \"hertz\"", &["`laoding`", "`loading`", "`unloading`"]);
+    refused_with("[fmu]\n§inputs = []", &["`inputs`", "`outputs`", "`parameters`", "`initial_gap`"]);
+    refused_with("[impact]\nmass = 1\nspeed = 1\n§angle = 1", &["`angle`", "`mass`", "`speed`"]);
+}
+
+#[test]
+fn an_unknown_table_is_refused() {
+    refused_with("[§colour]\nred = 1", &["`colour`", "`law`"]);
+}
+
+#[test]
+fn an_unknown_name_is_refused_with_the_names_there_are() {
+    refused("yield_strength = 300e6", "material = §\"cheese\"", &["material", "`cheese`", "`mild steel`"]);
+    refused_with("[law]\nloading = §\"kelvin\"", &["law.loading", "`kelvin`", "`hertz`", "`big-alabo`"]);
+    refused_with("[law]\nunloading = §\"kelvin\"", &["law.unloading", "`kelvin`", "`contact-radius`", "`thornton`"]);
+    refused_with("[fmu]\noutputs = [\"work\", §\"forse\"]", &["output", "`forse`", "`force`", "`regime`"]);
+    refused_with("[fmu]\nparameters = [§\"yield\"]", &["parameter", "`yield`", "`target.yield_strength`"]);
+}
+
+#[test]
+fn an_unknown_surface_is_refused_with_its_key() {
+    refused("[target]", "[target]\nsurface = §\"old\"", &["`old`", "`dented`", "`fresh`", "surface"]);
+}
+
+/// A rigid impactor has no modulus, a flat target no radius: nothing that could be set.
+#[test]
+fn a_parameter_that_the_scene_has_not_got_cannot_be_settable() {
+    refused_with("[fmu]\nparameters = [§\"target.radius\"]", &["`target.radius`", "`impactor.radius`"]);
+    refused_with("[fmu]\nparameters = [§\"impactor.youngs_modulus\"]", &["`impactor.youngs_modulus`"]);
+}
+
+#[test]
+fn a_wrong_type_is_refused_with_its_key() {
+    refused("\"ball\"", "§3", &["name", "`3`", "a string"]);
+    refused("5e-3", "§\"5 mm\"", &["radius", "\"5 mm\""]);
+    refused("300e6", "§true", &["yield_strength", "`true`"]);
+    refused_with("[fmu]\noutputs = §\"force\"", &["outputs", "\"force\""]);
+    refused_with("[fmu]\noutputs = [§1]", &["outputs", "`1`", "a string"]);
+    refused_with("[impact]\nmass = §\"4 g\"\nspeed = 1", &["mass", "\"4 g\""]);
+}
+
+/// `f64` is a word of the program's language, not of the scene's.
+#[test]
+fn a_wrong_type_is_refused_in_the_words_of_the_user() {
+    let message = message_of(SCENE.replacen("5e-3", "\"5 mm\"", 1).as_bytes());
+    assert!(message.contains("number") && !message.contains("f64"), "{message}");
+}
+
+#[test]
+fn a_missing_key_or_table_is_refused() {
+    refused("name = \"ball\"\n", "§", &["missing", "`name`"]);
+    refused("[impactor]\nradius = 5e-3", "§[impactor]", &["missing", "`radius`"]);
+    refused("name = \"ball\"\n\n[impactor]\nradius = 5e-3\n", "§name = \"ball\"\n", &["missing", "`impactor`"]);
+    refused("[target]\nyoungs_modulus = 206e9\n", "§[target]\n", &["`youngs_modulus`", "`material`", "`mild steel`"]);
+    refused_with("§[impact]\nmass = 1", &["missing", "`speed`"]);
+}
+
+#[test]
+fn a_name_that_is_no_identifier_is_refused() {
+    for name in ["4ball", "steel ball", "", "kugelstoß", "a-b", "a/b", "../ball", "a.b"] {
+        let value = format!("{name:?}");
+        refused("\"ball\"", &format!("§{value}"), &["name = ", &value, "letters, digits and `_`"]);
+    }
+}
+
+#[test]
+fn a_number_out_of_range_is_refused_with_the_range() {
+    for (from, to, key, value) in [
+        ("5e-3", "-5e-3", "impactor.radius", "-0.005"),
+        ("5e-3", "0", "impactor.radius", "0.0"),
+        ("5e-3", "nan", "impactor.radius", "NaN"),
+        ("5e-3", "inf", "impactor.radius", "inf"),
+        ("206e9", "-206e9", "target.youngs_modulus", "-206000000000.0"),
+        ("206e9", "inf", "target.youngs_modulus", "inf"),
+        ("0.3", "0.75", "target.poissons_ratio", "0.75"),
+        ("0.3", "-1.0", "target.poissons_ratio", "-1.0"),
+        ("0.3", "nan", "target.poissons_ratio", "NaN"),
+        ("300e6", "0", "target.yield_strength", "0.0"),
+        ("300e6", "-0.0", "target.yield_strength", "-0.0"),
+        ("300e6", "nan", "target.yield_strength", "NaN"),
+        ("300e6", "inf", "target.yield_strength", "inf"),
+    ] {
+        let said = format!("{key} = {value} ");
+        refused(from, &format!("§{to}"), &[&said, "out of range", "allowed is", " to "]);
+    }
+    refused_with("[fmu]\ninitial_gap = §nan", &["initial_gap = NaN", "allowed is", "to"]);
+    refused_with("[fmu]\ninitial_gap = §1e7", &["initial_gap = 10000000.0", "allowed is", "to"]);
+}
+
+#[test]
+fn a_target_that_the_impactor_does_not_fit_is_refused() {
+    for (radius, said) in [("-4e-3", "-0.004"), ("-5e-3", "-0.005"), ("0", "0.0"), ("-0.0", "-0.0")] {
+        let said = format!("target.radius = {said} does not fit impactor.radius = 0.005");
+        refused("[target]", &format!("[target]\nradius = §{radius}"), &[&said, "wider"]);
+    }
+    refused("[target]", "[target]\nradius = §nan", &["target.radius = NaN", "allowed is"]);
+    refused("[target]", "[target]\nradius = §inf", &["target.radius = inf", "allowed is"]);
+}
+
+/// Radii are limited to 1e-12 m for the impactor; a target of 1e-300 m ended the program in a panic.
+#[test]
+fn a_target_of_no_size_is_refused() {
+    refused("[target]", "[target]\nradius = §1e-300", &["target.radius = 1e-300"]);
+    refused("[target]", "[target]\nradius = §5e-324", &["target.radius = 5e-324"]);
+}
+
+#[test]
+fn half_an_elastic_impactor_is_refused() {
+    for property in ["youngs_modulus = §70e9", "poissons_ratio = §0.3"] {
+        refused("5e-3", &format!("5e-3\n{property}"), &["impactor", "both", "`youngs_modulus`", "`poissons_ratio`"]);
+    }
+}
+
+#[test]
+fn laws_that_do_not_go_together_are_refused() {
+    refused_with("[law]\nloading = \"hertz\"\nunloading = §\"thornton\"", &["law.unloading", "thornton", "hertz"]);
+    refused("yield_strength = 300e6\n", "[law]\nloading = §\"big-alabo\"", &["big-alabo", "target.yield_strength"]);
+    refused("yield_strength = 300e6\n", "[law]\nunloading = §\"thornton\"", &["law.unloading", "thornton"]);
+}
+
+#[test]
+fn an_impact_without_motion_or_mass_is_refused() {
+    for mass in ["0", "-1.0", "nan", "inf"] {
+        refused_with(&format!("[impact]\nmass = §{mass}\nspeed = 1"), &["impact.mass = ", "positive and finite"]);
+    }
+    for speed in ["0.0", "-1.0", "nan", "inf"] {
+        refused_with(&format!("[impact]\nmass = 1\nspeed = §{speed}"), &["impact.speed = ", "positive and finite"]);
+    }
+}
+
+#[test]
+fn an_impact_too_hard_for_the_law_is_refused_with_its_numbers() {
+    refused_with("§[impact]\nmass = 1e300\nspeed = 1e200", &["impact", "mass = 1e300", "speed = 1e200", "deep"]);
+}
+
+#[test]
+fn a_file_that_is_no_toml_is_refused() {
+    refused("= 206e9", "=§= 206e9", &["="]);
+    refused("\"ball\"", "\"ball§", &["\""]);
+    refused_with("radius§", &["="]);
+    refused_with("[§impactor]\nradius = 1", &["duplicate"]);
+}
+
+#[test]
+fn a_file_that_is_not_utf_8_is_refused() {
+    let message = message_of(b"name = \"\xff\"\n");
+    assert!(message.starts_with("brinell: scene.toml: ") && message.contains("UTF-8"), "{message}");
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let folder = empty_folder();
+    let run = run(folder.path(), ["export", "no such.toml"]).with_status(1);
+    assert!(run.err.starts_with("brinell: no such.toml: ") && run.err.contains("No such file"), "{run:#?}");
+    assert!(contents(folder.path()).is_empty());
+}
+
+#[test]
+fn a_folder_instead_of_a_scene_is_named() {
+    let folder = empty_folder();
+    fs::create_dir(folder.path().join("scenes")).unwrap();
+    let run = run(folder.path(), ["export", "scenes"]).with_status(1);
+    assert!(run.err.starts_with("brinell: scenes: "), "{run:#?}");
+}

@@ -1,0 +1,193 @@
+//! `brinell check` on what is no unit, or a unit that somebody has changed: it ends with 1 and says what is wrong.
+#![cfg(target_os = "linux")]
+
+#[path = "support/command.rs"]
+mod command;
+#[path = "support/unit.rs"]
+mod unit;
+
+use command::{Run, empty_folder, run};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use tempfile::TempDir;
+
+/// Copies a unit member by member; `change` is a Python expression of `name` and `data`, None leaves the member out.
+const REPACK: &str = "
+import sys, zipfile
+source, goal, change = sys.argv[1:]
+with zipfile.ZipFile(source) as old, zipfile.ZipFile(goal, 'w', zipfile.ZIP_DEFLATED) as new:
+    for name in old.namelist():
+        data = eval(change, {'name': name, 'data': old.read(name)})
+        if data is not None:
+            new.writestr(name, data)
+";
+
+/// The unit of the default scene, changed.
+fn changed(change: &str) -> TempDir {
+    let folder = empty_folder();
+    let source = unit::export(&unit::scene("steel_ball"));
+    let mut python = Command::new("python3");
+    python.args(["-c", REPACK]).arg(&source).arg(folder.path().join("unit.fmu")).arg(change);
+    let output = python.output().expect("python3 is there");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    folder
+}
+
+/// The run of `check` on `unit.fmu` in `folder`, which must fail.
+#[track_caller]
+fn refused(folder: &Path) -> Run {
+    let run = run(folder, ["check", "unit.fmu"]).with_status(1);
+    assert!(!run.err.contains("panicked"), "{run:#?}");
+    run
+}
+
+/// The message for a unit that can't be loaded; it begins with the unit's path, and there are no results.
+#[track_caller]
+fn message(folder: &TempDir) -> String {
+    let run = refused(folder.path());
+    assert!(run.err.starts_with("brinell: unit.fmu: ") && run.out.is_empty(), "{run:#?}");
+    run.err
+}
+
+#[track_caller]
+fn contains(message: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(message.contains(part), "nothing of {part:?} in: {message}");
+    }
+}
+
+/// Otherwise the tests below could fail for the packing alone.
+#[test]
+fn a_unit_packed_again_without_change_is_still_good() {
+    run(changed("data").path(), ["check", "unit.fmu"]).with_status(0);
+}
+
+#[test]
+fn a_missing_file_is_named_once() {
+    let message = message(&empty_folder());
+    contains(&message, &["No such file"]);
+    assert_eq!(message.matches("unit.fmu").count(), 1, "{message}");
+}
+
+#[test]
+fn a_text_file_is_no_archive() {
+    let folder = empty_folder();
+    fs::write(folder.path().join("unit.fmu"), "a text").unwrap();
+    contains(&message(&folder), &["no zip archive"]);
+}
+
+#[test]
+fn an_empty_file_is_no_archive() {
+    let folder = empty_folder();
+    fs::write(folder.path().join("unit.fmu"), "").unwrap();
+    contains(&message(&folder), &["no zip archive"]);
+}
+
+#[test]
+fn half_a_unit_is_no_archive() {
+    let folder = changed("data");
+    let path = folder.path().join("unit.fmu");
+    let bytes = fs::read(&path).unwrap();
+    fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+    contains(&message(&folder), &["no zip archive"]);
+}
+
+#[test]
+fn an_archive_without_model_description_is_no_unit() {
+    contains(&message(&changed("data if name == 'model.png' else None")), &["modelDescription.xml"]);
+}
+
+#[test]
+fn a_model_description_that_is_no_xml_is_refused() {
+    let change = "b'<fmiModelDescription' if name == 'modelDescription.xml' else data";
+    contains(&message(&changed(change)), &["modelDescription.xml can't be read"]);
+}
+
+/// There is a folder for each platform; without any, the sentence must not end in the air.
+#[test]
+fn a_unit_without_library_says_so() {
+    let message = message(&changed("None if name.startswith('binaries/') else data"));
+    contains(&message, &["no binary for this platform", "64"]);
+    assert!(!message.trim_end().ends_with("there is"), "{message}");
+}
+
+#[test]
+fn a_unit_for_another_platform_says_for_which() {
+    let folder = empty_folder();
+    let source = unit::export(&unit::scene("steel_ball"));
+    let move_binary = "
+import sys, zipfile
+with zipfile.ZipFile(sys.argv[1]) as old, zipfile.ZipFile(sys.argv[2], 'w') as new:
+    for name in old.namelist():
+        parts = name.split('/')
+        if parts[0] == 'binaries':
+            parts[1] = 'commodore64'
+        new.writestr('/'.join(parts), old.read(name))
+";
+    let mut python = Command::new("python3");
+    python.args(["-c", move_binary]).arg(source).arg(folder.path().join("unit.fmu"));
+    assert!(python.status().expect("python3 is there").success());
+    contains(&message(&folder), &["no binary for this platform", "commodore64"]);
+}
+
+#[test]
+fn a_library_of_garbage_is_refused() {
+    let message = message(&changed("b'garbage' * 1000 if name.endswith('.so') else data"));
+    contains(&message, &["the library can't be loaded", "steel_ball.so"]);
+}
+
+#[test]
+fn a_library_without_the_functions_is_refused_with_the_missing_name() {
+    let change = "data.replace(b'fmi2DoStep', b'fmi2DoStop') if name.endswith('.so') else data";
+    contains(&message(&changed(change)), &["fmi2DoStep"]);
+}
+
+#[test]
+fn a_guid_other_than_the_librarys_is_refused() {
+    let change =
+        "__import__('re').sub(rb'guid=\"[^\"]*\"', b'guid=\"another\"', data) if name.endswith('.xml') else data";
+    contains(&message(&changed(change)), &["fmi2Instantiate", "fmuGUID", "modelDescription.xml"]);
+}
+
+/// The library has the start values compiled in: an editor that changes the XML changes nothing in the simulation.
+#[test]
+fn a_start_value_changed_in_the_xml_is_told_with_both_numbers() {
+    let change = "data.replace(b'start=\"0.005\"', b'start=\"0.006\"') if name.endswith('.xml') else data";
+    let run = refused(changed(change).path());
+    contains(&run.out, &["impactor.radius", "0.006 in the XML", "0.005 in the binary"]);
+}
+
+#[test]
+fn a_start_value_changed_by_its_last_bit_is_told() {
+    let change =
+        "data.replace(b'start=\"0.005\"', b'start=\"0.0050000000000000010\"') if name.endswith('.xml') else data";
+    contains(&refused(changed(change).path()).out, &["impactor.radius", "0.005 in the binary"]);
+}
+
+#[test]
+fn a_wrong_start_value_is_in_the_json_too() {
+    let folder = changed("data.replace(b'start=\"0.005\"', b'start=\"0.006\"') if name.endswith('.xml') else data");
+    let outcome = run(folder.path(), ["check", "unit.fmu", "--json"]).with_status(1).json();
+    assert_eq!(outcome["passed"], false);
+    assert_eq!(outcome["wrong_starts"].as_array().map(Vec::len), Some(1), "{outcome}");
+}
+
+/// The numbers of the impact come from the scene, those of the simulation from the library.
+#[test]
+fn a_scene_other_than_the_librarys_does_not_agree() {
+    let change = "data.replace(b'unloading = \"contact-radius\"', b'unloading = \"hertz-shift\"') if name.endswith('.toml') else data";
+    let run = refused(changed(change).path());
+    contains(&run.out, &["DO NOT AGREE"]);
+}
+
+#[test]
+fn a_unit_without_scene_says_that_there_is_no_impact_to_run() {
+    contains(&message(&changed("None if name.endswith('scene.toml') else data")), &["resources/scene.toml"]);
+}
+
+#[test]
+fn a_scene_damaged_in_the_archive_is_refused_with_its_place() {
+    let change = "b'name = 1' if name.endswith('scene.toml') else data";
+    contains(&message(&changed(change)), &["resources/scene.toml:1:8", "a string"]);
+}

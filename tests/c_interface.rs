@@ -1,0 +1,118 @@
+//! The unit under a C program that is compiled against the standard's headers: see `tests/c/driver.c`.
+//!
+//! What a C importer can do wrong, and what it may rely on, is said best in C; this file compiles the program, runs it
+//! on the unit of the default scene, and reads its list of checks.
+#![cfg(all(target_os = "linux", target_env = "gnu"))]
+
+#[path = "support/python.rs"]
+mod python;
+#[path = "support/unit.rs"]
+mod unit;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::LazyLock;
+
+/// The files of the program.
+const SOURCES: [&str; 5] = ["driver.c", "null_pointers.c", "instances.c", "memory.c", "counting.c"];
+
+/// Checks that the program makes at least: fewer would mean that it ended early, or that a part isn't called.
+const CHECKS: usize = 130;
+
+/// Those of them that count allocations.
+const COUNTS: usize = 8;
+
+/// The status that valgrind gives for an error of its own.
+const VALGRIND_ERROR: i32 = 9;
+
+/// The folder of the standard's headers: fmpy brings them.
+fn headers() -> String {
+    let program = "import fmpy, os; print(os.path.join(os.path.dirname(fmpy.__file__), 'c-code'))";
+    let output = Command::new(python::python()).args(["-c", program]).output().expect("python can be started");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8_lossy(&output.stdout).trim().into()
+}
+
+/// Compiles the program as `name`, with `options` of its own.
+fn compile(name: &str, options: &[&str]) -> PathBuf {
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/c");
+    let mut compiler = Command::new("cc");
+    compiler.args(["-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-pthread"]);
+    // no function of the program may be replaced by what the compiler knows of calloc and free
+    compiler.args(["-rdynamic", "-fno-builtin-malloc", "-fno-builtin-calloc", "-fno-builtin-free", "-I"]);
+    compiler.arg(headers()).args(options).arg("-o").arg(&program);
+    compiler.args(SOURCES.map(|source| folder.join(source))).args(["-ldl", "-lm"]);
+    let output = compiler.output().expect("there is a C compiler");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    program
+}
+
+/// The program's arguments: the library, its GUID, and four value references.
+static ARGUMENTS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let library = unit::library(&unit::export(&unit::scene("steel_ball")));
+    let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+    let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
+    let guid = attribute(&description, "guid").expect("a unit has a GUID");
+    let variables = ["indentation_rate", "force", "target.yield_strength", "regime"];
+    let references = variables.map(|name| {
+        let mut elements = description.split("<ScalarVariable").skip(1);
+        let element = elements.find(|element| attribute(element, "name") == Some(name));
+        let element = element.unwrap_or_else(|| panic!("the unit has no {name}"));
+        attribute(element, "valueReference").expect("every variable has a reference")
+    });
+    let path = library.to_str().expect("a path of plain characters");
+    [path, guid].into_iter().chain(references).map(str::to_string).collect()
+});
+
+fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
+    element.split_once(&format!(" {name}=\""))?.1.split('"').next()
+}
+
+/// Looks through the list of checks; gives their number.
+#[track_caller]
+fn assert_good(output: &Output) -> usize {
+    let list = String::from_utf8_lossy(&output.stdout);
+    let failed: Vec<_> = list.lines().filter(|line| !line.starts_with("ok ")).collect();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(failed.is_empty() && output.status.success(), "{}: {failed:#?}\n{errors}", output.status);
+    list.lines().count()
+}
+
+#[test]
+fn a_c_program_finds_everything_in_order() {
+    let program = compile("driver", &[]);
+    let output = Command::new(program).args(&*ARGUMENTS).output().expect("the program was compiled");
+    let checks = assert_good(&output);
+    assert!(checks >= CHECKS, "only {checks} checks:\n{}", String::from_utf8_lossy(&output.stdout));
+    let counts = String::from_utf8_lossy(&output.stdout).lines().filter(|line| line.contains("memory")).count();
+    assert!(counts >= COUNTS, "allocations were not counted");
+}
+
+#[test]
+fn valgrind_finds_no_wrong_access_and_no_leak() {
+    if Command::new("valgrind").arg("--version").output().is_err() {
+        println!("skipped: there is no valgrind");
+        return;
+    }
+    let program = compile("driver-for-valgrind", &["-DNO_COUNTING"]);
+    let mut valgrind = Command::new("valgrind");
+    valgrind.arg(format!("--error-exitcode={VALGRIND_ERROR}")).args(["--leak-check=full", "--quiet"]);
+    let output = valgrind.arg(program).args(&*ARGUMENTS).output().expect("valgrind is there");
+    let checks = assert_good(&output);
+    assert!(checks >= CHECKS - 2 * COUNTS, "only {checks} checks:\n{}", String::from_utf8_lossy(&output.stdout));
+}
+
+/// The program must be able to fail: here the library is another one than its arguments say.
+#[test]
+fn the_c_program_fails_for_a_wrong_guid_and_a_wrong_reference() {
+    let program = compile("driver-that-fails", &[]);
+    for (place, wrong) in [(1, "another"), (3, "1000000"), (2, "1")] {
+        let mut arguments = ARGUMENTS.clone();
+        arguments[place] = wrong.into();
+        let output = Command::new(&program).args(arguments).output().expect("the program was compiled");
+        assert!(!output.status.success(), "argument {place} = {wrong}");
+        assert!(String::from_utf8_lossy(&output.stdout).contains("FAIL "), "argument {place} = {wrong}");
+    }
+}

@@ -1,0 +1,119 @@
+//! The library inside a unit, as bytes: small, self-sufficient, and silent about where it was built.
+#![cfg(target_os = "linux")]
+
+#[path = "support/unit.rs"]
+mod unit;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Largest size of a library [bytes].
+const LARGEST: u64 = 40_000;
+
+fn libraries() -> Vec<PathBuf> {
+    unit::scenes().iter().map(|scene| unit::library(&unit::export(scene))).collect()
+}
+
+/// Standard output of a tool of binutils; None, with a word about it, if it isn't there.
+fn tool(name: &str, arguments: &[&str], library: &Path) -> Option<String> {
+    let Ok(output) = Command::new(name).args(arguments).arg(library).output() else {
+        println!("skipped: there is no {name}");
+        return None;
+    };
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    Some(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+fn contains(bytes: &[u8], text: &str) -> bool {
+    bytes.windows(text.len()).any(|window| window == text.as_bytes())
+}
+
+#[test]
+fn it_is_small() {
+    for library in libraries() {
+        let size = fs::metadata(&library).unwrap().len();
+        assert!(size < LARGEST, "{}: {size} bytes", library.display());
+    }
+}
+
+#[test]
+fn it_exports_the_34_functions_and_nothing_else() {
+    for library in libraries() {
+        let Some(symbols) = tool("nm", &["-D", "--defined-only"], &library) else { return };
+        let names: Vec<_> = symbols.lines().filter_map(|line| line.rsplit(' ').next()).collect();
+        assert!(names.iter().all(|name| name.starts_with("fmi2")), "{names:?}");
+        assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), 34, "{names:?}");
+        assert_eq!(names.len(), 34, "{names:?}");
+    }
+}
+
+/// Nothing but memory, and what compilers make of loops over it; above all nothing that panics.
+#[test]
+fn it_takes_only_memory_functions_from_the_process() {
+    let allowed = ["calloc", "free", "memcpy", "memmove", "memset", "memcmp", "bcmp", "strlen"];
+    for library in libraries() {
+        let Some(symbols) = tool("nm", &["-D", "--undefined-only"], &library) else { return };
+        let names: Vec<_> = symbols.lines().filter_map(|line| line.rsplit(' ').next()).collect();
+        assert!(names.contains(&"calloc"), "the list is that of another file: {names:?}");
+        assert!(names.iter().all(|name| allowed.contains(name)), "{names:?}");
+    }
+}
+
+/// Otherwise it would load only where the C library is of the same kind, and as new as on the machine that built it.
+#[test]
+fn it_needs_no_library_and_no_version_of_a_symbol() {
+    for library in libraries() {
+        let Some(dynamic) = tool("readelf", &["-dW"], &library) else { return };
+        assert!(dynamic.contains("SYMTAB"), "no dynamic section: {dynamic}");
+        for entry in ["NEEDED", "VERNEED", "RPATH", "RUNPATH", "TEXTREL", "INIT", "FINI"] {
+            assert!(!dynamic.contains(&format!("({entry}")), "{entry} in {dynamic}");
+        }
+    }
+}
+
+/// An executable stack would have the loader make that of the whole process executable, or refuse.
+#[test]
+fn its_stack_is_not_executable() {
+    for library in libraries() {
+        let Some(segments) = tool("readelf", &["-lW"], &library) else { return };
+        let stack = segments.lines().find(|line| line.contains("GNU_STACK")).expect("a stack segment");
+        assert!(stack.contains(" RW "), "{stack}");
+    }
+}
+
+#[test]
+fn it_holds_no_path_of_the_machine_that_built_it() {
+    for library in libraries() {
+        let bytes = fs::read(&library).unwrap();
+        let temporary = std::env::temp_dir();
+        for path in ["/home", "/root", "/rustc/", "rustc/", ".cargo", "registry", env!("CARGO_MANIFEST_DIR")] {
+            assert!(!contains(&bytes, path), "{path:?} in {}", library.display());
+        }
+        assert!(!contains(&bytes, &format!("{}/", temporary.display())), "{} in the library", temporary.display());
+        assert!(contains(&bytes, "fmi2DoStep"), "the search would find nothing at all");
+    }
+}
+
+/// What a scene doesn't ask for is neither in the XML nor in the binary.
+#[test]
+fn an_elastic_unit_has_nothing_plastic() {
+    let [elastic, plastic] = ["elastic", "steel_ball"].map(|name| unit::library(&unit::export(&unit::scene(name))));
+    let size = |library: &Path| fs::metadata(library).unwrap().len() as f64;
+    assert!(size(&elastic) < 0.9 * size(&plastic), "{} against {} bytes", size(&elastic), size(&plastic));
+    let description = |library: &Path| {
+        let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+        fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library")
+    };
+    assert!(description(&plastic).contains("yield_strength"));
+    assert!(!description(&elastic).contains("yield_strength"));
+    assert!(!contains(&fs::read(&elastic).unwrap(), "yield_strength"));
+}
+
+/// The library of a scene whose every parameter is a constant holds no name of one.
+#[test]
+fn a_parameter_that_is_a_constant_is_not_in_the_library() {
+    let bytes = fs::read(unit::library(&unit::export(&unit::scene("elastic")))).unwrap();
+    assert!(!contains(&bytes, "youngs_modulus") && !contains(&bytes, "initial_gap"));
+}

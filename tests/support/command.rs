@@ -1,0 +1,78 @@
+//! The program as a user runs it, each test in a folder of its own.
+#![allow(dead_code, reason = "each test file uses what it needs")]
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tempfile::TempDir;
+
+/// What a run of the program gave.
+#[derive(Debug)]
+pub struct Run {
+    pub status: Option<i32>,
+    pub out: String,
+    pub err: String,
+}
+
+impl Run {
+    /// The run, if it ended with `status`.
+    #[track_caller]
+    pub fn with_status(self, status: i32) -> Run {
+        assert_eq!(self.status, Some(status), "wrong exit status of {self:#?}");
+        self
+    }
+
+    /// The one JSON document on standard output.
+    #[track_caller]
+    pub fn json(&self) -> serde_json::Value {
+        serde_json::from_str(&self.out).unwrap_or_else(|error| panic!("no JSON ({error}): {self:#?}"))
+    }
+}
+
+/// The program, which will run in `folder` with a cache that is not the user's.
+pub fn brinell(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    command.current_dir(folder).env("BRINELL_CACHE", cache());
+    command
+}
+
+/// The cache of the tests.
+pub fn cache() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
+}
+
+/// Runs `command` to its end.
+#[track_caller]
+pub fn output(command: &mut Command) -> Run {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?} can't be started: {error}"));
+    Run {
+        status: output.status.code(),
+        out: String::from_utf8_lossy(&output.stdout).into_owned(),
+        err: String::from_utf8_lossy(&output.stderr).into_owned(),
+    }
+}
+
+/// Runs the program in `folder` with `arguments`.
+#[track_caller]
+pub fn run<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = A>) -> Run {
+    output(brinell(folder).args(arguments))
+}
+
+/// An empty folder.
+pub fn empty_folder() -> TempDir {
+    tempfile::tempdir().expect("a folder for temporary files")
+}
+
+/// The names of what is in `folder`, hidden files too.
+pub fn contents(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a readable folder");
+    let mut names: Vec<_> = entries.map(|e| e.expect("a readable folder").file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// A scene file of the project by its name without `.toml`.
+pub fn scene(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml")
+}
