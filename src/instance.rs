@@ -209,7 +209,7 @@ impl Instance {
             return Err(Fault::StepSize { step });
         }
         let rounding = TIME_ROUNDING * (time.abs() + self.time.abs());
-        let follows = (time - self.time).abs() <= TIME_TOLERANCE * step + rounding;
+        let follows = time.is_finite() && (time - self.time).abs() <= TIME_TOLERANCE * step + rounding;
         if !follows {
             return Err(Fault::CommunicationPoint { given: time, expected: self.time });
         }

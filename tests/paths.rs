@@ -71,6 +71,19 @@ fn a_hundred_million_small_steps_lose_nothing() {
 }
 
 #[test]
+fn what_a_step_much_larger_than_the_indentation_rounds_away_is_kept() {
+    let model = model("big-alabo", "contact-radius");
+    // half a unit in the last place of 1
+    let half = 0.5 * f64::EPSILON;
+    let mut history = pressed(&model, 0.4 * half);
+    advance(&mut history, &model, 1.0);
+    assert_eq!(history.indentation(), 1.0);
+    // together more than half a unit, each alone less
+    advance(&mut history, &model, 0.7 * half);
+    assert_eq!(history.indentation(), 1.0f64.next_up());
+}
+
+#[test]
 fn one_step_from_apart_goes_through_the_whole_curve_and_back() {
     for (name, model) in all_models(mild()) {
         let mut history = History::start(&model, on_grid(7.0)).expect("within range");
@@ -172,6 +185,26 @@ fn increments_that_leave_the_range_are_refused_and_change_nothing() {
                     // the refused indentation is named: so far away, the increment itself
                     assert_eq!(refused.to_bits(), increment.to_bits(), "{name}: {increment} from {path:?}");
                     assert_eq!(history, before, "{name}: {increment} from {path:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_range_has_the_same_end_however_it_is_reached() {
+    use brinell::contact::history::LARGEST_INDENTATION;
+    for (name, dented) in all_models(mild()) {
+        for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
+            assert!(History::start(&model, LARGEST_INDENTATION).is_err(), "{name}: started there");
+            for x in [-1.0, 0.5, 20.0] {
+                // one step to zero first, so that the next one ends exactly at the border
+                let mut history = pressed(&model, on_grid(x));
+                go(&mut history, &model, 0.0);
+                let before = history;
+                for increment in [-LARGEST_INDENTATION, LARGEST_INDENTATION] {
+                    assert!(history.advance(increment, || model).is_err(), "{name}: {increment:e} after {x}");
+                    assert_eq!(history, before, "{name}: {increment:e} after {x}");
                 }
             }
         }

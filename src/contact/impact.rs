@@ -49,7 +49,7 @@ impl Prediction {
 
 /// The impact of `impact` on an untouched contact: `W(d_m) = m v^2/2`, rebound energy the work given back on unloading.
 ///
-/// `None` if mass or speed aren't positive and finite, or the indentation would leave [`LARGEST_INDENTATION`].
+/// `None` if mass or speed aren't positive and finite, the energy is below the smallest normal number, or the indentation would leave [`LARGEST_INDENTATION`].
 ///
 /// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 11.5; the energy balance is that of section 4 of
 /// A. Big-Alabo et al., *Computers & Structures* 151 (2015) 20-29, with the root found to rounding.
@@ -59,6 +59,10 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
         return None;
     }
     let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+    // below it an energy has lost digits already
+    if energy < f64::MIN_POSITIVE {
+        return None;
+    }
     let max_indentation = indentation_of_work(model, energy)?;
     let unloading = model.unloading_segment(max_indentation);
     let rebound_energy = unloading.work(max_indentation);

@@ -3,7 +3,7 @@
 /// A sum of many small increments, carried to twice the precision of `f64`.
 ///
 /// `value` is the sum rounded to `f64`, `rest` what the rounding left. After 1e8 steps the value is off by no more than a
-/// few units in the last place, however small an increment is beside it.
+/// few units in the last place of the largest sum on the way, however small an increment is beside it.
 ///
 /// Reference: D. E. Knuth, *The Art of Computer Programming*, vol. 2, section 4.2.2, theorem B (the exact error of a sum).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,0 +1,130 @@
+//! Units in the hands of fmpy, the importer that most Python users have: one test for each file in tests/fmpy/.
+//!
+//! The units are exported by the program as a user would do it. The files can be run alone, too: see [`pytest`].
+
+#[path = "support/python.rs"]
+mod python;
+#[path = "support/unit.rs"]
+mod unit;
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use unit::{export, scene, scenes, write_scene};
+
+/// Runs tests/fmpy/`file` with the units of `scenes`, whose paths it finds as JSON in the variable BRINELL_TEST_UNITS,
+/// by the name of the scene.
+fn pytest(file: &str, scenes: &[PathBuf]) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmpy");
+    assert!(folder.join(file).is_file(), "there is no tests/fmpy/{file}");
+    let units: HashMap<_, _> =
+        scenes.iter().map(|scene| (scene.file_stem().unwrap().to_string_lossy(), export(scene))).collect();
+    let output = Command::new(python::python())
+        .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
+        .current_dir(folder)
+        .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
+        // nothing is left behind in the source tree
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .output()
+        .expect("the virtual environment has an interpreter");
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{file} failed:\n{text}");
+    println!("{text}");
+}
+
+fn steel_ball() -> [PathBuf; 1] {
+    [scene("steel_ball")]
+}
+
+/// The case of the reference tables: a rigid sphere of 5 mm on E = 206 GPa, nu = 0.3, S = 300 MPa.
+fn reference_case(name: &str, unloading: &str, surface: &str) -> PathBuf {
+    let text = format!(
+        r#"
+name = "{name}"
+impactor = {{ radius = 5e-3 }}
+target = {{ youngs_modulus = 206e9, poissons_ratio = 0.3, yield_strength = 300e6, surface = "{surface}" }}
+law = {{ loading = "big-alabo", unloading = "{unloading}" }}
+fmu = {{ outputs = ["indentation", "max_indentation", "residual_indentation", "dissipated_energy", "work", "regime"] }}
+"#
+    );
+    write_scene(name, &text)
+}
+
+#[test]
+fn the_model_description_is_valid() {
+    pytest("test_model_description_is_valid.py", &scenes());
+}
+
+#[test]
+fn values_before_the_first_step_are_those_of_the_model_description() {
+    pytest("test_initial_values.py", &scenes());
+}
+
+#[test]
+fn parameters_are_taken_within_their_limits_and_nowhere_else() {
+    pytest("test_parameter_limits.py", &scenes());
+}
+
+#[test]
+fn parameters_take_effect_whenever_they_may_be_set() {
+    pytest("test_parameters_take_effect.py", &steel_ball());
+}
+
+#[test]
+fn a_prescribed_history_gives_the_tabulated_forces() {
+    let closures = ["contact-radius", "thornton", "original-radius"];
+    let scenes = closures.map(|closure| reference_case(&closure.replace('-', "_"), closure, "dented"));
+    pytest("test_prescribed_history.py", &scenes);
+}
+
+#[test]
+fn a_contact_that_has_opened_closes_again_where_its_surface_says() {
+    let scenes =
+        [reference_case("dented", "contact-radius", "dented"), reference_case("fresh", "contact-radius", "fresh")];
+    pytest("test_contact_closes_again.py", &scenes);
+}
+
+#[test]
+fn a_restored_state_continues_with_the_same_bits() {
+    pytest("test_state_is_restored.py", &scenes());
+}
+
+#[test]
+fn damaged_and_foreign_states_are_refused() {
+    pytest("test_damaged_state_is_refused.py", &[scene("steel_ball"), scene("everything")]);
+}
+
+#[test]
+fn steps_are_checked_without_pedantry() {
+    pytest("test_steps.py", &steel_ball());
+}
+
+#[test]
+fn inputs_are_finite_and_so_are_outputs() {
+    pytest("test_inputs.py", &scenes());
+}
+
+#[test]
+fn calls_out_of_order_and_wrong_references_are_refused() {
+    pytest("test_call_order.py", &steel_ball());
+}
+
+#[test]
+fn messages_are_complete_and_only_where_something_is_wrong() {
+    pytest("test_messages.py", &steel_ball());
+}
+
+#[test]
+fn many_instances_and_threads_do_not_disturb_each_other() {
+    pytest("test_many_instances.py", &steel_ball());
+}
+
+#[test]
+fn simulate_fmu_runs_with_its_defaults() {
+    pytest("test_simulate_fmu.py", &scenes());
+}
+
+#[test]
+fn the_python_of_the_readme_runs() {
+    pytest("test_readme.py", &steel_ball());
+}

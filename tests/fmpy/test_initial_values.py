@@ -1,0 +1,100 @@
+"""Values before the first step: those of the model description, and dependent on what it says."""
+
+import math
+
+import pytest
+from unit import bits, paths, unit
+
+every_unit = pytest.mark.parametrize("name", sorted(paths()))
+
+
+def initializing(name, **parameters):
+    instance = unit(name).instance()
+    instance.setup()
+    instance.call("EnterInitializationMode")
+    instance.set(**parameters)
+    return instance
+
+
+@every_unit
+def test_start_values_are_the_same_bits_in_the_xml_and_in_the_binary(name):
+    instance = initializing(name)
+    variables = unit(name).variables
+    starts = {key: float(variables[key].start) for key in variables if variables[key].start is not None}
+    assert starts, "at least the input has a start value"
+    for key, start in starts.items():
+        assert bits(instance.get(key)) == bits(start), key
+
+
+@every_unit
+def test_no_output_is_a_negative_zero(name):
+    # a gap of 0 must not show as an indentation of -0.0
+    for instance in (initializing(name), unit(name).ready()):
+        for key, value in instance.outputs().items():
+            assert bits(value) != bits(-0.0), key
+
+
+def test_a_negative_zero_as_gap_is_an_indentation_of_zero():
+    for name in paths():
+        if "initial_gap" in unit(name).parameters and "indentation" in unit(name).outputs:
+            assert bits(initializing(name, initial_gap=-0.0).get("indentation")) == bits(0.0)
+
+
+def dependencies(name):
+    """The parameters that each output depends on before the first step, by the model description."""
+    return {
+        unknown.variable.name: {dependency.name for dependency in unknown.dependencies}
+        for unknown in unit(name).description.initialUnknowns
+    }
+
+
+def bases(name):
+    """Parameters to start from: pressed in from below yield up to fully plastic, since a contact that is apart shows
+    nothing. They are closer to each other than the smallest variation moves the first yield, so that `regime` shows
+    each of them."""
+    if "initial_gap" not in unit(name).parameters:
+        return [{}]
+    return [{"initial_gap": 1e-3}] + [{"initial_gap": -1e-8 * 1.04**power} for power in range(240)]
+
+
+def variations(name, key, base):
+    start = base.get(key, float(unit(name).variables[key].start))
+    return [start * factor for factor in (0.9, 1.4)] if start != 0.0 else [1e-6, -1e-6]
+
+
+def changes(name):
+    """For each parameter the outputs that change with it at one of the bases, in Initialization Mode and after it."""
+    changed = {key: set() for key in unit(name).parameters}
+    for base in bases(name):
+        reference = initializing(name, **base)
+        before = reference.outputs()
+        reference.call("ExitInitializationMode")
+        after = reference.outputs()
+        assert {key: bits(value) for key, value in before.items()} == {key: bits(value) for key, value in after.items()}
+        for key in changed:
+            for value in variations(name, key, base):
+                varied = initializing(name, **{**base, key: value}).outputs()
+                changed[key] |= {output for output in varied if bits(varied[output]) != bits(before[output])}
+    return changed
+
+
+@every_unit
+def test_initial_values_depend_on_exactly_what_the_model_description_lists(name):
+    listed, changed = dependencies(name), changes(name)
+    assert listed.keys() == set(unit(name).outputs)
+    for output in listed:
+        really = {key for key in changed if output in changed[key]}
+        assert really == listed[output], output
+
+
+@every_unit
+def test_outputs_are_finite_before_the_first_step(name):
+    assert all(math.isfinite(value) for value in unit(name).ready().outputs().values())
+
+
+@every_unit
+def test_initial_outputs_do_not_follow_the_input(name):
+    instance = initializing(name)
+    before = instance.outputs()
+    instance.set(indentation_rate=0.5)
+    assert instance.outputs() == before

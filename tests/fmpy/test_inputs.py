@@ -1,0 +1,82 @@
+"""Inputs: what isn't a finite number is refused, and no input makes an output that isn't one."""
+
+import ctypes
+import math
+
+import pytest
+from unit import DISCARD, ERROR, OK, bits, paths, unit
+
+every_unit = pytest.mark.parametrize("name", sorted(paths()))
+
+
+@every_unit
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_an_input_that_is_not_finite_is_refused(name, value):
+    instance = unit(name).ready()
+    instance.step(1e-6, 0.5)
+    assert instance.try_set("indentation_rate", value) in (DISCARD, ERROR)
+    assert "indentation_rate" in instance.log[0][3]
+    # the old value stays
+    assert instance.get("indentation_rate") == 0.5
+    assert all(math.isfinite(output) for output in instance.outputs().values())
+
+
+@every_unit
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("size", [1e308, 1.7976931348623157e308, 1e200, 1e105, 1e99, 1e30, 1e12])
+def test_a_huge_input_gives_finite_outputs_or_an_error(name, size, sign):
+    for step in (1e-6, 1.0, 1e6):
+        instance = unit(name).ready()
+        instance.step(1e-6, 0.5)
+        before = {key: bits(value) for key, value in instance.outputs().items()}
+        status = instance.try_set("indentation_rate", sign * size)
+        if status == OK:
+            status = instance.try_step(instance.time, step)
+        assert status in (OK, ERROR)
+        outputs = instance.outputs()
+        assert all(math.isfinite(output) for output in outputs.values()), outputs
+        if status == ERROR:
+            assert instance.log != []
+            assert {key: bits(value) for key, value in outputs.items()} == before, "a refused step changes nothing"
+
+
+@every_unit
+def test_an_indentation_beyond_the_law_is_an_error(name):
+    instance = unit(name).ready()
+    instance.set(indentation_rate=1e308)
+    assert instance.try_step(0.0, 1.0) == ERROR
+    assert "indentation" in instance.log[0][3]
+
+
+@every_unit
+def test_back_from_a_huge_indentation_the_force_is_that_of_the_law(name):
+    instance = unit(name).ready()
+    instance.step(1.0, 1e20)
+    instance.step(1.0, -2e20)
+    assert instance.get("force") == 0.0
+    assert all(math.isfinite(output) for output in instance.outputs().values())
+
+
+@every_unit
+@pytest.mark.parametrize("value", [5e-324, -5e-324, 1e-310, 0.0, -0.0])
+def test_denormal_and_zero_inputs_are_harmless(name, value):
+    instance = unit(name).ready()
+    instance.step(1e-6, 0.5)
+    force = instance.get("force")
+    instance.step(1e-6, value)
+    assert instance.get("force") == force
+    assert instance.log == []
+
+
+@every_unit
+def test_a_refused_array_sets_nothing(name):
+    parameters = unit(name).parameters
+    if not parameters:
+        pytest.skip("the input alone can be set")
+    instance = unit(name).instance()
+    instance.setup()
+    instance.call("EnterInitializationMode")
+    references = [unit(name).reference[key] for key in ("indentation_rate", parameters[0])]
+    values = (ctypes.c_double * 2)(0.125, math.nan)
+    assert instance.try_("SetReal", (ctypes.c_uint * 2)(*references), 2, values) in (DISCARD, ERROR)
+    assert instance.get("indentation_rate") == 0.0

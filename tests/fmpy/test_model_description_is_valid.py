@@ -1,0 +1,147 @@
+"""The model description obeys the schema and the rules behind it."""
+
+import re
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pytest
+from fmpy.validation import validate_fmu
+from lxml import etree
+from unit import paths, unit
+
+every_unit = pytest.mark.parametrize("name", sorted(paths()))
+
+# unit: SI exponents, display units with the factor of FMI 2.0 (display value = factor * value in base units)
+UNITS = {
+    "m": ({"m": 1}, {"mm": 1e3, "um": 1e6}),
+    "m/s": ({"m": 1, "s": -1}, {}),
+    "N": ({"kg": 1, "m": 1, "s": -2}, {"kN": 1e-3}),
+    "Pa": ({"kg": 1, "m": -1, "s": -2}, {"MPa": 1e-6, "GPa": 1e-9}),
+    "N/m": ({"kg": 1, "s": -2}, {}),
+    "N.s": ({"kg": 1, "m": 1, "s": -1}, {}),
+    "kg": ({"kg": 1}, {}),
+    "J": ({"kg": 1, "m": 2, "s": -2}, {}),
+}
+
+
+def xml(name):
+    with zipfile.ZipFile(paths()[name]) as archive:
+        return etree.fromstring(archive.read("modelDescription.xml"))
+
+
+@every_unit
+def test_the_xml_obeys_the_official_schema(name):
+    schema = Path(fmpy.__file__).parent / "schema" / "fmi2" / "fmi2ModelDescription.xsd"
+    etree.XMLSchema(file=str(schema)).assertValid(xml(name))
+
+
+@every_unit
+def test_fmpy_finds_no_problem(name):
+    assert validate_fmu(paths()[name]) == []
+
+
+@every_unit
+def test_the_library_is_where_the_model_identifier_says(name):
+    identifier = xml(name).find("CoSimulation").get("modelIdentifier")
+    with zipfile.ZipFile(paths()[name]) as archive:
+        libraries = [entry for entry in archive.namelist() if entry.startswith("binaries/")]
+    assert libraries and all(Path(library).stem == identifier for library in libraries)
+
+
+@every_unit
+def test_every_unit_of_measurement_is_defined_by_its_si_exponents(name):
+    description = xml(name)
+    defined = {element.get("name"): element for element in description.iter("Unit")}
+    used = {real.get("unit") for real in description.iter("Real")} - {None}
+    assert used <= defined.keys()
+    for unit_name, element in defined.items():
+        exponents, display = UNITS[unit_name]
+        assert {key: int(value) for key, value in element.find("BaseUnit").items()} == exponents
+        shown = {entry.get("name"): float(entry.get("factor")) for entry in element.iter("DisplayUnit")}
+        assert display.items() <= shown.items()
+
+
+@every_unit
+def test_a_display_unit_is_one_of_its_unit(name):
+    description = xml(name)
+    shown = {
+        element.get("name"): {entry.get("name") for entry in element.iter("DisplayUnit")}
+        for element in description.iter("Unit")
+    }
+    for real in description.iter("Real"):
+        if real.get("displayUnit") is not None:
+            assert real.get("displayUnit") in shown[real.get("unit")]
+
+
+def outputs(description):
+    variables = description.find("ModelVariables")
+    return [index for index, v in enumerate(variables, start=1) if v.get("causality") == "output"]
+
+
+@every_unit
+def test_every_output_says_that_it_depends_on_nothing(name):
+    # a missing attribute would mean: on everything, and masters would see algebraic loops
+    description = xml(name)
+    unknowns = description.find("ModelStructure/Outputs")
+    assert [int(unknown.get("index")) for unknown in unknowns] == outputs(description)
+    assert all(unknown.get("dependencies") == "" for unknown in unknowns)
+
+
+@every_unit
+def test_initial_unknowns_are_complete_and_name_parameters_only(name):
+    description = xml(name)
+    unknowns = description.find("ModelStructure/InitialUnknowns")
+    assert [int(unknown.get("index")) for unknown in unknowns] == outputs(description)
+    variables = description.find("ModelVariables")
+    for unknown in unknowns:
+        assert unknown.get("dependencies") is not None
+        for index in unknown.get("dependencies").split():
+            assert variables[int(index) - 1].get("causality") == "parameter"
+
+
+@every_unit
+def test_kinds_of_variables_are_those_of_the_standard(name):
+    expected = {"input": ("continuous", None), "parameter": ("fixed", "exact"), "output": (None, "calculated")}
+    for variable in xml(name).find("ModelVariables"):
+        variability, initial = expected[variable.get("causality")]
+        if variable.get("causality") == "output":
+            variability = "discrete" if variable.find("Integer") is not None else "continuous"
+        assert (variable.get("variability"), variable.get("initial")) == (variability, initial), variable.get("name")
+        starts = variable[0].get("start") is not None
+        assert starts == (variable.get("causality") != "output"), "start: input and parameters have one, outputs none"
+
+
+@every_unit
+def test_memory_functions_of_the_importer_are_not_used_and_states_can_be_saved(name):
+    capabilities = xml(name).find("CoSimulation").attrib
+    for capability in (
+        "canNotUseMemoryManagementFunctions",
+        "canGetAndSetFMUstate",
+        "canSerializeFMUstate",
+        "canHandleVariableCommunicationStepSize",
+    ):
+        assert capabilities[capability] == "true", capability
+    assert capabilities.get("canBeInstantiatedOnlyOncePerProcess", "false") == "false"
+
+
+@every_unit
+def test_times_of_the_experiment_suit_each_other(name):
+    experiment = xml(name).find("DefaultExperiment")
+    start, stop, step = (float(experiment.get(key)) for key in ("startTime", "stopTime", "stepSize"))
+    assert start == 0.0 and 0.0 < step
+    # an impact needs some hundred steps; millions would be a mistake
+    assert 100 < (stop - start) / step < 1e5
+
+
+@every_unit
+def test_a_time_of_generation_is_in_utc(name):
+    # the strictest checkers want the final Z; leaving it out makes units reproducible
+    moment = xml(name).get("generationDateAndTime")
+    assert moment is None or re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", moment)
+
+
+def test_the_steel_ball_has_the_variables_that_others_rely_on():
+    if "steel_ball" not in paths():
+        pytest.skip("another set of scenes")
+    assert {"indentation_rate", "force", "indentation", "target.yield_strength"} <= unit("steel_ball").variables.keys()

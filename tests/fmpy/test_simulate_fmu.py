@@ -1,0 +1,69 @@
+"""fmpy.simulate_fmu, the function most people call, works with its defaults."""
+
+import fmpy
+import numpy as np
+import pytest
+from unit import paths, unit
+
+every_unit = pytest.mark.parametrize("name", sorted(paths()))
+
+
+@every_unit
+@pytest.mark.parametrize("logging", [False, True])
+def test_with_defaults(name, logging):
+    messages = []
+    result = fmpy.simulate_fmu(paths()[name], debug_logging=logging, logger=lambda *message: messages.append(message))
+    assert messages == []
+    experiment = unit(name).description.defaultExperiment
+    assert result["time"][0] == 0.0
+    assert result["time"][-1] == pytest.approx(float(experiment.stopTime), rel=1e-9)
+    # the input starts at 0, so the bodies rest
+    assert np.all(result["force"] == 0.0)
+
+
+@every_unit
+def test_a_constant_input_presses(name):
+    experiment = unit(name).description.defaultExperiment
+    result = fmpy.simulate_fmu(paths()[name], start_values={"indentation_rate": 1e-3}, output=["force"])
+    rise = np.diff(result["force"])
+    assert len(rise) > 100 and np.all(rise > 0.0)
+    # the same in one step
+    instance = unit(name).ready()
+    instance.step(float(experiment.stopTime), 1e-3)
+    # the sum of the steps is exact but for the rounding of their lengths
+    assert result["force"][-1] == pytest.approx(instance.get("force"), rel=1e-12)
+
+
+@every_unit
+@pytest.mark.parametrize("start", [0.0, 100.0])
+def test_start_time_and_interval_of_the_caller(name, start):
+    result = fmpy.simulate_fmu(
+        paths()[name], start_time=start, stop_time=start + 1e-3, output_interval=1e-5,
+        start_values={"indentation_rate": 1e-3}, output=["force"],
+    )
+    assert len(result["time"]) == 101
+    assert result["time"][-1] == pytest.approx(start + 1e-3, rel=1e-12)
+    # at 100 s a time is known to 1e-14 s, a thousandth of a ppm of a step
+    instance = unit(name).ready()
+    instance.step(1e-3, 1e-3)
+    assert result["force"][-1] == pytest.approx(instance.get("force"), rel=1e-9)
+
+
+def test_parameters_can_be_given():
+    if "steel_ball" not in paths():
+        pytest.skip("another set of scenes")
+    forces = []
+    for strength in (200e6, 400e6):
+        result = fmpy.simulate_fmu(
+            paths()["steel_ball"], stop_time=1e-5,
+            start_values={"target.yield_strength": strength, "indentation_rate": 1.0}, output=["force"],
+        )
+        forces.append(result["force"][-1])
+    assert 1.5 < forces[1] / forces[0] < 2.5, "in the plastic range the force is close to proportional to the strength"
+
+
+def test_every_recorded_output_is_there():
+    for name in paths():
+        names = unit(name).outputs
+        result = fmpy.simulate_fmu(paths()[name], output=names, start_values={"indentation_rate": 1e-3})
+        assert set(names) <= set(result.dtype.names)

@@ -1,0 +1,187 @@
+"""Steps: mistakes are refused, the rounding of an honest master is not."""
+
+import math
+import time
+from ctypes import byref, c_double
+
+import pytest
+from unit import ERROR, OK, bits, unit
+
+
+def ready(start=0.0, stop=None):
+    return unit("steel_ball").ready(start, stop)
+
+
+def outputs(instance):
+    return {key: bits(value) for key, value in instance.outputs().items()}
+
+
+@pytest.mark.parametrize("step", [0.0, -0.0, -1e-6, -5e-324, math.nan, math.inf, -math.inf])
+def test_a_step_that_is_not_positive_and_finite_is_refused(step):
+    instance = ready()
+    instance.step(1e-6, 1.0)
+    before = outputs(instance)
+    assert instance.try_step(instance.time, step) == ERROR
+    assert outputs(instance) == before
+    assert "communicationStepSize" in instance.log[0][3]
+
+
+@pytest.mark.parametrize("point", [math.nan, math.inf, -math.inf])
+def test_a_communication_point_that_is_not_finite_is_refused(point):
+    assert ready().try_step(point, 1e-6) == ERROR
+
+
+@pytest.mark.parametrize("start", [0.0, 1.0, -3.0, 1e5, -1e5])
+@pytest.mark.parametrize("step", [1e-3, 1e-6 / 3.0, 0.1])
+def test_both_ways_of_counting_time_are_taken(start, step):
+    # at 1e5 a third of a microsecond is some 20,000 ulps: the way of rounding shows, and half a step is still far off
+    summed, counted, mixed = ready(start), ready(start), ready(start)
+    time = start
+    for index in range(1000):
+        point = start + index * step
+        assert summed.try_step(time, step) == OK, (index, summed.log)
+        assert counted.try_step(point, step) == OK, (index, counted.log)
+        # the step as the difference of two points, as masters with events have it
+        assert mixed.try_step(point, (start + (index + 1) * step) - point) == OK, (index, mixed.log)
+        time += step
+
+
+@pytest.mark.parametrize("start", [0.0, 1.0, 1e5])
+@pytest.mark.parametrize("off", [0.5, -0.5, 1.0, -1.0, 2.0, 100.0])
+def test_a_communication_point_off_by_half_a_step_is_refused(start, off):
+    instance = ready(start)
+    for _ in range(10):
+        instance.step(1e-3)
+    assert instance.try_step(instance.time + off * 1e-3, 1e-3) == ERROR
+    assert "currentCommunicationPoint" in instance.log[0][3]
+
+
+def test_an_ulp_is_no_mistake():
+    for towards in (-math.inf, math.inf):
+        instance = ready(1e5)
+        instance.step(1e-6)
+        assert instance.try_step(math.nextafter(instance.time, towards), 1e-6) == OK
+
+
+def last_successful_time(instance):
+    value = c_double()
+    instance.call("GetRealStatus", 2, byref(value))
+    return value.value
+
+
+def test_errors_of_time_do_not_pile_up():
+    # the unit goes by the points it is given, not by a sum of its own
+    instance = ready()
+    for index in range(20_000):
+        instance.call("DoStep", index * 1e-4, 1e-4, True)
+    assert last_successful_time(instance) == 19_999 * 1e-4 + 1e-4
+
+
+def test_the_last_successful_time_is_the_end_of_the_step():
+    instance = ready(3.0)
+    assert last_successful_time(instance) == 3.0
+    instance.step(0.25)
+    assert last_successful_time(instance) == 3.25
+    assert instance.try_step(instance.time, -1.0) == ERROR
+    assert last_successful_time(instance) == 3.25
+
+
+@pytest.mark.parametrize("step", [1e-3, 1.1e-3, 7e-4, 1e-4, 1e-3 / 3.0])
+@pytest.mark.parametrize("start", [0.0, 10.0])
+def test_a_sum_of_steps_may_end_a_rounding_behind_the_stop_time(start, step):
+    points = [start]
+    for _ in range(1999):
+        points.append(points[-1] + step)
+    # the stop time as another master computes it; and as far before the end of the sum as a sum of 1999 steps can go
+    # astray: half an ulp of the largest point a step
+    furthest = points[-1] - 1999 * 0.5 * math.ulp(points[-1])
+    for stop in (start + 1999 * step, furthest):
+        instance = ready(start, stop)
+        for point in points[:-1]:
+            assert instance.try_step(point, step) == OK, instance.log
+
+
+def test_far_from_zero_the_rounding_of_time_itself_is_no_mistake():
+    # at 1e5 s a nanosecond is 68.7 ulps and each sum makes it 69: ten of them end 3 ulps, 4 % of a step, too late
+    start, step = 1e5, 1e-9
+    stop = start + 10 * step
+    instance = ready(start, stop)
+    for _ in range(10):
+        instance.step(step)
+    assert stop < instance.time < stop + 0.1 * step
+
+
+@pytest.mark.parametrize("start", [0.0, 1e5])
+def test_a_step_one_per_cent_beyond_the_stop_time_is_refused(start):
+    instance = ready(start, start + 1.0)
+    instance.step(0.5)
+    assert instance.try_step(start + 0.5, 0.505) == ERROR
+    assert "stop time" in instance.log[0][3]
+
+
+def test_a_small_step_at_the_stop_time_is_measured_by_itself():
+    instance = ready(0.0, 1.0)
+    instance.step(1.0)
+    # behind the end, however small
+    assert instance.try_step(1.0, 1e-6) == ERROR
+
+
+def test_without_stop_time_there_is_no_end():
+    instance = ready()
+    instance.step(1e6)
+    instance.step(1e9)
+
+
+def test_the_stop_time_itself_is_reached():
+    instance = ready(0.0, 1.0)
+    assert instance.try_step(0.0, 1.0) == OK
+
+
+def test_a_tiny_step_changes_next_to_nothing():
+    instance = ready()
+    instance.step(1e-6, 1.0)
+    before = instance.outputs()
+    instance.step(1e-15, 1.0)
+    after = instance.outputs()
+    assert after["indentation"] == pytest.approx(before["indentation"] + 1e-15, rel=1e-12)
+    # 1e-15 m beside 1e-6 m
+    assert after["force"] == pytest.approx(before["force"], rel=1e-8)
+
+
+def test_a_step_below_the_resolution_of_time_is_taken_or_refused_without_change():
+    instance = ready(1e5)
+    instance.step(1e-3, 1e-3)
+    before = outputs(instance)
+    instance.set(indentation_rate=0.0)
+    assert instance.try_step(instance.time, 1e-15) in (OK, ERROR)
+    assert outputs(instance) == before
+
+
+def test_a_huge_step_returns_at_once():
+    instance = ready()
+    begin = time.monotonic()
+    instance.step(1e6, 1e-12)
+    assert time.monotonic() - begin < 1.0
+    assert instance.get("indentation") == pytest.approx(1e-6, rel=1e-12) and instance.get("force") > 0.0
+
+
+def test_cutting_a_step_does_not_change_the_result():
+    whole = ready()
+    whole.step(1e-5, 0.7)
+    for pieces in (2, 3, 1000):
+        cut = ready()
+        for _ in range(pieces):
+            cut.step(1e-5 / pieces, 0.7)
+        # the length of a piece is rounded once, the sum is exact: 3 ulps of the indentation, 3/2 of that for the force
+        assert cut.get("indentation") == pytest.approx(whole.get("indentation"), rel=1e-15)
+        assert cut.get("force") == pytest.approx(whole.get("force"), rel=3e-15)
+
+
+def test_many_small_increments_add_up_exactly():
+    # each is 6e7 times smaller than the indentation: a plain sum loses digits at each, 1e-12 of the whole in the end
+    instance = ready()
+    instance.step(1e-3, 1e-2)
+    increment = 1e-6 * 1.7e-7
+    for _ in range(30_000):
+        instance.step(1e-6, 1.7e-7)
+    assert instance.get("indentation") == pytest.approx(1e-5 + 30_000 * increment, rel=4e-16)

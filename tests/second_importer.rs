@@ -1,0 +1,76 @@
+//! A unit in the hands of another importer: the `fmi` crate must read it and get the same bits from it as fmpy.
+
+#[path = "support/python.rs"]
+mod python;
+#[path = "support/unit.rs"]
+mod unit;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+/// Steps of the history.
+const STEPS: u32 = 3000;
+
+/// What `command` prints; if it fails the test fails with what it wrote.
+fn output_of(command: &mut Command) -> String {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?} can't be started: {error}"));
+    assert!(output.status.success(), "{command:?} failed:\n{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("the importers print ASCII")
+}
+
+/// Presses, lets go and presses deeper, with rates and steps that change from line to line: a few visits to each branch of
+/// the law, at times that no decimal number of steps hits.
+fn history() -> PathBuf {
+    let mut text = String::new();
+    for index in 0..STEPS {
+        let phase = f64::from(index) * 0.013;
+        let rate = 0.3 * phase.sin() + 0.08;
+        let step = 1e-7 * (1.0 + 0.5 * (1.7 * phase).cos());
+        text += &format!("{rate:?} {step:?}\n");
+    }
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("second_importer_history.txt");
+    fs::write(&path, text).expect("the target folder can be written to");
+    path
+}
+
+/// The forces over `history` by the `fmi` crate, as bits. Its package is built in a folder of its own.
+fn forces_by_fmi_crate(unit: &Path, history: &Path) -> String {
+    // bindgen, which the crate needs, loads libclang, and that from PyPI comes without the compiler's own headers
+    let headers = output_of(Command::new("cc").arg("-print-file-name=include"));
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command
+        .args(["run", "--quiet", "--release", "--locked", "--manifest-path"])
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers/Cargo.toml"))
+        .arg("--")
+        .args([unit, history])
+        .env("CARGO_TARGET_DIR", python::target_folder().join("second-importer"))
+        .env("LIBCLANG_PATH", python::site_packages_file("clang/native"))
+        .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", headers.trim()));
+    output_of(&mut command)
+}
+
+fn forces_by_fmpy(unit: &Path, history: &Path) -> String {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmpy/force_bits.py");
+    let mut command = Command::new(python::python());
+    output_of(command.arg(script).args([unit, history]).env("PYTHONDONTWRITEBYTECODE", "1"))
+}
+
+#[test]
+fn the_fmi_crate_and_fmpy_get_the_same_bits() {
+    let history = history();
+    for scene in unit::scenes() {
+        let unit = unit::export(&scene);
+        let (by_fmi_crate, by_fmpy) = (forces_by_fmi_crate(&unit, &history), forces_by_fmpy(&unit, &history));
+        let (by_fmi_crate, by_fmpy): (Vec<_>, Vec<_>) = (by_fmi_crate.lines().collect(), by_fmpy.lines().collect());
+        assert_eq!(by_fmi_crate.len(), STEPS as usize);
+        let different = by_fmi_crate.iter().zip(&by_fmpy).position(|(one, other)| one != other);
+        if let Some(step) = different {
+            panic!("{}: step {step}: {} and {}", scene.display(), by_fmi_crate[step], by_fmpy[step]);
+        }
+        assert_eq!(by_fmi_crate.len(), by_fmpy.len());
+        // two importers that both read zeros would agree as well
+        let pressed = by_fmi_crate.iter().filter(|bits| **bits != "0000000000000000").count();
+        assert!(pressed > 1000, "{}: in contact for {pressed} steps only", scene.display());
+    }
+}
