@@ -85,7 +85,7 @@ fn at_a_corner_of_the_loading_curve_the_branch_above_holds() {
 fn at_the_largest_indentation_the_way_up_is_loading_and_the_way_down_unloading() {
     for (name, model) in all_models(mild()).into_iter().filter(|(_, model)| !corners(model).is_empty()) {
         let peak = on_grid(20.0);
-        let path = model.unloading_segment(peak);
+        let path = model.unloading_path(peak);
         let reach = |from: f64, to: f64| {
             let mut history = pressed(&model, peak);
             exactly(&mut history, &model, from);
@@ -118,7 +118,7 @@ fn at_the_residual_indentation_the_way_up_is_contact_and_the_way_down_apart() {
     for (name, model) in all_models(mild()).into_iter().filter(|(_, model)| !corners(model).is_empty()) {
         let first = pressed(&model, on_grid(20.0));
         let residual = first.residual_indentation(&model);
-        let path = model.unloading_segment(on_grid(20.0));
+        let path = model.unloading_path(on_grid(20.0));
         let reach = |from: f64, to: f64| {
             let mut history = first;
             exactly(&mut history, &model, from);

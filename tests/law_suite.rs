@@ -98,7 +98,7 @@ fn force_work_and_contact_radius_are_continuous_at_every_corner() {
 fn the_unloading_path_begins_at_the_peak_and_ends_without_force() {
     for (name, model) in all_models(mild()) {
         for largest in indentations(&model) {
-            let path = model.unloading_segment(largest);
+            let path = model.unloading_path(largest);
             let allowed = force_rounding(&model, largest);
             let (peak, force) = (loading_force(&model, largest), path.force(largest));
             assert!((peak - force).abs() <= allowed, "{name} from {largest:e}: {force:e}, peak {peak:e}");
@@ -130,7 +130,7 @@ fn on_loading_force_is_the_slope_of_work_and_stiffness_the_slope_of_force() {
 fn on_unloading_force_is_the_slope_of_work_and_stiffness_the_slope_of_force() {
     for (name, model) in all_models(mild()) {
         for largest in indentations(&model) {
-            let path = model.unloading_segment(largest);
+            let path = model.unloading_path(largest);
             let largest_work = path.work(largest).max(model.pair.hertz_stiffness() * 0.4 * largest.powf(2.5));
             let largest_force = force_rounding(&model, largest) / (16.0 * EPSILON);
             for part in [0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98] {
@@ -172,7 +172,7 @@ fn loading_is_monotone() {
 fn the_unloading_path_is_never_above_the_loading_path() {
     for (name, model) in all_models(mild()) {
         for largest in indentations(&model) {
-            let path = model.unloading_segment(largest);
+            let path = model.unloading_path(largest);
             for step in 0..=50 {
                 let at = path.lower + f64::from(step) / 50.0 * (largest - path.lower);
                 let (down, up) = (path.force(at), loading_force(&model, at));
@@ -194,7 +194,7 @@ fn the_dent_deepens_with_the_largest_indentation() {
     for (name, model) in all_models(mild()) {
         let mut before = 0.0;
         for largest in indentations(&model) {
-            let depth = model.unloading_segment(largest).lower;
+            let depth = model.unloading_path(largest).lower;
             assert!(depth >= 0.0 && depth < largest, "{name} from {largest:e}: {depth:e}");
             // the difference of two numbers near d_m carries their rounding
             assert!(depth >= before - 8.0 * EPSILON * largest, "{name} from {largest:e}: {depth:e} after {before:e}");
@@ -209,7 +209,7 @@ fn only_the_deformed_radius_jumps_at_yield_and_as_documented() {
     for (name, unloading) in AnyUnloading::ALL {
         let model = AnyModel { unloading, ..model("big-alabo", "contact-radius") };
         // so near to yield a continuous dent is below d_m - d_y = 1e-9 d_y, or its 2/3 power in Hertz's shifted curve
-        let depth = model.unloading_segment(d_y * (1.0 + 1e-9)).lower / d_y;
+        let depth = model.unloading_path(d_y * (1.0 + 1e-9)).lower / d_y;
         match name {
             "deformed-radius" => assert!((depth - 0.0153).abs() < 5e-5, "{depth}: not 0.0153 as printed"),
             "hertz-shift" => assert!(depth < 2e-6, "{name}: {depth}"),
@@ -244,7 +244,7 @@ fn no_path_gives_back_more_than_was_put_in() {
         let mut before = 0.0;
         for largest in indentations(&model) {
             let work = model.loading.work(&model.pair, largest);
-            let path = model.unloading_segment(largest);
+            let path = model.unloading_path(largest);
             let lost = work - path.work(largest);
             // the shifted Hertz curve takes its energy from a difference of two larger ones
             let rounding = 16.0 * EPSILON * work.max(0.4 * model.pair.hertz_stiffness() * largest.powf(2.5));
@@ -264,7 +264,7 @@ fn work_is_elastic_and_dissipated_energy() {
             let rounding = 16.0 * EPSILON * loading.max(0.4 * model.pair.hertz_stiffness() * largest.powf(2.5));
             let work = history.work(&model);
             assert!((work - loading).abs() <= rounding, "{name} at {largest:e}: {work:e}, loading work {loading:e}");
-            let path = model.unloading_segment(largest);
+            let path = model.unloading_path(largest);
             for part in [0.75, 0.5, 0.25, -0.25] {
                 go(&mut history, &model, path.lower + part * (largest - path.lower));
                 let given_back = path.work(largest) - path.work(history.indentation().max(path.lower));

@@ -166,7 +166,7 @@ fn a_dented_surface_keeps_its_dent() {
         assert_eq!(history.residual_indentation(&model), first.residual_indentation(&model), "{name}");
         assert_eq!(history.dissipated_energy(&model), first.dissipated_energy(&model), "{name}");
         go(&mut history, &model, on_grid(15.0));
-        assert_eq!(history.force(), model.unloading_segment(on_grid(20.0)).force(on_grid(15.0)), "{name}");
+        assert_eq!(history.force(), model.unloading_path(on_grid(20.0)).force(on_grid(15.0)), "{name}");
     }
 }
 

@@ -151,7 +151,7 @@ fn restitution_has_its_extrema_where_a_search_with_40_digits_finds_them() {
         let restitution_and_speed = |x: f64| {
             let largest = x * unit.indentation;
             let work = model.loading.work(&model.pair, largest);
-            let given_back = model.unloading_segment(largest).work(largest);
+            let given_back = model.recovered_work(largest, largest);
             ((given_back / work).sqrt(), (work / (0.4 * unit.force * unit.indentation)).sqrt())
         };
         // steps of 1e-4 d_y: a fifth of half a unit of the printed place, and e is flat there

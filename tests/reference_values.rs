@@ -89,12 +89,12 @@ fn the_residual_indentations_have_the_printed_ratios() {
     for (name, ratios) in RATIO {
         let model = closure(name);
         for (x, printed) in X.into_iter().zip(ratios) {
-            let ratio = model.unloading_segment(x * d_y).lower / (x * d_y);
+            let ratio = model.unloading_path(x * d_y).lower / (x * d_y);
             agrees(&format!("{name} from {x}"), ratio, printed, 8);
         }
     }
     for x in X {
-        assert_eq!(model("hertz", "thornton").unloading_segment(x * d_y).lower, 0.0, "Hertz leaves no dent");
+        assert_eq!(model("hertz", "thornton").unloading_path(x * d_y).lower, 0.0, "Hertz leaves no dent");
     }
 }
 

@@ -140,7 +140,6 @@ impl History {
         if !within {
             return Err(TooDeep { indentation });
         }
-        let yield_indentation = model.loading.yield_point(&model.pair).indentation;
         if model.surface == Surface::Fresh && indentation <= 0.0 {
             self.left_behind += self.dissipated_in_dent(model);
             self.max_indentation = 0.0;
@@ -153,7 +152,7 @@ impl History {
             self.regime = model.loading.regime(&model.pair, indentation);
             let lower = if self.yields() { indentation } else { TOUCHING };
             self.segment = Segment { lower, ..model.loading.segment(&model.pair, indentation) };
-        } else if largest <= yield_indentation {
+        } else if model.is_elastic_at(largest) {
             if indentation > 0.0 {
                 self.regime = Regime::Elastic;
                 self.segment = Segment { lower: TOUCHING, ..model.loading.segment(&model.pair, 0.0) };
@@ -162,11 +161,12 @@ impl History {
                 self.segment = Segment::apart(FARTHEST, TOUCHING);
             }
         } else {
-            let unloading = model.unloading_segment(largest);
-            let residual = unloading.lower;
+            let residual = model.unloading_path(largest).lower;
             if indentation > residual || (rising && indentation == residual) {
                 self.regime = Regime::Unloaded;
-                self.segment = Segment { lower: residual.next_up(), ..unloading };
+                let segment = model.unloading_segment(largest, indentation);
+                let lower = if segment.lower > residual { segment.lower } else { residual.next_up() };
+                self.segment = Segment { lower, ..segment };
             } else {
                 self.regime = Regime::Apart;
                 // a fresh surface forgets the dent at zero, so that the border must be noticed
@@ -205,14 +205,9 @@ impl History {
         self.segment.stiffness(self.indentation.value)
     }
 
-    /// Whether `model` has yielded under the largest indentation so far.
-    fn has_yielded<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> bool {
-        self.max_indentation > model.loading.yield_point(&model.pair).indentation
-    }
-
     /// Depth of the dent that would remain if the load were taken off now [m].
     pub fn residual_indentation<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
-        if self.has_yielded(model) { model.unloading_segment(self.max_indentation).lower } else { 0.0 }
+        if model.is_elastic_at(self.max_indentation) { 0.0 } else { model.unloading_path(self.max_indentation).lower }
     }
 
     /// Contact radius [m], 0 while apart: that of the loading law up to the largest indentation, and from there down
@@ -222,7 +217,7 @@ impl History {
         match self.regime {
             Regime::Apart => 0.0,
             Regime::Unloaded => {
-                let Segment { lower, upper, .. } = model.unloading_segment(self.max_indentation);
+                let Segment { lower, upper, .. } = model.unloading_path(self.max_indentation);
                 let radius = model.loading.contact_radius(&model.pair, self.max_indentation);
                 radius * sqrt((indentation - lower) / (upper - lower))
             }
@@ -241,7 +236,7 @@ impl History {
         match self.regime {
             Regime::Apart => 0.0,
             Regime::Elastic => model.loading.work(&model.pair, self.indentation.value),
-            _ => model.unloading_segment(self.max_indentation).work(self.indentation.value),
+            _ => model.recovered_work(self.max_indentation, self.indentation.value),
         }
     }
 
@@ -253,10 +248,10 @@ impl History {
     /// Loading work up to the largest indentation, less what unloading from there gives back [J].
     fn dissipated_in_dent<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let largest = self.max_indentation;
-        if !self.has_yielded(model) {
+        if model.is_elastic_at(largest) {
             return 0.0;
         }
-        model.loading.work(&model.pair, largest) - model.unloading_segment(largest).work(largest)
+        model.loading.work(&model.pair, largest) - model.recovered_work(largest, largest)
     }
 
     /// Work done on the contact by the bodies since the start [J]: the sum of the other two energies, and so a function

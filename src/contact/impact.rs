@@ -2,6 +2,7 @@
 
 use super::history::LARGEST_INDENTATION;
 use super::loading::Loading;
+use super::quadrature::graded_integral;
 use super::unloading::Unloading;
 use super::{Model, Regime};
 use libm::sqrt;
@@ -64,8 +65,9 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
         return None;
     }
     let max_indentation = indentation_of_work(model, energy)?;
-    let unloading = model.unloading_segment(max_indentation);
-    let rebound_energy = unloading.work(max_indentation);
+    let unloading = model.unloading_path(max_indentation);
+    let recovered = |d: f64| model.recovered_work(max_indentation, d);
+    let rebound_energy = recovered(max_indentation);
     let peak = model.peak(max_indentation);
     // the energy at which the numbers themselves balance, so that the speed at the turning point is exactly zero
     let work = model.loading.work(&model.pair, max_indentation);
@@ -80,7 +82,7 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
         impact.mass,
         unloading.lower,
         max_indentation,
-        |d| rebound_energy - unloading.work(d),
+        |d| rebound_energy - recovered(d),
         |_| max_indentation,
     );
     Some(Prediction {
@@ -143,40 +145,4 @@ fn travel_time(
         start = end;
     }
     time
-}
-
-/// Integral over `[low, high]` with panels that shrink towards both ends, where a fractional power may begin.
-fn graded_integral(low: f64, high: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
-    const PANELS: u32 = 12;
-    let middle = 0.5 * (low + high);
-    let mut sum = 0.0;
-    for end in [low, high] {
-        let mut outer = middle;
-        for _ in 1..PANELS {
-            let inner = 0.5 * (outer + end);
-            sum += gauss(inner, outer, integrand);
-            outer = inner;
-        }
-        sum += gauss(end, outer, integrand);
-    }
-    sum
-}
-
-/// Gauss-Legendre rule with ten points; the sign of the interval doesn't matter.
-///
-/// Reference: M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, table 25.4.
-fn gauss(a: f64, b: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
-    const NODES_AND_WEIGHTS: [(f64, f64); 5] = [
-        (0.148_874_338_981_631_22, 0.295_524_224_714_752_87),
-        (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
-        (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
-        (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-        (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
-    ];
-    let (centre, half) = (0.5 * (a + b), 0.5 * (b - a));
-    let mut sum = 0.0;
-    for (node, weight) in NODES_AND_WEIGHTS {
-        sum += weight * (integrand(centre - half * node) + integrand(centre + half * node));
-    }
-    sum * if half < 0.0 { -half } else { half }
 }

@@ -27,8 +27,12 @@ pub struct Pair {
     pub radius: f64,
     /// Effective modulus `E*` [Pa]: `1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`.
     pub modulus: f64,
-    /// Yield strength `S` of the body that yields [Pa]; infinite for an elastic contact.
+    /// Yield strength `S` of the body that yields, the target [Pa]; infinite for an elastic contact.
     pub yield_strength: f64,
+    /// Young's modulus of the target [Pa], which some laws need beside `E*`.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio of the target.
+    pub poissons_ratio: f64,
 }
 
 /// Where a contact begins to yield.
@@ -62,7 +66,13 @@ impl Pair {
             && impactor.radius < f64::INFINITY
             && target.radius.abs() >= SMALLEST_RADIUS;
         let deform = modulus > 0.0 && modulus < f64::INFINITY;
-        (touch && deform).then_some(Pair { radius: impactor.radius / curvature_ratio, modulus, yield_strength })
+        (touch && deform).then_some(Pair {
+            radius: impactor.radius / curvature_ratio,
+            modulus,
+            yield_strength,
+            youngs_modulus: target.youngs_modulus,
+            poissons_ratio: target.poissons_ratio,
+        })
     }
 
     /// `K_h = (4/3) E* sqrt(R)` [N/m^1.5], the constant of Hertz's law `F = K_h d^1.5`.

@@ -11,6 +11,7 @@
 //! | [`loading`] | one file for each loading law |
 //! | [`unloading`] | one file for each unloading law |
 //! | [`path`] | the indentation, summed without loss |
+//! | [`quadrature`] | work and time where there is no closed form |
 //! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | what an impact will do, from the energy balance |
 
@@ -19,6 +20,7 @@ pub mod impact;
 pub mod loading;
 pub mod material;
 pub mod path;
+pub mod quadrature;
 pub mod segment;
 pub mod unloading;
 
@@ -62,13 +64,36 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         }
     }
 
-    /// The branch on which the load comes off from `max_indentation` [m] > 0, from the residual indentation (its lower
-    /// end) to `max_indentation` (its upper end). Up to the yield point it is the loading curve itself.
-    pub fn unloading_segment(&self, max_indentation: f64) -> Segment {
-        if max_indentation <= self.loading.yield_point(&self.pair).indentation {
+    /// The path on which the load comes off from `max_indentation` [m] > 0, from the residual indentation (its lower end)
+    /// to `max_indentation` (its upper end). Up to the yield point it is the loading curve itself.
+    pub fn unloading_path(&self, max_indentation: f64) -> Segment {
+        if self.is_elastic_at(max_indentation) {
             Segment { upper: max_indentation, ..self.loading.segment(&self.pair, 0.0) }
         } else {
-            self.unloading.segment(&self.pair, &self.peak(max_indentation))
+            self.unloading.path(&self.pair, &self.peak(max_indentation))
         }
+    }
+
+    /// The segment of that path at `indentation` [m].
+    pub fn unloading_segment(&self, max_indentation: f64, indentation: f64) -> Segment {
+        let path = self.unloading_path(max_indentation);
+        if U::SEGMENTED || self.is_elastic_at(max_indentation) {
+            return path;
+        }
+        self.unloading.tangent(&self.pair, &self.peak(max_indentation), &path, indentation)
+    }
+
+    /// Work given back on that path from `indentation` down to the residual indentation [J].
+    pub fn recovered_work(&self, max_indentation: f64, indentation: f64) -> f64 {
+        let path = self.unloading_path(max_indentation);
+        if U::SEGMENTED || self.is_elastic_at(max_indentation) {
+            return path.work(indentation);
+        }
+        self.unloading.work(&self.pair, &self.peak(max_indentation), &path, indentation)
+    }
+
+    /// Whether a contact that never was deeper than `max_indentation` [m] has not yielded.
+    pub fn is_elastic_at(&self, max_indentation: f64) -> bool {
+        max_indentation <= self.loading.yield_point(&self.pair).indentation
     }
 }

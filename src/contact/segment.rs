@@ -4,7 +4,7 @@ use libm::sqrt;
 
 /// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5`, `z = indentation - origin`.
 ///
-/// Every branch of these laws has this form: Hertz and its shifted copies by `c2`, the linear ones by `c1`. It holds for
+/// Every branch of the project's own laws has this form: Hertz and its shifted copies by `c2`, the linear ones by `c1`. It holds for
 /// `lower <= indentation < upper`, never below `origin` unless all three constants are zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
@@ -26,6 +26,19 @@ impl Segment {
     /// Apart: no force, over `[lower, upper)` [m].
     pub const fn apart(lower: f64, upper: f64) -> Segment {
         Segment { lower, upper, origin: 0.0, constant: 0.0, linear: 0.0, power: 0.0 }
+    }
+
+    /// The tangent of a curve that has no segments, at `indentation` [m] with `force` [N] and `stiffness` [N/m]. It holds at
+    /// that one point: after any motion the law is asked again.
+    pub fn tangent(indentation: f64, force: f64, stiffness: f64) -> Segment {
+        Segment {
+            lower: indentation,
+            upper: indentation.next_up(),
+            origin: indentation,
+            constant: force,
+            linear: stiffness,
+            power: 0.0,
+        }
     }
 
     /// Whether `indentation` [m] lies on the branch; false for NaN.

@@ -54,8 +54,10 @@ struct Nominals {
 impl Nominals {
     fn of(scene: &Scene) -> Nominals {
         let prediction = prediction(scene);
-        let stiffness =
-            scene.model().unloading_segment(prediction.max_indentation).stiffness(prediction.max_indentation);
+        let stiffness = scene
+            .model()
+            .unloading_segment(prediction.max_indentation, prediction.max_indentation)
+            .stiffness(prediction.max_indentation);
         Nominals { prediction, stiffness }
     }
 

@@ -12,15 +12,21 @@ use super::segment::Segment;
 
 /// A loading law: the law's own constants, without the bodies.
 ///
-/// All indentations are in m and not negative. The curve is a chain of [`Segment`]s that begins at zero indentation.
-pub trait Loading: Copy {
+/// All indentations are in m and not negative. The curve begins at zero indentation with Hertz's law.
+pub trait Loading {
     /// The end of the elastic part; infinite if the law never yields.
     fn yield_point(&self, pair: &Pair) -> YieldPoint;
 
-    /// The piece of the curve that holds at `indentation` and just above it, with the bounds it has on the curve.
+    /// The piece of the curve that holds at `indentation` and just above it, with the bounds it has on the curve. Where
+    /// the curve has no segments it is the [tangent](Segment::tangent); the elastic part always is a segment.
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment;
 
-    /// Work of the loading from first contact to `indentation` [J], in closed form.
+    /// The first indentation above `indentation` where the curve or its slope is not smooth [m].
+    fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.segment(pair, indentation).upper
+    }
+
+    /// Work of the loading from first contact to `indentation` [J]: in closed form, or to rounding.
     fn work(&self, pair: &Pair, indentation: f64) -> f64;
 
     /// Contact radius [m] while loading.
@@ -43,41 +49,38 @@ impl AnyLoading {
     /// Every law under the name it has in a scene, with its reference constants.
     pub const ALL: [(&'static str, AnyLoading); 2] =
         [("hertz", AnyLoading::Hertz(Hertz)), ("big-alabo", AnyLoading::BigAlabo(BigAlabo::REFERENCE))];
+
+    /// The law itself.
+    pub fn law(&self) -> &dyn Loading {
+        match self {
+            AnyLoading::Hertz(law) => law,
+            AnyLoading::BigAlabo(law) => law,
+        }
+    }
 }
 
 impl Loading for AnyLoading {
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
-        match self {
-            AnyLoading::Hertz(law) => law.yield_point(pair),
-            AnyLoading::BigAlabo(law) => law.yield_point(pair),
-        }
+        self.law().yield_point(pair)
     }
 
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
-        match self {
-            AnyLoading::Hertz(law) => law.segment(pair, indentation),
-            AnyLoading::BigAlabo(law) => law.segment(pair, indentation),
-        }
+        self.law().segment(pair, indentation)
+    }
+
+    fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.law().next_corner(pair, indentation)
     }
 
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
-        match self {
-            AnyLoading::Hertz(law) => law.work(pair, indentation),
-            AnyLoading::BigAlabo(law) => law.work(pair, indentation),
-        }
+        self.law().work(pair, indentation)
     }
 
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
-        match self {
-            AnyLoading::Hertz(law) => law.contact_radius(pair, indentation),
-            AnyLoading::BigAlabo(law) => law.contact_radius(pair, indentation),
-        }
+        self.law().contact_radius(pair, indentation)
     }
 
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
-        match self {
-            AnyLoading::Hertz(law) => law.regime(pair, indentation),
-            AnyLoading::BigAlabo(law) => law.regime(pair, indentation),
-        }
+        self.law().regime(pair, indentation)
     }
 }

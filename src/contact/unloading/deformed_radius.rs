@@ -26,7 +26,7 @@ impl DeformedRadius {
 }
 
 impl Unloading for DeformedRadius {
-    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+    fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         let pressure = self.pressure_factor * pair.yield_strength;
         let square = (2.0 * peak.force + peak.yield_force) / (2.0 * PI * pressure);
         let hertzian_cube = 0.75 * peak.force / pair.modulus;

@@ -15,7 +15,7 @@ use libm::{cbrt, sqrt};
 pub struct HertzShift;
 
 impl Unloading for HertzShift {
-    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+    fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         let stiffness = pair.hertz_stiffness();
         let hertz_force = stiffness * (peak.indentation * sqrt(peak.indentation));
         let difference = hertz_force - peak.force;

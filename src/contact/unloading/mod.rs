@@ -33,9 +33,23 @@ pub struct Peak {
 }
 
 /// An unloading law.
-pub trait Unloading: Copy {
+pub trait Unloading {
+    /// Whether the whole path is one segment. Otherwise only its ends are of use, and [`Unloading::tangent`] and
+    /// [`Unloading::work`] say the rest.
+    const SEGMENTED: bool = true;
+
     /// The path from the residual indentation `d_f` (`lower`) to `peak` (`upper`), for a peak beyond the yield point.
-    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment;
+    fn path(&self, pair: &Pair, peak: &Peak) -> Segment;
+
+    /// The [tangent](Segment::tangent) of a `path` that is no segment.
+    fn tangent(&self, _pair: &Pair, _peak: &Peak, path: &Segment, _indentation: f64) -> Segment {
+        *path
+    }
+
+    /// Work given back on a `path` that is no segment, from `indentation` down to its lower end [J].
+    fn work(&self, _pair: &Pair, _peak: &Peak, path: &Segment, indentation: f64) -> f64 {
+        path.work(indentation)
+    }
 }
 
 /// `F = F_m ((d - d_f)/d_e)^1.5`: Hertzian unloading with the elastic recovery `d_e` [m].
@@ -86,13 +100,13 @@ impl AnyUnloading {
 }
 
 impl Unloading for AnyUnloading {
-    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+    fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         match self {
-            AnyUnloading::ContactRadius(law) => law.segment(pair, peak),
-            AnyUnloading::Thornton(law) => law.segment(pair, peak),
-            AnyUnloading::OriginalRadius(law) => law.segment(pair, peak),
-            AnyUnloading::DeformedRadius(law) => law.segment(pair, peak),
-            AnyUnloading::HertzShift(law) => law.segment(pair, peak),
+            AnyUnloading::ContactRadius(law) => law.path(pair, peak),
+            AnyUnloading::Thornton(law) => law.path(pair, peak),
+            AnyUnloading::OriginalRadius(law) => law.path(pair, peak),
+            AnyUnloading::DeformedRadius(law) => law.path(pair, peak),
+            AnyUnloading::HertzShift(law) => law.path(pair, peak),
         }
     }
 }

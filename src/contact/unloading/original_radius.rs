@@ -12,7 +12,7 @@ use libm::cbrt;
 pub struct OriginalRadius;
 
 impl Unloading for OriginalRadius {
-    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+    fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         let root = cbrt(peak.force / pair.hertz_stiffness());
         hertzian(peak, root * root)
     }

@@ -13,7 +13,7 @@ use libm::sqrt;
 pub struct Thornton;
 
 impl Unloading for Thornton {
-    fn segment(&self, pair: &Pair, peak: &Peak) -> Segment {
+    fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         hertzian(peak, peak.force / (pair.hertz_stiffness() * sqrt(peak.indentation)))
     }
 }
