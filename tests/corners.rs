@@ -3,8 +3,10 @@
 #[path = "support/physics.rs"]
 mod physics;
 
-use brinell::contact::{History, Loading, Pair, Regime, Surface};
-use physics::{AnyModel, Random, TURNS, advance, all_models, corners, exactly, go, mild, model, on_grid, pressed};
+use brinell::contact::{History, Loading, Regime, Surface};
+use physics::{
+    AnyModel, Random, TURNS, advance, all_models, corners, exactly, go, mild, model, on_grid, pair_of, pressed,
+};
 
 #[test]
 fn no_motion_changes_nothing() {
@@ -181,10 +183,9 @@ fn apart_there_is_neither_contact_radius_nor_pressure() {
 fn a_few_roundings_beyond_yield_the_dent_is_not_above_the_surface() {
     let mut random = Random(3);
     // how these numbers round differs from pair to pair
-    let mut pair = || Pair {
-        radius: 10f64.powf(-4.0 * random.next()),
-        modulus: 10f64.powf(9.0 + 3.0 * random.next()),
-        yield_strength: 10f64.powf(6.0 + 2.0 * random.next()),
+    let mut pair = || {
+        let radius = 10f64.powf(-4.0 * random.next());
+        pair_of(radius, 10f64.powf(9.0 + 3.0 * random.next()), 10f64.powf(6.0 + 2.0 * random.next()))
     };
     for (name, model) in (0..200).flat_map(|_| all_models(pair())) {
         for corner in corners(&model).into_iter().take(1) {

@@ -9,8 +9,8 @@ mod physics;
 use brinell::contact::history::LARGEST_INDENTATION;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{History, Loading, Pair, Regime};
-use physics::{AnyModel, all_models, corners, go, loading_force, logarithmic, mild, model, pressed, unit};
+use brinell::contact::{History, Loading, Regime};
+use physics::{AnyModel, all_models, corners, go, loading_force, logarithmic, mild, model, pair_of, pressed, unit};
 
 const EPSILON: f64 = f64::EPSILON;
 
@@ -278,11 +278,8 @@ fn work_is_elastic_and_dissipated_energy() {
 
 #[test]
 fn the_normalised_curve_is_the_same_for_every_pair() {
-    let pairs = [(2e9, 1e6, 1e-4), (1e12, 1e9, 3.0), (7e10, 2e7, 1e-7)].map(|(modulus, yield_strength, radius)| Pair {
-        radius,
-        modulus,
-        yield_strength,
-    });
+    let pairs = [(2e9, 1e6, 1e-4), (1e12, 1e9, 3.0), (7e10, 2e7, 1e-7)]
+        .map(|(modulus, yield_strength, radius)| pair_of(radius, modulus, yield_strength));
     let scaled = |model: &AnyModel, x: f64| -> [f64; 7] {
         let unit = unit(&model.pair);
         let mut history = pressed(model, x * unit.indentation);

@@ -7,7 +7,7 @@ mod printed;
 
 use brinell::contact::impact::{Impact, Prediction, predict};
 use brinell::contact::{Body, Loading, Pair, Surface};
-use physics::{AnyModel, MASS, mild, model, unit};
+use physics::{AnyModel, MASS, mild, model, pair_of, unit};
 use printed::{agrees, agrees_in_digits, closure};
 
 fn impact(model: &AnyModel, speed: f64) -> Prediction {
@@ -96,7 +96,7 @@ fn restitution_depends_on_the_speed_over_the_yield_speed_alone() {
             0.5085067, 0.3975744, 0.3334843]),
     ];
     // another pair too: the table holds for every material, radius and mass
-    let lead = Pair { radius: 0.03, modulus: 16e9, yield_strength: 8e6 };
+    let lead = pair_of(0.03, 16e9, 8e6);
     for (pair, mass) in [(mild(), MASS), (lead, 1.3)] {
         let unit = unit(&pair);
         for (name, values) in RESTITUTION {

@@ -5,9 +5,9 @@ mod physics;
 #[path = "support/printed.rs"]
 mod printed;
 
+use brinell::contact::Loading;
 use brinell::contact::loading::BigAlabo;
-use brinell::contact::{Loading, Pair};
-use physics::{MASS, loading_force, mild, model, unit};
+use physics::{MASS, loading_force, mild, model, pair_of, unit};
 use printed::{agrees, agrees_in_digits, closure, yield_speed};
 
 #[test]
@@ -25,7 +25,7 @@ fn the_mild_pair_has_the_printed_constants() {
 
 #[test]
 fn the_yield_point_is_that_of_a_mean_pressure_of_1_1_times_the_yield_strength() {
-    let unit_pair = Pair { radius: 1.0, modulus: 1.0, yield_strength: 1.0 };
+    let unit_pair = pair_of(1.0, 1.0, 1.0);
     let point = BigAlabo::REFERENCE.yield_point(&unit_pair);
     agrees("d_y / (R (S/E*)^2)", point.indentation, 6.71749950, 8);
     agrees("F_y / (R^2 S^3/E*^2)", point.force, 23.2140118, 7);

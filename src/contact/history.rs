@@ -16,7 +16,7 @@ pub const LARGEST_INDENTATION: f64 = 1e100;
 const FARTHEST: f64 = (-LARGEST_INDENTATION).next_up();
 
 /// Number of words that hold a history.
-pub const WORDS: usize = 11;
+pub const WORDS: usize = 12;
 
 /// The smallest positive indentation [m]: an elastic contact is open at zero and closed here.
 const TOUCHING: f64 = f64::from_bits(1);
@@ -211,15 +211,15 @@ impl History {
     }
 
     /// Contact radius [m], 0 while apart: that of the loading law up to the largest indentation, and from there down
-    /// `a = a_m sqrt((d - d_f)/d_e)`, the radius of a Hertzian recovery.
+    /// that of the unloading law.
     pub fn contact_radius<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let indentation = self.indentation.value;
         match self.regime {
             Regime::Apart => 0.0,
             Regime::Unloaded => {
-                let Segment { lower, upper, .. } = model.unloading_path(self.max_indentation);
-                let radius = model.loading.contact_radius(&model.pair, self.max_indentation);
-                radius * sqrt((indentation - lower) / (upper - lower))
+                let path = model.unloading_path(self.max_indentation);
+                let peak = model.peak(self.max_indentation);
+                model.unloading.contact_radius(&model.pair, &peak, &path, indentation)
             }
             _ => model.loading.contact_radius(&model.pair, indentation),
         }
@@ -262,13 +262,14 @@ impl History {
 
     /// The history as words, to be stored.
     pub fn to_words(&self) -> [u64; WORDS] {
-        let Segment { lower, upper, origin, constant, linear, power } = self.segment;
-        let [sum, rest, largest] =
-            [self.indentation.value, self.indentation.rest, self.max_indentation].map(f64::to_bits);
-        let [lower, upper, origin, constant, linear, power] =
-            [lower, upper, origin, constant, linear, power].map(f64::to_bits);
-        let left_behind = self.left_behind.to_bits();
-        [sum, rest, largest, lower, upper, origin, constant, linear, power, left_behind, self.regime as u64]
+        let Segment { lower, upper, origin, constant, linear, power, square } = self.segment;
+        let Sum { value, rest } = self.indentation;
+        let state = [value, rest, self.max_indentation, self.left_behind].map(f64::to_bits);
+        let segment = [lower, upper, origin, constant, linear, power, square].map(f64::to_bits);
+        let [value, rest, largest, left_behind] = state;
+        let [lower, upper, origin, constant, linear, power, square] = segment;
+        let regime = self.regime as u64;
+        [value, rest, largest, left_behind, lower, upper, origin, constant, linear, power, square, regime]
     }
 
     /// The history that [`History::to_words`] stored; `None` if a word is not a finite number or not a regime.
@@ -277,12 +278,13 @@ impl History {
         if numbers.iter().any(|number| !number.is_finite()) {
             return None;
         }
-        let [value, rest, max_indentation, lower, upper, origin, constant, linear, power, left_behind] = numbers;
+        let [value, rest, max_indentation, left_behind, lower, upper, origin, constant, linear, power, square] =
+            numbers;
         let regime = Regime::ALL.into_iter().find(|&candidate| candidate as u64 == regime.to_bits())?;
         Some(History {
             indentation: Sum { value, rest },
             max_indentation,
-            segment: Segment { lower, upper, origin, constant, linear, power },
+            segment: Segment { lower, upper, origin, constant, linear, power, square },
             regime,
             left_behind,
         })

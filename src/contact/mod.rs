@@ -7,7 +7,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`material`] | bodies, effective radius and modulus, yield point |
-//! | [`segment`] | the form that every branch of these laws has: `F = c0 + c1 z + c2 z^1.5` |
+//! | [`segment`] | the form that every branch of these laws has: `F = c0 + c1 z + c2 z^1.5 + c3 z^2` |
 //! | [`loading`] | one file for each loading law |
 //! | [`unloading`] | one file for each unloading law |
 //! | [`path`] | the indentation, summed without loss |

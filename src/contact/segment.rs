@@ -2,10 +2,10 @@
 
 use libm::sqrt;
 
-/// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5`, `z = indentation - origin`.
+/// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5 + c3 z^2`, `z = indentation - origin`.
 ///
-/// Every branch of the project's own laws has this form: Hertz and its shifted copies by `c2`, the linear ones by `c1`. It holds for
-/// `lower <= indentation < upper`, never below `origin` unless all three constants are zero.
+/// Every branch of the project's own laws has this form: Hertz and its shifted copies by `c2`, the linear ones by `c1`, the unloading of the law `brinell` by `c2` and `c3`. It holds for
+/// `lower <= indentation < upper`, never below `origin` unless all constants are zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// Smallest indentation on the branch [m].
@@ -20,12 +20,18 @@ pub struct Segment {
     pub linear: f64,
     /// `c2` [N/m^1.5].
     pub power: f64,
+    /// `c3` [N/m^2].
+    pub square: f64,
 }
 
 impl Segment {
+    /// No force anywhere: what the segments of the laws are written on.
+    pub const NOTHING: Segment =
+        Segment { lower: 0.0, upper: 0.0, origin: 0.0, constant: 0.0, linear: 0.0, power: 0.0, square: 0.0 };
+
     /// Apart: no force, over `[lower, upper)` [m].
     pub const fn apart(lower: f64, upper: f64) -> Segment {
-        Segment { lower, upper, origin: 0.0, constant: 0.0, linear: 0.0, power: 0.0 }
+        Segment { lower, upper, ..Segment::NOTHING }
     }
 
     /// The tangent of a curve that has no segments, at `indentation` [m] with `force` [N] and `stiffness` [N/m]. It holds at
@@ -37,7 +43,7 @@ impl Segment {
             origin: indentation,
             constant: force,
             linear: stiffness,
-            power: 0.0,
+            ..Segment::NOTHING
         }
     }
 
@@ -58,13 +64,14 @@ impl Segment {
     #[inline]
     pub fn force(&self, indentation: f64) -> f64 {
         let z = self.above_origin(indentation);
-        self.constant + z * (self.linear + self.power * sqrt(z))
+        self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
     }
 
     /// dF/d(indentation) [N/m].
     #[inline]
     pub fn stiffness(&self, indentation: f64) -> f64 {
-        self.linear + 1.5 * self.power * sqrt(self.above_origin(indentation))
+        let z = self.above_origin(indentation);
+        self.linear + 1.5 * self.power * sqrt(z) + 2.0 * self.square * z
     }
 
     /// Integral of the force from the lower end of the branch to `indentation` [J].
@@ -73,6 +80,6 @@ impl Segment {
     }
 
     fn antiderivative(&self, z: f64) -> f64 {
-        z * (self.constant + z * (0.5 * self.linear + 0.4 * self.power * sqrt(z)))
+        z * (self.constant + z * (0.5 * self.linear + 0.4 * self.power * sqrt(z) + self.square * z / 3.0))
     }
 }

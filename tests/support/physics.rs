@@ -21,6 +21,13 @@ pub fn mild() -> Pair {
     Pair::new(&sphere, &steel, 300e6).expect("a sphere on a plane touches in one point")
 }
 
+/// A rigid sphere of effective radius `radius` [m] on a half-space of effective modulus `modulus` [Pa], nu = 0.3.
+pub fn pair_of(radius: f64, modulus: f64, yield_strength: f64) -> Pair {
+    let poissons_ratio = 0.3;
+    let youngs_modulus = modulus * (1.0 - poissons_ratio * poissons_ratio);
+    Pair { radius, modulus, yield_strength, youngs_modulus, poissons_ratio }
+}
+
 /// The unit of indentation and force of every table: the point where the mean pressure reaches 1.1 S.
 ///
 /// Taken for all laws, so that Hertz, which never yields, has a scale too.

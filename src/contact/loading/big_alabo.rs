@@ -77,16 +77,16 @@ impl Loading for BigAlabo {
         let (second, plastic) = (self.second_region * d_y, self.fully_plastic * d_y);
         if indentation < second {
             let power = pair.hertz_stiffness();
-            return Segment { lower: d_y, upper: second, origin: d_y, constant: f_y, linear: 0.0, power };
+            return Segment { lower: d_y, upper: second, origin: d_y, constant: f_y, power, ..Segment::NOTHING };
         }
         let Normalised { second_force, second_slope, plastic_force } = self.normalised();
         let slope_unit = f_y / d_y;
         if indentation < plastic {
             let (constant, linear) = (second_force * f_y, second_slope * slope_unit);
-            return Segment { lower: second, upper: plastic, origin: second, constant, linear, power: 0.0 };
+            return Segment { lower: second, upper: plastic, origin: second, constant, linear, ..Segment::NOTHING };
         }
         let (constant, linear) = (plastic_force * f_y, self.plastic_slope * slope_unit);
-        Segment { lower: plastic, upper: LARGEST_INDENTATION, origin: plastic, constant, linear, power: 0.0 }
+        Segment { lower: plastic, upper: LARGEST_INDENTATION, origin: plastic, constant, linear, ..Segment::NOTHING }
     }
 
     /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + (x-1) + 0.4 (x-1)^2.5`, then `w_tep + f_tep (x-x_tep) + k_l (x-x_tep)^2/2`,

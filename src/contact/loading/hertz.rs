@@ -16,7 +16,7 @@ pub struct Hertz;
 
 /// The Hertzian piece of any law that begins elastically, up to `upper` [m].
 pub(super) fn segment(pair: &Pair, upper: f64) -> Segment {
-    Segment { lower: 0.0, upper, origin: 0.0, constant: 0.0, linear: 0.0, power: pair.hertz_stiffness() }
+    Segment { upper, power: pair.hertz_stiffness(), ..Segment::NOTHING }
 }
 
 impl Loading for Hertz {

@@ -29,10 +29,9 @@ impl Unloading for HertzShift {
         Segment {
             lower: residual,
             upper: peak.indentation,
-            origin: 0.0,
             constant: -lowered_by,
-            linear: 0.0,
             power: stiffness,
+            ..Segment::NOTHING
         }
     }
 }

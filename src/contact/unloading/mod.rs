@@ -46,6 +46,11 @@ pub trait Unloading {
         *path
     }
 
+    /// Contact radius on the `path` [m]: that of a Hertzian recovery, `a = a_m sqrt((d - d_f)/d_e)`.
+    fn contact_radius(&self, _pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
+        peak.contact_radius * sqrt((indentation - path.lower) / (path.upper - path.lower))
+    }
+
     /// Work given back on a `path` that is no segment, from `indentation` down to its lower end [J].
     fn work(&self, _pair: &Pair, _peak: &Peak, path: &Segment, indentation: f64) -> f64 {
         path.work(indentation)
@@ -67,9 +72,8 @@ fn hertzian(peak: &Peak, recovery: f64) -> Segment {
         lower: residual,
         upper: peak.indentation,
         origin: residual,
-        constant: 0.0,
-        linear: 0.0,
         power: peak.force / (recovery * sqrt(recovery)),
+        ..Segment::NOTHING
     }
 }
 
