@@ -6,7 +6,6 @@ use super::segment::Segment;
 use super::unloading::Unloading;
 use super::{Model, Surface};
 use core::f64::consts::PI;
-use libm::sqrt;
 
 /// The indentation up to which the laws are evaluated [m]: far beyond anything physical, and small enough that no force
 /// or energy overflows.

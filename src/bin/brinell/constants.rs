@@ -4,8 +4,6 @@ use crate::interface::Entry;
 use crate::scene::Scene;
 use crate::table::{Causality, Type};
 use brinell::contact::Surface;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
 use std::fmt::Write;
 
 /// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, a contact that never yields.
@@ -19,9 +17,9 @@ const ABSENT: [(&str, f64); 4] = [
 /// The constants of `scene` with the variables `entries`, under the identification `guid`.
 pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
     let mut text = String::from(HEAD);
-    let loading = loading_value(&scene.loading.1);
+    let loading = value_of(&scene.loading.1);
     // an elastic contact never unloads by another law; the compiler leaves out whatever stands here
-    let unloading = scene.unloading.map_or("ContactRadius".into(), |(_, law)| unloading_value(&law));
+    let unloading = scene.unloading.map_or("ContactRadius".into(), |(_, law)| value_of(&law));
     let surface = match scene.surface {
         Surface::Dented => "Dented",
         Surface::Fresh => "Fresh",
@@ -58,22 +56,11 @@ fn add(text: &mut String, paragraph: &str) {
     text.push_str(paragraph);
 }
 
-/// The Debug form of a law is its Rust expression.
-fn loading_value(law: &AnyLoading) -> String {
-    match law {
-        AnyLoading::Hertz(law) => format!("{law:?}"),
-        AnyLoading::BigAlabo(law) => format!("{law:?}"),
-    }
-}
-
-fn unloading_value(law: &AnyUnloading) -> String {
-    match law {
-        AnyUnloading::ContactRadius(law) => format!("{law:?}"),
-        AnyUnloading::Thornton(law) => format!("{law:?}"),
-        AnyUnloading::OriginalRadius(law) => format!("{law:?}"),
-        AnyUnloading::DeformedRadius(law) => format!("{law:?}"),
-        AnyUnloading::HertzShift(law) => format!("{law:?}"),
-    }
+/// The Rust expression of a law: the Debug form of the enum that holds it, without the enum.
+fn value_of(law: &impl std::fmt::Debug) -> String {
+    let text = format!("{law:?}");
+    let inner = text.split_once('(').and_then(|(_, rest)| rest.strip_suffix(')'));
+    inner.map_or(text.clone(), str::to_string)
 }
 
 fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &str) {
