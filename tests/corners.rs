@@ -77,8 +77,13 @@ fn at_a_corner_of_the_loading_curve_the_branch_above_holds() {
             assert_eq!(at.stiffness(), slope(corner), "{name} at {corner:e}");
             assert_eq!(above.stiffness(), slope(corner.next_up()), "{name} above {corner:e}");
             assert_eq!(at.regime(), above.regime(), "{name} at {corner:e}");
-            assert_ne!(at.regime(), below.regime(), "{name} at {corner:e}");
-            assert!(below.force() <= at.force() && at.force() <= above.force(), "{name} at {corner:e}");
+            // not every corner is the border of a regime, but at each the law goes on with another piece
+            let piece = |d: f64| model.loading.segment(&model.pair, d).constant;
+            assert_ne!(piece(corner), piece(corner.next_down()), "{name} at {corner:e}");
+            // two pieces meet to the rounding of their terms, the largest of which are some twenty times the force
+            let rounding = 1e-14 * at.force();
+            assert!(below.force() <= at.force() + rounding, "{name} at {corner:e}");
+            assert!(at.force() <= above.force() + rounding, "{name} at {corner:e}");
         }
     }
 }

@@ -213,6 +213,8 @@ fn only_the_deformed_radius_jumps_at_yield_and_as_documented() {
         match name {
             "deformed-radius" => assert!((depth - 0.0153).abs() < 5e-5, "{depth}: not 0.0153 as printed"),
             "hertz-shift" => assert!(depth < 2e-6, "{name}: {depth}"),
+            // its shape rises with the lag behind Hertz's force, over an onset of 0.0313: six times d_m - d_y here
+            "brinell" => assert!(depth < 6e-9, "{name}: {depth}"),
             _ => assert!(depth < 2e-9, "{name}: {depth}"),
         }
     }

@@ -68,8 +68,13 @@ fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &
     // one field a line, as rustfmt has it
     let value = match value.split_once(" { ") {
         Some((name, fields)) => {
-            let fields = fields.trim_end_matches(" }").split(", ").map(|field| format!("    {field},\n"));
-            format!("{name} {{\n{}}}", fields.collect::<String>())
+            // a comma inside brackets belongs to the field
+            let mut depth = 0;
+            let fields = fields.trim_end_matches(" }").split(|c| {
+                depth += i32::from(c == '[') - i32::from(c == ']');
+                c == ',' && depth == 0
+            });
+            format!("{name} {{\n{}}}", fields.map(|field| format!("    {},\n", field.trim())).collect::<String>())
         }
         None => value.to_string(),
     };

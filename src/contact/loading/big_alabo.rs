@@ -1,6 +1,6 @@
 //! Big-Alabo, Harrison and Cartmell: elastic, elastoplastic in two regions, fully plastic.
 
-use super::{Loading, hertz};
+use super::{Loading, hertz, work_over_segments};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
@@ -92,16 +92,7 @@ impl Loading for BigAlabo {
     /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + (x-1) + 0.4 (x-1)^2.5`, then `w_tep + f_tep (x-x_tep) + k_l (x-x_tep)^2/2`,
     /// then `w_p + f_p (x-x_p) + k_p (x-x_p)^2/2`: the whole pieces below `indentation` and the begun one.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
-        let d_y = self.yield_point(pair).indentation;
-        let (mut work, mut reached) = (0.0, 0.0);
-        for border in [d_y, self.second_region * d_y, self.fully_plastic * d_y] {
-            if indentation <= border {
-                break;
-            }
-            work += self.segment(pair, reached).work(border);
-            reached = border;
-        }
-        work + self.segment(pair, reached).work(indentation)
+        work_over_segments(self, pair, indentation)
     }
 
     /// From the mean pressure `p_m/S = 1.1 sqrt(x)` up to yield, then `min(1.1 + ln(2x-1)/3, 2.8)`: `a^2 = F/(pi p_m)`,

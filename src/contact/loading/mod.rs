@@ -1,9 +1,11 @@
 //! Loading laws, one file each: the curve that the force follows while the indentation is the largest so far.
 
 pub mod big_alabo;
+pub mod brinell;
 pub mod hertz;
 
 pub use big_alabo::BigAlabo;
+pub use brinell::Brinell;
 pub use hertz::Hertz;
 
 use super::history::Regime;
@@ -36,6 +38,18 @@ pub trait Loading {
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime;
 }
 
+/// Work of a curve that is made of segments, from first contact to `indentation` [J]: the whole segments below it and the
+/// begun one.
+fn work_over_segments(law: &impl Loading, pair: &Pair, indentation: f64) -> f64 {
+    let mut segment = law.segment(pair, 0.0);
+    let mut work = 0.0;
+    while segment.upper < indentation {
+        work += segment.work(segment.upper);
+        segment = law.segment(pair, segment.upper);
+    }
+    work + segment.work(indentation)
+}
+
 /// A loading law chosen while the program runs. The FMU doesn't need it: a scene names its law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnyLoading {
@@ -43,18 +57,24 @@ pub enum AnyLoading {
     Hertz(Hertz),
     /// See [`BigAlabo`].
     BigAlabo(BigAlabo),
+    /// See [`Brinell`].
+    Brinell(Brinell),
 }
 
 impl AnyLoading {
     /// Every law under the name it has in a scene, with its reference constants.
-    pub const ALL: [(&'static str, AnyLoading); 2] =
-        [("hertz", AnyLoading::Hertz(Hertz)), ("big-alabo", AnyLoading::BigAlabo(BigAlabo::REFERENCE))];
+    pub const ALL: [(&'static str, AnyLoading); 3] = [
+        ("hertz", AnyLoading::Hertz(Hertz)),
+        ("big-alabo", AnyLoading::BigAlabo(BigAlabo::REFERENCE)),
+        ("brinell", AnyLoading::Brinell(Brinell::REFERENCE)),
+    ];
 
     /// The law itself.
     pub fn law(&self) -> &dyn Loading {
         match self {
             AnyLoading::Hertz(law) => law,
             AnyLoading::BigAlabo(law) => law,
+            AnyLoading::Brinell(law) => law,
         }
     }
 }

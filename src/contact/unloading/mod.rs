@@ -3,12 +3,14 @@
 //! All are closures: from the point of the loading curve where the load begins to come off they give the elastic recovery
 //! `d_e = d_m - d_f`, and with it the whole path. Reloading follows the same path back.
 
+pub mod brinell;
 pub mod contact_radius;
 pub mod deformed_radius;
 pub mod hertz_shift;
 pub mod original_radius;
 pub mod thornton;
 
+pub use brinell::Brinell;
 pub use contact_radius::ContactRadius;
 pub use deformed_radius::DeformedRadius;
 pub use hertz_shift::HertzShift;
@@ -57,16 +59,28 @@ pub trait Unloading {
     }
 }
 
-/// `F = F_m ((d - d_f)/d_e)^1.5`: Hertzian unloading with the elastic recovery `d_e` [m].
+/// The residual indentation that an elastic `recovery` [m] leaves of `peak` [m].
 ///
-/// `d_e` is taken again from the rounded `d_f`, so that the path ends in the peak to the last bits. A residual of a few
-/// units in the last place of the peak is none: the recovery just beyond yield is the whole indentation, rounded.
-fn hertzian(peak: &Peak, recovery: f64) -> Segment {
+/// A residual of a few units in the last place of the peak is none: the recovery just beyond yield is the whole
+/// indentation, rounded. Far beyond anything physical the recovery is less than the last digit of the indentation, but it
+/// isn't nothing.
+fn residual_after(peak: &Peak, recovery: f64) -> f64 {
     let difference = peak.indentation - recovery;
     let rounding = 8.0 * f64::EPSILON * peak.indentation;
-    let residual = if difference > -rounding && difference < rounding { 0.0 } else { difference };
-    // far beyond anything physical the recovery is less than the last digit of the indentation, but it isn't nothing
-    let residual = if residual < peak.indentation { residual } else { peak.indentation.next_down() };
+    if difference > -rounding && difference < rounding {
+        0.0
+    } else if difference < peak.indentation {
+        difference
+    } else {
+        peak.indentation.next_down()
+    }
+}
+
+/// `F = F_m ((d - d_f)/d_e)^1.5`: Hertzian unloading with the elastic recovery `d_e` [m].
+///
+/// `d_e` is taken again from the rounded `d_f`, so that the path ends in the peak to the last bits.
+fn hertzian(peak: &Peak, recovery: f64) -> Segment {
+    let residual = residual_after(peak, recovery);
     let recovery = peak.indentation - residual;
     Segment {
         lower: residual,
@@ -90,16 +104,19 @@ pub enum AnyUnloading {
     DeformedRadius(DeformedRadius),
     /// See [`HertzShift`].
     HertzShift(HertzShift),
+    /// See [`Brinell`].
+    Brinell(Brinell),
 }
 
 impl AnyUnloading {
     /// Every law under the name it has in a scene, with its reference constants.
-    pub const ALL: [(&'static str, AnyUnloading); 5] = [
+    pub const ALL: [(&'static str, AnyUnloading); 6] = [
         ("contact-radius", AnyUnloading::ContactRadius(ContactRadius)),
         ("thornton", AnyUnloading::Thornton(Thornton)),
         ("original-radius", AnyUnloading::OriginalRadius(OriginalRadius)),
         ("deformed-radius", AnyUnloading::DeformedRadius(DeformedRadius::REFERENCE)),
         ("hertz-shift", AnyUnloading::HertzShift(HertzShift)),
+        ("brinell", AnyUnloading::Brinell(Brinell::REFERENCE)),
     ];
 }
 
@@ -111,6 +128,15 @@ impl Unloading for AnyUnloading {
             AnyUnloading::OriginalRadius(law) => law.path(pair, peak),
             AnyUnloading::DeformedRadius(law) => law.path(pair, peak),
             AnyUnloading::HertzShift(law) => law.path(pair, peak),
+            AnyUnloading::Brinell(law) => law.path(pair, peak),
+        }
+    }
+
+    fn contact_radius(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
+        match self {
+            AnyUnloading::Brinell(law) => law.contact_radius(pair, peak, path, indentation),
+            // the others have the radius of a Hertzian recovery
+            _ => ContactRadius.contact_radius(pair, peak, path, indentation),
         }
     }
 }

@@ -1,0 +1,141 @@
+//! The law `brinell`: what finite elements say of a rigid sphere on an elastic, perfectly plastic half-space.
+
+use super::{Loading, hertz, work_over_segments};
+use crate::contact::history::{LARGEST_INDENTATION, Regime};
+use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::segment::Segment;
+use libm::sqrt;
+
+/// Pieces of the curve above yield.
+const PIECES: usize = 8;
+
+/// Force and contact area fitted to finite-element indentation (`truth/`, fitted by `fit/fit_brinell.py`), with
+/// `x = d/d_y`, `f = F/F_y`, `A = a^2/(R d_y)`:
+///
+/// - `x < 1`: Hertz, `f = x^1.5`, `A = x`;
+/// - above: `f` and `A` are each a chain of pieces `c0 + c1 x + c2 x^1.5` on the same knots, value and slope continuous, the
+///   slope linear in `sqrt(x)` between knots;
+/// - beyond the last knot both are linear: constant mean pressure, fully plastic.
+///
+/// Value and slope are continuous everywhere, force, area and mean pressure monotone. Each piece has its origin at `x = 0`:
+/// with the origin at its knot the curvature would be infinite behind it, and the force would rise above Hertz's just
+/// after yield.
+///
+/// Within 0.5 % of the truth from first contact to `x = 1000` (0.1 % rms), which is the truth's own error; contact radius
+/// within 0.6 %. Small strain, nu = 0.3, no hardening; large deformation differs by 0.5 % up to `x = 200` at `E*/S = 1000`,
+/// by 1 % at `x = 82.5` and 7 % at `x = 200` at `E*/S = 100`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Brinell {
+    /// Mean pressure at yield over the yield strength.
+    pub yield_pressure_factor: f64,
+    /// Where the pieces begin [d_y]; the first knot is the yield point.
+    pub knots: [f64; PIECES],
+    /// Slope of the force at each knot [F_y/d_y].
+    pub force_slopes: [f64; PIECES],
+    /// Slope of `a^2` at each knot `[R]`.
+    pub area_slopes: [f64; PIECES],
+    /// Where the second elastoplastic region begins [d_y]: mean pressure 2.19 S.
+    pub second_region: f64,
+    /// Where the contact counts as fully plastic [d_y]: the mean pressure is within 3 % of its limit.
+    pub fully_plastic: f64,
+}
+
+/// A piece `c0 + c1 x + c2 x^1.5` from one knot to the next.
+struct Piece {
+    from: f64,
+    to: f64,
+    c0: f64,
+    c1: f64,
+    c2: f64,
+}
+
+impl Piece {
+    fn value(&self, x: f64) -> f64 {
+        self.c0 + x * (self.c1 + self.c2 * sqrt(x))
+    }
+}
+
+impl Brinell {
+    /// The constants that `fit/fit_brinell.py` finds. The last slopes are those of a mean pressure of 3.0 S, to which the
+    /// truth settles, on an area `2.86 R d`, that of a rigid, perfectly plastic solid (B. Storåkers, S. Biwa,
+    /// P.-L. Larsson, *Int. J. Solids Struct.* 34 (1997) 3061-3083): `7.8 = 3.0 * 2.86 / 1.1`.
+    pub const REFERENCE: Brinell = Brinell {
+        yield_pressure_factor: 1.1,
+        knots: [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 2000.0],
+        force_slopes: [1.5, 2.0032, 2.7348, 3.5094, 4.3243, 5.1693, 6.1383, 7.8],
+        area_slopes: [1.0, 1.1219, 1.3539, 1.5692, 1.7436, 1.9257, 2.2391, 2.86],
+        second_region: 12.0,
+        fully_plastic: 250.0,
+    };
+
+    /// The piece that holds at `x >= 1` of the chain with these slopes, which begins with the value 1.
+    fn piece(&self, slopes: &[f64; PIECES], x: f64) -> Piece {
+        let begins = self.knots.iter().zip(slopes);
+        let ends = begins.clone().skip(1).map(|(&knot, &slope)| (knot, Some(slope)));
+        let ends = ends.chain(core::iter::once((f64::INFINITY, None)));
+        let mut value = 1.0;
+        let mut piece = Piece { from: 0.0, to: 0.0, c0: 0.0, c1: 0.0, c2: 0.0 };
+        for ((&from, &slope), (to, end_slope)) in begins.zip(ends) {
+            let root = sqrt(from);
+            let c2 = end_slope.map_or(0.0, |end_slope| (end_slope - slope) / (1.5 * (sqrt(to) - root)));
+            let c1 = slope - 1.5 * c2 * root;
+            let c0 = value - from * (c1 + c2 * root);
+            piece = Piece { from, to, c0, c1, c2 };
+            if x < to {
+                break;
+            }
+            value = piece.value(to);
+        }
+        piece
+    }
+}
+
+impl Loading for Brinell {
+    fn yield_point(&self, pair: &Pair) -> YieldPoint {
+        pair.yield_point(self.yield_pressure_factor)
+    }
+
+    fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
+        let YieldPoint { indentation: d_y, force: f_y } = self.yield_point(pair);
+        if indentation < d_y {
+            return hertz::segment(pair, d_y);
+        }
+        // the knots in metres decide, so that a segment begins exactly where the one before it ends
+        let knot_below = self.knots.iter().copied().filter(|knot| knot * d_y <= indentation).fold(1.0, f64::max);
+        let Piece { from, to, c0, c1, c2 } = self.piece(&self.force_slopes, knot_below);
+        let upper = if to < f64::INFINITY { to * d_y } else { LARGEST_INDENTATION };
+        let slope_unit = f_y / d_y;
+        Segment {
+            lower: from * d_y,
+            upper,
+            constant: c0 * f_y,
+            linear: c1 * slope_unit,
+            power: c2 * slope_unit / sqrt(d_y),
+            ..Segment::NOTHING
+        }
+    }
+
+    fn work(&self, pair: &Pair, indentation: f64) -> f64 {
+        work_over_segments(self, pair, indentation)
+    }
+
+    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
+        let d_y = self.yield_point(pair).indentation;
+        let x = indentation / d_y;
+        let area = if x < 1.0 { x } else { self.piece(&self.area_slopes, x).value(x) };
+        sqrt(pair.radius * d_y * area)
+    }
+
+    fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
+        let d_y = self.yield_point(pair).indentation;
+        if indentation < d_y {
+            Regime::Elastic
+        } else if indentation < self.second_region * d_y {
+            Regime::ElastoplasticFirst
+        } else if indentation < self.fully_plastic * d_y {
+            Regime::ElastoplasticSecond
+        } else {
+            Regime::FullyPlastic
+        }
+    }
+}
