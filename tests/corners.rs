@@ -5,7 +5,8 @@ mod physics;
 
 use brinell::contact::{History, Loading, Regime, Surface};
 use physics::{
-    AnyModel, Random, TURNS, advance, all_models, corners, exactly, go, mild, model, on_grid, pair_of, pressed,
+    AnyModel, Random, TURNS, advance, all_models, corners, exactly, go, is_passive, mild, model, on_grid, pair_of,
+    pressed, unloading_stiffness,
 };
 
 #[test]
@@ -78,8 +79,9 @@ fn at_a_corner_of_the_loading_curve_the_branch_above_holds() {
             assert_eq!(above.stiffness(), slope(corner.next_up()), "{name} above {corner:e}");
             assert_eq!(at.regime(), above.regime(), "{name} at {corner:e}");
             // not every corner is the border of a regime, but at each the law goes on with another piece
-            let piece = |d: f64| model.loading.segment(&model.pair, d).constant;
-            assert_ne!(piece(corner), piece(corner.next_down()), "{name} at {corner:e}");
+            let end = |d: f64| model.loading.next_corner(&model.pair, d);
+            assert_eq!(end(corner.next_down()), corner, "{name} at {corner:e}");
+            assert!(end(corner) > corner, "{name} at {corner:e}");
             // two pieces meet to the rounding of their terms, the largest of which are some twenty times the force
             let rounding = 1e-14 * at.force();
             assert!(below.force() <= at.force() + rounding, "{name} at {corner:e}");
@@ -92,7 +94,7 @@ fn at_a_corner_of_the_loading_curve_the_branch_above_holds() {
 fn at_the_largest_indentation_the_way_up_is_loading_and_the_way_down_unloading() {
     for (name, model) in all_models(mild()).into_iter().filter(|(_, model)| !corners(model).is_empty()) {
         let peak = on_grid(20.0);
-        let path = model.unloading_path(peak);
+        let regime = model.loading.regime(&model.pair, peak);
         let reach = |from: f64, to: f64| {
             let mut history = pressed(&model, peak);
             exactly(&mut history, &model, from);
@@ -104,19 +106,15 @@ fn at_the_largest_indentation_the_way_up_is_loading_and_the_way_down_unloading()
             let below = reach(from, peak.next_down());
             assert_eq!(
                 (below.regime(), below.stiffness()),
-                (Regime::Unloaded, path.stiffness(peak.next_down())),
+                (Regime::Unloaded, unloading_stiffness(&model, peak, peak.next_down())),
                 "{name}"
             );
             let at = reach(from, peak);
-            assert_eq!((at.regime(), at.stiffness()), (Regime::ElastoplasticSecond, loading_stiffness), "{name}");
+            assert_eq!((at.regime(), at.stiffness()), (regime, loading_stiffness), "{name}");
             let above = reach(from, peak.next_up());
-            assert_eq!(
-                (above.regime(), above.max_indentation()),
-                (Regime::ElastoplasticSecond, peak.next_up()),
-                "{name}"
-            );
+            assert_eq!((above.regime(), above.max_indentation()), (regime, peak.next_up()), "{name}");
         }
-        assert!(path.stiffness(peak) > loading_stiffness, "{name}: a corner");
+        assert!(unloading_stiffness(&model, peak, peak) > loading_stiffness, "{name}: a corner");
     }
 }
 
@@ -125,7 +123,6 @@ fn at_the_residual_indentation_the_way_up_is_contact_and_the_way_down_apart() {
     for (name, model) in all_models(mild()).into_iter().filter(|(_, model)| !corners(model).is_empty()) {
         let first = pressed(&model, on_grid(20.0));
         let residual = first.residual_indentation(&model);
-        let path = model.unloading_path(on_grid(20.0));
         let reach = |from: f64, to: f64| {
             let mut history = first;
             exactly(&mut history, &model, from);
@@ -134,7 +131,7 @@ fn at_the_residual_indentation_the_way_up_is_contact_and_the_way_down_apart() {
         };
         let (down, up) = (on_grid(20.0), 0.75 * residual);
         let apart = (Regime::Apart, 0.0);
-        let contact = |d: f64| (Regime::Unloaded, path.stiffness(d));
+        let contact = |d: f64| (Regime::Unloaded, unloading_stiffness(&model, on_grid(20.0), d));
         assert_eq!(reach(down, residual.next_up()), contact(residual.next_up()), "{name}: down to just above");
         assert_eq!(reach(down, residual), apart, "{name}: down to it");
         assert_eq!(reach(down, residual.next_down()), apart, "{name}: down to just below");
@@ -192,7 +189,7 @@ fn a_few_roundings_beyond_yield_the_dent_is_not_above_the_surface() {
         let radius = 10f64.powf(-4.0 * random.next());
         pair_of(radius, 10f64.powf(9.0 + 3.0 * random.next()), 10f64.powf(6.0 + 2.0 * random.next()))
     };
-    for (name, model) in (0..200).flat_map(|_| all_models(pair())) {
+    for (name, model) in (0..200).flat_map(|_| all_models(pair())).filter(|(_, model)| is_passive(model)) {
         for corner in corners(&model).into_iter().take(1) {
             let mut largest = corner;
             for _ in 0..10 {

@@ -10,7 +10,10 @@ use brinell::contact::history::LARGEST_INDENTATION;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{History, Loading, Regime};
-use physics::{AnyModel, all_models, corners, go, loading_force, logarithmic, mild, model, pair_of, pressed, unit};
+use physics::{
+    AnyModel, all_models, corners, go, has_jumps, is_one_of, is_passive, loading_force, logarithmic, mild, model,
+    pair_of, pressed, unit, unloading_force, unloading_stiffness,
+};
 
 const EPSILON: f64 = f64::EPSILON;
 
@@ -45,13 +48,23 @@ fn derivative(function: impl Fn(f64) -> f64, at: f64, step: f64, size: f64) -> (
     let step = (at + step) - at;
     let near = function(at + step) - function(at - step);
     let far = function(at + 2.0 * step) - function(at - 2.0 * step);
-    ((8.0 * near - far) / (12.0 * step), 16.0 * EPSILON * size / step + 1e-9 * size * step / at)
+    ((8.0 * near - far) / (12.0 * step), 16.0 * EPSILON * size / step + 1e-9 * size * step / at.abs())
+}
+
+/// The smooth piece of the loading curve around `at`: its ends, and where the power in it begins. A curve that is no segment
+/// has a power that begins at its lower end, if it has one.
+fn smooth_range(model: &AnyModel, at: f64) -> [f64; 3] {
+    let segment = model.loading.segment(&model.pair, at);
+    let lower = corners(model).into_iter().filter(|&corner| corner <= at).fold(0.0, f64::max);
+    let origin = if segment.origin == at { lower } else { segment.origin };
+    [lower, model.loading.next_corner(&model.pair, at), origin]
 }
 
 /// Fails unless `got` is the derivative of `function` at `at` on a branch with this lower and upper end and origin.
 fn is_derivative(what: &str, got: f64, function: impl Fn(f64) -> f64, at: f64, range: [f64; 3], size: f64) {
     let [lower, upper, origin] = range;
-    let room = (at - lower).min(upper - at).min(at - origin).min(at);
+    // a dent above the surface is met at negative indentations
+    let room = (at - lower).min(upper - at).min(at - origin).min(at.abs());
     let (slope, rounding) = derivative(function, at, 1e-3 * room, size);
     // truncation relative to the slope itself: it is a power of the distance to the origin plus a constant
     let allowed = rounding + 1e-11 * got.abs();
@@ -75,6 +88,9 @@ fn force_work_and_contact_radius_are_continuous_at_every_corner() {
         for corner in corners(&model) {
             let (below, above) = (corner.next_down(), corner);
             // the step of one unit in the last place changes each by less than 1.5, 2.5 and 1 such units
+            if has_jumps(&model) {
+                continue;
+            }
             let pairs = [
                 ("force", loading_force(&model, below), loading_force(&model, above)),
                 ("work", model.loading.work(&model.pair, below), model.loading.work(&model.pair, above)),
@@ -100,9 +116,9 @@ fn the_unloading_path_begins_at_the_peak_and_ends_without_force() {
         for largest in indentations(&model) {
             let path = model.unloading_path(largest);
             let allowed = force_rounding(&model, largest);
-            let (peak, force) = (loading_force(&model, largest), path.force(largest));
+            let (peak, force) = (loading_force(&model, largest), unloading_force(&model, largest, largest));
             assert!((peak - force).abs() <= allowed, "{name} from {largest:e}: {force:e}, peak {peak:e}");
-            let rest = path.force(path.lower);
+            let rest = unloading_force(&model, largest, path.lower);
             assert!(
                 rest >= 0.0 && rest <= allowed,
                 "{name} from {largest:e}: {rest:e} left at the residual indentation"
@@ -117,7 +133,7 @@ fn on_loading_force_is_the_slope_of_work_and_stiffness_the_slope_of_force() {
         let model = AnyModel { loading: law, ..model("hertz", "contact-radius") };
         for at in indentations(&model) {
             let segment = law.segment(&model.pair, at);
-            let range = [segment.lower, segment.upper, segment.origin];
+            let range = smooth_range(&model, at);
             let (work, force) = (law.work(&model.pair, at), segment.force(at));
             is_derivative(&format!("{name}: force"), force, |d| law.work(&model.pair, d), at, range, work);
             let stiffness = pressed(&model, at).stiffness();
@@ -131,7 +147,12 @@ fn on_unloading_force_is_the_slope_of_work_and_stiffness_the_slope_of_force() {
     for (name, model) in all_models(mild()) {
         for largest in indentations(&model) {
             let path = model.unloading_path(largest);
-            let largest_work = path.work(largest).max(model.pair.hertz_stiffness() * 0.4 * largest.powf(2.5));
+            // a path of one step in the last place has no inside (the fitted dent far beyond its fit)
+            if path.lower.next_up() >= largest {
+                continue;
+            }
+            let largest_work =
+                model.recovered_work(largest, largest).max(model.pair.hertz_stiffness() * 0.4 * largest.powf(2.5));
             let largest_force = force_rounding(&model, largest) / (16.0 * EPSILON);
             for part in [0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98] {
                 let at = path.lower + part * (largest - path.lower);
@@ -140,11 +161,18 @@ fn on_unloading_force_is_the_slope_of_work_and_stiffness_the_slope_of_force() {
                 let at = history.indentation();
                 let range = [path.lower, largest, path.origin];
                 let what = format!("{name} from {largest:e}");
-                is_derivative(&format!("{what}: force"), history.force(), |d| path.work(d), at, range, largest_work);
+                is_derivative(
+                    &format!("{what}: force"),
+                    history.force(),
+                    |d| model.recovered_work(largest, d),
+                    at,
+                    range,
+                    largest_work,
+                );
                 is_derivative(
                     &format!("{what}: stiffness"),
                     history.stiffness(),
-                    |d| path.force(d),
+                    |d| unloading_force(&model, largest, d),
                     at,
                     range,
                     largest_force,
@@ -170,17 +198,18 @@ fn loading_is_monotone() {
 
 #[test]
 fn the_unloading_path_is_never_above_the_loading_path() {
-    for (name, model) in all_models(mild()) {
+    for (name, model) in all_models(mild()).into_iter().filter(|(_, model)| is_passive(model) && !has_jumps(model)) {
         for largest in indentations(&model) {
             let path = model.unloading_path(largest);
             for step in 0..=50 {
                 let at = path.lower + f64::from(step) / 50.0 * (largest - path.lower);
-                let (down, up) = (path.force(at), loading_force(&model, at));
+                let (down, up) = (unloading_force(&model, largest, at), loading_force(&model, at));
                 let allowed = force_rounding(&model, largest);
                 assert!(down <= up + allowed, "{name} from {largest:e} at {at:e}: {down:e} above {up:e}");
             }
             // so that the tangent at the peak can't leave the loading path on the wrong side
-            let (unloading, loading) = (path.stiffness(largest), pressed(&model, largest).stiffness());
+            let (unloading, loading) =
+                (unloading_stiffness(&model, largest, largest), pressed(&model, largest).stiffness());
             assert!(
                 unloading >= loading * (1.0 - 16.0 * EPSILON),
                 "{name} at {largest:e}: {unloading:e} < {loading:e}"
@@ -191,7 +220,7 @@ fn the_unloading_path_is_never_above_the_loading_path() {
 
 #[test]
 fn the_dent_deepens_with_the_largest_indentation() {
-    for (name, model) in all_models(mild()) {
+    for (name, model) in all_models(mild()).into_iter().filter(|(_, model)| is_passive(model)) {
         let mut before = 0.0;
         for largest in indentations(&model) {
             let depth = model.unloading_path(largest).lower;
@@ -215,6 +244,12 @@ fn only_the_deformed_radius_jumps_at_yield_and_as_documented() {
             "hertz-shift" => assert!(depth < 2e-6, "{name}: {depth}"),
             // its shape rises with the lag behind Hertz's force, over an onset of 0.0313: six times d_m - d_y here
             "brinell" => assert!(depth < 6e-9, "{name}: {depth}"),
+            // these have yield points of their own, a little below 1.1 S, and count from there
+            "etsion" => assert!((depth - 0.00033612).abs() < 5e-9, "{name}: {depth}"),
+            "jackson" => assert!((depth - 0.0035).abs() < 5e-5, "{name}: {depth}"),
+            "vu-quoc-zhang" => assert!((depth - 1.4e-7).abs() < 5e-9, "{name}: {depth}"),
+            // d_m (1 - k_1/k_2) from the start
+            "walton-braun" => assert!((depth - 0.75).abs() < 2e-9, "{name}: {depth}"),
             _ => assert!(depth < 2e-9, "{name}: {depth}"),
         }
     }
@@ -226,7 +261,9 @@ fn the_contact_radius_grows_with_loading_and_is_continuous_at_the_turn() {
         let mut before = 0.0;
         for largest in indentations(&model) {
             let radius = model.loading.contact_radius(&model.pair, largest);
-            assert!(radius >= before * (1.0 - 4.0 * EPSILON), "{name} at {largest:e}: {radius:e} after {before:e}");
+            // the area of Kogut and Etsion falls by 7 % at yield, and the radius by half of that
+            let falls_by = if is_one_of(&model, &["kogut-etsion"]) { 0.036 } else { 4.0 * EPSILON };
+            assert!(radius >= before * (1.0 - falls_by), "{name} at {largest:e}: {radius:e} after {before:e}");
             before = radius;
             let mut history = pressed(&model, largest);
             assert_eq!(history.contact_radius(&model), radius, "{name} at {largest:e}");
@@ -242,12 +279,11 @@ fn the_contact_radius_grows_with_loading_and_is_continuous_at_the_turn() {
 
 #[test]
 fn no_path_gives_back_more_than_was_put_in() {
-    for (name, model) in all_models(mild()) {
+    for (name, model) in all_models(mild()).into_iter().filter(|(_, model)| is_passive(model)) {
         let mut before = 0.0;
         for largest in indentations(&model) {
             let work = model.loading.work(&model.pair, largest);
-            let path = model.unloading_path(largest);
-            let lost = work - path.work(largest);
+            let lost = work - model.recovered_work(largest, largest);
             // the shifted Hertz curve takes its energy from a difference of two larger ones
             let rounding = 16.0 * EPSILON * work.max(0.4 * model.pair.hertz_stiffness() * largest.powf(2.5));
             assert!(lost >= -rounding, "{name} from {largest:e}: gains {:e} of {work:e}", -lost);
@@ -269,7 +305,8 @@ fn work_is_elastic_and_dissipated_energy() {
             let path = model.unloading_path(largest);
             for part in [0.75, 0.5, 0.25, -0.25] {
                 go(&mut history, &model, path.lower + part * (largest - path.lower));
-                let given_back = path.work(largest) - path.work(history.indentation().max(path.lower));
+                let end = history.indentation().max(path.lower);
+                let given_back = model.recovered_work(largest, largest) - model.recovered_work(largest, end);
                 let sum = history.elastic_energy(&model) + history.dissipated_energy(&model);
                 assert!((sum - (loading - given_back)).abs() <= rounding, "{name} from {largest:e}, {part} of the way");
                 assert_eq!(history.work(&model), sum, "{name}");
@@ -302,7 +339,8 @@ fn the_normalised_curve_is_the_same_for_every_pair() {
             dent / unit.indentation,
         ]
     };
-    for (name, reference) in all_models(mild()) {
+    let scale_free = |model: &AnyModel| !is_one_of(model, physics::NOT_SCALE_FREE);
+    for (name, reference) in all_models(mild()).into_iter().filter(|(_, model)| scale_free(model)) {
         for x in logarithmic(0.01, 1e4, 61) {
             let expected = scaled(&reference, x);
             // one part in 1e12: a border that rounds to the other side moves the curve by no more, and dents are

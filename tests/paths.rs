@@ -4,11 +4,12 @@
 mod physics;
 
 use brinell::contact::history::WORDS;
+use brinell::contact::loading::KogutEtsion;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{History, Regime, Surface};
 use physics::{
-    AnyModel, Random, TURNS, advance, all_models, corners, exactly, go, loading_force, mild, model, on_grid, pressed,
-    unit,
+    AnyModel, Random, TURNS, advance, all_models, exactly, go, is_passive, loading_force, mild, model, on_grid,
+    pressed, unit, unloading_force,
 };
 
 /// What a path shows: force, energies, dent, contact radius.
@@ -167,7 +168,10 @@ fn a_dented_surface_keeps_its_dent() {
         assert_eq!(history.residual_indentation(&model), first.residual_indentation(&model), "{name}");
         assert_eq!(history.dissipated_energy(&model), first.dissipated_energy(&model), "{name}");
         go(&mut history, &model, on_grid(15.0));
-        assert_eq!(history.force(), model.unloading_path(on_grid(20.0)).force(on_grid(15.0)), "{name}");
+        // some laws leave a dent deeper than that
+        let met = on_grid(15.0) > first.residual_indentation(&model);
+        let force = if met { unloading_force(&model, on_grid(20.0), on_grid(15.0)) } else { 0.0 };
+        assert_eq!(history.force(), force, "{name}");
     }
 }
 
@@ -214,7 +218,7 @@ fn the_range_has_the_same_end_however_it_is_reached() {
 
 #[test]
 fn dissipated_energy_never_falls_along_a_long_path() {
-    for (name, dented) in all_models(mild()) {
+    for (name, dented) in all_models(mild()).into_iter().filter(|(_, model)| is_passive(model)) {
         for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
             let (mut history, mut random, mut before, mut largest) = (pressed(&model, 0.0), Random(7), 0.0, 0.0_f64);
             for _ in 0..5000 {
@@ -229,7 +233,7 @@ fn dissipated_energy_never_falls_along_a_long_path() {
                 assert!(lost >= before - rounding, "{name}, {:?}: from {before:e} to {lost:e} at {x}", model.surface);
                 before = lost;
             }
-            assert_eq!(before > 0.0, !corners(&model).is_empty(), "{name}: only a law that yields dissipates");
+            assert_eq!(before > 0.0, physics::yields(&model), "{name}: only a law that yields dissipates");
         }
     }
 }
@@ -269,6 +273,9 @@ fn words_that_are_no_history_are_refused() {
 fn on_the_way_down_the_contact_radius_is_that_of_an_elastic_recovery() {
     for (name, model) in all_models(mild()) {
         let hertzian = !matches!(model.unloading, AnyUnloading::Brinell(_));
+        let is_etsion = matches!(model.unloading, AnyUnloading::Etsion(_));
+        let is_vu_quoc = matches!(model.unloading, AnyUnloading::VuQuocZhang(_));
+        let depth = on_grid(20.0) / KogutEtsion::REFERENCE.unit(&model.pair).indentation;
         let mut history = pressed(&model, on_grid(20.0));
         let (radius, dent) = (history.contact_radius(&model), history.residual_indentation(&model));
         for part in [0.9, 0.25, 0.01] {
@@ -276,6 +283,9 @@ fn on_the_way_down_the_contact_radius_is_that_of_an_elastic_recovery() {
             let ratio = history.contact_radius(&model) / radius;
             // Hertz's recovery, or half the stiffness over E*, which is the same where the path is Hertz's
             let expected = match hertzian {
+                // the area of this law falls with another power of the recovery, y_m^-0.12; that one keeps part of the radius
+                _ if is_etsion => (part.powf(depth.powf(-0.12))).sqrt(),
+                _ if is_vu_quoc => (history.indentation() / on_grid(20.0)).sqrt(),
                 true => part.sqrt(),
                 false => history.stiffness() / (2.0 * model.pair.modulus) / radius,
             };

@@ -4,10 +4,9 @@
 mod physics;
 
 use brinell::contact::impact::{Impact, predict};
-use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, History, Pair, Regime, Surface};
-use physics::{AnyModel, advance, loading_force, mild, pressed, unit};
+use physics::{AnyModel, advance, all_models, is_passive, loading_force, mild, pressed, unit};
 use proptest::prelude::*;
 
 /// No files: a case that fails is printed with its input, and becomes a test of its own.
@@ -23,14 +22,14 @@ fn decades(low: f64, high: f64) -> impl Strategy<Value = f64> {
 /// Any model: E from rubber to beyond diamond, S/E from lead to glass, spheres from a grain of powder to a boulder.
 fn models() -> impl Strategy<Value = AnyModel> {
     let bodies = (decades(6.0, 12.5), decades(-5.0, -1.0), decades(-6.0, 1.0), 0.0..0.5f64, any::<bool>());
-    let laws = (prop::sample::select(&AnyLoading::ALL[..]), prop::sample::select(&AnyUnloading::ALL[..]));
-    (bodies, laws, any::<bool>()).prop_map(|((youngs_modulus, strain, radius, nu, rigid), laws, fresh)| {
+    let laws = prop::sample::select(all_models(mild()));
+    (bodies, laws, any::<bool>()).prop_map(|((youngs_modulus, strain, radius, nu, rigid), (_, laws), fresh)| {
         let impactor_modulus = if rigid { f64::INFINITY } else { 3.0 * youngs_modulus };
         let sphere = Body { radius, youngs_modulus: impactor_modulus, poissons_ratio: 0.3 };
         let target = Body { radius: f64::INFINITY, youngs_modulus, poissons_ratio: nu };
         let pair = Pair::new(&sphere, &target, strain * youngs_modulus).expect("a sphere on a plane");
         let surface = if fresh { Surface::Fresh } else { Surface::Dented };
-        AnyModel { pair, loading: laws.0.1, unloading: laws.1.1, surface }
+        AnyModel { pair, surface, ..laws }
     })
 }
 
@@ -39,6 +38,12 @@ fn turns() -> impl Strategy<Value = Vec<f64>> {
     let inside = decades(-2.0, 3.0);
     let turn = prop_oneof![4 => inside, 1 => decades(-2.0, 1.0).prop_map(|x| -x)];
     prop::collection::vec(turn, 1..12)
+}
+
+/// Whether the force is a function of the path alone. A law that isn't passive may hold on beyond the original surface, where
+/// a fresh surface forgets the contact: at the end of a step.
+fn depends_on_the_path_alone(model: &AnyModel) -> bool {
+    is_passive(model) || model.surface == Surface::Dented
 }
 
 /// Energies that cancel in the results [J]: the loading work and, for Hertz's shifted curve, Hertz's own.
@@ -92,20 +97,21 @@ proptest! {
             prop_assert!(history.stiffness() >= 0.0 && history.stiffness().is_finite());
             prop_assert!(history.regime() != Regime::Apart || force == 0.0);
             let dent = history.residual_indentation(&model);
-            prop_assert!(dent >= 0.0 && dent <= history.max_indentation());
+            prop_assert!((dent >= 0.0 || !is_passive(&model)) && dent <= history.max_indentation());
             Ok(())
         })?;
     }
 
     #[test]
     fn dissipated_energy_never_falls_and_completes_the_work(model in models(), turns in turns()) {
+        let passive = is_passive(&model);
         follow(&model, &turns, |before, after, largest| {
             // a few roundings of the energies whose difference it is; fresh surfaces sum those of every dent
             let rounding = 32.0 * f64::EPSILON * turns.len() as f64 * energy_size(&model, largest.max(0.0));
             let [lost_before, lost] = [before, after].map(|history| history.dissipated_energy(&model));
-            prop_assert!(lost >= lost_before - rounding, "from {lost_before:e} to {lost:e}");
+            prop_assert!(!passive || lost >= lost_before - rounding, "from {lost_before:e} to {lost:e}");
             let elastic = after.elastic_energy(&model);
-            prop_assert!(elastic >= -rounding && lost >= -rounding, "elastic {elastic:e}, dissipated {lost:e}");
+            prop_assert!(elastic >= -rounding && (!passive || lost >= -rounding), "elastic {elastic:e}, dissipated {lost:e}");
             prop_assert!((after.work(&model) - elastic - lost).abs() <= rounding);
             Ok(())
         })?;
@@ -113,6 +119,7 @@ proptest! {
 
     #[test]
     fn work_is_the_integral_of_the_force_along_the_path(model in models(), turns in turns()) {
+        prop_assume!(depends_on_the_path_alone(&model));
         follow(&model, &turns, |before, after, largest| {
             let (from, to) = (before.indentation(), after.indentation());
             let size = energy_size(&model, largest.max(0.0));
@@ -128,13 +135,17 @@ proptest! {
             let integral: f64 = (0..64).map(part).sum();
             let work = after.work(&model) - before.work(&model);
             // the estimate of Simpson's error is not a bound: some ten times what 64 panels were asked for
-            prop_assert!((work - integral).abs() <= 1e-11 * size, "{work:e}, by integration {integral:e}");
+            // where the force jumps, Simpson's rule misses at most the jump, 8 % of the force, over the last half of a panel
+            let jump = if physics::has_jumps(&model) { 0.08 * (to - from).abs() / 67_108_864.0 } else { 0.0 };
+            let missed = 3.0 * jump * loading_force(&model, largest.max(0.0));
+            prop_assert!((work - integral).abs() <= 1e-11 * size + missed, "{work:e}, by integration {integral:e}");
             Ok(())
         })?;
     }
 
     #[test]
     fn a_step_may_be_cut_anywhere(model in models(), turns in turns(), cut in 0.0..1.0f64) {
+        prop_assume!(depends_on_the_path_alone(&model));
         let deepest = turns.iter().fold(0.0_f64, |deepest, &turn| deepest.max(turn)) * unit(&model.pair).indentation;
         // to 1e-12 of the largest force, and where Hertz's shifted curve ends, of the forces that cancel in it
         let force_rounding = 1e-12 * force_size(&model, deepest);
@@ -159,7 +170,8 @@ proptest! {
         let prediction = predict(&model, &Impact { mass, speed }).expect("an ordinary impact");
         // a root of a sum of a few rounded energies, of those that cancel in it
         let rounding = 16.0 * f64::EPSILON * energy_size(&model, prediction.max_indentation) / prediction.energy;
-        prop_assert!(prediction.restitution > 0.0 && prediction.restitution <= 1.0 + rounding, "{prediction:?}");
+        let most = if is_passive(&model) { 1.0 + rounding } else { f64::INFINITY };
+        prop_assert!(prediction.restitution > 0.0 && prediction.restitution <= most, "{prediction:?}");
         prop_assert!(prediction.loading_time > 0.0 && prediction.unloading_time > 0.0);
         let work = pressed(&model, prediction.max_indentation).work(&model);
         prop_assert!((work / prediction.energy - 1.0).abs() <= rounding.max(1e-14), "the work done is the energy");
@@ -187,7 +199,7 @@ fn leapfrog(model: &AnyModel, impact: &Impact, duration: f64, steps: u32) -> (f6
 
 #[test]
 fn predictions_agree_with_a_fine_simulation() {
-    for (name, model) in physics::all_models(mild()) {
+    for (name, model) in all_models(mild()) {
         for speed in [1e-3, 4e-3, 0.03, 0.2, 2.0] {
             let impact = Impact { mass: physics::MASS, speed };
             let prediction = predict(&model, &impact).expect("an ordinary impact");

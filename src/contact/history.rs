@@ -139,7 +139,7 @@ impl History {
         if !within {
             return Err(TooDeep { indentation });
         }
-        if model.surface == Surface::Fresh && indentation <= 0.0 {
+        if model.surface == Surface::Fresh && indentation <= 0.0 && self.has_parted(model, indentation) {
             self.left_behind += self.dissipated_in_dent(model);
             self.max_indentation = 0.0;
         }
@@ -175,6 +175,12 @@ impl History {
             }
         }
         Ok(())
+    }
+
+    /// Whether there is no contact at `indentation` [m] <= 0. Laws that make energy may hold on beyond the original surface.
+    fn has_parted<L: Loading, U: Unloading>(&self, model: &Model<L, U>, indentation: f64) -> bool {
+        let largest = self.max_indentation;
+        model.is_elastic_at(largest) || indentation <= model.unloading_path(largest).lower
     }
 
     /// Indentation [m]; negative while apart.

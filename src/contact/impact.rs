@@ -76,7 +76,7 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
         0.0,
         max_indentation,
         |d| work - model.loading.work(&model.pair, d),
-        |d| model.loading.segment(&model.pair, d).upper,
+        |d| model.loading.next_corner(&model.pair, d),
     );
     let unloading_time = travel_time(
         impact.mass,

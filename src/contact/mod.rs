@@ -15,6 +15,7 @@
 //! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | what an impact will do, from the energy balance |
 
+pub mod dual;
 pub mod history;
 pub mod impact;
 pub mod loading;

@@ -1,5 +1,7 @@
 //! Integrals of smooth functions with a fractional power at an end.
 
+use libm::{exp, log};
+
 /// Integral over `[low, high]` with panels that shrink towards both ends, where a fractional power may begin. The sign of
 /// the interval counts as usual.
 pub fn graded_integral(low: f64, high: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
@@ -35,4 +37,25 @@ pub fn gauss(from: f64, to: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
         sum += weight * (integrand(centre - half * node) + integrand(centre + half * node));
     }
     sum * half
+}
+
+/// Integral of a function of the powers of `y` over `[low, high]`, `0 < low`: in `u = ln y` powers are entire functions, and
+/// equal panels of Gauss's rule converge to rounding. They are wide where only one power is left.
+pub fn logarithmic_integral(low: f64, high: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
+    const NARROW: f64 = 0.5;
+    const WIDE: f64 = 2.0;
+    /// `ln y` from which panels are wide.
+    const FAR: f64 = 18.0;
+    let (mut from, end) = (log(low), log(high));
+    let mut sum = 0.0;
+    while from < end {
+        let next = from + if from < FAR { NARROW } else { WIDE };
+        let to = if next < end { next } else { end };
+        sum += gauss(from, to, &|u: f64| {
+            let y = exp(u);
+            integrand(y) * y
+        });
+        from = to;
+    }
+    sum
 }

@@ -57,11 +57,106 @@ pub fn model(loading_name: &str, unloading_name: &str) -> AnyModel {
     }
 }
 
-/// Every loading law with every unloading law on `pair`, with a name for messages.
+/// Loading laws that make sense with these unloading laws only, and why.
+pub const MADE_FOR: &[(&str, &[&str], &str)] = &[(
+    "walton-braun",
+    &["walton-braun"],
+    "a line through zero is stiffer there than any recovery made from Hertz's law",
+)];
+
+/// Loading laws that aren't passive, the unloading laws with which they are, and why.
+pub const NOT_PASSIVE: &[(&str, &[&str], &str)] = &[
+    (
+        "stronge",
+        &["walton-braun"],
+        "the slope jumps up at yield and the curve is above Hertz's up to 15.4 d_y; only a line four times as stiff isn't softer",
+    ),
+    ("kogut-etsion", &[], "force jumps up at its three borders, which needs no work; restitution up to 1.015"),
+    ("ghaednia", &[], "force jumps up by 0.44 % where Hertz's curve ends; restitution up to 1.0035"),
+    (
+        "jackson-green",
+        &["jackson"],
+        "force jumps up by 0.47 % where Hertz's curve ends, and only the fitted dent jumps with it",
+    ),
+    (
+        "brake-2012-tangent",
+        &[],
+        "the cubic of its two variants is above Hertz's curve in places; restitution up to 1.006 and 1.089",
+    ),
+    ("brake-2015", &[], "above Hertz's curve between 4 and 12 d_y; restitution up to 1.05"),
+];
+
+/// Unloading laws that were fitted to one loading law, in its units: elsewhere they may be softer than the loading.
+pub const FITTED_TO: &[(&str, &str)] =
+    &[("etsion", "kogut-etsion"), ("jackson", "jackson-green"), ("vu-quoc-zhang", "vu-quoc-zhang")];
+
+/// Loading laws that are above Hertz's curve in places, which Hertz's curve lowered to their force never is.
+pub const ABOVE_HERTZ: &[&str] =
+    &["stronge", "kogut-etsion", "jackson-green", "ghaednia", "brake-2012-tangent", "brake-2012-line", "brake-2015"];
+
+/// Loading laws whose force jumps where one fit ends and the next begins, as published.
+pub const WITH_JUMPS: &[&str] = &["kogut-etsion", "jackson-green", "ghaednia"];
+
+/// Loading laws whose normalised curve depends on `E*/S`, through the exponent `B` of the area and the contact radius over `R`.
+pub const NOT_SCALE_FREE: &[&str] = &["jackson-green", "ghaednia"];
+
+/// Whether the two laws make sense together.
+pub fn belong_together(loading_name: &str, unloading_name: &str) -> bool {
+    if unloading_name == "hertz-shift" && ABOVE_HERTZ.contains(&loading_name) {
+        return false;
+    }
+    if FITTED_TO.iter().any(|&(unloading, loading)| unloading == unloading_name && loading != loading_name) {
+        return false;
+    }
+    let found = MADE_FOR.iter().find(|(name, ..)| *name == loading_name);
+    found.is_none_or(|(_, with, _)| with.contains(&unloading_name))
+}
+
+/// Whether the laws of `model` never give back more than was put in, unload below the loading curve, and leave a dent that
+/// is not above the surface and deepens.
+pub fn is_passive(model: &AnyModel) -> bool {
+    use std::mem::discriminant;
+    let loading = AnyLoading::ALL.iter().find(|(_, law)| discriminant(law) == discriminant(&model.loading));
+    let unloading = AnyUnloading::ALL.iter().find(|(_, law)| discriminant(law) == discriminant(&model.unloading));
+    let names = loading.zip(unloading).map(|(loading, unloading)| (loading.0, unloading.0));
+    let (loading, unloading) = names.expect("every law has a name");
+    let found = NOT_PASSIVE.iter().find(|(name, ..)| *name == loading);
+    found.is_none_or(|(_, with, _)| with.contains(&unloading))
+}
+
+/// Whether the loading law of `model` is one of the `names`.
+pub fn is_one_of(model: &AnyModel, names: &[&str]) -> bool {
+    AnyLoading::ALL.iter().any(|(name, law)| names.contains(name) && *law == model.loading)
+}
+
+/// Whether the force of the loading curve jumps.
+pub fn has_jumps(model: &AnyModel) -> bool {
+    is_one_of(model, WITH_JUMPS)
+}
+
+/// Force on the unloading path from `largest` [m] at `indentation` [m], [N].
+pub fn unloading_force(model: &AnyModel, largest: f64, indentation: f64) -> f64 {
+    model.unloading_segment(largest, indentation).force(indentation)
+}
+
+/// Stiffness there [N/m].
+pub fn unloading_stiffness(model: &AnyModel, largest: f64, indentation: f64) -> f64 {
+    model.unloading_segment(largest, indentation).stiffness(indentation)
+}
+
+/// Whether the loading law of `model` yields at all.
+pub fn yields(model: &AnyModel) -> bool {
+    model.loading.yield_point(&model.pair).indentation < f64::INFINITY
+}
+
+/// Every loading law with every unloading law that it makes sense with, on `pair`, with a name for messages.
 pub fn all_models(pair: Pair) -> Vec<(String, AnyModel)> {
     let mut models = Vec::new();
     for (loading_name, loading) in AnyLoading::ALL {
         for (unloading_name, unloading) in AnyUnloading::ALL {
+            if !belong_together(loading_name, unloading_name) {
+                continue;
+            }
             let model = Model { pair, loading, unloading, surface: Surface::Dented };
             models.push((format!("{loading_name} with {unloading_name}"), model));
         }
@@ -89,13 +184,13 @@ pub fn loading_force(model: &AnyModel, indentation: f64) -> f64 {
     model.loading.segment(&model.pair, indentation).force(indentation)
 }
 
-/// The corners of the loading curve [m], in order: every end of a branch but the last.
+/// The corners of the loading curve [m], in order: every end of a smooth piece but the last.
 pub fn corners(model: &AnyModel) -> Vec<f64> {
     let mut corners = Vec::new();
-    let mut segment = model.loading.segment(&model.pair, 0.0);
-    while segment.upper < brinell::contact::history::LARGEST_INDENTATION {
-        corners.push(segment.upper);
-        segment = model.loading.segment(&model.pair, segment.upper);
+    let mut corner = model.loading.next_corner(&model.pair, 0.0);
+    while corner < brinell::contact::history::LARGEST_INDENTATION {
+        corners.push(corner);
+        corner = model.loading.next_corner(&model.pair, corner);
     }
     corners
 }

@@ -1,10 +1,10 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
 use crate::interface::{Entry, experiment, prediction};
+use crate::plot::{Picture, Series};
 use crate::scene::{Scene, is_elastic};
 use crate::table::{self, Causality};
 use brinell::contact::History;
-use plotters::prelude::*;
 use std::fmt::Write;
 
 const STYLE: &str = "\
@@ -157,10 +157,6 @@ fn escape(text: &str) -> String {
 /// Force against indentation: up to the largest indentation of the scene's impact, off, and half way back.
 fn curve(scene: &Scene) -> String {
     const POINTS: u32 = 60;
-    // plotters puts everything on whole pixels: the picture is drawn large and shown small, so that curves are smooth
-    const SCALE: u32 = 8;
-    const SIZE: (u32, u32) = (640, 400);
-    let font = |size: u32| ("sans-serif", SCALE * size);
     let model = scene.model();
     let prediction = prediction(scene);
     let largest = prediction.max_indentation;
@@ -176,52 +172,15 @@ fn curve(scene: &Scene) -> String {
         }
         points
     };
-    let (loading, unloading) = (branch(largest), branch(residual));
-    let mut svg = String::new();
-    {
-        let root = SVGBackend::with_string(&mut svg, (SCALE * SIZE.0, SCALE * SIZE.1)).into_drawing_area();
-        let mut chart = ChartBuilder::on(&root)
-            .margin(12 * SCALE)
-            .x_label_area_size(44 * SCALE)
-            .y_label_area_size(64 * SCALE)
-            .build_cartesian_2d(0.0..1.05e6 * largest, 0.0..1.08 * prediction.max_force)
-            .expect("a drawing in memory");
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(RGBColor(221, 221, 221).stroke_width(SCALE))
-            .axis_style(BLACK.stroke_width(SCALE))
-            .set_all_tick_mark_size(5 * SCALE)
-            .x_desc("indentation [um]")
-            .y_desc("force [N]")
-            .axis_desc_style(font(15))
-            .label_style(font(13))
-            .draw()
-            .expect("a drawing in memory");
-        let lines = [("loading", loading, RGBColor(31, 78, 140)), ("unloading", unloading, RGBColor(200, 90, 40))];
-        for (label, points, colour) in lines {
-            if is_elastic(scene) && label == "unloading" {
-                continue;
-            }
-            let series = chart
-                .draw_series(LineSeries::new(points, colour.stroke_width(2 * SCALE)))
-                .expect("a drawing in memory");
-            series.label(label).legend(move |(x, y)| {
-                PathElement::new([(x, y), (x + 18 * SCALE as i32, y)], colour.stroke_width(2 * SCALE))
-            });
-        }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
-            .legend_area_size(24 * SCALE)
-            .margin(10 * SCALE)
-            .label_font(font(14))
-            .background_style(WHITE)
-            .border_style(TRANSPARENT)
-            .draw()
-            .expect("a drawing in memory");
-        root.present().expect("a drawing in memory");
+    let mut series = vec![Series { label: "loading".into(), points: branch(largest), dots: false }];
+    if !is_elastic(scene) {
+        series.push(Series { label: "unloading".into(), points: branch(residual), dots: false });
     }
-    let drawn = format!("width=\"{}\" height=\"{}\"", SCALE * SIZE.0, SCALE * SIZE.1);
-    svg.replacen(&drawn, &format!("width=\"{}\" height=\"{}\"", SIZE.0, SIZE.1), 1)
+    let picture = Picture {
+        x_title: "indentation [um]".into(),
+        y_title: "force [N]".into(),
+        logarithmic: (false, false),
+        series,
+    };
+    picture.svg(640, 400)
 }

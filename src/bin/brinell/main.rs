@@ -1,57 +1,29 @@
 //! `brinell`: exports FMI 2.0 co-simulation units of elastoplastic contact, and checks them.
 
+mod arguments;
 mod check;
 mod constants;
+mod curve;
 mod documentation;
 mod importer;
 mod interface;
+mod laws;
 mod model_description;
 mod package;
+mod plot;
+mod predict;
 mod scene;
 mod symbols;
 mod table;
+mod truth;
 
-use clap::{Parser, Subcommand};
+use arguments::{Arguments, Command, CurveArguments, PredictArguments};
+use clap::Parser;
 use scene::Scene;
 use serde_json::json;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-
-/// Exports FMI 2.0 co-simulation units of elastoplastic contact.
-///
-/// Without a command: exports the default scene into the current folder and checks the result.
-#[derive(Parser)]
-#[command(version, max_term_width = 100)]
-struct Arguments {
-    #[command(subcommand)]
-    command: Option<Command>,
-    /// Results as JSON
-    #[arg(long, global = true)]
-    json: bool,
-}
-
-#[derive(Subcommand)]
-enum Command {
-    /// Builds and packs the unit of a scene
-    Export {
-        /// The scene file (TOML)
-        scene: PathBuf,
-        /// Where to write the unit [default: NAME.fmu in the current folder]
-        #[arg(short, long)]
-        output: Option<PathBuf>,
-    },
-    /// Loads a unit as an importer would, runs the impact of its scene, compares it with the energy balance
-    Check {
-        /// The unit
-        fmu: PathBuf,
-    },
-    /// Lists the built-in materials
-    Materials,
-    /// Prints the Rust constants of a scene, as they are compiled into its unit
-    #[command(hide = true)]
-    Constants { scene: PathBuf },
-}
 
 const DEFAULT_SCENE: &str = include_str!("../../../scenes/steel_ball.toml");
 
@@ -81,6 +53,18 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             Ok(true)
         }
         Some(Command::Check { fmu }) => check(fmu, json),
+        Some(Command::Predict(arguments)) => {
+            predict(arguments, json)?;
+            Ok(true)
+        }
+        Some(Command::Curve(arguments)) => {
+            curve(arguments)?;
+            Ok(true)
+        }
+        Some(Command::Laws { output }) => {
+            list_laws(output.as_deref(), json)?;
+            Ok(true)
+        }
         Some(Command::Materials) => {
             materials(json)?;
             Ok(true)
@@ -158,6 +142,109 @@ fn materials(as_json: bool) -> Result<(), Box<dyn Error>> {
             "{:<22} {modulus:>10.1} {:>8} {strength:>10.0}   {}",
             material.name, material.poissons_ratio, material.source
         );
+    }
+    Ok(())
+}
+
+/// Prints `text`, or writes it where the user wants it.
+fn deliver(text: &str, output: Option<&Path>) -> Result<(), Box<dyn Error>> {
+    match output {
+        None => print!("{text}"),
+        Some(path) => package::write_whole(path, text.as_bytes())?,
+    }
+    Ok(())
+}
+
+/// Whether a picture is wanted: by the ending of the file; anything but .svg and .csv is refused.
+fn wants_picture(output: Option<&Path>) -> Result<bool, String> {
+    let Some(path) = output else { return Ok(false) };
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("svg") => Ok(true),
+        Some("csv") => Ok(false),
+        _ => Err(format!("{}: the name must end in .csv or .svg", path.display())),
+    }
+}
+
+fn predict(arguments: &PredictArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
+    let scene = Scene::read(&arguments.scene)?;
+    let choices = laws::choose(&scene, &arguments.laws)?;
+    let mass = predict::positive("mass", arguments.mass.unwrap_or(scene.impact.mass))?;
+    let speed = match (arguments.speed, arguments.energy, arguments.drop_height) {
+        (Some(speed), ..) => predict::positive("speed", speed)?,
+        (_, Some(energy), _) => predict::speed_of_energy(mass, predict::positive("energy", energy)?),
+        (.., Some(height)) => predict::speed_of_height(predict::positive("drop-height", height)?),
+        _ => scene.impact.speed,
+    };
+    let impact = brinell::contact::impact::Impact { mass, speed };
+    if let Some(sweep) = &arguments.sweep {
+        let range = predict::parse_sweep(sweep)?;
+        let output = arguments.output.as_deref();
+        let picture = wants_picture(output)?;
+        let draw = if picture { predict::sweep_svg } else { predict::sweep_csv };
+        return deliver(&draw(&choices, mass, range)?, output);
+    }
+    if let Some(dent) = arguments.dent {
+        return invert(&choices, &impact, predict::positive("dent", dent)?, as_json);
+    }
+    if as_json {
+        println!("{}", predict::as_json(&choices, &impact)?);
+    } else {
+        print!("{}", predict::text(&choices, &impact)?);
+    }
+    Ok(())
+}
+
+/// Which speed makes `dent` [m], and which yield strength explains it after `impact`.
+fn invert(
+    choices: &[laws::Choice],
+    impact: &brinell::contact::impact::Impact,
+    dent: f64,
+    as_json: bool,
+) -> Result<(), Box<dyn Error>> {
+    let mut answers = Vec::new();
+    for choice in choices {
+        let speed = predict::speed_of_dent(choice, impact.mass, dent)?;
+        let strength = predict::strength_of_dent(choice, impact, dent)?;
+        if as_json {
+            answers.push(json!({ "law": choice.name, "speed": speed, "yield_strength": strength }));
+        } else {
+            println!("{}: a dent of {dent:e} m is made", choice.name);
+            println!("  at a speed of {speed:.6e} m/s, or");
+            println!("  at {} m/s in a target with a yield strength of {strength:.6e} Pa", impact.speed);
+        }
+    }
+    if as_json {
+        println!("{}", json!({ "dent": dent, "mass": impact.mass, "impact_speed": impact.speed, "laws": answers }));
+    }
+    Ok(())
+}
+
+fn curve(arguments: &CurveArguments) -> Result<(), Box<dyn Error>> {
+    let scene = Scene::read(&arguments.scene)?;
+    let choices = laws::choose(&scene, &arguments.laws)?;
+    let predicted = || interface::prediction(&scene).max_indentation;
+    let largest = predict::positive("to", arguments.to.unwrap_or_else(predicted))?;
+    let output = arguments.output.as_deref();
+    let picture = wants_picture(output)?;
+    let drawn = if picture { curve::svg(&choices, largest, arguments.truth) } else { curve::csv(&choices, largest) };
+    let too_deep = |_: brinell::contact::TooDeep| format!("to = {largest:e} m is too deep for the law");
+    deliver(&drawn.map_err(too_deep)?, output)
+}
+
+fn list_laws(output: Option<&Path>, as_json: bool) -> Result<(), Box<dyn Error>> {
+    let scene = Scene::parse(DEFAULT_SCENE.into(), Path::new("scenes/steel_ball.toml"))?;
+    if output.is_some() {
+        if !wants_picture(output)? {
+            return Err("the loading curves are a picture: the name must end in .svg".into());
+        }
+        let choices = laws::choose(&scene, &["all".to_string()])?;
+        return deliver(&curve::over_hertz(&choices), output);
+    }
+    let measured = laws::measure_all(&scene);
+    if as_json {
+        println!("{}", serde_json::to_string(&measured)?);
+    } else {
+        laws::print(&measured);
     }
     Ok(())
 }

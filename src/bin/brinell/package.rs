@@ -313,7 +313,7 @@ fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
 }
 
 /// Writes beside the goal and renames, so that no half of a unit is ever found there.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     let file_error = |source| ExportError::File { path: path.into(), source };
     let folder = match path.parent() {
         Some(folder) if folder != Path::new("") => folder,

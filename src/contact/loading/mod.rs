@@ -1,12 +1,38 @@
 //! Loading laws, one file each: the curve that the force follows while the indentation is the largest so far.
 
 pub mod big_alabo;
+pub mod brake_2012;
+pub mod brake_2015;
 pub mod brinell;
+pub mod ghaednia;
 pub mod hertz;
+pub mod jackson_green;
+pub mod kogut_etsion;
+pub mod ma_liu;
+pub mod power;
+pub mod stronge;
+pub mod thornton;
+pub mod vu_quoc_zhang;
+pub mod walton_braun;
+pub mod yigit_christoforou;
+pub mod zhao_maietta_chang;
 
 pub use big_alabo::BigAlabo;
+pub use brake_2012::Brake2012;
+pub use brake_2015::Brake2015;
 pub use brinell::Brinell;
+pub use ghaednia::Ghaednia;
 pub use hertz::Hertz;
+pub use jackson_green::JacksonGreen;
+pub use kogut_etsion::KogutEtsion;
+pub use ma_liu::MaLiu;
+pub use power::Power;
+pub use stronge::Stronge;
+pub use thornton::Thornton;
+pub use vu_quoc_zhang::VuQuocZhang;
+pub use walton_braun::WaltonBraun;
+pub use yigit_christoforou::YigitChristoforou;
+pub use zhao_maietta_chang::ZhaoMaiettaChang;
 
 use super::history::Regime;
 use super::material::{Pair, YieldPoint};
@@ -14,7 +40,8 @@ use super::segment::Segment;
 
 /// A loading law: the law's own constants, without the bodies.
 ///
-/// All indentations are in m and not negative. The curve begins at zero indentation with Hertz's law.
+/// All indentations are in m and not negative. The curve begins at zero indentation with Hertz's law; [`WaltonBraun`]
+/// alone yields there.
 pub trait Loading {
     /// The end of the elastic part; infinite if the law never yields.
     fn yield_point(&self, pair: &Pair) -> YieldPoint;
@@ -59,14 +86,54 @@ pub enum AnyLoading {
     BigAlabo(BigAlabo),
     /// See [`Brinell`].
     Brinell(Brinell),
+    /// See [`Stronge`].
+    Stronge(Stronge),
+    /// See [`Thornton`].
+    Thornton(Thornton),
+    /// See [`YigitChristoforou`].
+    YigitChristoforou(YigitChristoforou),
+    /// See [`ZhaoMaiettaChang`].
+    ZhaoMaiettaChang(ZhaoMaiettaChang),
+    /// See [`MaLiu`].
+    MaLiu(MaLiu),
+    /// See [`Power`].
+    Power(Power),
+    /// See [`WaltonBraun`].
+    WaltonBraun(WaltonBraun),
+    /// See [`Brake2012`].
+    Brake2012(Brake2012),
+    /// See [`Brake2015`].
+    Brake2015(Brake2015),
+    /// See [`Ghaednia`].
+    Ghaednia(Ghaednia),
+    /// See [`JacksonGreen`].
+    JacksonGreen(JacksonGreen),
+    /// See [`KogutEtsion`].
+    KogutEtsion(KogutEtsion),
+    /// See [`VuQuocZhang`].
+    VuQuocZhang(VuQuocZhang),
 }
 
 impl AnyLoading {
     /// Every law under the name it has in a scene, with its reference constants.
-    pub const ALL: [(&'static str, AnyLoading); 3] = [
+    pub const ALL: [(&'static str, AnyLoading); 17] = [
         ("hertz", AnyLoading::Hertz(Hertz)),
         ("big-alabo", AnyLoading::BigAlabo(BigAlabo::REFERENCE)),
         ("brinell", AnyLoading::Brinell(Brinell::REFERENCE)),
+        ("stronge", AnyLoading::Stronge(Stronge::REFERENCE)),
+        ("thornton", AnyLoading::Thornton(Thornton::REFERENCE)),
+        ("yigit-christoforou", AnyLoading::YigitChristoforou(YigitChristoforou::REFERENCE)),
+        ("zhao-maietta-chang", AnyLoading::ZhaoMaiettaChang(ZhaoMaiettaChang::REFERENCE)),
+        ("ma-liu", AnyLoading::MaLiu(MaLiu::REFERENCE)),
+        ("power", AnyLoading::Power(Power::REFERENCE)),
+        ("walton-braun", AnyLoading::WaltonBraun(WaltonBraun::REFERENCE)),
+        ("brake-2012-tangent", AnyLoading::Brake2012(Brake2012::TANGENT)),
+        ("brake-2012-line", AnyLoading::Brake2012(Brake2012::LINE)),
+        ("brake-2015", AnyLoading::Brake2015(Brake2015::REFERENCE)),
+        ("ghaednia", AnyLoading::Ghaednia(Ghaednia::REFERENCE)),
+        ("jackson-green", AnyLoading::JacksonGreen(JacksonGreen::REFERENCE)),
+        ("kogut-etsion", AnyLoading::KogutEtsion(KogutEtsion::REFERENCE)),
+        ("vu-quoc-zhang", AnyLoading::VuQuocZhang(VuQuocZhang::REFERENCE)),
     ];
 
     /// The law itself.
@@ -75,6 +142,19 @@ impl AnyLoading {
             AnyLoading::Hertz(law) => law,
             AnyLoading::BigAlabo(law) => law,
             AnyLoading::Brinell(law) => law,
+            AnyLoading::Stronge(law) => law,
+            AnyLoading::Thornton(law) => law,
+            AnyLoading::YigitChristoforou(law) => law,
+            AnyLoading::ZhaoMaiettaChang(law) => law,
+            AnyLoading::MaLiu(law) => law,
+            AnyLoading::Power(law) => law,
+            AnyLoading::WaltonBraun(law) => law,
+            AnyLoading::Brake2012(law) => law,
+            AnyLoading::Brake2015(law) => law,
+            AnyLoading::Ghaednia(law) => law,
+            AnyLoading::JacksonGreen(law) => law,
+            AnyLoading::KogutEtsion(law) => law,
+            AnyLoading::VuQuocZhang(law) => law,
         }
     }
 }

@@ -6,16 +6,24 @@
 pub mod brinell;
 pub mod contact_radius;
 pub mod deformed_radius;
+pub mod etsion;
 pub mod hertz_shift;
+pub mod jackson;
 pub mod original_radius;
 pub mod thornton;
+pub mod vu_quoc_zhang;
+pub mod walton_braun;
 
 pub use brinell::Brinell;
 pub use contact_radius::ContactRadius;
 pub use deformed_radius::DeformedRadius;
+pub use etsion::Etsion;
 pub use hertz_shift::HertzShift;
+pub use jackson::Jackson;
 pub use original_radius::OriginalRadius;
 pub use thornton::Thornton;
+pub use vu_quoc_zhang::VuQuocZhang;
+pub use walton_braun::WaltonBraun;
 
 use super::material::Pair;
 use super::segment::Segment;
@@ -106,21 +114,36 @@ pub enum AnyUnloading {
     HertzShift(HertzShift),
     /// See [`Brinell`].
     Brinell(Brinell),
+    /// See [`WaltonBraun`].
+    WaltonBraun(WaltonBraun),
+    /// See [`Etsion`].
+    Etsion(Etsion),
+    /// See [`Jackson`].
+    Jackson(Jackson),
+    /// See [`VuQuocZhang`].
+    VuQuocZhang(VuQuocZhang),
 }
 
 impl AnyUnloading {
     /// Every law under the name it has in a scene, with its reference constants.
-    pub const ALL: [(&'static str, AnyUnloading); 6] = [
+    pub const ALL: [(&'static str, AnyUnloading); 10] = [
         ("contact-radius", AnyUnloading::ContactRadius(ContactRadius)),
         ("thornton", AnyUnloading::Thornton(Thornton)),
         ("original-radius", AnyUnloading::OriginalRadius(OriginalRadius)),
         ("deformed-radius", AnyUnloading::DeformedRadius(DeformedRadius::REFERENCE)),
         ("hertz-shift", AnyUnloading::HertzShift(HertzShift)),
         ("brinell", AnyUnloading::Brinell(Brinell::REFERENCE)),
+        ("walton-braun", AnyUnloading::WaltonBraun(WaltonBraun::REFERENCE)),
+        ("etsion", AnyUnloading::Etsion(Etsion::REFERENCE)),
+        ("jackson", AnyUnloading::Jackson(Jackson::REFERENCE)),
+        ("vu-quoc-zhang", AnyUnloading::VuQuocZhang(VuQuocZhang::REFERENCE)),
     ];
 }
 
 impl Unloading for AnyUnloading {
+    // some are, some aren't; of those that are, the tangent and the work are the path's own
+    const SEGMENTED: bool = false;
+
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         match self {
             AnyUnloading::ContactRadius(law) => law.path(pair, peak),
@@ -129,14 +152,36 @@ impl Unloading for AnyUnloading {
             AnyUnloading::DeformedRadius(law) => law.path(pair, peak),
             AnyUnloading::HertzShift(law) => law.path(pair, peak),
             AnyUnloading::Brinell(law) => law.path(pair, peak),
+            AnyUnloading::WaltonBraun(law) => law.path(pair, peak),
+            AnyUnloading::Etsion(law) => law.path(pair, peak),
+            AnyUnloading::Jackson(law) => law.path(pair, peak),
+            AnyUnloading::VuQuocZhang(law) => law.path(pair, peak),
         }
     }
 
     fn contact_radius(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
         match self {
             AnyUnloading::Brinell(law) => law.contact_radius(pair, peak, path, indentation),
+            AnyUnloading::Etsion(law) => law.contact_radius(pair, peak, path, indentation),
+            AnyUnloading::VuQuocZhang(law) => law.contact_radius(pair, peak, path, indentation),
             // the others have the radius of a Hertzian recovery
             _ => ContactRadius.contact_radius(pair, peak, path, indentation),
+        }
+    }
+
+    fn tangent(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> Segment {
+        match self {
+            AnyUnloading::Etsion(law) => law.tangent(pair, peak, path, indentation),
+            AnyUnloading::VuQuocZhang(law) => law.tangent(pair, peak, path, indentation),
+            _ => *path,
+        }
+    }
+
+    fn work(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
+        match self {
+            AnyUnloading::Etsion(law) => law.work(pair, peak, path, indentation),
+            AnyUnloading::VuQuocZhang(law) => law.work(pair, peak, path, indentation),
+            _ => path.work(indentation),
         }
     }
 }

@@ -1,0 +1,97 @@
+//! The command line.
+
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Exports FMI 2.0 co-simulation units of elastoplastic contact.
+///
+/// Without a command: exports the default scene into the current folder and checks the result.
+#[derive(Parser)]
+#[command(version, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// Results as JSON
+    #[arg(long, global = true)]
+    pub json: bool,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Builds and packs the unit of a scene
+    Export {
+        /// The scene file (TOML)
+        scene: PathBuf,
+        /// Where to write the unit [default: NAME.fmu in the current folder]
+        #[arg(short, long)]
+        output: Option<PathBuf>,
+    },
+    /// Loads a unit as an importer would, runs the impact of its scene, compares it with the energy balance
+    Check {
+        /// The unit
+        fmu: PathBuf,
+    },
+    /// Says what an impact will do: largest force and indentation, dent, restitution, times
+    Predict(PredictArguments),
+    /// Draws or tabulates one cycle of loading, unloading and reloading
+    Curve(CurveArguments),
+    /// Lists the laws, and measures each: error against finite elements, jumps, energy
+    Laws {
+        /// Draws the loading curves of all laws over Hertz's force, with finite elements as dots
+        #[arg(short, long, value_name = "FILE.svg")]
+        output: Option<PathBuf>,
+    },
+    /// Lists the built-in materials
+    Materials,
+    /// Prints the Rust constants of a scene, as they are compiled into its unit
+    #[command(hide = true)]
+    Constants { scene: PathBuf },
+}
+
+#[derive(clap::Args)]
+pub struct PredictArguments {
+    /// The scene file
+    pub scene: PathBuf,
+    /// Effective mass [kg] instead of the scene's
+    #[arg(long)]
+    pub mass: Option<f64>,
+    /// Closing speed [m/s] instead of the scene's
+    #[arg(long, conflicts_with_all = ["energy", "drop_height"])]
+    pub speed: Option<f64>,
+    /// Kinetic energy [J] instead of a speed
+    #[arg(long, conflicts_with = "drop_height")]
+    pub energy: Option<f64>,
+    /// Height of fall [m] instead of a speed
+    #[arg(long)]
+    pub drop_height: Option<f64>,
+    /// Laws to compare: LOADING or LOADING/UNLOADING, or "all" [default: the scene's]
+    #[arg(long, value_delimiter = ',')]
+    pub laws: Vec<String>,
+    /// A table or picture over a range of speeds [m/s]
+    #[arg(long, num_args = 2, value_names = ["speed", "FROM:TO"])]
+    pub sweep: Option<Vec<String>>,
+    /// Where the sweep goes: .csv or .svg [default: a table on standard output]
+    #[arg(short, long, requires = "sweep")]
+    pub output: Option<PathBuf>,
+    /// A dent [m] that was measured: which speed makes it, which yield strength explains it
+    #[arg(long, conflicts_with = "sweep")]
+    pub dent: Option<f64>,
+}
+
+#[derive(clap::Args)]
+pub struct CurveArguments {
+    /// The scene file
+    pub scene: PathBuf,
+    /// Where the curve goes: .csv or .svg [default: a table on standard output]
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// Laws to compare: LOADING or LOADING/UNLOADING, or "all" [default: the scene's]
+    #[arg(long, value_delimiter = ',')]
+    pub laws: Vec<String>,
+    /// Largest indentation [m] [default: that of the scene's impact]
+    #[arg(long)]
+    pub to: Option<f64>,
+    /// Adds the finite-element loading curve as dots
+    #[arg(long)]
+    pub truth: bool,
+}

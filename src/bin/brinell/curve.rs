@@ -1,0 +1,143 @@
+//! `brinell curve`: force, radius, pressure and energies along a path that loads, unloads, and loads again.
+
+use crate::laws::Choice;
+use crate::plot::{Picture, Series};
+use crate::truth;
+use brinell::contact::{History, Loading, TooDeep};
+use std::fmt::Write;
+
+/// Points of each branch of the path.
+const POINTS: u32 = 200;
+
+/// A point of the curve, in SI units.
+struct Row {
+    indentation: f64,
+    force: f64,
+    contact_radius: f64,
+    mean_pressure: f64,
+    stiffness: f64,
+    elastic_energy: f64,
+    dissipated_energy: f64,
+    regime: i32,
+}
+
+/// The curve of `choice` up to `largest` [m]: loaded to two thirds of it, unloaded to the dent, loaded on to `largest` and
+/// unloaded.
+fn rows(choice: &Choice, largest: f64) -> Result<Vec<Row>, TooDeep> {
+    let model = choice.model;
+    let mut history = History::start(&model, 0.0)?;
+    let mut rows = Vec::new();
+    let first = 2.0 / 3.0 * largest;
+    let dent = |depth: f64| model.unloading_path(depth).lower;
+    for goal in [first, dent(first), largest, dent(largest)] {
+        let from = history.indentation();
+        for point in 1..=POINTS {
+            let to = from + (goal - from) * f64::from(point) / f64::from(POINTS);
+            history.advance(to - history.indentation(), || model)?;
+            rows.push(Row {
+                indentation: history.indentation(),
+                force: history.force(),
+                contact_radius: history.contact_radius(&model),
+                mean_pressure: history.mean_pressure(&model),
+                stiffness: history.stiffness(),
+                elastic_energy: history.elastic_energy(&model),
+                dissipated_energy: history.dissipated_energy(&model),
+                regime: history.regime() as i32,
+            });
+        }
+    }
+    Ok(rows)
+}
+
+/// The curves as a table.
+///
+/// # Errors
+/// [`TooDeep`] if `largest` [m] is beyond what the laws can be evaluated for.
+pub fn csv(choices: &[Choice], largest: f64) -> Result<String, TooDeep> {
+    let mut text = String::from(
+        "law,indentation_m,force_N,contact_radius_m,mean_pressure_Pa,stiffness_N_per_m,work_J,elastic_energy_J,\
+         dissipated_energy_J,regime\n",
+    );
+    for choice in choices {
+        for row in rows(choice, largest)? {
+            let work = row.elastic_energy + row.dissipated_energy;
+            writeln!(
+                text,
+                "{},{:e},{:e},{:e},{:e},{:e},{work:e},{:e},{:e},{}",
+                choice.name,
+                row.indentation,
+                row.force,
+                row.contact_radius,
+                row.mean_pressure,
+                row.stiffness,
+                row.elastic_energy,
+                row.dissipated_energy,
+                row.regime
+            )
+            .expect("a String takes everything");
+        }
+    }
+    Ok(text)
+}
+
+/// The curves as a picture; with `dots` the finite-element loading curve of the same bodies.
+///
+/// # Errors
+/// As for [`csv`].
+pub fn svg(choices: &[Choice], largest: f64, dots: bool) -> Result<String, TooDeep> {
+    let mut series = Vec::new();
+    for choice in choices {
+        let points = rows(choice, largest)?.iter().map(|row| (1e6 * row.indentation, row.force)).collect();
+        series.push(Series { label: choice.name.clone(), points, dots: false });
+    }
+    if let (true, Some(choice)) = (dots, choices.first()) {
+        let unit = choice.model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
+        let all = truth::loading().into_iter().map(|point| (point.x * unit.indentation, point.f * unit.force));
+        let inside: Vec<_> = all.filter(|(d, _)| *d <= largest).map(|(d, f)| (1e6 * d, f)).collect();
+        // some thirty dots: more would be a line
+        let every = (inside.len() / 30).max(1);
+        let points = inside.into_iter().step_by(every).collect();
+        series.push(Series { label: "finite elements".into(), points, dots: true });
+    }
+    let titles = ("indentation [um]", "force [N]");
+    let picture = Picture { x_title: titles.0.into(), y_title: titles.1.into(), logarithmic: (false, false), series };
+    Ok(picture.svg(860, 480))
+}
+
+/// The loading curve of every law over Hertz's force, with the finite-element truth as dots.
+pub fn over_hertz(choices: &[Choice]) -> String {
+    const POINTS: u32 = 300;
+    // from well inside the elastic range to the end of the truth
+    let depth = |point: u32| 0.3 * (1000.0f64 / 0.3).powf(f64::from(point) / f64::from(POINTS));
+    let mut series: Vec<_> = choices
+        .iter()
+        .map(|choice| {
+            let pair = &choice.model.pair;
+            let unit = pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
+            let ratio = |x: f64| {
+                let indentation = x * unit.indentation;
+                let force = choice.model.loading.segment(pair, indentation).force(indentation);
+                (x, force / (unit.force * x * x.sqrt()))
+            };
+            let points = (0..=POINTS).map(|point| ratio(depth(point))).collect();
+            Series { label: choice.name.clone(), points, dots: false }
+        })
+        .collect();
+    // some forty dots, evenly spread over the decades
+    let mut next = 0.3;
+    let mut points = Vec::new();
+    for truth::Point { x, f } in truth::loading() {
+        if x >= next {
+            points.push((x, f / (x * x.sqrt())));
+            next = 1.22 * x;
+        }
+    }
+    series.push(Series { label: "finite elements".into(), points, dots: true });
+    let picture = Picture {
+        x_title: "indentation / yield indentation".into(),
+        y_title: "force / Hertz's force".into(),
+        logarithmic: (true, false),
+        series,
+    };
+    picture.svg(860, 480)
+}

@@ -1,0 +1,172 @@
+//! Pictures: lines and dots over two axes, as SVG.
+
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::ops::Range;
+
+/// A line, or dots.
+pub struct Series {
+    pub label: String,
+    pub points: Vec<(f64, f64)>,
+    /// Dots instead of a line: data, not a law.
+    pub dots: bool,
+}
+
+/// A picture.
+pub struct Picture {
+    pub x_title: String,
+    pub y_title: String,
+    /// Logarithmic axes; points at or below zero are then left out.
+    pub logarithmic: (bool, bool),
+    pub series: Vec<Series>,
+}
+
+/// plotters puts everything on whole pixels: pictures are drawn large and shown small, so that curves are smooth.
+const SCALE: u32 = 8;
+
+/// Colours that can be told apart, also by most of the colour-blind (P. Green-Armytage; M. Okabe, K. Ito).
+const COLOURS: [RGBColor; 12] = [
+    RGBColor(0, 90, 160),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 140, 100),
+    RGBColor(180, 80, 140),
+    RGBColor(150, 110, 0),
+    RGBColor(86, 160, 220),
+    RGBColor(120, 60, 20),
+    RGBColor(110, 110, 110),
+    RGBColor(220, 50, 60),
+    RGBColor(90, 60, 170),
+    RGBColor(60, 150, 30),
+    RGBColor(230, 150, 0),
+];
+
+impl Picture {
+    /// The picture as SVG of `width` by `height` pixels.
+    pub fn svg(&self, width: u32, height: u32) -> String {
+        let mut svg = String::new();
+        {
+            let root = SVGBackend::with_string(&mut svg, (SCALE * width, SCALE * height)).into_drawing_area();
+            let mut builder = ChartBuilder::on(&root);
+            // beside the curves, where no legend hides any
+            let beside = self.series.len() > 2;
+            let legend = if beside { LEGEND } else { 0 };
+            builder
+                .margin(12 * SCALE)
+                .margin_right((12 + legend) * SCALE)
+                .x_label_area_size(44 * SCALE)
+                .y_label_area_size(68 * SCALE);
+            let (x, y) =
+                (self.range(|point| point.0, self.logarithmic.0), self.range(|point| point.1, self.logarithmic.1));
+            match self.logarithmic {
+                (false, false) => self.draw(builder.build_cartesian_2d(linear(x), linear(y))),
+                (true, false) => self.draw(builder.build_cartesian_2d(x.log_scale(), linear(y))),
+                (false, true) => self.draw(builder.build_cartesian_2d(linear(x), y.log_scale())),
+                (true, true) => self.draw(builder.build_cartesian_2d(x.log_scale(), y.log_scale())),
+            }
+            self.draw_legend(&root, if beside { width - LEGEND } else { 100 });
+            root.present().expect(IN_MEMORY);
+        }
+        let drawn = format!("width=\"{}\" height=\"{}\"", SCALE * width, SCALE * height);
+        svg.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1)
+    }
+
+    /// The points that can be shown.
+    fn shown<'a>(&self, series: &'a Series) -> impl Iterator<Item = (f64, f64)> + 'a {
+        let (x_log, y_log) = self.logarithmic;
+        let fits =
+            move |&(x, y): &(f64, f64)| (x > 0.0 || !x_log) && (y > 0.0 || !y_log) && x.is_finite() && y.is_finite();
+        series.points.iter().copied().filter(fits)
+    }
+
+    /// The range of the points, with a little room; from zero where nothing is below it.
+    fn range(&self, value: impl Fn(&(f64, f64)) -> f64, logarithmic: bool) -> Range<f64> {
+        let values = || self.series.iter().flat_map(|series| self.shown(series)).map(|point| value(&point));
+        let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        match logarithmic {
+            true => low..high * 1.1,
+            false => low.min(0.0)..high + 0.06 * (high - low.min(0.0)),
+        }
+    }
+
+    fn draw<'a, X, Y>(
+        &self,
+        chart: Result<ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>, DrawingAreaErrorKind<std::io::Error>>,
+    ) where
+        X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+        Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    {
+        let mut chart = chart.expect(IN_MEMORY);
+        let font = |size: u32| ("sans-serif", SCALE * size);
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(RGBColor(221, 221, 221).stroke_width(SCALE))
+            .axis_style(BLACK.stroke_width(SCALE))
+            .set_all_tick_mark_size(5 * SCALE)
+            .x_label_formatter(&label)
+            .y_label_formatter(&label)
+            .x_desc(&self.x_title)
+            .y_desc(&self.y_title)
+            .axis_desc_style(font(15))
+            .label_style(font(13))
+            .draw()
+            .expect(IN_MEMORY);
+        for (index, series) in self.series.iter().enumerate() {
+            if series.dots {
+                chart.draw_series(self.shown(series).map(dot)).expect(IN_MEMORY);
+            } else {
+                chart.draw_series(LineSeries::new(self.shown(series), stroke(index))).expect(IN_MEMORY);
+            }
+        }
+    }
+
+    /// The names of the series, each behind a piece of its line: beside the curves, or above them if there are few.
+    fn draw_legend<DB: DrawingBackend>(&self, root: &DrawingArea<DB, plotters::coord::Shift>, left: u32) {
+        let style = TextStyle::from(("sans-serif", SCALE * 13).into_font()).pos(Pos::new(HPos::Left, VPos::Center));
+        let left = (SCALE * left) as i32;
+        let length = 18 * SCALE as i32;
+        for (index, series) in self.series.iter().enumerate() {
+            let y = (SCALE * (24 + 19 * index as u32)) as i32;
+            let drawn = match series.dots {
+                true => root.draw(&dot((left + length / 2, y))),
+                false => root.draw(&PathElement::new([(left, y), (left + length, y)], stroke(index))),
+            };
+            drawn.map_err(|_| ()).expect(IN_MEMORY);
+            let text = Text::new(series.label.clone(), (left + length + 6 * SCALE as i32, y), style.clone());
+            root.draw(&text).map_err(|_| ()).expect(IN_MEMORY);
+        }
+    }
+}
+
+/// A dot of data.
+fn dot<C>(at: C) -> Circle<C, u32> {
+    Circle::new(at, 5 * SCALE / 2, BLACK.filled())
+}
+
+/// The line of the series at `index`; the second round of colours is thinner.
+fn stroke(index: usize) -> ShapeStyle {
+    let width = if index < COLOURS.len() { 2 * SCALE } else { SCALE };
+    COLOURS[index % COLOURS.len()].stroke_width(width)
+}
+
+/// Room for a legend beside the curves.
+const LEGEND: u32 = 170;
+
+/// Drawing writes to a String, which takes everything.
+const IN_MEMORY: &str = "a drawing in memory";
+
+fn linear(range: Range<f64>) -> RangedCoordf64 {
+    range.into()
+}
+
+/// A tick label: plain where that is short.
+fn label(value: &f64) -> String {
+    let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
+    match rounded.abs() {
+        0.0 => "0".into(),
+        size if (1e-3..1e5).contains(&size) => format!("{rounded}"),
+        _ => format!("{rounded:e}"),
+    }
+}

@@ -1,0 +1,55 @@
+//! Walton and Braun: a spring that is stiffer on the way back.
+
+use super::Loading;
+use crate::contact::history::{LARGEST_INDENTATION, Regime};
+use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::segment::Segment;
+use libm::sqrt;
+
+/// The loading line of Walton and Braun: `F = k_1 d` from zero.
+///
+/// There is no elastic part: the contact yields at zero indentation and force. `k_1` is the stiffness factor times the
+/// secant `F_y/d_y = K_h sqrt(d_y) = pi R p_m` of Hertz's curve at the point where the mean pressure `p_m` reaches 1.1 S; with
+/// the factor 1 the line meets that point. It is above Hertz's curve before, and below it after. `a^2 = R d` is this
+/// project's choice. Simple, and so common in discrete-element codes; not a description of a real curve.
+///
+/// Made for the unloading law of the same name, with which restitution is `sqrt(k_1/k_2)` at any speed. The closures made
+/// from Hertz's law don't fit it: softer than the line at small indentations, they would give back more than was put in.
+///
+/// Reference: O. R. Walton, R. L. Braun, *J. Rheology* 30 (1986) 949-980.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WaltonBraun {
+    /// Mean pressure over the yield strength where Hertz's secant is taken.
+    pub yield_pressure_factor: f64,
+    /// `k_1` over that secant.
+    pub stiffness_factor: f64,
+}
+
+impl WaltonBraun {
+    /// The secant at 1.1 S itself: a choice of this project, the original leaves `k_1` to the user.
+    pub const REFERENCE: WaltonBraun = WaltonBraun { yield_pressure_factor: 1.1, stiffness_factor: 1.0 };
+}
+
+impl Loading for WaltonBraun {
+    fn yield_point(&self, _pair: &Pair) -> YieldPoint {
+        YieldPoint { indentation: 0.0, force: 0.0 }
+    }
+
+    fn segment(&self, pair: &Pair, _indentation: f64) -> Segment {
+        let secant = pair.hertz_stiffness() * sqrt(pair.yield_point(self.yield_pressure_factor).indentation);
+        Segment { upper: LARGEST_INDENTATION, linear: self.stiffness_factor * secant, ..Segment::NOTHING }
+    }
+
+    /// `W = k_1 d^2/2`.
+    fn work(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.segment(pair, 0.0).work(indentation)
+    }
+
+    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
+        sqrt(pair.radius * indentation)
+    }
+
+    fn regime(&self, _pair: &Pair, _indentation: f64) -> Regime {
+        Regime::ElastoplasticFirst
+    }
+}

@@ -1,0 +1,37 @@
+//! A straight way back, stiffer than the way there.
+
+use super::{Peak, Unloading};
+use crate::contact::material::Pair;
+use crate::contact::segment::Segment;
+
+/// `F = k_2 (d - d_f)` with `d_f = d_m (1 - k_1/k_2)`, where `k_1 = F_m/d_m` is the secant at the largest load.
+///
+/// On the loading line of Walton and Braun `k_1` is the stiffness of that line, `k_2` a constant, and restitution
+/// `sqrt(k_1/k_2)` at any speed. With another loading law `k_2` grows or falls with the secant, and the dent jumps from zero
+/// to `d_y (1 - k_1/k_2)` at yield; the force doesn't.
+///
+/// Reference: O. R. Walton, R. L. Braun, *J. Rheology* 30 (1986) 949-980.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WaltonBraun {
+    /// `k_2/k_1` > 1.
+    pub stiffness_ratio: f64,
+}
+
+impl WaltonBraun {
+    /// `k_2 = 4 k_1`, restitution 0.5: a choice of this project, the original leaves it to the user.
+    pub const REFERENCE: WaltonBraun = WaltonBraun { stiffness_ratio: 4.0 };
+}
+
+impl Unloading for WaltonBraun {
+    fn path(&self, _pair: &Pair, peak: &Peak) -> Segment {
+        let residual = peak.indentation * (1.0 - 1.0 / self.stiffness_ratio);
+        let residual = if residual < peak.indentation { residual } else { peak.indentation.next_down() };
+        Segment {
+            lower: residual,
+            upper: peak.indentation,
+            origin: residual,
+            linear: peak.force / (peak.indentation - residual),
+            ..Segment::NOTHING
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! predict, curve and laws as a user calls them.
+
+#[path = "support/command.rs"]
+mod command;
+
+use command::{contents, empty_folder, run, scene};
+use serde_json::Value;
+use std::fs;
+
+/// The JSON that `brinell` prints for these arguments and the default scene.
+fn predicted(arguments: &[&str]) -> Value {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let mut all = vec!["predict", &scene, "--json"];
+    all.extend(arguments);
+    run(folder.path(), all).with_status(0).json()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[track_caller]
+fn close(got: f64, expected: f64, tolerance: f64) {
+    assert!((got / expected - 1.0).abs() < tolerance, "{got} instead of {expected}");
+}
+
+#[test]
+fn predict_gives_the_impact_of_the_scene() {
+    let law = &predicted(&[])["laws"][0];
+    // the mass of the scene is 4.11e-3 kg, that of the reference tables 4.11025e-3 kg: 6e-5 in energy
+    close(number(&law["largest_force"]), 330.6641, 1e-4);
+    close(number(&law["dent"]), 9.4661023e-6, 1e-4);
+    close(number(&law["restitution"]), 0.44629924, 1e-4);
+    assert_eq!(law["regime"], 4);
+    // the speeds at which the regimes begin: 1.8737e-3, 25.189 and 201.19 times that
+    let onsets: Vec<f64> = law["onsets"].as_array().unwrap().iter().map(|onset| number(&onset["speed"])).collect();
+    assert_eq!(onsets.len(), 3);
+    close(onsets[1] / onsets[0], 25.1891570453553, 1e-12);
+    close(onsets[2] / onsets[0], 201.188636084190, 1e-12);
+}
+
+#[test]
+fn speed_energy_and_height_of_fall_say_the_same_impact() {
+    let by_speed = predicted(&["--mass", "0.01", "--speed", "2"]);
+    let by_energy = predicted(&["--mass", "0.01", "--energy", "0.02"]);
+    // v^2/(2 g)
+    let height = (4.0 / (2.0 * 9.80665)).to_string();
+    let by_height = predicted(&["--mass", "0.01", "--drop-height", &height]);
+    for other in [by_energy, by_height] {
+        let force = |value: &Value| number(&value["laws"][0]["largest_force"]);
+        close(force(&other), force(&by_speed), 1e-14);
+    }
+}
+
+#[test]
+fn several_laws_stand_side_by_side_and_hertz_loses_nothing() {
+    let laws = predicted(&["--laws", "hertz,brinell,big-alabo/thornton"])["laws"].clone();
+    let names: Vec<_> = laws.as_array().unwrap().iter().map(|law| law["law"].as_str().unwrap().to_string()).collect();
+    assert_eq!(names, ["hertz", "brinell", "big-alabo/thornton"]);
+    close(number(&laws[0]["restitution"]), 1.0, 1e-14);
+    close(number(&laws[2]["restitution"]), 0.53041676, 1e-4);
+    assert!(number(&laws[1]["restitution"]) < number(&laws[2]["restitution"]));
+}
+
+#[test]
+fn a_dent_turned_round_gives_the_speed_and_the_strength_that_made_it() {
+    for law in ["big-alabo", "brinell"] {
+        let dent = number(&predicted(&["--laws", law])["laws"][0]["dent"]).to_string();
+        let answer = predicted(&["--laws", law, "--dent", &dent])["laws"][0].clone();
+        // the dent changes as the speed, and as the inverse of the strength: no digit is lost on the way
+        close(number(&answer["speed"]), 1.0, 1e-12);
+        close(number(&answer["yield_strength"]), 300e6, 1e-12);
+    }
+}
+
+#[test]
+fn a_sweep_is_a_table_or_a_picture() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball");
+    let sweep = |output: &str| {
+        let arguments = ["predict", &scene.display().to_string(), "--laws", "all", "--sweep", "speed", "0.01:10", "-o"];
+        run(folder.path(), arguments.iter().copied().chain([output])).with_status(0);
+        fs::read_to_string(folder.path().join(output)).unwrap()
+    };
+    let table = sweep("sweep.csv");
+    let columns = table.lines().next().unwrap().split(',').count();
+    assert!(table.lines().all(|line| line.split(',').count() == columns), "a table has as many columns everywhere");
+    let speeds: Vec<f64> = table
+        .lines()
+        .filter(|line| line.starts_with("brinell,"))
+        .map(|line| line.split(',').nth(1).unwrap().parse().unwrap())
+        .collect();
+    assert!(speeds[0] == 0.01 && speeds.is_sorted() && (speeds[speeds.len() - 1] - 10.0).abs() < 1e-12);
+    let picture = sweep("sweep.svg");
+    assert!(picture.starts_with("<svg") && picture.contains("restitution") && picture.contains("brinell"));
+}
+
+#[test]
+fn a_curve_goes_in_out_in_again_and_out_and_its_energies_add_up() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let table = run(folder.path(), ["curve", &scene, "--to", "1e-5"]).with_status(0).out;
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|line| line.split(',').skip(1).map(|cell| cell.parse().unwrap()).collect()).collect();
+    let indentation = |row: &Vec<f64>| row[0];
+    let largest = rows.iter().map(indentation).fold(0.0, f64::max);
+    close(largest, 1e-5, 1e-12);
+    let turns = rows.windows(3).filter(|w| (w[1][0] - w[0][0]) * (w[2][0] - w[1][0]) < 0.0).count();
+    assert_eq!(turns, 3, "in, out, in, out");
+    for row in &rows {
+        let [work, elastic, dissipated] = [row[5], row[6], row[7]];
+        assert!((work - elastic - dissipated).abs() <= 1e-15 * work.abs(), "{work} is not {elastic} + {dissipated}");
+    }
+    assert!(rows.windows(2).all(|w| w[1][7] >= w[0][7] * (1.0 - 1e-13)), "dissipated energy never falls");
+    run(folder.path(), ["curve", &scene, "--laws", "all", "--truth", "-o", "curve.svg"]).with_status(0);
+    let picture = fs::read_to_string(folder.path().join("curve.svg")).unwrap();
+    assert!(picture.contains("finite elements") && picture.contains("<circle"));
+}
+
+#[test]
+fn laws_says_how_far_each_law_is_from_the_truth() {
+    let folder = empty_folder();
+    let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
+    let law = |name: &str| {
+        let found = laws.as_array().unwrap().iter().find(|law| law["name"] == name);
+        found.unwrap_or_else(|| panic!("no {name} in {laws}")).clone()
+    };
+    // measured independently: +30 % at some 25 to 30 yield indentations, within 0.5 %, and Stronge's known surplus
+    let published = law("big-alabo");
+    assert!((number(&published["worst_error"]) - 0.308).abs() < 0.002, "{published}");
+    assert!(number(&law("brinell")["worst_error"]).abs() < 0.005);
+    close(number(&law("stronge")["largest_restitution"]), 1.154, 1e-3);
+    assert_eq!(number(&published["largest_jump"]), 0.0);
+    for measured in laws.as_array().unwrap() {
+        assert!(!measured["reference"].as_str().unwrap().is_empty() && measured["rms_error"].as_f64().is_some());
+    }
+    run(folder.path(), ["laws", "-o", "laws.svg"]).with_status(0);
+    assert!(fs::read_to_string(folder.path().join("laws.svg")).unwrap().contains("big-alabo"));
+    let text = run(folder.path(), ["laws"]).with_status(0).out;
+    assert!(text.contains("makes energy") && text.contains("passive"));
+}
+
+#[test]
+fn what_can_t_be_done_is_said_and_nothing_is_written() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let cases: [(&[&str], &[&str]); 10] = [
+        (&["predict", &scene, "--mass", "0"], &["mass = 0", "positive"]),
+        (&["predict", &scene, "--speed", "NaN"], &["speed = NaN", "positive"]),
+        (&["predict", &scene, "--energy=-1"], &["energy = -1", "positive"]),
+        (&["predict", &scene, "--laws", "hooke"], &["unknown loading law `hooke`", "big-alabo"]),
+        (&["predict", &scene, "--laws", "hertz/hooke"], &["unknown unloading law `hooke`", "contact-radius"]),
+        (&["predict", &scene, "--sweep", "mass", "1:2"], &["mass 1:2", "speed FROM:TO"]),
+        (&["predict", &scene, "--sweep", "speed", "2:1"], &["speed 2:1", "FROM < TO"]),
+        (&["predict", &scene, "--sweep", "speed", "1:2", "-o", "x.pdf"], &["x.pdf", ".csv or .svg"]),
+        (&["curve", &scene, "--to", "1e150"], &["1e150", "too deep"]),
+        (&["predict", &scene, "--dent", "1e9"], &["dent = 1000000000", "speed"]),
+    ];
+    for (arguments, parts) in cases {
+        let failed = run(folder.path(), arguments).with_status(1);
+        for part in parts {
+            assert!(failed.err.contains(part), "nothing of {part:?} in {failed:#?}");
+        }
+    }
+    assert!(contents(folder.path()).is_empty());
+    // a wrong call, not a failed job
+    run(folder.path(), ["predict", &scene, "--speed", "1", "--energy", "1"]).with_status(2);
+}
