@@ -240,3 +240,16 @@ fn a_folder_instead_of_a_scene_is_named() {
     let run = run(folder.path(), ["export", "scenes"]).with_status(1);
     assert!(run.err.starts_with("brinell: scenes: "), "{run:#?}");
 }
+
+#[test]
+fn laws_that_do_not_go_together_are_refused_with_the_reason() {
+    let cases = [
+        ("walton-braun", "contact-radius", "no elastic part"),
+        ("stronge", "hertz-shift", "above Hertz's"),
+        ("big-alabo", "etsion", "fitted to the loading law \"kogut-etsion\""),
+    ];
+    for (loading, unloading, reason) in cases {
+        let law = format!("yield_strength = 300e6\n[law]\nloading = \"{loading}\"\nunloading = §\"{unloading}\"\n");
+        refused("yield_strength = 300e6\n", &law, &[loading, unloading, reason]);
+    }
+}

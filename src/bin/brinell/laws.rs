@@ -16,13 +16,44 @@ pub struct Choice {
     pub model: Model<AnyLoading, AnyUnloading>,
 }
 
-/// Laws that are not those of the scene: unknown names.
+/// Laws that can't be had.
 #[derive(Debug, thiserror::Error)]
-#[error("unknown {kind} law `{name}`, expected one of `{known}`")]
-pub struct UnknownLaw {
-    kind: &'static str,
-    name: String,
-    known: String,
+pub enum UnknownLaw {
+    #[error("unknown {kind} law `{name}`, expected one of `{known}`")]
+    Name { kind: &'static str, name: String, known: String },
+    #[error("{0}")]
+    Pairing(String),
+}
+
+/// Unloading laws that were fitted to one loading law, in its units.
+const FITTED_TO: [(&str, &str); 3] =
+    [("etsion", "kogut-etsion"), ("jackson", "jackson-green"), ("vu-quoc-zhang", "vu-quoc-zhang")];
+
+/// Loading laws that are above Hertz's curve in places, so that Hertz's curve can't be lowered to them.
+const ABOVE_HERTZ: [&str; 7] =
+    ["stronge", "kogut-etsion", "jackson-green", "ghaednia", "brake-2012-tangent", "brake-2012-line", "brake-2015"];
+
+/// Refuses two laws that don't make sense together.
+///
+/// # Errors
+/// Why they don't, and what does.
+pub fn check_pairing(loading: &str, unloading: &str) -> Result<(), String> {
+    let pair = format!("law.loading = \"{loading}\" doesn't go with law.unloading = \"{unloading}\"");
+    if loading == "walton-braun" && unloading != "walton-braun" {
+        return Err(format!("{pair}: it has no elastic part, and unloads by \"walton-braun\""));
+    }
+    if unloading == "hertz-shift" && ABOVE_HERTZ.contains(&loading) {
+        return Err(format!("{pair}: its curve is above Hertz's in places, which can't be lowered to it"));
+    }
+    match FITTED_TO.iter().find(|(name, fitted)| *name == unloading && *fitted != loading) {
+        Some((_, fitted)) => Err(format!("{pair}: that was fitted to the loading law \"{fitted}\"")),
+        None => Ok(()),
+    }
+}
+
+/// The unloading law of a scene that names none: "contact-radius", where it can be.
+pub fn default_unloading(loading: &str) -> &'static str {
+    if loading == "walton-braun" { "walton-braun" } else { "contact-radius" }
 }
 
 /// Loading laws that were published with an unloading law of another name.
@@ -59,8 +90,10 @@ pub fn choose(scene: &Scene, names: &[String]) -> Result<Vec<Choice>, UnknownLaw
 
 fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let (loading_name, unloading_name) = name.split_once('/').map_or((name, None), |(one, other)| (one, Some(other)));
-    let unknown =
-        |kind, name: &str, known: Vec<&str>| UnknownLaw { kind, name: name.into(), known: known.join("`, `") };
+    let unknown = |kind, name: &str, known: Vec<&str>| {
+        let (name, known) = (name.into(), known.join("`, `"));
+        UnknownLaw::Name { kind, name, known }
+    };
     let loading = AnyLoading::ALL.into_iter().find(|(known, _)| *known == loading_name);
     let known = || AnyLoading::ALL.iter().map(|(name, _)| *name).collect();
     let (_, loading) = loading.ok_or_else(|| unknown("loading", loading_name, known()))?;
@@ -70,7 +103,10 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     };
     let known = || AnyUnloading::ALL.iter().map(|(name, _)| *name).collect();
     let asked = unloading_name.unwrap_or_default();
-    let (_, unloading) = unloading.ok_or_else(|| unknown("unloading", asked, known()))?;
+    let (chosen, unloading) = unloading.ok_or_else(|| unknown("unloading", asked, known()))?;
+    if loading_name != "hertz" {
+        check_pairing(loading_name, chosen).map_err(UnknownLaw::Pairing)?;
+    }
     Ok(Choice { name: name.into(), model: Model { loading, unloading, ..scene.model() } })
 }
 

@@ -1,5 +1,6 @@
 //! The scene file: what is in contact, by which laws, and what the unit shows of it.
 
+use crate::laws;
 use crate::table::{self, Causality, MATERIALS, VARIABLES};
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::AnyLoading;
@@ -219,7 +220,7 @@ fn check(file: File) -> Result<Scene, Mistake> {
     }
     let loading = check_loading(file.law.loading.as_ref(), strength.is_some())?;
     let elastic = matches!(loading.1, AnyLoading::Hertz(_));
-    let unloading = check_unloading(file.law.unloading.as_ref(), elastic)?;
+    let unloading = check_unloading(file.law.unloading.as_ref(), loading.0, elastic)?;
 
     let values = [
         ("impactor.radius", Some(impactor.radius.clone())),
@@ -325,20 +326,21 @@ fn check_loading(name: Option<&Spanned<String>>, yields: bool) -> Result<(&'stat
 
 fn check_unloading(
     name: Option<&Spanned<String>>,
+    loading: &str,
     elastic: bool,
 ) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
-    let Some(name) = name else {
-        return Ok((!elastic).then_some(AnyUnloading::ALL[0]));
-    };
-    let asked = name.get_ref().as_str();
+    let span = name.map_or(0..0, Spanned::span);
+    let asked = name.map_or(laws::default_unloading(loading), |name| name.get_ref().as_str());
     if elastic {
         let message = format!("law.unloading = \"{asked}\" has no meaning here: hertz unloads along the loading curve");
-        return Err(Mistake(name.span(), message));
+        return if name.is_some() { Err(Mistake(span, message)) } else { Ok(None) };
     }
-    AnyUnloading::ALL.into_iter().find(|(name, _)| *name == asked).map(Some).ok_or_else(|| {
+    let law = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
         let names = AnyUnloading::ALL.iter().map(|(name, _)| *name);
-        Mistake(name.span(), unknown("law.unloading", asked, names))
-    })
+        Mistake(span.clone(), unknown("law.unloading", asked, names))
+    })?;
+    laws::check_pairing(loading, asked).map_err(|message| Mistake(span, message))?;
+    Ok(Some(law))
 }
 
 fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {

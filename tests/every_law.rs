@@ -1,0 +1,34 @@
+//! Every law inside an exported unit.
+
+#[path = "support/command.rs"]
+mod command;
+
+use command::{empty_folder, run};
+use std::fs;
+
+#[test]
+fn every_law_runs_inside_a_unit_that_has_no_other() {
+    let folder = empty_folder();
+    let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
+    let laws = laws.as_array().unwrap();
+    assert!(laws.len() >= 17, "all laws are listed");
+    let mut sizes = Vec::new();
+    for law in laws {
+        let (loading, unloading) = (law["name"].as_str().unwrap(), law["unloading"].as_str().unwrap());
+        // hertz unloads along the loading curve
+        let unloading = if loading == "hertz" { String::new() } else { format!("unloading = \"{unloading}\"\n") };
+        let scene = format!(
+            "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[law]\n\
+             loading = \"{loading}\"\n{unloading}[impact]\nmass = 4.11e-3\nspeed = 0.5\n"
+        );
+        fs::write(folder.path().join("scene.toml"), scene).unwrap();
+        let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+        sizes.push((exported["library_size"].as_u64().unwrap(), loading));
+        let checked = run(folder.path(), ["check", "unit.fmu", "--json"]);
+        assert_eq!(checked.status, Some(0), "{loading}: {checked:#?}");
+    }
+    // a unit with all laws would be larger than its largest part: what isn't named is left out
+    let (smallest, largest) = (sizes.iter().min().unwrap(), sizes.iter().max().unwrap());
+    assert_eq!(smallest.1, "hertz", "{sizes:?}");
+    assert!(largest.0 < 45_000 && largest.0 > smallest.0 + 10_000, "{sizes:?}");
+}
