@@ -55,6 +55,8 @@
 //! - *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.5.
 #![cfg_attr(not(test), no_std)]
 #![warn(missing_docs)]
+// [m] and [Pa] are units, not links
+#![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod contact;
 pub mod fault;
