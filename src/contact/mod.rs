@@ -7,10 +7,11 @@
 //! | module | what |
 //! |---|---|
 //! | [`material`] | bodies, effective radius and modulus, yield point |
-//! | [`segment`] | the form that every branch of these laws has: `F = c0 + c1 z + c2 z^1.5 + c3 z^2` |
+//! | [`segment`] | the form that the branches of most laws have: `F = c0 + c1 z + c2 z^1.5 + c3 z^2` |
 //! | [`loading`] | one file for each loading law |
 //! | [`unloading`] | one file for each unloading law |
 //! | [`path`] | the indentation, summed without loss |
+//! | [`dual`] | slopes of long formulas |
 //! | [`quadrature`] | work and time where there is no closed form |
 //! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | what an impact will do, from the energy balance |

@@ -1,6 +1,6 @@
 //! Brake 2012: a cubic between Hertz and the plastic line.
 
-use super::{Loading, hertz};
+use super::{Loading, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
@@ -115,8 +115,7 @@ impl Loading for Brake2012 {
 
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         let borders = self.borders(pair);
-        let corners = [borders.yielding.indentation, borders.plastic.indentation];
-        corners.into_iter().find(|&corner| indentation < corner).unwrap_or(LARGEST_INDENTATION)
+        first_above(indentation, [borders.yielding.indentation, borders.plastic.indentation])
     }
 
     /// The integrals of the three polynomials.

@@ -1,6 +1,6 @@
 //! Kogut and Etsion: powers of the indentation fitted to finite elements.
 
-use super::{Loading, hertz};
+use super::{Loading, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
@@ -115,8 +115,7 @@ impl Loading for KogutEtsion {
 
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_c = self.unit(pair).indentation;
-        let borders = [d_c, self.second_region * d_c, self.fully_plastic * d_c];
-        borders.into_iter().find(|&border| indentation < border).unwrap_or(LARGEST_INDENTATION)
+        first_above(indentation, [d_c, self.second_region * d_c, self.fully_plastic * d_c])
     }
 
     /// In `F_c d_c`: `0.4 y^2.5`, then `c y^(1+p)/(1+p)` between the borders of each fit, then `3 y^2/(2 K)`.

@@ -1,6 +1,6 @@
 //! Ma and Liu: a logarithmic curve that joins Hertz's law and a plastic line with continuous slope.
 
-use super::{Loading, hertz};
+use super::{Loading, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
@@ -98,14 +98,7 @@ impl Loading for MaLiu {
 
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_y = self.yield_point(pair).indentation;
-        let plastic = self.fully_plastic * d_y;
-        if indentation < d_y {
-            d_y
-        } else if indentation < plastic {
-            plastic
-        } else {
-            LARGEST_INDENTATION
-        }
+        first_above(indentation, [d_y, self.fully_plastic * d_y])
     }
 
     /// In `F_y d_y`, with `z = x - 1`: `0.4 x^2.5`, then `0.4 + z + 0.75 z^2 + c (x^2 ln(x)/2 - 0.75 z^2 - 0.5 z)`, then a line's.

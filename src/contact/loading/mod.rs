@@ -34,7 +34,7 @@ pub use walton_braun::WaltonBraun;
 pub use yigit_christoforou::YigitChristoforou;
 pub use zhao_maietta_chang::ZhaoMaiettaChang;
 
-use super::history::Regime;
+use super::history::{LARGEST_INDENTATION, Regime};
 use super::material::{Pair, YieldPoint};
 use super::segment::Segment;
 
@@ -63,6 +63,11 @@ pub trait Loading {
 
     /// The regime of the loading at `indentation` and just above it.
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime;
+}
+
+/// The first of a law's rising `corners` above `indentation` [m].
+fn first_above<const CORNERS: usize>(indentation: f64, corners: [f64; CORNERS]) -> f64 {
+    corners.into_iter().find(|&corner| indentation < corner).unwrap_or(LARGEST_INDENTATION)
 }
 
 /// Work of a curve that is made of segments, from first contact to `indentation` [J]: the whole segments below it and the

@@ -1,6 +1,6 @@
 //! Stronge: a mean pressure that grows with the logarithm of the indentation until the contact is fully plastic.
 
-use super::{Loading, hertz};
+use super::{Loading, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
@@ -84,14 +84,7 @@ impl Loading for Stronge {
 
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_y = self.yield_point(pair).indentation;
-        let plastic = self.fully_plastic() * d_y;
-        if indentation < d_y {
-            d_y
-        } else if indentation < plastic {
-            plastic
-        } else {
-            LARGEST_INDENTATION
-        }
+        first_above(indentation, [d_y, self.fully_plastic() * d_y])
     }
 
     /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + ((u^2 - 1) + c (u^2 ln u - (u^2 - 1)/2))/4`, then a line's.

@@ -1,6 +1,6 @@
 //! Zhao, Maietta and Chang: contact area and mean pressure, each led smoothly from elastic to fully plastic.
 
-use super::{Loading, hertz};
+use super::{Loading, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
@@ -106,14 +106,7 @@ impl Loading for ZhaoMaiettaChang {
 
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_y = self.yield_point(pair).indentation;
-        let plastic = self.fully_plastic * d_y;
-        if indentation < d_y {
-            d_y
-        } else if indentation < plastic {
-            plastic
-        } else {
-            LARGEST_INDENTATION
-        }
+        first_above(indentation, [d_y, self.fully_plastic * d_y])
     }
 
     /// In `F_y d_y`: `0.4 x^2.5`, then powers of `x` up to the fifth, each with `1 + b ln x - b/n`, then a line's.
