@@ -15,7 +15,9 @@
 //! | [`quadrature`] | work and time where there is no closed form |
 //! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | what an impact will do, from the energy balance |
+//! | [`damped`] | rate-dependent laws, with a history of their own |
 
+pub mod damped;
 pub mod dual;
 pub mod history;
 pub mod impact;

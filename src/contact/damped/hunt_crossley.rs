@@ -1,0 +1,115 @@
+//! Hunt and Crossley, with the damping factors of those who came after.
+
+use super::{Damped, Factors, Shape, power_three_halves};
+use crate::contact::material::Pair;
+use libm::{exp, log, log1p};
+
+/// How the damping factor `chi` is made from the wanted restitution `e`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DampingFactor {
+    /// The root of `(1 + chi)/(1 - chi e) = exp(chi (1 + e))`: the law then gives `e`, to rounding.
+    Exact,
+    /// `3 (1 - e)/2`. K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440-445.
+    HuntCrossley,
+    /// `3 (1 - e^2)/4`. H. M. Lankarani, P. E. Nikravesh, *J. Mech. Des.* 112 (1990) 369-376.
+    LankaraniNikravesh,
+    /// `3 (1 - e)/4`. T. W. Lee, A. C. Wang, *J. Mech. Transm. Autom. Des.* 105 (1983) 534-543.
+    LeeWang,
+    /// `6 (1 - e)/((2e - 1)^2 + 3)`. R. G. Herbert, D. C. McWhannell, *J. Eng. Ind.* 99 (1977) 792-798.
+    HerbertMcwhannell,
+    /// `0.75 (1 - e^2) exp(2 (1 - e))`. Q. Zhiying, L. Qishao, *J. Dyn. Control* 4 (2006) 294-298.
+    ZhiyingQishao,
+    /// `(1 - e^2)/e`. Y. Gonthier et al., *Multibody Syst. Dyn.* 11 (2004) 209-233.
+    Gonthier,
+    /// `8 (1 - e)/(5 e)`. P. Flores et al., *Multibody Syst. Dyn.* 25 (2011) 357-375.
+    Flores,
+    /// `3 (1 - e)/(2 e)`. S. Hu, X. Guo, *Multibody Syst. Dyn.* 35 (2015) 447-464.
+    HuGuo,
+}
+
+impl DampingFactor {
+    /// Every factor under the name it has in a scene.
+    pub const ALL: [(&'static str, DampingFactor); 9] = [
+        ("exact", DampingFactor::Exact),
+        ("hunt-crossley", DampingFactor::HuntCrossley),
+        ("lankarani-nikravesh", DampingFactor::LankaraniNikravesh),
+        ("lee-wang", DampingFactor::LeeWang),
+        ("herbert-mcwhannell", DampingFactor::HerbertMcwhannell),
+        ("zhiying-qishao", DampingFactor::ZhiyingQishao),
+        ("gonthier", DampingFactor::Gonthier),
+        ("flores", DampingFactor::Flores),
+        ("hu-guo", DampingFactor::HuGuo),
+    ];
+
+    /// `chi` for the restitution `e` in (0, 1].
+    pub fn chi(self, e: f64) -> f64 {
+        match self {
+            DampingFactor::Exact => exact(e),
+            DampingFactor::HuntCrossley => 1.5 * (1.0 - e),
+            DampingFactor::LankaraniNikravesh => 0.75 * (1.0 - e * e),
+            DampingFactor::LeeWang => 0.75 * (1.0 - e),
+            DampingFactor::HerbertMcwhannell => 6.0 * (1.0 - e) / ((2.0 * e - 1.0) * (2.0 * e - 1.0) + 3.0),
+            DampingFactor::ZhiyingQishao => 0.75 * (1.0 - e * e) * exp(2.0 * (1.0 - e)),
+            DampingFactor::Gonthier => (1.0 - e * e) / e,
+            DampingFactor::Flores => 1.6 * (1.0 - e) / e,
+            DampingFactor::HuGuo => 1.5 * (1.0 - e) / e,
+        }
+    }
+}
+
+/// The root of `ln(1 + chi) - ln(1 - chi e) = chi (1 + e)` in `(0, 1/e)`, by halving; zero for `e = 1`.
+///
+/// The left side is the larger one between the root and `1/e`, so that only the trivial root at zero must be kept out: below
+/// the start the difference is `chi^2 (e^2 - 1)/2 < 0` at leading order.
+fn exact(e: f64) -> f64 {
+    if e >= 1.0 {
+        return 0.0;
+    }
+    let (mut low, mut high) = (0.0, 1.0 / e);
+    for _ in 0..HALVINGS {
+        let chi = 0.5 * (low + high);
+        let rest = 1.0 - chi * e;
+        let beyond = if rest > 0.0 { log1p(chi) - log(rest) > chi * (1.0 + e) } else { true };
+        if beyond {
+            high = chi;
+        } else {
+            low = chi;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Enough for every digit of a root that is not below 1e-3 of its bracket.
+const HALVINGS: u32 = 64;
+
+/// `F = K_h d^1.5 (1 + chi d'/v0)`, `v0` the closing speed at first touch.
+///
+/// With the [exact](DampingFactor::Exact) factor restitution is `e` at any speed. The force begins and ends at zero.
+///
+/// Reference: K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440-445. What each factor really gives follows
+/// from `(1 + chi)/(1 - chi e) = exp(chi (1 + e))`, which holds for any exponent of the indentation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HuntCrossley {
+    /// How `chi` follows from the restitution.
+    pub damping_factor: DampingFactor,
+}
+
+impl HuntCrossley {
+    /// With the exact factor.
+    pub const REFERENCE: HuntCrossley = HuntCrossley { damping_factor: DampingFactor::Exact };
+}
+
+impl Damped for HuntCrossley {
+    fn factors(&self, pair: &Pair, restitution: f64, _mass: f64) -> Factors {
+        let elastic = pair.hertz_stiffness();
+        Factors { elastic, damping: elastic * self.damping_factor.chi(restitution) }
+    }
+
+    fn damping(&self, indentation: f64) -> Shape {
+        power_three_halves(indentation)
+    }
+
+    fn scaled_by_touch(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,34 @@
+//! Kuwabara and Kono: a viscoelastic Hertz contact.
+
+use super::{Damped, Factors, Shape};
+use crate::contact::material::Pair;
+use libm::sqrt;
+
+/// `F = K_h (d^1.5 + 1.5 A sqrt(d) d')`, `A` a time that belongs to the material.
+///
+/// Restitution falls with speed: `e = 1 - 1.730173 s + ...` with `s = A (K_h/m)^0.4 v^0.2`.
+///
+/// Reference: G. Kuwabara, K. Kono, *Jpn. J. Appl. Phys.* 26 (1987) 1230-1233; N. V. Brilliantov et al., *Phys. Rev. E* 53
+/// (1996) 5382-5392.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KuwabaraKono {
+    /// `A` [s].
+    pub relaxation_time: f64,
+}
+
+impl KuwabaraKono {
+    /// A microsecond: a choice of this project, the time is the user's.
+    pub const REFERENCE: KuwabaraKono = KuwabaraKono { relaxation_time: 1e-6 };
+}
+
+impl Damped for KuwabaraKono {
+    fn factors(&self, pair: &Pair, _restitution: f64, _mass: f64) -> Factors {
+        let elastic = pair.hertz_stiffness();
+        Factors { elastic, damping: 1.5 * self.relaxation_time * elastic }
+    }
+
+    fn damping(&self, d: f64) -> Shape {
+        let value = sqrt(d);
+        Shape { value, slope: if d > 0.0 { 0.5 / value } else { f64::MAX }, integral: d * value / 1.5 }
+    }
+}
