@@ -1,9 +1,8 @@
 //! Co-simulation as safe Rust: phase, time, variables, step, reset, save and load. Nothing here is particular to FMI 2.0.
 
-use crate::contact::history::{self, History};
-use crate::contact::{Body, Model, Pair, TooDeep};
+use crate::contact::{Body, Pair, TooDeep};
 use crate::fault::Fault;
-use crate::scene;
+use crate::scene::{self, History};
 use crate::variable::{Integer, Parameter, Real};
 
 /// The phases in which an instance can be, as bits: a set of phases is their sum.
@@ -53,7 +52,7 @@ pub struct Instance {
 const OWN_WORDS: usize = 5;
 
 /// Number of words that hold an instance.
-pub const WORDS: usize = OWN_WORDS + scene::SETTABLE.len() + history::WORDS;
+pub const WORDS: usize = OWN_WORDS + scene::SETTABLE.len() + History::WORDS;
 
 /// How far a communication point may be from the end of the last step, in steps. Masters count `t += h` or `start + i h`;
 /// either is within rounding of the last end, and half a step off is a mistake.
@@ -83,12 +82,8 @@ fn pair_of(values: &Values) -> Result<Pair, Fault> {
         .ok_or(Fault::NoPointContact { impactor: impactor.radius, target: target.radius })
 }
 
-fn model_of(pair: Pair) -> Model<scene::Loading, scene::Unloading> {
-    Model { pair, loading: scene::LOADING, unloading: scene::UNLOADING, surface: scene::SURFACE }
-}
-
 fn start_of(pair: Pair, values: &Values) -> Result<History, Fault> {
-    Ok(History::start(&model_of(pair), scene::parameter(Parameter::InitialGap, values))?)
+    Ok(History::start(&scene::model(pair, values), scene::parameter(Parameter::InitialGap, values))?)
 }
 
 impl From<TooDeep> for Fault {
@@ -181,8 +176,8 @@ impl Instance {
     /// then where it was.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.check_step(time, step)?;
-        let pair = self.pair;
-        self.history.advance(self.rate * step, || model_of(pair))?;
+        let (pair, values) = (self.pair, self.values);
+        self.history.step(self.rate, step, || scene::model(pair, &values))?;
         self.time = time + step;
         Ok(())
     }
@@ -197,7 +192,7 @@ impl Instance {
             && step > 0.0
             && (time - self.time).abs() <= TIME_TOLERANCE * step
             && end <= self.stop;
-        let done = in_order && self.history.advance_on_branch(self.rate * step);
+        let done = in_order && self.history.plain_step(self.rate, step);
         if done {
             self.time = end;
         }
@@ -278,21 +273,21 @@ impl Instance {
     /// The force [N], if outputs are plainly there: during the simulation.
     #[inline(always)]
     pub fn plain_force(&self) -> Option<f64> {
-        (self.phase == Phase::StepComplete).then(|| self.history.force())
+        (self.phase == Phase::StepComplete).then(|| self.history.force_at_rate(self.rate))
     }
 
     /// The value of `variable` now.
     pub fn real(&self, variable: Real) -> f64 {
-        let model = model_of(self.pair);
+        let model = scene::model(self.pair, &self.values);
         match variable {
             Real::IndentationRate => self.rate,
-            Real::Force => self.history.force(),
+            Real::Force => self.history.force_at_rate(self.rate),
             Real::Indentation => self.history.indentation(),
             Real::MaxIndentation => self.history.max_indentation(),
             Real::ResidualIndentation => self.history.residual_indentation(&model),
             Real::ContactRadius => self.history.contact_radius(&model),
-            Real::MeanPressure => self.history.mean_pressure(&model),
-            Real::Stiffness => self.history.stiffness(),
+            Real::MeanPressure => self.history.mean_pressure_at_rate(&model, self.rate),
+            Real::Stiffness => self.history.stiffness_at_rate(self.rate),
             Real::Work => self.history.work(&model),
             Real::ElasticEnergy => self.history.elastic_energy(&model),
             Real::DissipatedEnergy => self.history.dissipated_energy(&model),
@@ -344,14 +339,15 @@ impl Instance {
         if !rate.is_finite() || !time.is_finite() || !stop.is_finite() || experiment_defined > 1 {
             return None;
         }
+        let pair = pair_of(&values).ok()?;
         Some(Instance {
-            history: History::from_words(rest.first_chunk()?)?,
+            history: History::from_words(rest.first_chunk()?, &scene::model(pair, &values))?,
             rate,
             time,
             stop,
             phase,
             experiment_defined: experiment_defined == 1,
-            pair: pair_of(&values).ok()?,
+            pair,
             values,
         })
     }

@@ -3,7 +3,7 @@
 //! `brinell export` writes this file for every scene that it builds. The one in the source tree is that of
 //! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
 
-use crate::contact::{Surface, loading, unloading};
+use crate::contact::{self, Pair, Surface, loading, unloading};
 use crate::instance::Values;
 use crate::variable::{Integer, Parameter, Real, Settable};
 
@@ -29,6 +29,16 @@ pub const UNLOADING: Unloading = unloading::ContactRadius;
 /// What a new contact meets.
 pub const SURFACE: Surface = Surface::Dented;
 
+/// What a contact remembers.
+pub type History = contact::History;
+/// What is in contact, and by which laws.
+pub type Model = contact::Model<Loading, Unloading>;
+
+/// These bodies with the laws of the scene.
+pub fn model(pair: Pair, _settable: &Values) -> Model {
+    Model { pair, loading: LOADING, unloading: UNLOADING, surface: SURFACE }
+}
+
 /// The parameters that can be set.
 pub const SETTABLE: [Settable; 5] = [
     Settable { name: "impactor.radius", unit: "m", start: 0.005, minimum: 1e-12, maximum: 1e9 },
@@ -48,6 +58,8 @@ pub fn parameter(parameter: Parameter, settable: &Values) -> f64 {
         Parameter::TargetYoungsModulus => settable[1],
         Parameter::TargetPoissonsRatio => settable[2],
         Parameter::TargetYieldStrength => settable[3],
+        Parameter::Restitution => 1.0,
+        Parameter::EffectiveMass => f64::INFINITY,
         Parameter::InitialGap => settable[4],
     }
 }

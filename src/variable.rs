@@ -17,6 +17,10 @@ pub enum Parameter {
     TargetPoissonsRatio,
     /// `target.yield_strength` [Pa]; infinite for an elastic contact.
     TargetYieldStrength,
+    /// `restitution`, which the damping of a rate-dependent law is made for.
+    Restitution,
+    /// `effective_mass` [kg].
+    EffectiveMass,
     /// `initial_gap` [m].
     InitialGap,
 }

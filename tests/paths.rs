@@ -3,7 +3,6 @@
 #[path = "support/physics.rs"]
 mod physics;
 
-use brinell::contact::history::WORDS;
 use brinell::contact::loading::KogutEtsion;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{History, Regime, Surface};
@@ -244,7 +243,7 @@ fn a_history_comes_back_from_its_words() {
         let mut history = pressed(&model, 0.0);
         for turn in TURNS {
             go(&mut history, &model, 1.1 * turn * unit(&model.pair).indentation);
-            let restored = History::from_words(&history.to_words()).expect("its own words");
+            let restored = History::from_words(&history.to_words(), &model).expect("its own words");
             assert_eq!(restored, history, "{name} at {turn}");
             assert_eq!(restored.to_words(), history.to_words(), "{name} at {turn}");
         }
@@ -253,19 +252,20 @@ fn a_history_comes_back_from_its_words() {
 
 #[test]
 fn words_that_are_no_history_are_refused() {
-    let words = pressed(&model("big-alabo", "contact-radius"), on_grid(20.0)).to_words();
-    assert!(History::from_words(&words).is_some());
-    for index in 0..WORDS {
+    let model = model("big-alabo", "contact-radius");
+    let words = pressed(&model, on_grid(20.0)).to_words();
+    assert!(History::from_words(&words, &model).is_some());
+    for index in 0..History::WORDS {
         for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let mut words = words;
             words[index] = wrong.to_bits();
-            assert_eq!(History::from_words(&words), None, "word {index} is {wrong}");
+            assert_eq!(History::from_words(&words, &model), None, "word {index} is {wrong}");
         }
     }
     for regime in [6, u64::MAX] {
         let mut words = words;
-        words[WORDS - 1] = regime;
-        assert_eq!(History::from_words(&words), None, "there is no regime {regime}");
+        words[History::WORDS - 1] = regime;
+        assert_eq!(History::from_words(&words, &model), None, "there is no regime {regime}");
     }
 }
 

@@ -14,9 +14,6 @@ pub const LARGEST_INDENTATION: f64 = 1e100;
 /// The farthest that bodies can be apart [m].
 const FARTHEST: f64 = (-LARGEST_INDENTATION).next_up();
 
-/// Number of words that hold a history.
-pub const WORDS: usize = 12;
-
 /// The smallest positive indentation [m]: an elastic contact is open at zero and closed here.
 const TOUCHING: f64 = f64::from_bits(1);
 
@@ -71,6 +68,9 @@ impl Regime {
 }
 
 impl History {
+    /// Number of words that hold a history.
+    pub const WORDS: usize = 12;
+
     /// A contact at `gap` [m] before any motion; a negative gap is an indentation reached along the loading curve.
     pub fn start<L: Loading, U: Unloading>(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         let mut history = History {
@@ -104,6 +104,25 @@ impl History {
             self.indentation = sum;
         }
         Ok(())
+    }
+
+    /// Moves the contact with `rate` [m/s] over `step` [s].
+    ///
+    /// # Errors
+    /// As for [`History::advance`].
+    pub fn step<L: Loading, U: Unloading>(
+        &mut self,
+        rate: f64,
+        step: f64,
+        model: impl FnOnce() -> Model<L, U>,
+    ) -> Result<(), TooDeep> {
+        self.advance(rate * step, model)
+    }
+
+    /// The step if it leaves the contact on its branch; otherwise nothing is done, and false.
+    #[inline(always)]
+    pub fn plain_step(&mut self, rate: f64, step: f64) -> bool {
+        self.advance_on_branch(rate * step)
     }
 
     /// Moves the contact by `increment` [m] if that leaves it on its branch; otherwise nothing is done, and false.
@@ -205,9 +224,20 @@ impl History {
         self.segment.force(self.indentation.value)
     }
 
+    /// The force, which doesn't depend on the rate [N].
+    #[inline]
+    pub fn force_at_rate(&self, _rate: f64) -> f64 {
+        self.force()
+    }
+
     /// dF/d(indentation) on the present branch [N/m]; at a corner the one in the direction of the last motion.
     pub fn stiffness(&self) -> f64 {
         self.segment.stiffness(self.indentation.value)
+    }
+
+    /// The stiffness, which doesn't depend on the rate [N/m].
+    pub fn stiffness_at_rate(&self, _rate: f64) -> f64 {
+        self.stiffness()
     }
 
     /// Depth of the dent that would remain if the load were taken off now [m].
@@ -234,6 +264,11 @@ impl History {
     pub fn mean_pressure<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let radius = self.contact_radius(model);
         if radius > 0.0 { self.force() / (PI * radius * radius) } else { 0.0 }
+    }
+
+    /// The mean pressure, which doesn't depend on the rate [Pa].
+    pub fn mean_pressure_at_rate<L: Loading, U: Unloading>(&self, model: &Model<L, U>, _rate: f64) -> f64 {
+        self.mean_pressure(model)
     }
 
     /// What unloading would give back [J].
@@ -266,7 +301,7 @@ impl History {
     }
 
     /// The history as words, to be stored.
-    pub fn to_words(&self) -> [u64; WORDS] {
+    pub fn to_words(&self) -> [u64; History::WORDS] {
         let Segment { lower, upper, origin, constant, linear, power, square } = self.segment;
         let Sum { value, rest } = self.indentation;
         let state = [value, rest, self.max_indentation, self.left_behind].map(f64::to_bits);
@@ -277,8 +312,8 @@ impl History {
         [value, rest, largest, left_behind, lower, upper, origin, constant, linear, power, square, regime]
     }
 
-    /// The history that [`History::to_words`] stored; `None` if a word is not a finite number or not a regime.
-    pub fn from_words(words: &[u64; WORDS]) -> Option<History> {
+    /// The history of a contact by `model` that [`History::to_words`] stored; `None` if a word is not a finite number or not a regime.
+    pub fn from_words<L, U>(words: &[u64; History::WORDS], _model: &Model<L, U>) -> Option<History> {
         let [numbers @ .., regime] = words.map(f64::from_bits);
         if numbers.iter().any(|number| !number.is_finite()) {
             return None;

@@ -4,19 +4,25 @@ use crate::interface::Entry;
 use crate::scene::Scene;
 use crate::table::{Causality, Type};
 use brinell::contact::Surface;
+use brinell::contact::damped::AnyDamped;
 use std::fmt::Write;
 
-/// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, a contact that never yields.
-const ABSENT: [(&str, f64); 4] = [
+/// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, a contact that never yields,
+/// no damping.
+const ABSENT: [(&str, f64); 6] = [
     ("impactor.youngs_modulus", f64::INFINITY),
     ("impactor.poissons_ratio", 0.0),
     ("target.radius", f64::INFINITY),
     ("target.yield_strength", f64::INFINITY),
+    ("restitution", 1.0),
+    ("effective_mass", f64::INFINITY),
 ];
 
 /// The constants of `scene` with the variables `entries`, under the identification `guid`.
 pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
     let mut text = String::from(HEAD);
+    let uses = if scene.damped.is_some() { "Pair, damped" } else { "self, Pair, Surface, loading, unloading" };
+    add(&mut text, &format!("use crate::contact::{{{uses}}};\n{USES}"));
     let loading = value_of(&scene.loading.1);
     // an elastic contact never unloads by another law; the compiler leaves out whatever stands here
     let unloading = scene.unloading.map_or("ContactRadius".into(), |(_, law)| value_of(&law));
@@ -30,9 +36,21 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
             "/// What the model description and the binary recognise each other by.\npub const GUID: &str = {guid:?};\n"
         ),
     );
-    add_law(&mut text, "Loading", "LOADING", "loading", &loading);
-    add_law(&mut text, "Unloading", "UNLOADING", "unloading", &unloading);
-    add(&mut text, &format!("/// What a new contact meets.\npub const SURFACE: Surface = Surface::{surface};\n"));
+    if let Some((_, law)) = &scene.damped {
+        // an enum inside of a law is printed without its path
+        let path = match law {
+            AnyDamped::HuntCrossley(_) => "damped::hunt_crossley::DampingFactor::",
+            _ => "damped::tsuji::TsujiDamping::",
+        };
+        let value = value_of(law).replace("damping_factor: ", &format!("damping_factor: {path}"));
+        add_law(&mut text, "Law", "LAW", "damped", &value);
+        add(&mut text, DAMPED_MODEL);
+    } else {
+        add_law(&mut text, "Loading", "LOADING", "loading", &loading);
+        add_law(&mut text, "Unloading", "UNLOADING", "unloading", &unloading);
+        add(&mut text, &format!("/// What a new contact meets.\npub const SURFACE: Surface = Surface::{surface};\n"));
+        add(&mut text, MODEL);
+    }
     add_settable(&mut text, entries);
     add_parameters(&mut text, scene);
     add_references(&mut text, entries, Type::Real);
@@ -45,10 +63,36 @@ const HEAD: &str = "\
 //!
 //! `brinell export` writes this file for every scene that it builds. The one in the source tree is that of
 //! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
+";
 
-use crate::contact::{Surface, loading, unloading};
+const USES: &str = "\
 use crate::instance::Values;
 use crate::variable::{Integer, Parameter, Real, Settable};
+";
+
+const MODEL: &str = "\
+/// What a contact remembers.
+pub type History = contact::History;
+/// What is in contact, and by which laws.
+pub type Model = contact::Model<Loading, Unloading>;
+
+/// These bodies with the laws of the scene.
+pub fn model(pair: Pair, _settable: &Values) -> Model {
+    Model { pair, loading: LOADING, unloading: UNLOADING, surface: SURFACE }
+}
+";
+
+const DAMPED_MODEL: &str = "\
+/// What a contact remembers.
+pub type History = damped::History<Law>;
+/// What is in contact, and by which law.
+pub type Model = damped::Model<Law>;
+
+/// These bodies with the law of the scene.
+pub fn model(pair: Pair, settable: &Values) -> Model {
+    let value = |which| parameter(which, settable);
+    damped::Model { pair, law: LAW, restitution: value(Parameter::Restitution), mass: value(Parameter::EffectiveMass) }
+}
 ";
 
 fn add(text: &mut String, paragraph: &str) {

@@ -2,9 +2,8 @@
 
 use crate::interface::{Entry, experiment, prediction};
 use crate::plot::{Picture, Series};
-use crate::scene::{Scene, is_elastic};
+use crate::scene::Scene;
 use crate::table::{self, Causality};
-use brinell::contact::History;
 use std::fmt::Write;
 
 const STYLE: &str = "\
@@ -35,13 +34,17 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
         page,
         "<p>FMI 2.0 co-simulation unit of the normal contact of a sphere and a half-space: the closing speed of the \
          bodies goes in, the contact force comes out. The rate is held over a step, and the law is followed exactly: the \
-         result doesn't depend on how time is cut.</p>"
+         result doesn't depend on how time is cut.{}</p>",
+        if scene.damped.is_some() { " The force follows the rate at the same instant." } else { "" }
     )?;
     writeln!(page, "<h2>The scene&#8217;s impact</h2>")?;
     impact(page, scene)?;
     writeln!(page, "<figure>\n{}</figure>", curve(scene))?;
     writeln!(page, "<h2>Law</h2>")?;
-    law(page, "Loading", table::loading_law(scene.loading.0))?;
+    match scene.damped {
+        Some((name, _)) => law(page, "Rate-dependent", table::damped_law(name))?,
+        None => law(page, "Loading", table::loading_law(scene.loading.0))?,
+    }
     if let Some((name, _)) = scene.unloading {
         law(page, "Unloading and reloading", table::unloading_law(name))?;
     }
@@ -63,8 +66,10 @@ fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
     let assumed = if scene.impact_is_assumed { " (the scene names none; a solid steel ball is assumed)" } else { "" };
     writeln!(
         page,
-        "<p>{} kg at {} m/s{assumed}; by energy balance:</p>\n<table>",
-        scene.impact.mass, scene.impact.speed
+        "<p>{} kg at {} m/s{assumed}; {}:</p>\n<table>",
+        scene.impact.mass,
+        scene.impact.speed,
+        scene.any_model().method()
     )?;
     let rows = [
         ("Largest force", prediction.max_force, "N"),
@@ -154,33 +159,17 @@ fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// Force against indentation: up to the largest indentation of the scene's impact, off, and half way back.
+/// Force against indentation over the scene's impact.
 fn curve(scene: &Scene) -> String {
-    const POINTS: u32 = 60;
-    let model = scene.model();
-    let prediction = prediction(scene);
-    let largest = prediction.max_indentation;
-    let residual = prediction.residual_indentation;
-    let mut history = History::start(&model, 0.0).expect("zero is not too deep");
-    let mut branch = |to: f64| -> Vec<(f64, f64)> {
-        let from = history.indentation();
-        let mut points = vec![(1e6 * from, history.force())];
-        for point in 1..=POINTS {
-            let goal = from + (to - from) * f64::from(point) / f64::from(POINTS);
-            history.advance(goal - history.indentation(), || model).expect("not beyond the largest indentation");
-            points.push((1e6 * history.indentation(), history.force()));
-        }
-        points
-    };
-    let mut series = vec![Series { label: "loading".into(), points: branch(largest), dots: false }];
-    if !is_elastic(scene) {
-        series.push(Series { label: "unloading".into(), points: branch(residual), dots: false });
-    }
+    let micrometres = |points: Vec<(f64, f64)>| points.into_iter().map(|(d, force)| (1e6 * d, force)).collect();
+    let branches = scene.any_model().branches(&scene.impact).expect("a checked scene has a prediction");
+    let named = branches.into_iter().zip(["loading", "unloading"]);
+    let series = named.map(|(points, label)| Series { label: label.into(), points: micrometres(points), dots: false });
     let picture = Picture {
         x_title: "indentation [um]".into(),
         y_title: "force [N]".into(),
         logarithmic: (false, false),
-        series,
+        series: series.collect(),
     };
     picture.svg(640, 400)
 }

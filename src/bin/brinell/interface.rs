@@ -2,7 +2,7 @@
 
 use crate::scene::Scene;
 use crate::table::{Causality, VARIABLES, Variable};
-use brinell::contact::impact::{Prediction, predict};
+use brinell::contact::impact::Prediction;
 use std::f64::consts::PI;
 
 /// A variable of a unit; its place in the list is its value reference.
@@ -12,6 +12,8 @@ pub struct Entry {
     pub start: Option<f64>,
     /// Places of the parameters that the value before the first step follows.
     pub dependencies: Vec<usize>,
+    /// Place of the input that the value follows at the same instant.
+    pub follows: Option<usize>,
     pub nominal: Option<f64>,
 }
 
@@ -35,14 +37,16 @@ pub fn entries(scene: &Scene) -> Vec<Entry> {
             Causality::Output => None,
             Causality::Parameter => scene.value(&variable.name),
         };
-        Entry { variable, start, dependencies: dependencies.collect(), nominal: nominals.get(variable) }
+        let input = || variables.iter().position(|other| other.causality == Causality::Input);
+        let follows = (scene.damped.is_some() && variable.follows_rate).then(input).flatten();
+        Entry { variable, start, dependencies: dependencies.collect(), follows, nominal: nominals.get(variable) }
     };
     variables.iter().map(entry).collect()
 }
 
 /// What the scene's impact will do.
 pub fn prediction(scene: &Scene) -> Prediction {
-    predict(&scene.model(), &scene.impact).expect("a checked scene has a prediction")
+    scene.any_model().predict(&scene.impact).expect("a checked scene has a prediction")
 }
 
 /// Typical sizes, for solvers that scale by them.
@@ -54,10 +58,7 @@ struct Nominals {
 impl Nominals {
     fn of(scene: &Scene) -> Nominals {
         let prediction = prediction(scene);
-        let stiffness = scene
-            .model()
-            .unloading_segment(prediction.max_indentation, prediction.max_indentation)
-            .stiffness(prediction.max_indentation);
+        let stiffness = scene.any_model().stiffness(prediction.max_indentation);
         Nominals { prediction, stiffness }
     }
 

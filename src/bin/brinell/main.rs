@@ -8,6 +8,7 @@ mod documentation;
 mod importer;
 mod interface;
 mod laws;
+mod model;
 mod model_description;
 mod package;
 mod plot;
@@ -114,9 +115,10 @@ fn export(scene: &Scene, output: Option<&Path>, as_json: bool) -> Result<PathBuf
 }
 
 fn law(scene: &Scene) -> String {
-    match scene.unloading {
-        Some((unloading, _)) => format!("{}, unloading by {unloading}", scene.loading.0),
-        None => format!("{} (elastic)", scene.loading.0),
+    match (scene.damped, scene.unloading) {
+        (Some((damped, _)), _) => format!("{damped} (the force depends on the rate)"),
+        (None, Some((unloading, _))) => format!("{}, unloading by {unloading}", scene.loading.0),
+        (None, None) => format!("{} (elastic)", scene.loading.0),
     }
 }
 

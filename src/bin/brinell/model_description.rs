@@ -151,19 +151,20 @@ fn scalar_variable(xml: &mut Xml, reference: usize, entry: &Entry) -> io::Result
     Ok(())
 }
 
-/// Outputs depend on no input at the same instant; before the first step they follow the parameters.
+/// Outputs depend on no input at the same instant, unless the law does; before the first step they follow the parameters.
 fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
     let outputs = || entries.iter().enumerate().filter(|(_, entry)| entry.variable.causality == Causality::Output);
     xml.create_element("ModelStructure").write_inner_content(|xml| {
         xml.create_element("Outputs").write_inner_content(|xml| {
-            for (place, _) in outputs() {
-                unknown(xml, place, &[])?;
+            for (place, entry) in outputs() {
+                unknown(xml, place, entry.follows.as_slice())?;
             }
             Ok(())
         })?;
         xml.create_element("InitialUnknowns").write_inner_content(|xml| {
             for (place, entry) in outputs() {
-                unknown(xml, place, &entry.dependencies)?;
+                let all: Vec<_> = entry.follows.iter().chain(&entry.dependencies).copied().collect();
+                unknown(xml, place, &all)?;
             }
             Ok(())
         })?;

@@ -1,11 +1,13 @@
 //! The scene file: what is in contact, by which laws, and what the unit shows of it.
 
 use crate::laws;
+use crate::model::AnyModel;
 use crate::table::{self, Causality, MATERIALS, VARIABLES};
+use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::impact::Impact;
-use brinell::contact::loading::AnyLoading;
+use brinell::contact::loading::{AnyLoading, Hertz};
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, Loading, Model, Pair, Surface};
+use brinell::contact::{Body, Model, Pair, Surface};
 use serde::Deserialize;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -24,6 +26,8 @@ pub struct Scene {
     pub loading: (&'static str, AnyLoading),
     /// None for an elastic contact.
     pub unloading: Option<(&'static str, AnyUnloading)>,
+    /// The law of a contact whose force depends on the rate; it has no other.
+    pub damped: Option<(&'static str, AnyDamped)>,
     pub surface: Surface,
     pub impact: Impact,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
@@ -98,6 +102,7 @@ enum SurfaceName {
 struct Law {
     loading: Option<Spanned<String>>,
     unloading: Option<Spanned<String>>,
+    restitution: Option<Spanned<f64>>,
 }
 
 #[derive(Default, Deserialize)]
@@ -182,7 +187,18 @@ impl Scene {
         Pair::new(&impactor, &target, strength)
     }
 
-    /// The contact as the physics sees it; the unloading of an elastic contact is never asked for.
+    /// The contact as the physics sees it.
+    pub fn any_model(&self) -> AnyModel {
+        let Some((_, law)) = self.damped else { return AnyModel::Elastoplastic(self.model()) };
+        AnyModel::Damped(damped::Model {
+            pair: self.pair().expect("a checked scene has bodies that fit"),
+            law,
+            restitution: self.value("restitution").unwrap_or(1.0),
+            mass: self.value("effective_mass").unwrap_or(f64::INFINITY),
+        })
+    }
+
+    /// The contact by its elastoplastic laws; the unloading of an elastic contact is never asked for.
     pub fn model(&self) -> Model<AnyLoading, AnyUnloading> {
         let pair = self.pair().expect("a checked scene has bodies that fit");
         let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
@@ -218,10 +234,17 @@ fn check(file: File) -> Result<Scene, Mistake> {
         let message = "an elastic impactor needs both `youngs_modulus` and `poissons_ratio`; a rigid one neither";
         return Err(Mistake(given.map_or(0..0, Spanned::span), message.into()));
     }
-    let loading = check_loading(file.law.loading.as_ref(), strength.is_some())?;
+    let damped = find_damped(&file.law)?;
+    let loading = match damped {
+        Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
+        None => check_loading(file.law.loading.as_ref(), strength.is_some())?,
+    };
     let elastic = matches!(loading.1, AnyLoading::Hertz(_));
     let unloading = check_unloading(file.law.unloading.as_ref(), loading.0, elastic)?;
 
+    let radius = *impactor.radius.get_ref();
+    let steel_ball = Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 };
+    let mass = file.impact.as_ref().map_or(Spanned::new(0..0, steel_ball.mass), |table| table.get_ref().mass.clone());
     let values = [
         ("impactor.radius", Some(impactor.radius.clone())),
         ("impactor.youngs_modulus", impactor.youngs_modulus.clone()),
@@ -230,6 +253,8 @@ fn check(file: File) -> Result<Scene, Mistake> {
         ("target.youngs_modulus", modulus),
         ("target.poissons_ratio", ratio),
         ("target.yield_strength", if elastic { None } else { strength }),
+        ("restitution", file.law.restitution.clone()),
+        ("effective_mass", damped.is_some_and(|(_, law)| law.needs_mass()).then_some(mass)),
         ("initial_gap", Some(file.fmu.initial_gap.clone().unwrap_or(Spanned::new(0..0, 0.0)))),
     ];
     let mut parameters = Vec::new();
@@ -241,8 +266,6 @@ fn check(file: File) -> Result<Scene, Mistake> {
     choose_settable(&mut parameters, file.fmu.parameters.as_deref())?;
     let outputs = check_outputs(&file.fmu.outputs)?;
 
-    let radius = *impactor.radius.get_ref();
-    let steel_ball = Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 };
     let impact_is_assumed = file.impact.is_none();
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     let impact = match file.impact.as_ref().map(Spanned::get_ref) {
@@ -262,6 +285,7 @@ fn check(file: File) -> Result<Scene, Mistake> {
         outputs,
         loading,
         unloading,
+        damped,
         surface,
         impact,
         impact_is_assumed,
@@ -276,7 +300,7 @@ fn check(file: File) -> Result<Scene, Mistake> {
         );
         return Err(Mistake(socket.span(), message));
     }
-    if brinell::contact::impact::predict(&scene.model(), &scene.impact).is_none() {
+    if scene.any_model().predict(&scene.impact).is_none() {
         let Impact { mass, speed } = scene.impact;
         let message = format!(
             "the impact of mass = {mass:?} kg and speed = {speed:?} m/s drives the bodies deeper than the law can be evaluated"
@@ -308,12 +332,39 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
     })
 }
 
+/// The rate-dependent law that the scene names, with what belongs to it.
+fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mistake> {
+    let asked = law.loading.as_ref();
+    let found = asked.and_then(|asked| AnyDamped::ALL.into_iter().find(|(name, _)| name == asked.get_ref()));
+    let needs_restitution = found.is_some_and(|(_, law)| law.needs_restitution());
+    match (&law.restitution, asked) {
+        (Some(restitution), _) if !needs_restitution => {
+            let names = AnyDamped::ALL.iter().filter(|(_, law)| law.needs_restitution()).map(|(name, _)| *name);
+            let names = names.collect::<Vec<_>>().join("\", \"");
+            let message = format!("law.restitution is for the loading laws \"{names}\"; this one has its own");
+            return Err(Mistake(restitution.span(), message));
+        }
+        (None, Some(asked)) if needs_restitution => {
+            let message = format!("law.loading = \"{}\" needs law.restitution, from 0.001 to 1", asked.get_ref());
+            return Err(Mistake(asked.span(), message));
+        }
+        _ => {}
+    }
+    if let (Some((name, _)), Some(unloading)) = (found, &law.unloading) {
+        let asked = unloading.get_ref();
+        let message = format!("law.unloading = \"{asked}\" has no meaning here: {name} leaves no dent");
+        return Err(Mistake(unloading.span(), message));
+    }
+    Ok(found)
+}
+
 fn check_loading(name: Option<&Spanned<String>>, yields: bool) -> Result<(&'static str, AnyLoading), Mistake> {
     let default = if yields { "big-alabo" } else { "hertz" };
     let asked = name.map_or(default, |name| name.get_ref().as_str());
     let span = name.map_or(0..0, Spanned::span);
     let law = AnyLoading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
         let names = AnyLoading::ALL.iter().map(|(name, _)| *name);
+        let names = names.chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
         Mistake(span.clone(), unknown("law.loading", asked, names))
     })?;
     if !yields && law.0 != "hertz" {
@@ -396,9 +447,4 @@ fn check_outputs(chosen: &[Spanned<String>]) -> Result<Vec<String>, Mistake> {
         }
     }
     Ok(outputs)
-}
-
-/// Whether `loading` never yields, so that the unit needs nothing plastic.
-pub fn is_elastic(scene: &Scene) -> bool {
-    scene.loading.1.yield_point(&scene.model().pair).indentation.is_infinite()
 }

@@ -21,6 +21,9 @@ pub struct Variable {
     #[serde(default)]
     pub depends_on: Vec<String>,
     pub nominal_from: Option<String>,
+    /// Whether it follows the rate at the same instant, where the law does.
+    #[serde(default)]
+    pub follows_rate: bool,
     pub description: String,
 }
 
@@ -103,6 +106,7 @@ struct Materials {
 struct Laws {
     loading: Vec<Law>,
     unloading: Vec<Law>,
+    damped: Vec<Law>,
 }
 
 /// The tables are part of the program: a mistake in one is a mistake in the program, which every test would show.
@@ -139,6 +143,11 @@ pub fn loading_law(name: &str) -> &'static Law {
 /// What is said of the unloading law `name`.
 pub fn unloading_law(name: &str) -> &'static Law {
     LAWS.unloading.iter().find(|law| law.name == name).expect(PART_OF_THE_PROGRAM)
+}
+
+/// What is said of the rate-dependent law `name`.
+pub fn damped_law(name: &str) -> &'static Law {
+    LAWS.damped.iter().find(|law| law.name == name).expect(PART_OF_THE_PROGRAM)
 }
 
 /// The variable `name`.

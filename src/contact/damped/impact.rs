@@ -6,12 +6,15 @@ use crate::contact::history::LARGEST_INDENTATION;
 use crate::contact::impact::{Impact, Prediction};
 use libm::{fabs, pow, sqrt};
 
-/// A point of the motion.
-#[derive(Clone, Copy)]
-struct State {
-    time: f64,
-    indentation: f64,
-    speed: f64,
+/// A moment of the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Since first contact [s].
+    pub time: f64,
+    /// [m]
+    pub indentation: f64,
+    /// Closing speed [m/s].
+    pub speed: f64,
 }
 
 /// Largest error of a step, relative to the largest indentation and the incoming speed.
@@ -29,6 +32,16 @@ const MOST_STEPS: u32 = 1_000_000;
 ///
 /// Reference: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19-26.
 pub fn predict<D: Damped + Copy>(model: &Model<D>, impact: &Impact) -> Option<Prediction> {
+    follow(model, impact, |_, _| {})
+}
+
+/// The same, with every moment that the method comes to, from first contact to the end, and the force there [N] told to
+/// `watch`.
+pub fn follow<D: Damped + Copy>(
+    model: &Model<D>,
+    impact: &Impact,
+    mut watch: impl FnMut(&State, f64),
+) -> Option<Prediction> {
     let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
     let energy = 0.5 * impact.mass * impact.speed * impact.speed;
     // below the smallest normal number an energy has lost digits already
@@ -39,6 +52,7 @@ pub fn predict<D: Damped + Copy>(model: &Model<D>, impact: &Impact) -> Option<Pr
     let mut state = State { time: 0.0, indentation: 0.0, speed: impact.speed };
     let mut step = 1e-6 * motion.time;
     let (mut turning, mut largest) = (state, motion.force(&state));
+    watch(&state, 0.0);
     for _ in 0..MOST_STEPS {
         let (next, error) = motion.step(&state, step);
         let factor = 0.9 * pow(TOLERANCE / (error + f64::MIN_POSITIVE), 0.2);
@@ -54,6 +68,7 @@ pub fn predict<D: Damped + Copy>(model: &Model<D>, impact: &Impact) -> Option<Pr
         largest = fmax(largest, motion.largest_force(&state, &next, step));
         if motion.is_over(&next) {
             let end = motion.event(&state, step, |state| motion.is_over(state));
+            watch(&end, 0.0);
             let rebound_energy = 0.5 * impact.mass * end.speed * end.speed;
             return Some(Prediction {
                 max_indentation: turning.indentation,
@@ -69,6 +84,7 @@ pub fn predict<D: Damped + Copy>(model: &Model<D>, impact: &Impact) -> Option<Pr
             });
         }
         state = next;
+        watch(&state, motion.force(&state));
         step *= if factor < 5.0 { factor } else { 5.0 };
     }
     None

@@ -112,6 +112,16 @@ impl AnyDamped {
         ("adams-impact", AnyDamped::Adams(Adams::REFERENCE)),
     ];
 
+    /// Whether the damping is made for a coefficient of restitution.
+    pub fn needs_restitution(&self) -> bool {
+        matches!(self, AnyDamped::HuntCrossley(_) | AnyDamped::KelvinVoigt(_) | AnyDamped::Tsuji(_))
+    }
+
+    /// Whether the damping is made for a mass.
+    pub fn needs_mass(&self) -> bool {
+        matches!(self, AnyDamped::KelvinVoigt(_) | AnyDamped::Tsuji(_))
+    }
+
     /// The law itself.
     pub fn law(&self) -> &dyn Damped {
         match self {

@@ -1,0 +1,83 @@
+//! The contact of a scene as the physics sees it.
+
+use brinell::contact::damped::{self, AnyDamped};
+use brinell::contact::impact::{self, Impact, Prediction};
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Loading, Model};
+
+/// Bodies with laws, of either kind.
+#[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there are a few of them at a time")]
+pub enum AnyModel {
+    /// Force by indentation and largest indentation.
+    Elastoplastic(Model<AnyLoading, AnyUnloading>),
+    /// Force by indentation and rate.
+    Damped(damped::Model<AnyDamped>),
+}
+
+impl AnyModel {
+    /// What an impact will do; `None` beyond what the law can be evaluated for.
+    pub fn predict(&self, impact: &Impact) -> Option<Prediction> {
+        match self {
+            AnyModel::Elastoplastic(model) => impact::predict(model, impact),
+            AnyModel::Damped(model) => damped::impact::predict(model, impact),
+        }
+    }
+
+    /// The stiffness of the way back from `indentation` [m]; of a rate-dependent law that of its elastic part [N/m].
+    pub fn stiffness(&self, indentation: f64) -> f64 {
+        match self {
+            AnyModel::Elastoplastic(model) => model.unloading_segment(indentation, indentation).stiffness(indentation),
+            AnyModel::Damped(model) => {
+                let contact = damped::History::start(model, -indentation);
+                contact.expect("a checked scene is within range").stiffness_at_rate(0.0)
+            }
+        }
+    }
+
+    /// How a prediction is made, in words.
+    pub fn method(&self) -> &'static str {
+        match self {
+            AnyModel::Elastoplastic(_) => "by energy balance",
+            AnyModel::Damped(_) => "by integrating the motion",
+        }
+    }
+
+    /// Indentation [m] and force [N] over an impact: to the largest indentation, and back if the way back is another.
+    pub fn branches(&self, impact: &Impact) -> Option<Vec<Vec<(f64, f64)>>> {
+        match self {
+            AnyModel::Elastoplastic(model) => {
+                let prediction = impact::predict(model, impact)?;
+                let (dent, largest) = (prediction.residual_indentation, prediction.max_indentation);
+                let way = |from: f64, to: f64| {
+                    (0..=POINTS).map(move |point| from + (to - from) * f64::from(point) / f64::from(POINTS))
+                };
+                let force = |d: f64| model.loading.segment(&model.pair, d).force(d);
+                let back = |d: f64| model.unloading_segment(largest, d).force(d);
+                let loading = way(0.0, largest).map(|d| (d, force(d))).collect();
+                let unloading = way(largest, dent).map(|d| (d, back(d))).collect();
+                Some(if model.is_elastic_at(largest) { vec![loading] } else { vec![loading, unloading] })
+            }
+            AnyModel::Damped(model) => {
+                let (mut there, mut back) = (Vec::new(), Vec::new());
+                damped::impact::follow(model, impact, |state, force| {
+                    let branch = if state.speed > 0.0 { &mut there } else { &mut back };
+                    branch.push((state.indentation, force));
+                })?;
+                // the two branches meet
+                back.splice(0..0, there.last().copied());
+                Some(vec![thinned(&there), thinned(&back)])
+            }
+        }
+    }
+}
+
+/// Some of the `points`, with the first and the last.
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let last = points.len() - 1;
+    (0..=POINTS).map(|point| points[last * point as usize / POINTS as usize]).collect()
+}
+
+/// Points of a branch.
+const POINTS: u32 = 60;
