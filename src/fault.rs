@@ -42,6 +42,11 @@ pub enum Fault {
         /// The value.
         value: f64,
     },
+    /// A rate at which the force of a rate-dependent law is beyond all numbers.
+    TooFast {
+        /// The rate [m/s].
+        rate: f64,
+    },
     /// Outside the limits of the parameter.
     OutOfRange {
         /// The parameter.

@@ -154,10 +154,11 @@ impl Instance {
     }
 
     /// # Errors
-    /// [`Fault::NoPointContact`] if the parameters don't fit together.
+    /// [`Fault::NoPointContact`] if the parameters don't fit together, [`Fault::TooFast`] if they don't fit the input.
     pub fn exit_initialization(&mut self) -> Result<(), Fault> {
         self.pair = pair_of(&self.values)?;
         self.history = start_of(self.pair, &self.values)?;
+        self.check_rate(self.rate)?;
         self.phase = Phase::StepComplete;
         Ok(())
     }
@@ -219,14 +220,18 @@ impl Instance {
     /// Whether `variable` may be set to `value` now.
     ///
     /// # Errors
-    /// [`Fault::NotFinite`], [`Fault::OutOfRange`], [`Fault::NotSettable`], [`Fault::FixedParameter`].
+    /// [`Fault::NotFinite`], [`Fault::TooFast`], [`Fault::OutOfRange`], [`Fault::NotSettable`], [`Fault::FixedParameter`].
     pub fn check_real(&self, variable: Real, value: f64) -> Result<(), Fault> {
         match variable {
-            Real::IndentationRate if value.is_finite() => Ok(()),
+            Real::IndentationRate if value.is_finite() => self.check_rate(value),
             Real::IndentationRate => Err(Fault::NotFinite { name: "indentation_rate", value }),
             Real::Parameter(index) => self.check_parameter(index, value),
             _ => Err(Fault::NotSettable),
         }
+    }
+
+    fn check_rate(&self, rate: f64) -> Result<(), Fault> {
+        if self.history.is_finite_at_rate(rate) { Ok(()) } else { Err(Fault::TooFast { rate }) }
     }
 
     fn check_parameter(&self, index: usize, value: f64) -> Result<(), Fault> {
@@ -263,7 +268,7 @@ impl Instance {
     /// Sets the input and reports true if that is all there is to do: the input may be set now, and `rate` is finite.
     #[inline(always)]
     pub fn set_plain_rate(&mut self, rate: f64) -> bool {
-        let plain = self.phase == Phase::StepComplete && rate.abs() <= f64::MAX;
+        let plain = self.phase == Phase::StepComplete && rate.abs() <= f64::MAX && self.history.is_finite_at_rate(rate);
         if plain {
             self.rate = rate;
         }

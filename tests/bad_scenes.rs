@@ -253,3 +253,20 @@ fn laws_that_do_not_go_together_are_refused_with_the_reason() {
         refused("yield_strength = 300e6\n", &law, &[loading, unloading, reason]);
     }
 }
+
+#[test]
+fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
+    let damped = "[law]\nloading = \"tsuji\"\n";
+    refused_with("[law]\nloading = §\"tsuji\"\n", &["needs law.restitution"]);
+    refused_with(&format!("{damped}restitution = §0.0\n"), &["restitution = 0.0", "0.001 to 1.0"]);
+    refused_with(&format!("{damped}restitution = §1.5\n"), &["restitution = 1.5", "0.001 to 1.0"]);
+    refused_with("[law]\nrestitution = §0.5\n", &["law.restitution is for", "hunt-crossley", "tsuji"]);
+    let own = "[law]\nloading = \"kuwabara-kono\"\nrestitution = §0.5\n";
+    refused_with(own, &["law.restitution is for"]);
+}
+
+#[test]
+fn an_unloading_law_for_a_contact_that_leaves_no_dent_is_refused() {
+    let scene = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.5\nunloading = §\"thornton\"\n";
+    refused_with(scene, &["law.unloading = \"thornton\"", "hunt-crossley leaves no dent"]);
+}

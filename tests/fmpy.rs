@@ -105,6 +105,27 @@ fn inputs_are_finite_and_so_are_outputs() {
 }
 
 #[test]
+fn the_force_of_rate_dependent_laws_follows_the_input() {
+    let laws = [
+        ("hunt-crossley", "restitution = 0.6"),
+        ("kelvin-voigt", "restitution = 0.6"),
+        ("tsuji", "restitution = 0.6"),
+        ("kuwabara-kono", ""),
+        ("adams-impact", ""),
+    ];
+    let scenes = laws.map(|(law, more)| {
+        let name = law.replace('-', "_");
+        let outputs = r#"["indentation", "mean_pressure", "stiffness", "work", "elastic_energy", "dissipated_energy"]"#;
+        let text = format!(
+            "name = \"{name}\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n\
+             [law]\nloading = \"{law}\"\n{more}\n[fmu]\noutputs = {outputs}\n"
+        );
+        write_scene(&name, &text)
+    });
+    pytest("test_force_follows_the_rate.py", &scenes);
+}
+
+#[test]
 fn calls_out_of_order_and_wrong_references_are_refused() {
     pytest("test_call_order.py", &steel_ball());
 }

@@ -230,6 +230,12 @@ impl History {
         self.force()
     }
 
+    /// Always: the force doesn't depend on the rate.
+    #[inline(always)]
+    pub fn is_finite_at_rate(&self, _rate: f64) -> bool {
+        true
+    }
+
     /// dF/d(indentation) on the present branch [N/m]; at a corner the one in the direction of the last motion.
     pub fn stiffness(&self) -> f64 {
         self.segment.stiffness(self.indentation.value)

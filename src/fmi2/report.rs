@@ -87,6 +87,9 @@ fn describe(text: &mut Text, fault: &Fault) {
             text.string("the parameter ").string(name).string(" can't be set after initialization")
         }
         Fault::NotFinite { name, value } => text.string(name).string(" = ").number(value).string(" is not finite"),
+        Fault::TooFast { rate } => {
+            text.string("indentation_rate = ").number(rate).string(" is too fast: the force would not be finite")
+        }
         Fault::OutOfRange { settable, value } => text
             .string(settable.name)
             .string(" = ")

@@ -2,6 +2,7 @@
 
 use crate::scene::Scene;
 use crate::table::{Causality, VARIABLES, Variable};
+use brinell::contact::damped::Damped;
 use brinell::contact::impact::Prediction;
 use std::f64::consts::PI;
 
@@ -10,7 +11,7 @@ pub struct Entry {
     pub variable: &'static Variable,
     /// For the input and the parameters.
     pub start: Option<f64>,
-    /// Places of the parameters that the value before the first step follows.
+    /// Places of the parameters, and of the input, that the value before the first step follows.
     pub dependencies: Vec<usize>,
     /// Place of the input that the value follows at the same instant.
     pub follows: Option<usize>,
@@ -26,9 +27,12 @@ pub fn entries(scene: &Scene) -> Vec<Entry> {
     };
     let variables: Vec<&'static Variable> = VARIABLES.iter().filter(|variable| chosen(variable)).collect();
     let nominals = Nominals::of(scene);
+    // a damping that waits for the first touch is none before the first step
+    let damped_from_the_start = scene.damped.is_some_and(|(_, law)| !law.scaled_by_touch());
     let entry = |variable: &&'static Variable| {
         let depends = |other: &Variable| {
             other.causality == Causality::Parameter
+                && (damped_from_the_start || other.name != "restitution")
                 && variable.depends_on.iter().any(|name| name == "*" || *name == other.name)
         };
         let dependencies = variables.iter().enumerate().filter(|(_, other)| depends(other)).map(|(place, _)| place);
@@ -39,7 +43,8 @@ pub fn entries(scene: &Scene) -> Vec<Entry> {
         };
         let input = || variables.iter().position(|other| other.causality == Causality::Input);
         let follows = (scene.damped.is_some() && variable.follows_rate).then(input).flatten();
-        Entry { variable, start, dependencies: dependencies.collect(), follows, nominal: nominals.get(variable) }
+        let dependencies: Vec<_> = follows.into_iter().filter(|_| damped_from_the_start).chain(dependencies).collect();
+        Entry { variable, start, dependencies, follows, nominal: nominals.get(variable) }
     };
     variables.iter().map(entry).collect()
 }

@@ -163,8 +163,7 @@ fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
         })?;
         xml.create_element("InitialUnknowns").write_inner_content(|xml| {
             for (place, entry) in outputs() {
-                let all: Vec<_> = entry.follows.iter().chain(&entry.dependencies).copied().collect();
-                unknown(xml, place, &all)?;
+                unknown(xml, place, &entry.dependencies)?;
             }
             Ok(())
         })?;

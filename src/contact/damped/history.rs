@@ -18,6 +18,9 @@ pub struct History<D> {
     dissipated: Sum,
 }
 
+/// Room for the factors of stiffness and pressure beside force over indentation: exponents, and a radius of 1e-12 m.
+const ROOM: f64 = 1e14;
+
 /// Halvings that find a number between two others to its last digit, whatever they are.
 const HALVINGS: u32 = 1100;
 
@@ -46,22 +49,29 @@ impl<D: Damped + Copy> History<D> {
     /// Moves the contact with `rate` [m/s] over `step` [s].
     ///
     /// # Errors
-    /// [`TooDeep`] as for [`History::start`]; the history is left as it was.
+    /// [`TooDeep`] as for [`History::start`], and where force or heat would be beyond all numbers; the history is left as it was.
     pub fn step(&mut self, rate: f64, step: f64, _model: impl FnOnce() -> Model<D>) -> Result<(), TooDeep> {
         let sum = self.indentation.plus(rate * step);
         let to = within(sum.value)?;
         let from = self.indentation.value;
+        let mut next = *self;
         let touches = if from > 0.0 { self.touch_speed <= 0.0 } else { to > 0.0 };
         if touches && rate > 0.0 {
-            self.touch_speed = rate;
+            next.touch_speed = rate;
         }
         if from <= 0.0 && to > 0.0 {
-            self.max_indentation = 0.0;
+            next.max_indentation = 0.0;
         }
-        self.max_indentation = if to > self.max_indentation { to } else { self.max_indentation };
+        next.max_indentation = if to > next.max_indentation { to } else { next.max_indentation };
         let positive = |d: f64| if d > 0.0 { d } else { 0.0 };
-        self.dissipated = self.dissipated.plus(self.dissipation(positive(from), positive(to), rate));
-        self.indentation = sum;
+        next.dissipated = self.dissipated.plus(next.dissipation(positive(from), positive(to), rate));
+        next.indentation = sum;
+        // written positively, so that a NaN fails
+        let finite = next.is_finite_at_rate(rate) && next.stored() + next.dissipated.value < f64::INFINITY;
+        if !finite {
+            return Err(TooDeep { indentation: to });
+        }
+        *self = next;
         Ok(())
     }
 
@@ -83,6 +93,14 @@ impl<D: Damped + Copy> History<D> {
     fn sum_of_forces(&self, indentation: f64, rate: f64) -> f64 {
         self.factors.elastic * self.law.elastic(indentation).value
             + self.damping_factor() * rate * self.law.damping(indentation).value
+    }
+
+    /// Whether force, stiffness and pressure are numbers with `rate` [m/s]: a contact that was touched at next to no speed can
+    /// have more damping than there are numbers.
+    pub fn is_finite_at_rate(&self, rate: f64) -> bool {
+        let indentation = self.indentation.value;
+        // pressure and stiffness are forces over lengths, and these are their sizes
+        indentation <= 0.0 || self.force_at_rate(rate) * ROOM / indentation < f64::INFINITY
     }
 
     /// Normal force with `rate` [m/s], [N]; zero while apart, and where the surface would have to pull.
@@ -194,6 +212,10 @@ impl<D: Damped + Copy> History<D> {
 
     /// What the elastic force would give back on a slow way out [J].
     pub fn elastic_energy(&self, _model: &Model<D>) -> f64 {
+        self.stored()
+    }
+
+    fn stored(&self) -> f64 {
         let indentation = self.indentation.value;
         if indentation > 0.0 { self.factors.elastic * self.law.elastic(indentation).integral } else { 0.0 }
     }
