@@ -246,6 +246,9 @@ fn laws_that_do_not_go_together_are_refused_with_the_reason() {
     let cases = [
         ("walton-braun", "contact-radius", "no elastic part"),
         ("stronge", "hertz-shift", "above Hertz's"),
+        ("luding", "contact-radius", "elastic again"),
+        ("big-alabo", "luding", "the loading law \"luding\""),
+        ("johnson", "hertz-shift", "above Hertz's"),
         ("big-alabo", "etsion", "fitted to the loading law \"kogut-etsion\""),
     ];
     for (loading, unloading, reason) in cases {

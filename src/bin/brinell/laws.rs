@@ -29,9 +29,23 @@ pub enum UnknownLaw {
 const FITTED_TO: [(&str, &str); 3] =
     [("etsion", "kogut-etsion"), ("jackson", "jackson-green"), ("vu-quoc-zhang", "vu-quoc-zhang")];
 
+/// Loading laws that go only with the unloading law of the same name, and why.
+const MADE_FOR_ITSELF: [(&str, &str); 2] = [
+    ("walton-braun", "it has no elastic part"),
+    ("luding", "it has no elastic part, and a limit beyond which it is elastic again"),
+];
+
 /// Loading laws that are above Hertz's curve in places, so that Hertz's curve can't be lowered to them.
-const ABOVE_HERTZ: [&str; 7] =
-    ["stronge", "kogut-etsion", "jackson-green", "ghaednia", "brake-2012-tangent", "brake-2012-line", "brake-2015"];
+const ABOVE_HERTZ: [&str; 8] = [
+    "stronge",
+    "johnson",
+    "kogut-etsion",
+    "jackson-green",
+    "ghaednia",
+    "brake-2012-tangent",
+    "brake-2012-line",
+    "brake-2015",
+];
 
 /// Refuses two laws that don't make sense together.
 ///
@@ -39,8 +53,11 @@ const ABOVE_HERTZ: [&str; 7] =
 /// Why they don't, and what does.
 pub fn check_pairing(loading: &str, unloading: &str) -> Result<(), String> {
     let pair = format!("law.loading = \"{loading}\" doesn't go with law.unloading = \"{unloading}\"");
-    if loading == "walton-braun" && unloading != "walton-braun" {
-        return Err(format!("{pair}: it has no elastic part, and unloads by \"walton-braun\""));
+    if let Some((own, why)) = MADE_FOR_ITSELF.iter().find(|(own, _)| *own == loading && loading != unloading) {
+        return Err(format!("{pair}: {why}, and unloads by \"{own}\""));
+    }
+    if loading != "luding" && unloading == "luding" {
+        return Err(format!("{pair}: that stiffens up to the limit of the loading law \"luding\""));
     }
     if unloading == "hertz-shift" && ABOVE_HERTZ.contains(&loading) {
         return Err(format!("{pair}: its curve is above Hertz's in places, which can't be lowered to it"));
@@ -53,7 +70,7 @@ pub fn check_pairing(loading: &str, unloading: &str) -> Result<(), String> {
 
 /// The unloading law of a scene that names none: "contact-radius", where it can be.
 pub fn default_unloading(loading: &str) -> &'static str {
-    if loading == "walton-braun" { "walton-braun" } else { "contact-radius" }
+    MADE_FOR_ITSELF.iter().find(|(own, _)| *own == loading).map_or("contact-radius", |(own, _)| own)
 }
 
 /// Loading laws that were published with an unloading law of another name.
