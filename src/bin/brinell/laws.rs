@@ -1,5 +1,6 @@
 //! `brinell laws`: what laws there are, and how good each is, measured when it is asked for. Choosing laws by name.
 
+use crate::parameters;
 use crate::scene::Scene;
 use crate::table;
 use crate::truth;
@@ -68,6 +69,16 @@ pub fn check_pairing(loading: &str, unloading: &str) -> Result<(), String> {
     }
 }
 
+/// Refuses two laws whose constants contradict each other.
+///
+/// # Errors
+/// What must be the same, or stay as published.
+pub fn check_ties(loading: (&str, AnyLoading), unloading: (&str, AnyUnloading)) -> Result<(), String> {
+    let reference = AnyLoading::ALL.into_iter().find(|(name, _)| *name == loading.0);
+    let (_, reference) = reference.expect("a law that was found by its name");
+    parameters::check_ties((loading.0, &loading.1, &reference), (unloading.0, &unloading.1))
+}
+
 /// The unloading law of a scene that names none: "contact-radius", where it can be.
 pub fn default_unloading(loading: &str) -> &'static str {
     MADE_FOR_ITSELF.iter().find(|(own, _)| *own == loading).map_or("contact-radius", |(own, _)| own)
@@ -92,7 +103,17 @@ fn unloading_of(loading: &str, scene: &Scene) -> (&'static str, AnyUnloading) {
     own.or(scene.unloading).unwrap_or(AnyUnloading::ALL[0])
 }
 
+/// The laws of these names: with the scene's constants if they are the scene's own, else with those of the reference.
+fn find_loading(name: &str, scene: &Scene) -> Option<(&'static str, AnyLoading)> {
+    [scene.loading].into_iter().chain(AnyLoading::ALL).find(|(known, _)| *known == name)
+}
+
+fn find_unloading(name: &str, scene: &Scene) -> Option<(&'static str, AnyUnloading)> {
+    scene.unloading.into_iter().chain(AnyUnloading::ALL).find(|(known, _)| *known == name)
+}
+
 /// The models that `names` mean: `LOADING` or `LOADING/UNLOADING`, or the scene's own if there are none; "all" is every law.
+/// Laws that are the scene's have its constants; its loading law alone means its unloading law too.
 ///
 /// # Errors
 /// [`UnknownLaw`]
@@ -111,18 +132,20 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
         let (name, known) = (name.into(), known.join("`, `"));
         UnknownLaw::Name { kind, name, known }
     };
-    let loading = AnyLoading::ALL.into_iter().find(|(known, _)| *known == loading_name);
+    let loading = find_loading(loading_name, scene);
     let known = || AnyLoading::ALL.iter().map(|(name, _)| *name).collect();
     let (_, loading) = loading.ok_or_else(|| unknown("loading", loading_name, known()))?;
     let unloading = match unloading_name {
-        None => Some(unloading_of(loading_name, scene)),
-        Some(asked) => AnyUnloading::ALL.into_iter().find(|(known, _)| *known == asked),
+        None if loading_name == scene.loading.0 => scene.unloading.or(Some(unloading_of(loading_name, scene))),
+        None => find_unloading(unloading_of(loading_name, scene).0, scene),
+        Some(asked) => find_unloading(asked, scene),
     };
     let known = || AnyUnloading::ALL.iter().map(|(name, _)| *name).collect();
     let asked = unloading_name.unwrap_or_default();
     let (chosen, unloading) = unloading.ok_or_else(|| unknown("unloading", asked, known()))?;
     if loading_name != "hertz" {
         check_pairing(loading_name, chosen).map_err(UnknownLaw::Pairing)?;
+        check_ties((loading_name, loading), (chosen, unloading)).map_err(UnknownLaw::Pairing)?;
     }
     Ok(Choice { name: name.into(), model: Model { loading, unloading, ..scene.model() } })
 }

@@ -1,6 +1,8 @@
 //! The scene file: what is in contact, by which laws, and what the unit shows of it.
 
+use crate::law_check;
 use crate::laws;
+use crate::parameters::{self, Given};
 use crate::table::{self, Causality, MATERIALS, VARIABLES};
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::AnyLoading;
@@ -97,7 +99,9 @@ enum SurfaceName {
 #[serde(deny_unknown_fields)]
 struct Law {
     loading: Option<Spanned<String>>,
+    loading_parameters: Option<Given>,
     unloading: Option<Spanned<String>>,
+    unloading_parameters: Option<Given>,
 }
 
 #[derive(Default, Deserialize)]
@@ -117,7 +121,7 @@ struct ImpactTable {
 }
 
 /// A mistake at a place in the text.
-struct Mistake(std::ops::Range<usize>, String);
+pub struct Mistake(pub std::ops::Range<usize>, pub String);
 
 impl Scene {
     /// Reads and checks the scene at `path`.
@@ -218,9 +222,10 @@ fn check(file: File) -> Result<Scene, Mistake> {
         let message = "an elastic impactor needs both `youngs_modulus` and `poissons_ratio`; a rigid one neither";
         return Err(Mistake(given.map_or(0..0, Spanned::span), message.into()));
     }
-    let loading = check_loading(file.law.loading.as_ref(), strength.is_some())?;
+    let loading = check_loading(&file.law, strength.is_some())?;
     let elastic = matches!(loading.1, AnyLoading::Hertz(_));
-    let unloading = check_unloading(file.law.unloading.as_ref(), loading.0, elastic)?;
+    let unloading = check_unloading(&file.law, loading.0, elastic)?;
+    check_parameters(&file.law, &loading, unloading.as_ref())?;
 
     let values = [
         ("impactor.radius", Some(impactor.radius.clone())),
@@ -276,6 +281,7 @@ fn check(file: File) -> Result<Scene, Mistake> {
         );
         return Err(Mistake(socket.span(), message));
     }
+    check_curves(&file.law, &scene)?;
     if brinell::contact::impact::predict(&scene.model(), &scene.impact).is_none() {
         let Impact { mass, speed } = scene.impact;
         let message = format!(
@@ -308,7 +314,8 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
     })
 }
 
-fn check_loading(name: Option<&Spanned<String>>, yields: bool) -> Result<(&'static str, AnyLoading), Mistake> {
+fn check_loading(given: &Law, yields: bool) -> Result<(&'static str, AnyLoading), Mistake> {
+    let name = given.loading.as_ref();
     let default = if yields { "big-alabo" } else { "hertz" };
     let asked = name.map_or(default, |name| name.get_ref().as_str());
     let span = name.map_or(0..0, Spanned::span);
@@ -321,29 +328,59 @@ fn check_loading(name: Option<&Spanned<String>>, yields: bool) -> Result<(&'stat
             format!("law.loading = \"{asked}\" needs target.yield_strength (or a material); \"hertz\" doesn't");
         return Err(Mistake(span, message));
     }
-    Ok(law)
+    let parameters = given.loading_parameters.as_ref();
+    Ok((law.0, parameters::apply(law.1, "law.loading", parameters, table::loading_law(law.0))?))
 }
 
-fn check_unloading(
-    name: Option<&Spanned<String>>,
-    loading: &str,
-    elastic: bool,
-) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
+fn check_unloading(given: &Law, loading: &str, elastic: bool) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
+    let name = given.unloading.as_ref();
+    let parameters = given.unloading_parameters.as_ref();
     let span = name.map_or(0..0, Spanned::span);
     let asked = name.map_or(laws::default_unloading(loading), |name| name.get_ref().as_str());
     if elastic {
         let message = format!("law.unloading = \"{asked}\" has no meaning here: hertz unloads along the loading curve");
-        return if name.is_some() { Err(Mistake(span, message)) } else { Ok(None) };
+        return match (name, parameters) {
+            (Some(_), _) => Err(Mistake(span, message)),
+            (None, Some(parameters)) => {
+                let message = "law.unloading_parameters has no meaning here: hertz unloads along the loading curve";
+                Err(Mistake(parameters.span(), message.into()))
+            }
+            (None, None) => Ok(None),
+        };
     }
     let law = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
         let names = AnyUnloading::ALL.iter().map(|(name, _)| *name);
         Mistake(span.clone(), unknown("law.unloading", asked, names))
     })?;
     laws::check_pairing(loading, asked).map_err(|message| Mistake(span, message))?;
-    Ok(Some(law))
+    Ok(Some((law.0, parameters::apply(law.1, "law.unloading", parameters, table::unloading_law(law.0))?)))
 }
 
-fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
+/// Where the scene gives constants to its laws, if it does.
+fn parameters_span(given: &Law) -> Option<std::ops::Range<usize>> {
+    given.loading_parameters.as_ref().or(given.unloading_parameters.as_ref()).map(Spanned::span)
+}
+
+/// Refuses constants of the two laws that contradict each other.
+fn check_parameters(
+    given: &Law,
+    loading: &(&'static str, AnyLoading),
+    unloading: Option<&(&'static str, AnyUnloading)>,
+) -> Result<(), Mistake> {
+    let (Some(span), Some(unloading)) = (parameters_span(given), unloading) else { return Ok(()) };
+    laws::check_ties(*loading, *unloading).map_err(|message| Mistake(span, message))
+}
+
+/// Refuses laws that the scene's constants have made useless on its bodies.
+fn check_curves(given: &Law, scene: &Scene) -> Result<(), Mistake> {
+    let Some(span) = parameters_span(given).filter(|_| !is_elastic(scene)) else { return Ok(()) };
+    let model = scene.model();
+    let unloading = given.unloading_parameters.as_ref().map_or(span.clone(), Spanned::span);
+    law_check::check_loading(&model).map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
+    law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
+}
+
+pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
     let names = names.collect::<Vec<_>>().join("`, `");
     format!("unknown {what} `{asked}`, expected one of `{names}`")
 }

@@ -32,6 +32,7 @@ use libm::{exp, log, sqrt};
 ///
 /// Reference: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, sections 6.3 and 11.5.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Johnson {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,

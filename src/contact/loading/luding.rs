@@ -20,6 +20,7 @@ use libm::sqrt;
 ///
 /// Reference: S. Luding, *Granular Matter* 10 (2008) 235-246, section 2.3, with `k_c = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Luding {
     /// Mean pressure over the yield strength where Hertz's secant is taken.
     pub yield_pressure_factor: f64,

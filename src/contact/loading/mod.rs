@@ -88,6 +88,7 @@ fn work_over_segments(law: &impl Loading, pair: &Pair, indentation: f64) -> f64 
 
 /// A loading law chosen while the program runs. The FMU doesn't need it: a scene names its law.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
 pub enum AnyLoading {
     /// See [`Hertz`].
     Hertz(Hertz),

@@ -18,6 +18,7 @@ use crate::contact::segment::Segment;
 ///
 /// Reference: S. Luding, *Granular Matter* 10 (2008) 235-246, section 2.3, with `k_c = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Luding {
     /// `k_2/k_1` > 1 at the limit and beyond.
     pub stiffness_ratio: f64,

@@ -103,6 +103,7 @@ fn hertzian(peak: &Peak, recovery: f64) -> Segment {
 
 /// An unloading law chosen while the program runs. The FMU doesn't need it: a scene names its law.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
 pub enum AnyUnloading {
     /// See [`ContactRadius`].
     ContactRadius(ContactRadius),
