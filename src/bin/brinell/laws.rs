@@ -1,14 +1,10 @@
-//! `brinell laws`: what laws there are, and how good each is, measured when it is asked for. Choosing laws by name.
+//! Choosing laws by name, and which go together.
 
 use crate::parameters;
 use crate::scene::Scene;
-use crate::table;
-use crate::truth;
-use brinell::contact::history::LARGEST_INDENTATION;
+use brinell::contact::Model;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Loading, Model};
-use serde::Serialize;
 
 /// A model of the scene with laws that may be others than the scene's.
 pub struct Choice {
@@ -97,7 +93,7 @@ const OWN_UNLOADING: [(&str, &str); 8] = [
 ];
 
 /// The unloading that belongs to a loading law: the one it was published with, or the scene's.
-fn unloading_of(loading: &str, scene: &Scene) -> (&'static str, AnyUnloading) {
+pub fn unloading_of(loading: &str, scene: &Scene) -> (&'static str, AnyUnloading) {
     let published = OWN_UNLOADING.iter().find(|(name, _)| *name == loading).map_or(loading, |(_, own)| own);
     let own = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == published);
     own.or(scene.unloading).unwrap_or(AnyUnloading::ALL[0])
@@ -148,100 +144,4 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
         check_ties((loading_name, loading), (chosen, unloading)).map_err(UnknownLaw::Pairing)?;
     }
     Ok(Choice { name: name.into(), model: Model { loading, unloading, ..scene.model() } })
-}
-
-/// What was measured of a loading law.
-#[derive(Debug, Serialize)]
-pub struct Measured {
-    pub name: &'static str,
-    pub title: String,
-    /// Unloading law with which the energy was measured.
-    pub unloading: &'static str,
-    /// Largest jump of the force at a corner, relative to the force.
-    pub largest_jump: f64,
-    /// Largest restitution over all depths: above 1 the law makes energy.
-    pub largest_restitution: f64,
-    /// Largest error of the loading force against the truth.
-    pub worst_error: f64,
-    /// Where, in yield indentations.
-    pub worst_at: f64,
-    /// Root mean square of that error.
-    pub rms_error: f64,
-    pub validity: String,
-    pub reference: String,
-}
-
-/// Measures every loading law on the bodies of `scene`.
-pub fn measure_all(scene: &Scene) -> Vec<Measured> {
-    AnyLoading::ALL.into_iter().map(|(name, loading)| measure(scene, name, loading)).collect()
-}
-
-fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
-    let (unloading_name, unloading) = unloading_of(name, scene);
-    let model = Model { loading, unloading, ..scene.model() };
-    let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
-    let force = |d: f64| loading.segment(&model.pair, d).force(d);
-    let (mut worst_error, mut worst_at, mut squares) = (0.0f64, 0.0, 0.0);
-    let points = truth::loading();
-    for point in &points {
-        let error = force(point.x * unit.indentation) / (point.f * unit.force) - 1.0;
-        squares += error * error;
-        if error.abs() > worst_error.abs() {
-            (worst_error, worst_at) = (error, point.x);
-        }
-    }
-    let mut largest_jump = 0.0f64;
-    let mut corner = loading.next_corner(&model.pair, 0.0);
-    while corner < 1e4 * unit.indentation && corner < LARGEST_INDENTATION {
-        let (below, above) = (force(corner.next_down()), force(corner));
-        let jump = (above - below) / above;
-        largest_jump = if jump.abs() > largest_jump.abs() { jump } else { largest_jump };
-        corner = loading.next_corner(&model.pair, corner);
-    }
-    // fine enough to see the narrow range just above yield where some laws make energy
-    let depths = (0..=2000).map(|step| unit.indentation * 10f64.powf(f64::from(step) / 500.0 - 1.0));
-    let returned = |d: f64| (model.recovered_work(d, d) / loading.work(&model.pair, d)).sqrt();
-    let largest_restitution = depths.map(returned).fold(0.0, f64::max);
-    let law = table::loading_law(name);
-    Measured {
-        name,
-        title: law.title.clone(),
-        unloading: unloading_name,
-        // a few units in the last place are no jump
-        largest_jump: if largest_jump.abs() < 1e-12 { 0.0 } else { largest_jump },
-        largest_restitution,
-        worst_error,
-        worst_at,
-        rms_error: (squares / points.len() as f64).sqrt(),
-        validity: law.notes.clone(),
-        reference: law.reference.clone(),
-    }
-}
-
-/// The table for people.
-pub fn print(measured: &[Measured]) {
-    println!(
-        "loading laws; error of the force against finite elements up to 1000 yield indentations (truth/README.md)\n"
-    );
-    println!("{:<22}{:>16}{:>9}{:>10}   energy", "law", "worst error", "rms", "jump");
-    for law in measured {
-        let percent = |value: f64| format!("{:+.1} %", 100.0 * value);
-        let jump = if law.largest_jump == 0.0 { "none".into() } else { percent(law.largest_jump) };
-        let energy = match law.largest_restitution {
-            e if e <= 1.0 + 1e-12 => format!("passive (with {})", law.unloading),
-            e => format!("makes energy: restitution up to {e:.4} (with {})", law.unloading),
-        };
-        let worst = format!("{} at {:.4}", percent(law.worst_error), law.worst_at);
-        let rms = format!("{:.1} %", 100.0 * law.rms_error);
-        println!("{:<22}{worst:>16}{rms:>9}{jump:>10}   {energy}", law.name);
-    }
-    println!("\nvalidity and reference");
-    for law in measured {
-        println!("{:<22}{} {}.", law.name, law.validity, law.reference);
-    }
-    println!("\nunloading laws");
-    for (name, _) in AnyUnloading::ALL {
-        let law = table::unloading_law(name);
-        println!("{name:<22}{} {}.", law.notes, law.reference);
-    }
 }
