@@ -125,6 +125,24 @@ fn every_law_takes_its_own_constants() {
     }
 }
 
+/// The fits of Jackson and Green and of Kogut and Etsion jump down where they meet Hertz's law or the plastic line.
+#[test]
+fn where_a_published_law_falls_its_constants_can_still_be_given() {
+    let folder = empty_folder();
+    let predict = |law: &str, given: &str| {
+        let law = format!("loading = \"{law}\"\nloading_parameters = {{ {given} }}");
+        let text = scene(&law).replace("[law]", "poissons_ratio = 0.5\n[law]");
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        run(folder.path(), ["constants", "scene.toml"])
+    };
+    predict("kogut-etsion", "first_area_factor = 0.95").with_status(0);
+    predict("jackson-green", "area_exponent = 0.15").with_status(0);
+    predict("ghaednia", "hardening = 0.03").with_status(0);
+    // but not by more
+    let refused = predict("kogut-etsion", "second_factor = 1.5").with_status(1);
+    assert!(refused.err.contains("the loading force falls"), "{refused:#?}");
+}
+
 #[test]
 fn a_scenes_constants_are_those_of_its_unit_and_the_unit_agrees_with_the_prediction() {
     let folder = empty_folder();

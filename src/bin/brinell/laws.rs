@@ -70,9 +70,13 @@ pub fn check_pairing(loading: &str, unloading: &str) -> Result<(), String> {
 /// # Errors
 /// What must be the same, or stay as published.
 pub fn check_ties(loading: (&str, AnyLoading), unloading: (&str, AnyUnloading)) -> Result<(), String> {
-    let reference = AnyLoading::ALL.into_iter().find(|(name, _)| *name == loading.0);
-    let (_, reference) = reference.expect("a law that was found by its name");
-    parameters::check_ties((loading.0, &loading.1, &reference), (unloading.0, &unloading.1))
+    parameters::check_ties((loading.0, &loading.1, &published(loading.0)), (unloading.0, &unloading.1))
+}
+
+/// The loading law `name`, which there is, with its reference constants.
+pub fn published(name: &str) -> AnyLoading {
+    let found = AnyLoading::ALL.into_iter().find(|(known, _)| *known == name);
+    found.expect("a law that was found by its name").1
 }
 
 /// The unloading law of a scene that names none: "contact-radius", where it can be.

@@ -376,7 +376,8 @@ fn check_curves(given: &Law, scene: &Scene) -> Result<(), Mistake> {
     let Some(span) = parameters_span(given).filter(|_| !is_elastic(scene)) else { return Ok(()) };
     let model = scene.model();
     let unloading = given.unloading_parameters.as_ref().map_or(span.clone(), Spanned::span);
-    law_check::check_loading(&model).map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
+    law_check::check_loading(&model, laws::published(scene.loading.0))
+        .map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
     law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
 }
 
