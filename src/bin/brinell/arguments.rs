@@ -67,10 +67,10 @@ pub struct PredictArguments {
     /// Laws to compare: LOADING or LOADING/UNLOADING, or "all" [default: the scene's]
     #[arg(long, value_delimiter = ',')]
     pub laws: Vec<String>,
-    /// A table or picture over a range of speeds [m/s]
+    /// A table, picture or page over a range of speeds [m/s]
     #[arg(long, num_args = 2, value_names = ["speed", "FROM:TO"])]
     pub sweep: Option<Vec<String>>,
-    /// Where the sweep goes: .csv or .svg [default: a table on standard output]
+    /// Where the sweep goes: .csv, .svg or .html [default: a table on standard output]
     #[arg(short, long, requires = "sweep")]
     pub output: Option<PathBuf>,
     /// A dent [m] that was measured: which speed makes it, which yield strength explains it

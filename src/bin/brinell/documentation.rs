@@ -145,12 +145,13 @@ fn constants(page: &mut String, scene: &Scene) -> std::fmt::Result {
 }
 
 /// Six significant digits at most.
-fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().expect("a number");
     if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
-fn escape(text: &str) -> String {
+/// `text` as HTML has it.
+pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
