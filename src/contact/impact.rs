@@ -56,16 +56,7 @@ impl Prediction {
 /// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 11.5; the energy balance is that of section 4 of
 /// A. Big-Alabo et al., *Computers & Structures* 151 (2015) 20-29, with the root found to rounding.
 pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<Prediction> {
-    let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
-    if !positive(impact.mass) || !positive(impact.speed) {
-        return None;
-    }
-    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
-    // below it an energy has lost digits already
-    if energy < f64::MIN_POSITIVE {
-        return None;
-    }
-    let max_indentation = indentation_of_work(model, energy)?;
+    let (energy, max_indentation) = turning_point(model, impact)?;
     let unloading = model.unloading_path(max_indentation);
     let recovered = |d: f64| model.recovered_work(max_indentation, d);
     let rebound_energy = recovered(max_indentation);
@@ -98,6 +89,26 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
         loading_time,
         unloading_time,
     })
+}
+
+/// Rebound speed over incoming speed: that of [`predict`], without the times, which take longest.
+pub fn restitution<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<f64> {
+    let (energy, max_indentation) = turning_point(model, impact)?;
+    Some(sqrt(model.recovered_work(max_indentation, max_indentation) / energy))
+}
+
+/// Kinetic energy [J] and largest indentation [m] of an impact.
+fn turning_point<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<(f64, f64)> {
+    let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
+    if !positive(impact.mass) || !positive(impact.speed) {
+        return None;
+    }
+    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+    // below it an energy has lost digits already
+    if energy < f64::MIN_POSITIVE {
+        return None;
+    }
+    Some((energy, indentation_of_work(model, energy)?))
 }
 
 /// Steps by Newton's method, after which the rest of the bracket is halved: a smooth law needs some five.

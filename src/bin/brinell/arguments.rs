@@ -76,6 +76,9 @@ pub struct PredictArguments {
     /// A dent [m] that was measured: which speed makes it, which yield strength explains it
     #[arg(long, conflicts_with = "sweep")]
     pub dent: Option<f64>,
+    /// A restitution that was measured: which speeds have it, which yield strengths explain it
+    #[arg(long, conflicts_with_all = ["sweep", "dent"])]
+    pub restitution: Option<f64>,
 }
 
 #[derive(clap::Args)]

@@ -192,6 +192,16 @@ fn predict(arguments: &PredictArguments, as_json: bool) -> Result<(), Box<dyn Er
     if let Some(dent) = arguments.dent {
         return invert(&choices, &impact, predict::positive("dent", dent)?, as_json);
     }
+    if let Some(measured) = arguments.restitution {
+        let goal = predict::rebound::measured(measured)?;
+        let rebounds = predict::rebound::explain(&choices, &impact, goal)?;
+        if as_json {
+            println!("{}", predict::rebound::as_json(&rebounds, &impact, goal));
+        } else {
+            print!("{}", predict::rebound::text(&rebounds, &impact, goal));
+        }
+        return Ok(());
+    }
     if as_json {
         println!("{}", predict::as_json(&choices, &impact)?);
     } else {

@@ -2,6 +2,7 @@
 
 pub mod inverse;
 pub mod page;
+pub mod rebound;
 pub mod sweep;
 
 use crate::laws::Choice;
@@ -22,6 +23,10 @@ pub enum PredictError {
     Beyond { law: String, mass: f64, speed: f64 },
     #[error("no {what} between {low:e} and {high:e} explains {name} = {value}")]
     NoSolution { what: &'static str, low: f64, high: f64, name: &'static str, value: f64 },
+    #[error("restitution = {0} must be above 0 and at most 1")]
+    Restitution(f64),
+    #[error("nothing explains restitution = {goal}: {searched}")]
+    NoRebound { goal: f64, searched: String },
     #[error("--sweep {0}: expected `speed FROM:TO`, in m/s, with 0 < FROM < TO")]
     Sweep(String),
 }
