@@ -58,9 +58,13 @@ impl Prediction {
 pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<Prediction> {
     let (energy, max_indentation) = turning_point(model, impact)?;
     let unloading = model.unloading_path(max_indentation);
-    let recovered = |d: f64| model.recovered_work(max_indentation, d);
-    let rebound_energy = recovered(max_indentation);
     let peak = model.peak(max_indentation);
+    // `Model::recovered_work`, with path and peak found once
+    let follows_path = U::SEGMENTED || model.is_elastic_at(max_indentation);
+    let recovered = |d: f64| {
+        if follows_path { unloading.work(d) } else { model.unloading.work(&model.pair, &peak, &unloading, d) }
+    };
+    let rebound_energy = recovered(max_indentation);
     // the energy at which the numbers themselves balance, so that the speed at the turning point is exactly zero
     let work = model.loading.work(&model.pair, max_indentation);
     let loading_time = travel_time(
