@@ -19,7 +19,7 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
     let mut text = String::from(HEAD);
     let loading = value_of(&scene.loading.1);
     // an elastic contact never unloads by another law; the compiler leaves out whatever stands here
-    let unloading = scene.unloading.map_or("ContactRadius".into(), |(_, law)| value_of(&law));
+    let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.model().unloading));
     let surface = match scene.surface {
         Surface::Dented => "Dented",
         Surface::Fresh => "Fresh",
@@ -32,6 +32,11 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
     );
     add_law(&mut text, "Loading", "LOADING", "loading", &loading);
     add_law(&mut text, "Unloading", "UNLOADING", "unloading", &unloading);
+    let guard = crate::guard::words(scene).map(|words| format!("the passivity guard {words}"));
+    add(
+        &mut text,
+        &format!("/// Where the passivity guard acts, if there is one.\npub const GUARD: Option<&str> = {guard:?};\n"),
+    );
     add(&mut text, &format!("/// What a new contact meets.\npub const SURFACE: Surface = Surface::{surface};\n"));
     add_settable(&mut text, entries);
     add_parameters(&mut text, scene);
@@ -64,6 +69,8 @@ fn value_of(law: &impl std::fmt::Debug) -> String {
 }
 
 fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &str) {
+    let guarded = value.strip_prefix("Guarded(").and_then(|value| value.strip_suffix(')'));
+    let value = guarded.unwrap_or(value);
     let name = value.split(' ').next().unwrap_or(value);
     // one field a line, as rustfmt has it
     let value = match value.split_once(" { ") {
@@ -77,6 +84,10 @@ fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &
             format!("{name} {{\n{}}}", fields.map(|field| format!("    {},\n", field.trim())).collect::<String>())
         }
         None => value.to_string(),
+    };
+    let (name, value) = match guarded {
+        Some(_) => (format!("Guarded<{module}::{name}>"), format!("Guarded({module}::{value})")),
+        None => (name.to_string(), value),
     };
     add(
         text,

@@ -1,5 +1,6 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
+use crate::guard;
 use crate::interface::{Entry, experiment, prediction};
 use crate::plot::{Picture, Series};
 use crate::scene::{Scene, is_elastic};
@@ -44,6 +45,15 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
     law(page, "Loading", table::loading_law(scene.loading.0))?;
     if let Some((name, _)) = scene.unloading {
         law(page, "Unloading and reloading", table::unloading_law(name))?;
+    }
+    if let Some(words) = guard::words(scene) {
+        writeln!(
+            page,
+            "<h3>Passivity guard</h3>\n<ul>\n<li><code>d_e &lt;= 2.5 W/F_m</code></li>\n</ul>\n<p>Unloading gives back no \
+             more than loading took: where it would, the elastic recovery is shortened and the dent deeper than the \
+             law says. The guard {}. When it first acts this is logged (category logStatusWarning).</p>",
+            escape(&words)
+        )?;
     }
     writeln!(page, "<h2>Variables</h2>")?;
     variables(page, entries)?;

@@ -81,7 +81,8 @@ fn unloading_of(loading: &str, scene: &Scene) -> (&'static str, AnyUnloading) {
 /// [`UnknownLaw`]
 pub fn choose(scene: &Scene, names: &[String]) -> Result<Vec<Choice>, UnknownLaw> {
     if names.is_empty() {
-        return Ok(vec![Choice { name: scene.loading.0.into(), model: scene.model() }]);
+        let guard = if scene.passivity_guard { " guarded" } else { "" };
+        return Ok(vec![Choice { name: format!("{}{guard}", scene.loading.0), model: scene.model() }]);
     }
     let all: Vec<String> = AnyLoading::ALL.iter().map(|(name, _)| (*name).to_string()).collect();
     let names = if names == ["all"] { &all } else { names };

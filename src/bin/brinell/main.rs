@@ -5,6 +5,7 @@ mod check;
 mod constants;
 mod curve;
 mod documentation;
+mod guard;
 mod importer;
 mod interface;
 mod laws;
@@ -92,7 +93,7 @@ fn export(scene: &Scene, output: Option<&Path>, as_json: bool) -> Result<PathBuf
             "{}",
             json!({
                 "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
-                "imports": exported.imports, "variables": names, "left_out": left_out, "constants": constants,
+                "imports": exported.imports, "passivity_guard": guard::ranges(scene), "variables": names, "left_out": left_out, "constants": constants,
             })
         );
         return Ok(exported.path);
@@ -105,6 +106,9 @@ fn export(scene: &Scene, output: Option<&Path>, as_json: bool) -> Result<PathBuf
         exported.imports.join(", ")
     );
     println!("  law        {}", law(scene));
+    if let Some(words) = guard::words(scene) {
+        println!("  guard      {words}");
+    }
     println!("  variables  {}", names.join(", "));
     for constant in constants {
         println!("  constant   {} = {:?}", constant.name, constant.value);

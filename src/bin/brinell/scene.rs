@@ -24,6 +24,8 @@ pub struct Scene {
     pub loading: (&'static str, AnyLoading),
     /// None for an elastic contact.
     pub unloading: Option<(&'static str, AnyUnloading)>,
+    /// Unloading gives back no more than loading took.
+    pub passivity_guard: bool,
     pub surface: Surface,
     pub impact: Impact,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
@@ -98,6 +100,7 @@ enum SurfaceName {
 struct Law {
     loading: Option<Spanned<String>>,
     unloading: Option<Spanned<String>>,
+    passivity_guard: Option<Spanned<bool>>,
 }
 
 #[derive(Default, Deserialize)]
@@ -186,6 +189,8 @@ impl Scene {
     pub fn model(&self) -> Model<AnyLoading, AnyUnloading> {
         let pair = self.pair().expect("a checked scene has bodies that fit");
         let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
+        let guarded = if self.passivity_guard { unloading.guarded() } else { None };
+        let unloading = guarded.unwrap_or(unloading);
         Model { pair, loading: self.loading.1, unloading, surface: self.surface }
     }
 }
@@ -221,6 +226,8 @@ fn check(file: File) -> Result<Scene, Mistake> {
     let loading = check_loading(file.law.loading.as_ref(), strength.is_some())?;
     let elastic = matches!(loading.1, AnyLoading::Hertz(_));
     let unloading = check_unloading(file.law.unloading.as_ref(), loading.0, elastic)?;
+
+    let passivity_guard = check_guard(file.law.passivity_guard.as_ref(), unloading)?;
 
     let values = [
         ("impactor.radius", Some(impactor.radius.clone())),
@@ -262,6 +269,7 @@ fn check(file: File) -> Result<Scene, Mistake> {
         outputs,
         loading,
         unloading,
+        passivity_guard,
         surface,
         impact,
         impact_is_assumed,
@@ -341,6 +349,22 @@ fn check_unloading(
     })?;
     laws::check_pairing(loading, asked).map_err(|message| Mistake(span, message))?;
     Ok(Some(law))
+}
+
+/// Whether the guard is asked for, of an unloading law that has a guarded form.
+fn check_guard(asked: Option<&Spanned<bool>>, unloading: Option<(&str, AnyUnloading)>) -> Result<bool, Mistake> {
+    let Some(asked) = asked.filter(|asked| *asked.get_ref()) else { return Ok(false) };
+    let Some((name, law)) = unloading else {
+        let message = "law.passivity_guard has no meaning here: hertz gives back just what was put in";
+        return Err(Mistake(asked.span(), message.into()));
+    };
+    if law.guarded().is_some() {
+        return Ok(true);
+    }
+    let guarded = AnyUnloading::ALL.iter().filter(|(_, law)| law.guarded().is_some()).map(|(name, _)| *name);
+    let names = guarded.collect::<Vec<_>>().join("`, `");
+    let message = format!("law.unloading = \"{name}\" has no passivity guard: `{names}` have one");
+    Err(Mistake(asked.span(), message))
 }
 
 fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
