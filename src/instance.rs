@@ -1,6 +1,6 @@
 //! Co-simulation as safe Rust: phase, time, variables, step, reset, save and load. Nothing here is particular to FMI 2.0.
 
-use crate::contact::{Body, Pair, TooDeep};
+use crate::contact::{Body, Pair, Regime, TooDeep};
 use crate::fault::Fault;
 use crate::scene::{self, History};
 use crate::variable::{Integer, Parameter, Real};
@@ -198,6 +198,12 @@ impl Instance {
             self.time = end;
         }
         done
+    }
+
+    /// Whether the passivity guard has shortened the path on which the load comes off, or came off.
+    pub fn is_held_back(&self) -> bool {
+        matches!(self.history.regime(), Regime::Unloaded | Regime::Apart)
+            && scene::model(self.pair, &self.values).is_held_back_at(self.history.max_indentation())
     }
 
     fn check_step(&self, time: f64, step: f64) -> Result<(), Fault> {

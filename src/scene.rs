@@ -26,6 +26,9 @@ pub type Unloading = unloading::ContactRadius;
 /// The unloading law with its constants.
 pub const UNLOADING: Unloading = unloading::ContactRadius;
 
+/// Where the passivity guard acts, if there is one.
+pub const GUARD: Option<&str> = None;
+
 /// What a new contact meets.
 pub const SURFACE: Surface = Surface::Dented;
 

@@ -76,7 +76,7 @@ fn an_unknown_key_is_refused_in_each_table() {
     );
     refused("[impactor]", "[impactor]\n§mass = 1", &["`mass`", "`radius`", "`youngs_modulus`", "`poissons_ratio`"]);
     refused("[target]", "[target]\n§density = 1", &["`density`", "`material`", "`yield_strength`", "`surface`"]);
-    refused_with("[law]\n§laoding = \"hertz\"", &["`laoding`", "`loading`", "`unloading`"]);
+    refused_with("[law]\n§laoding = \"hertz\"", &["`laoding`", "`loading`", "`unloading`", "`passivity_guard`"]);
     refused_with("[fmu]\n§inputs = []", &["`inputs`", "`outputs`", "`parameters`", "`initial_gap`"]);
     refused_with("[impact]\nmass = 1\nspeed = 1\n§angle = 1", &["`angle`", "`mass`", "`speed`"]);
 }
@@ -194,6 +194,15 @@ fn laws_that_do_not_go_together_are_refused() {
     refused_with("[law]\nloading = \"hertz\"\nunloading = §\"thornton\"", &["law.unloading", "thornton", "hertz"]);
     refused("yield_strength = 300e6\n", "[law]\nloading = §\"big-alabo\"", &["big-alabo", "target.yield_strength"]);
     refused("yield_strength = 300e6\n", "[law]\nunloading = §\"thornton\"", &["law.unloading", "thornton"]);
+}
+
+#[test]
+fn a_guard_of_a_law_that_has_none_is_refused_with_those_that_have_one() {
+    let law = "[law]\nloading = \"kogut-etsion\"\nunloading = \"etsion\"\npassivity_guard = §true";
+    let with = ["`contact-radius`", "`thornton`", "`original-radius`", "`deformed-radius`"];
+    refused_with(law, &[&["\"etsion\" has no passivity guard"][..], &with].concat());
+    refused_with("[law]\nloading = \"hertz\"\npassivity_guard = §true", &["law.passivity_guard", "hertz"]);
+    refused_with("[law]\npassivity_guard = §\"yes\"", &["passivity_guard", "\"yes\"", "boolean"]);
 }
 
 #[test]

@@ -93,7 +93,28 @@ fn a_sweep_is_a_table_or_a_picture() {
         .collect();
     assert!(speeds[0] == 0.01 && speeds.is_sorted() && (speeds[speeds.len() - 1] - 10.0).abs() < 1e-12);
     let picture = sweep("sweep.svg");
-    assert!(picture.starts_with("<svg") && picture.contains("restitution") && picture.contains("brinell"));
+    assert!(picture.starts_with("<svg") && picture.contains("brinell"));
+    for title in ["restitution", "largest force [N]", "depth of the dent [m]"] {
+        assert_eq!(picture.matches(title).count(), 1, "one panel with {title}");
+    }
+    assert_eq!(picture.matches("brinell\n").count(), 1, "the panels share one legend");
+    let page = sweep("sweep.html");
+    assert_eq!(page.matches("<svg").count(), 3);
+    assert!(page.contains("effective mass of 0.00411 kg") && page.contains("from 0.01 to 10 m/s"));
+    // everything is in the page: what it names besides is the namespace of SVG and the table
+    let outside = page.replace("http://www.w3.org/2000/svg", "");
+    assert!(!outside.contains("http") && !outside.contains("<script") && !outside.contains("url("));
+    assert!(page.contains(&table.replace('\n', "%0A")), "the whole table is in the page");
+    assert!(page.contains("prefers-color-scheme: dark") && page.contains("@media print"));
+}
+
+#[test]
+fn a_sweep_without_any_dent_has_its_panels_too() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let arguments = ["predict", &scene, "--laws", "hertz", "--sweep", "speed", "0.01:10", "-o", "sweep.svg"];
+    run(folder.path(), arguments).with_status(0);
+    assert!(fs::read_to_string(folder.path().join("sweep.svg")).unwrap().contains("depth of the dent"));
 }
 
 #[test]
@@ -175,7 +196,7 @@ fn laws_lists_constants_validity_and_reference_of_every_law() {
 fn what_can_t_be_done_is_said_and_nothing_is_written() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    let cases: [(&[&str], &[&str]); 10] = [
+    let cases: [(&[&str], &[&str]); 11] = [
         (&["predict", &scene, "--mass", "0"], &["mass = 0", "positive"]),
         (&["predict", &scene, "--speed", "NaN"], &["speed = NaN", "positive"]),
         (&["predict", &scene, "--energy=-1"], &["energy = -1", "positive"]),
@@ -183,7 +204,8 @@ fn what_can_t_be_done_is_said_and_nothing_is_written() {
         (&["predict", &scene, "--laws", "hertz/hooke"], &["unknown unloading law `hooke`", "contact-radius"]),
         (&["predict", &scene, "--sweep", "mass", "1:2"], &["mass 1:2", "speed FROM:TO"]),
         (&["predict", &scene, "--sweep", "speed", "2:1"], &["speed 2:1", "FROM < TO"]),
-        (&["predict", &scene, "--sweep", "speed", "1:2", "-o", "x.pdf"], &["x.pdf", ".csv or .svg"]),
+        (&["predict", &scene, "--sweep", "speed", "1:2", "-o", "x.pdf"], &["x.pdf", ".csv, .svg or .html"]),
+        (&["curve", &scene, "-o", "x.html"], &["x.html", ".csv or .svg"]),
         (&["curve", &scene, "--to", "1e150"], &["1e150", "too deep"]),
         (&["predict", &scene, "--dent", "1e9"], &["dent = 1000000000", "speed"]),
     ];

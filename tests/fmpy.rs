@@ -136,6 +136,18 @@ fn messages_are_complete_and_only_where_something_is_wrong() {
 }
 
 #[test]
+fn the_passivity_guard_is_told_when_it_first_acts() {
+    let text = r#"
+name = "guarded"
+impactor = { radius = 5e-3 }
+target = { youngs_modulus = 206e9, poissons_ratio = 0.3, yield_strength = 300e6 }
+law = { loading = "stronge", unloading = "thornton", passivity_guard = true }
+fmu = { outputs = ["work", "dissipated_energy"] }
+"#;
+    pytest("test_passivity_guard.py", &[write_scene("guarded", text)]);
+}
+
+#[test]
 fn many_instances_and_threads_do_not_disturb_each_other() {
     pytest("test_many_instances.py", &steel_ball());
 }

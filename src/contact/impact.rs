@@ -5,7 +5,8 @@ use super::loading::Loading;
 use super::quadrature::graded_integral;
 use super::unloading::Unloading;
 use super::{Model, Regime};
-use libm::sqrt;
+use core::cell::Cell;
+use libm::{pow, sqrt};
 
 /// A body of `mass` that meets the other at `speed`, with nothing else pushing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,34 +56,29 @@ impl Prediction {
 /// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 11.5; the energy balance is that of section 4 of
 /// A. Big-Alabo et al., *Computers & Structures* 151 (2015) 20-29, with the root found to rounding.
 pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<Prediction> {
-    let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
-    if !positive(impact.mass) || !positive(impact.speed) {
-        return None;
-    }
-    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
-    // below it an energy has lost digits already
-    if energy < f64::MIN_POSITIVE {
-        return None;
-    }
-    let max_indentation = indentation_of_work(model, energy)?;
+    let (energy, max_indentation) = turning_point(model, impact)?;
     let unloading = model.unloading_path(max_indentation);
-    let recovered = |d: f64| model.recovered_work(max_indentation, d);
-    let rebound_energy = recovered(max_indentation);
     let peak = model.peak(max_indentation);
+    // `Model::recovered_work`, with path and peak found once
+    let follows_path = U::SEGMENTED || model.is_elastic_at(max_indentation);
+    let recovered = |d: f64| {
+        if follows_path { unloading.work(d) } else { model.unloading.work(&model.pair, &peak, &unloading, d) }
+    };
+    let rebound_energy = recovered(max_indentation);
     // the energy at which the numbers themselves balance, so that the speed at the turning point is exactly zero
     let work = model.loading.work(&model.pair, max_indentation);
     let loading_time = travel_time(
         impact.mass,
         0.0,
         max_indentation,
-        |d| work - model.loading.work(&model.pair, d),
+        |end| falling_energy(model, end, work - model.loading.work(&model.pair, end), work),
         |d| model.loading.next_corner(&model.pair, d),
     );
     let unloading_time = travel_time(
         impact.mass,
         unloading.lower,
         max_indentation,
-        |d| rebound_energy - recovered(d),
+        |_| |d| rebound_energy - recovered(d),
         |_| max_indentation,
     );
     Some(Prediction {
@@ -99,48 +95,113 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
     })
 }
 
-/// The indentation [m] at which the loading work is `energy` [J]: bisection to rounding, since the work is monotone.
-fn indentation_of_work<L: Loading, U: Unloading>(model: &Model<L, U>, energy: f64) -> Option<f64> {
-    let work = |d: f64| model.loading.work(&model.pair, d);
-    if work(LARGEST_INDENTATION) <= energy {
-        return None;
-    }
-    // f64 keeps its order when the bits of positive numbers are read as integers: 64 halvings find the neighbours
-    let (mut low, mut high) = (0u64, LARGEST_INDENTATION.to_bits());
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        if work(f64::from_bits(middle)) <= energy {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Some(f64::from_bits(high))
+/// Rebound speed over incoming speed: that of [`predict`], without the times, which take longest.
+pub fn restitution<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<f64> {
+    let (energy, max_indentation) = turning_point(model, impact)?;
+    Some(sqrt(model.recovered_work(max_indentation, max_indentation) / energy))
 }
 
-/// Time [s] between `from` and the turning point `to` [m] of a `mass` [kg] whose kinetic energy at `d` is
-/// `kinetic_energy(d)` [J], zero at `to`.
+/// Kinetic energy [J] and largest indentation [m] of an impact.
+fn turning_point<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<(f64, f64)> {
+    let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
+    if !positive(impact.mass) || !positive(impact.speed) {
+        return None;
+    }
+    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+    // below it an energy has lost digits already
+    if energy < f64::MIN_POSITIVE {
+        return None;
+    }
+    Some((energy, indentation_of_work(model, energy)?))
+}
+
+/// Steps by Newton's method, after which the rest of the bracket is halved: a smooth law needs some five.
+const NEWTON_STEPS: u32 = 24;
+
+/// An indentation [m] whose loading work exceeds `energy` [J] while that of its neighbour below doesn't: the root to
+/// rounding.
+///
+/// Newton's method on the logarithms, in which a power law is a straight line, from the indentation that Hertz's law has. It
+/// ends within rounding of the root; from there steps of one, four, sixteen ... units in the last place close the bracket from
+/// the other side. What would leave the bracket, and a law that Newton's method doesn't suit, is halved instead.
+fn indentation_of_work<L: Loading, U: Unloading>(model: &Model<L, U>, energy: f64) -> Option<f64> {
+    // f64 keeps its order when the bits of positive numbers are read as integers: 64 halvings find the neighbours
+    let deepest = LARGEST_INDENTATION.to_bits();
+    let (mut low, mut high) = (0, deepest);
+    let mut guess = pow(energy / (0.4 * model.pair.hertz_stiffness()), 0.4).to_bits();
+    let mut reach = 1;
+    let mut from_below = true;
+    let mut steps = 0;
+    while high - low > 1 {
+        let beyond = if from_below { low + reach } else { high - high.min(reach) };
+        let inside = |bits: u64| bits > low && bits < high;
+        let bits = if steps > NEWTON_STEPS {
+            low + (high - low) / 2
+        } else if inside(guess) {
+            guess
+        } else if steps > 0 && inside(beyond) {
+            reach *= 4;
+            beyond
+        } else {
+            low + (high - low) / 2
+        };
+        let indentation = f64::from_bits(bits);
+        let work = model.loading.work(&model.pair, indentation);
+        from_below = work <= energy;
+        *(if from_below { &mut low } else { &mut high }) = bits;
+        let force = model.loading.segment(&model.pair, indentation).force(indentation);
+        guess = (indentation * pow(energy / work, work / (force * indentation))).to_bits();
+        steps += 1;
+    }
+    let found = high < deepest || model.loading.work(&model.pair, LARGEST_INDENTATION) > energy;
+    found.then(|| f64::from_bits(high))
+}
+
+/// The kinetic energy [J] on the way down a smooth piece of the loading curve that ends at `end` [m], with `energy` [J] left
+/// there. `whole` [J] is the work of the whole way.
+///
+/// Where the work is an integral, each energy is taken from the last one: the integral between neighbours is short.
+fn falling_energy<L: Loading, U: Unloading>(
+    model: &Model<L, U>,
+    end: f64,
+    energy: f64,
+    whole: f64,
+) -> impl Fn(f64) -> f64 {
+    let last = Cell::new((end, energy));
+    move |d| {
+        let (at, energy) = last.get();
+        let between = |low, high| model.loading.work_between(&model.pair, low, high);
+        let step = if d < at { between(d, at) } else { between(at, d).map(|work| -work) };
+        let Some(step) = step else { return whole - model.loading.work(&model.pair, d) };
+        last.set((d, energy + step));
+        energy + step
+    }
+}
+
+/// Time [s] between `from` and the turning point `to` [m] of a `mass` [kg] whose kinetic energy at `d`, on the smooth piece
+/// that ends at `end`, is `kinetic_energy(end)(d)` [J], zero at `to`.
 ///
 /// `t = integral dd / sqrt(2 T(d)/m)`; with `d = to - (to - from) s^2` the end where the speed vanishes is regular. The
 /// integral is split where the law has a corner (`next_corner(d)`: the first corner above `d`), since Gauss's rule needs
 /// a smooth integrand.
-fn travel_time(
+fn travel_time<E: Fn(f64) -> f64>(
     mass: f64,
     from: f64,
     to: f64,
-    kinetic_energy: impl Fn(f64) -> f64,
+    kinetic_energy: impl Fn(f64) -> E,
     next_corner: impl Fn(f64) -> f64,
 ) -> f64 {
     let length = to - from;
-    let integrand = |s: f64| {
-        let energy = kinetic_energy(to - length * (s * s));
-        if energy > 0.0 { 2.0 * length * s / sqrt(2.0 * energy / mass) } else { 0.0 }
-    };
     let mut time = 0.0;
     let mut start = from;
     while start < to {
         let corner = next_corner(start);
         let end = if corner < to { corner } else { to };
+        let kinetic_energy = kinetic_energy(end);
+        let integrand = |s: f64| {
+            let energy = kinetic_energy(to - length * (s * s));
+            if energy > 0.0 { 2.0 * length * s / sqrt(2.0 * energy / mass) } else { 0.0 }
+        };
         time += graded_integral(sqrt((to - end) / length), sqrt((to - start) / length), &integrand);
         start = end;
     }

@@ -65,6 +65,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
             force: self.loading.segment(&self.pair, indentation).force(indentation),
             contact_radius: self.loading.contact_radius(&self.pair, indentation),
             yield_force: self.loading.yield_point(&self.pair).force,
+            work: if self.unloading.needs_work() { self.loading.work(&self.pair, indentation) } else { f64::NAN },
         }
     }
 
@@ -94,6 +95,11 @@ impl<L: Loading, U: Unloading> Model<L, U> {
             return path.work(indentation);
         }
         self.unloading.work(&self.pair, &self.peak(max_indentation), &path, indentation)
+    }
+
+    /// Whether the passivity guard shortens the path from `max_indentation` [m].
+    pub fn is_held_back_at(&self, max_indentation: f64) -> bool {
+        !self.is_elastic_at(max_indentation) && self.unloading.holds_back(&self.pair, &self.peak(max_indentation))
     }
 
     /// Whether a contact that never was deeper than `max_indentation` [m] has not yielded.

@@ -3,10 +3,12 @@
 use super::abi::fmi2ComponentEnvironment;
 use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2Error, fmi2OK, fmi2Status, fmi2String};
 use super::order::Function;
-use super::report::{Category, Report};
+use super::report::{Category, Report, WARNING, WARNING_NAME};
+use super::text::Text;
 use crate::fault::Fault;
 use crate::instance::Instance;
-use core::ffi::c_char;
+use crate::scene;
+use core::ffi::{CStr, c_char};
 
 /// An instance with what its importer gave it. The name of the instance follows it in memory.
 #[repr(C)]
@@ -38,17 +40,19 @@ impl Logger {
     /// `instance_name` is a string that ends with 0.
     #[cold]
     pub unsafe fn log(&self, instance_name: fmi2String, report: &Report) {
+        // SAFETY: as the caller promises.
+        unsafe { self.hand_over(instance_name, report.status, report.category.name(), &report.text) };
+    }
+
+    /// Hands `text` to the importer.
+    ///
+    /// # Safety
+    /// As for [`Logger::log`].
+    #[inline(always)]
+    unsafe fn hand_over(&self, instance_name: fmi2String, status: fmi2Status, category: &CStr, text: &Text) {
         let Some(function) = self.function else { return };
         // SAFETY: the importer's function, with strings that end with 0 and a format without commands.
-        unsafe {
-            function(
-                self.environment,
-                instance_name,
-                report.status,
-                report.category.name().as_ptr(),
-                report.text.as_ptr(),
-            )
-        };
+        unsafe { function(self.environment, instance_name, status, category.as_ptr(), text.as_ptr()) };
     }
 }
 
@@ -57,6 +61,18 @@ impl Component {
     fn name(&self) -> fmi2String {
         // SAFETY: fmi2Instantiate allocates the component and the name behind it in one piece.
         unsafe { core::ptr::from_ref(self).add(1).cast::<c_char>() }
+    }
+
+    /// Says once that the passivity guard acts: then its category is switched off, until the importer switches it on again.
+    pub fn warn_of_guard(&mut self, function: &Function) {
+        let Some(guard) = scene::GUARD else { return };
+        if self.categories & WARNING != 0 && self.instance.is_held_back() {
+            self.categories &= !WARNING;
+            let mut text = Text::new();
+            text.string(function.name).string(": ").string(guard);
+            // SAFETY: the name ends with 0.
+            unsafe { self.logger.hand_over(self.name(), fmi2OK, WARNING_NAME, &text) };
+        }
     }
 
     /// Logs `fault` of `function` and gives the status to return; an error ends the simulation.

@@ -4,6 +4,7 @@ use super::abi::{fmi2Discard, fmi2Error, fmi2Status};
 use super::text::Text;
 use crate::fault::Fault;
 use crate::instance::Phase;
+use crate::scene;
 use core::ffi::CStr;
 
 /// A category of log messages, as declared in the model description.
@@ -30,14 +31,22 @@ impl Category {
         match name.to_bytes() {
             b"logStatusDiscard" => Some(Category::Discard as u8),
             b"logStatusError" => Some(Category::Error as u8),
+            b"logStatusWarning" if scene::GUARD.is_some() => Some(WARNING),
             b"logAll" => Some(ALL_CATEGORIES),
             _ => None,
         }
     }
 }
 
+/// `logStatusWarning`: what a unit with a passivity guard tells. It belongs to no fault, and units without guard haven't got it.
+pub const WARNING: u8 = 4;
+
+/// Its name in the model description.
+pub const WARNING_NAME: &CStr = c"logStatusWarning";
+
 /// `logAll`
-pub const ALL_CATEGORIES: u8 = Category::Discard as u8 | Category::Error as u8;
+pub const ALL_CATEGORIES: u8 =
+    Category::Discard as u8 | Category::Error as u8 | if scene::GUARD.is_some() { WARNING } else { 0 };
 
 /// How a fault is reported.
 pub struct Report {
@@ -135,9 +144,10 @@ fn describe(text: &mut Text, fault: &Fault) {
             .string(" m, for which the law can't be evaluated; is indentation_rate in m/s?"),
         Fault::Unsupported => text.string("this unit doesn't have this capability (see its model description)"),
         Fault::Unavailable => text.string("not available: every step is complete when its call returns"),
-        Fault::UnknownCategory => {
-            text.string("unknown log category: there are logStatusDiscard, logStatusError, logAll")
-        }
+        Fault::UnknownCategory => text.string(match scene::GUARD {
+            None => "unknown log category: there are logStatusDiscard, logStatusError, logAll",
+            Some(_) => "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll",
+        }),
         Fault::BadState { reason } => text.string("the FMU state can't be used: ").string(reason),
         Fault::NoMemory => text.string("out of memory"),
     };

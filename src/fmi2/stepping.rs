@@ -33,7 +33,13 @@ pub unsafe extern "C" fn fmi2DoStep(
 #[inline(never)]
 unsafe fn do_any_step(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
     // SAFETY: as the caller promises.
-    unsafe { call(c, &order::DO_STEP, |component| component.instance.do_step(time, step)) }
+    unsafe {
+        call(c, &order::DO_STEP, |component| {
+            component.instance.do_step(time, step)?;
+            component.warn_of_guard(&order::DO_STEP);
+            Ok(())
+        })
+    }
 }
 
 /// The answer of a function that this unit doesn't support.

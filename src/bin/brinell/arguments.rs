@@ -67,15 +67,18 @@ pub struct PredictArguments {
     /// Laws to compare: LOADING or LOADING/UNLOADING, or "all" [default: the scene's]
     #[arg(long, value_delimiter = ',')]
     pub laws: Vec<String>,
-    /// A table or picture over a range of speeds [m/s]
+    /// A table, picture or page over a range of speeds [m/s]
     #[arg(long, num_args = 2, value_names = ["speed", "FROM:TO"])]
     pub sweep: Option<Vec<String>>,
-    /// Where the sweep goes: .csv or .svg [default: a table on standard output]
+    /// Where the sweep goes: .csv, .svg or .html [default: a table on standard output]
     #[arg(short, long, requires = "sweep")]
     pub output: Option<PathBuf>,
     /// A dent [m] that was measured: which speed makes it, which yield strength explains it
     #[arg(long, conflicts_with = "sweep")]
     pub dent: Option<f64>,
+    /// A restitution that was measured: which speeds have it, which yield strengths explain it
+    #[arg(long, conflicts_with_all = ["sweep", "dent"])]
+    pub restitution: Option<f64>,
 }
 
 #[derive(clap::Args)]

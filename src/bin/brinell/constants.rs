@@ -25,7 +25,7 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
     add(&mut text, &format!("use crate::contact::{{{uses}}};\n{USES}"));
     let loading = value_of(&scene.loading.1);
     // an elastic contact never unloads by another law; the compiler leaves out whatever stands here
-    let unloading = scene.unloading.map_or("ContactRadius".into(), |(_, law)| value_of(&law));
+    let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.model().unloading));
     let surface = match scene.surface {
         Surface::Dented => "Dented",
         Surface::Fresh => "Fresh",
@@ -44,10 +44,12 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
         };
         let value = value_of(law).replace("damping_factor: ", &format!("damping_factor: {path}"));
         add_law(&mut text, "Law", "LAW", "damped", &value);
+        add_guard(&mut text, scene);
         add(&mut text, DAMPED_MODEL);
     } else {
         add_law(&mut text, "Loading", "LOADING", "loading", &loading);
         add_law(&mut text, "Unloading", "UNLOADING", "unloading", &unloading);
+        add_guard(&mut text, scene);
         add(&mut text, &format!("/// What a new contact meets.\npub const SURFACE: Surface = Surface::{surface};\n"));
         add(&mut text, MODEL);
     }
@@ -108,6 +110,8 @@ fn value_of(law: &impl std::fmt::Debug) -> String {
 }
 
 fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &str) {
+    let guarded = value.strip_prefix("Guarded(").and_then(|value| value.strip_suffix(')'));
+    let value = guarded.unwrap_or(value);
     let name = value.split(' ').next().unwrap_or(value);
     // one field a line, as rustfmt has it
     let value = match value.split_once(" { ") {
@@ -122,6 +126,10 @@ fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &
         }
         None => value.to_string(),
     };
+    let (name, value) = match guarded {
+        Some(_) => (format!("Guarded<{module}::{name}>"), format!("Guarded({module}::{value})")),
+        None => (name.to_string(), value),
+    };
     add(
         text,
         &format!(
@@ -129,6 +137,12 @@ fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &
              /// The {module} law with its constants.\npub const {constant}: {kind} = {module}::{value};\n"
         ),
     );
+}
+
+fn add_guard(text: &mut String, scene: &Scene) {
+    let guard = crate::guard::words(scene).map(|words| format!("the passivity guard {words}"));
+    let guard = format!("pub const GUARD: Option<&str> = {guard:?};\n");
+    add(text, &format!("/// Where the passivity guard acts, if there is one.\n{guard}"));
 }
 
 fn add_settable(text: &mut String, entries: &[Entry]) {

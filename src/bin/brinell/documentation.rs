@@ -1,5 +1,6 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
+use crate::guard;
 use crate::interface::{Entry, experiment, prediction};
 use crate::parameters::{self, Constant};
 use crate::plot::{Picture, Series};
@@ -55,6 +56,15 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
         let told = table::unloading_law(name);
         law(page, "Unloading and reloading", told)?;
         law_constants(page, &parameters::constants(&unloading, told))?;
+    }
+    if let Some(words) = guard::words(scene) {
+        writeln!(
+            page,
+            "<h3>Passivity guard</h3>\n<ul>\n<li><code>d_e &lt;= 2.5 W/F_m</code></li>\n</ul>\n<p>Unloading gives back no \
+             more than loading took: where it would, the elastic recovery is shortened and the dent deeper than the \
+             law says. The guard {}. When it first acts this is logged (category logStatusWarning).</p>",
+            escape(&words)
+        )?;
     }
     writeln!(page, "<h2>Variables</h2>")?;
     variables(page, entries)?;
@@ -175,12 +185,13 @@ fn constants(page: &mut String, scene: &Scene) -> std::fmt::Result {
 }
 
 /// Six significant digits at most.
-fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().expect("a number");
     if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
-fn escape(text: &str) -> String {
+/// `text` as HTML has it.
+pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 

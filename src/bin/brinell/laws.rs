@@ -119,7 +119,8 @@ fn find_unloading(name: &str, scene: &Scene) -> Option<(&'static str, AnyUnloadi
 /// [`UnknownLaw`]
 pub fn choose(scene: &Scene, names: &[String]) -> Result<Vec<Choice>, UnknownLaw> {
     if names.is_empty() {
-        return Ok(vec![Choice { name: scene.loading.0.into(), model: scene.model() }]);
+        let guard = if scene.passivity_guard { " guarded" } else { "" };
+        return Ok(vec![Choice { name: format!("{}{guard}", scene.loading.0), model: scene.model() }]);
     }
     let all: Vec<String> = AnyLoading::ALL.iter().map(|(name, _)| (*name).to_string()).collect();
     let names = if names == ["all"] { &all } else { names };

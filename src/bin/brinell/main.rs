@@ -5,6 +5,7 @@ mod check;
 mod constants;
 mod curve;
 mod documentation;
+mod guard;
 mod importer;
 mod interface;
 mod law_check;
@@ -96,7 +97,7 @@ fn export(scene: &Scene, output: Option<&Path>, as_json: bool) -> Result<PathBuf
             "{}",
             json!({
                 "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
-                "imports": exported.imports, "variables": names, "left_out": left_out, "constants": constants,
+                "imports": exported.imports, "passivity_guard": guard::ranges(scene), "variables": names, "left_out": left_out, "constants": constants,
             })
         );
         return Ok(exported.path);
@@ -109,6 +110,9 @@ fn export(scene: &Scene, output: Option<&Path>, as_json: bool) -> Result<PathBuf
         exported.imports.join(", ")
     );
     println!("  law        {}", law(scene));
+    if let Some(words) = guard::words(scene) {
+        println!("  guard      {words}");
+    }
     println!("  variables  {}", names.join(", "));
     for constant in constants {
         println!("  constant   {} = {:?}", constant.name, constant.value);
@@ -160,14 +164,15 @@ fn deliver(text: &str, output: Option<&Path>) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Whether a picture is wanted: by the ending of the file; anything but .svg and .csv is refused.
-fn wants_picture(output: Option<&Path>) -> Result<bool, String> {
-    let Some(path) = output else { return Ok(false) };
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("svg") => Ok(true),
-        Some("csv") => Ok(false),
-        _ => Err(format!("{}: the name must end in .csv or .svg", path.display())),
-    }
+/// The ending of the file that `output` names, one of `allowed`; without a file the first of them.
+fn ending(output: Option<&Path>, allowed: &[&'static str]) -> Result<&'static str, String> {
+    let Some(path) = output else { return Ok(allowed[0]) };
+    let given = path.extension().and_then(|extension| extension.to_str());
+    allowed.iter().copied().find(|&ending| given == Some(ending)).ok_or_else(|| {
+        let (last, others) = allowed.split_last().expect("something is allowed");
+        let others = others.iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
+        format!("{}: the name must end in {others} or .{last}", path.display())
+    })
 }
 
 fn predict(arguments: &PredictArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
@@ -182,14 +187,29 @@ fn predict(arguments: &PredictArguments, as_json: bool) -> Result<(), Box<dyn Er
     };
     let impact = brinell::contact::impact::Impact { mass, speed };
     if let Some(sweep) = &arguments.sweep {
-        let range = predict::parse_sweep(sweep)?;
+        let range = predict::sweep::parse(sweep)?;
         let output = arguments.output.as_deref();
-        let picture = wants_picture(output)?;
-        let draw = if picture { predict::sweep_svg } else { predict::sweep_csv };
-        return deliver(&draw(&choices, mass, range)?, output);
+        let ending = ending(output, &["csv", "svg", "html"])?;
+        let sweep = predict::sweep::Sweep::of(&choices, mass, range)?;
+        let text = match ending {
+            "html" => predict::page::write(&scene, &sweep),
+            "svg" => sweep.svg(),
+            _ => sweep.csv(),
+        };
+        return deliver(&text, output);
     }
     if let Some(dent) = arguments.dent {
         return invert(&choices, &impact, predict::positive("dent", dent)?, as_json);
+    }
+    if let Some(measured) = arguments.restitution {
+        let goal = predict::rebound::measured(measured)?;
+        let rebounds = predict::rebound::explain(&choices, &impact, goal)?;
+        if as_json {
+            println!("{}", predict::rebound::as_json(&rebounds, &impact, goal));
+        } else {
+            print!("{}", predict::rebound::text(&rebounds, &impact, goal));
+        }
+        return Ok(());
     }
     if as_json {
         println!("{}", predict::as_json(&choices, &impact)?);
@@ -208,8 +228,8 @@ fn invert(
 ) -> Result<(), Box<dyn Error>> {
     let mut answers = Vec::new();
     for choice in choices {
-        let speed = predict::speed_of_dent(choice, impact.mass, dent)?;
-        let strength = predict::strength_of_dent(choice, impact, dent)?;
+        let speed = predict::inverse::speed_of_dent(choice, impact.mass, dent)?;
+        let strength = predict::inverse::strength_of_dent(choice, impact, dent)?;
         if as_json {
             answers.push(json!({ "law": choice.name, "speed": speed, "yield_strength": strength }));
         } else {
@@ -230,7 +250,7 @@ fn curve(arguments: &CurveArguments) -> Result<(), Box<dyn Error>> {
     let predicted = || interface::prediction(&scene).max_indentation;
     let largest = predict::positive("to", arguments.to.unwrap_or_else(predicted))?;
     let output = arguments.output.as_deref();
-    let picture = wants_picture(output)?;
+    let picture = ending(output, &["csv", "svg"])? == "svg";
     let drawn = if picture { curve::svg(&choices, largest, arguments.truth) } else { curve::csv(&choices, largest) };
     let too_deep = |_: brinell::contact::TooDeep| format!("to = {largest:e} m is too deep for the law");
     deliver(&drawn.map_err(too_deep)?, output)
@@ -239,7 +259,7 @@ fn curve(arguments: &CurveArguments) -> Result<(), Box<dyn Error>> {
 fn list_laws(output: Option<&Path>, as_json: bool) -> Result<(), Box<dyn Error>> {
     let scene = Scene::parse(DEFAULT_SCENE.into(), Path::new("scenes/steel_ball.toml"))?;
     if output.is_some() {
-        if !wants_picture(output)? {
+        if ending(output, &["csv", "svg"])? == "csv" {
             return Err("the loading curves are a picture: the name must end in .svg".into());
         }
         let choices = laws::choose(&scene, &["all".to_string()])?;

@@ -11,7 +11,8 @@ use std::io::{self, Cursor};
 type Xml = Writer<Cursor<Vec<u8>>>;
 
 /// The log categories of `src/fmi2/report.rs`.
-const LOG_CATEGORIES: [(&str, &str); 3] = [
+const LOG_CATEGORIES: [(&str, &str); 4] = [
+    ("logStatusWarning", "the passivity guard has changed an unloading; told once"),
     ("logStatusDiscard", "information that is not available"),
     ("logStatusError", "refused calls; logged in any case"),
     ("logAll", "all of them"),
@@ -42,7 +43,9 @@ fn document(xml: &mut Xml, scene: &Scene, entries: &[Entry], guid: &str) -> io::
         co_simulation(xml, scene)?;
         units(xml, entries)?;
         xml.create_element("LogCategories").write_inner_content(|xml| {
-            for (name, description) in LOG_CATEGORIES {
+            // without guard there is nothing to warn of
+            let first = usize::from(!scene.passivity_guard);
+            for &(name, description) in &LOG_CATEGORIES[first..] {
                 let category = xml.create_element("Category");
                 category.with_attributes([("name", name), ("description", description)]).write_empty()?;
             }

@@ -45,47 +45,59 @@ const COLOURS: [RGBColor; 12] = [
 impl Picture {
     /// The picture as SVG of `width` by `height` pixels.
     pub fn svg(&self, width: u32, height: u32) -> String {
-        let mut svg = String::new();
-        {
-            let root = SVGBackend::with_string(&mut svg, (SCALE * width, SCALE * height)).into_drawing_area();
-            let mut builder = ChartBuilder::on(&root);
-            // beside the curves, where no legend hides any
-            let beside = self.series.len() > 2;
-            let legend = if beside { LEGEND } else { 0 };
-            builder
-                .margin(12 * SCALE)
-                .margin_right((12 + legend) * SCALE)
-                .x_label_area_size(44 * SCALE)
-                .y_label_area_size(68 * SCALE);
-            let (x, y) =
-                (self.range(|point| point.0, self.logarithmic.0), self.range(|point| point.1, self.logarithmic.1));
-            match self.logarithmic {
-                (false, false) => self.draw(builder.build_cartesian_2d(linear(x), linear(y))),
-                (true, false) => self.draw(builder.build_cartesian_2d(x.log_scale(), linear(y))),
-                (false, true) => self.draw(builder.build_cartesian_2d(linear(x), y.log_scale())),
-                (true, true) => self.draw(builder.build_cartesian_2d(x.log_scale(), y.log_scale())),
-            }
-            self.draw_legend(&root, if beside { width - LEGEND } else { 100 });
-            root.present().expect(IN_MEMORY);
+        // beside the curves, where no legend hides any
+        let beside = self.series.len() > 2;
+        svg(width, height, |root| {
+            self.draw_into(root, if beside { LEGEND } else { 0 });
+            self.draw_legend(root, if beside { width - LEGEND } else { 100 });
+        })
+    }
+
+    /// The picture without the names of its series.
+    pub fn svg_without_legend(&self, width: u32, height: u32) -> String {
+        svg(width, height, |root| self.draw_into(root, 0))
+    }
+
+    /// Axes and curves, with `room` [pixels] to the right of them.
+    fn draw_into(&self, root: &Area, room: u32) {
+        let mut builder = ChartBuilder::on(root);
+        builder
+            .margin(12 * SCALE)
+            .margin_right((12 + room) * SCALE)
+            .x_label_area_size(44 * SCALE)
+            .y_label_area_size(68 * SCALE);
+        let (x, y) = (self.range(|point| point.0, self.logarithmic.0), self.range(|point| point.1, self.logarithmic.1));
+        match self.logarithmic {
+            (false, false) => self.draw(builder.build_cartesian_2d(linear(x), linear(y))),
+            (true, false) => self.draw(builder.build_cartesian_2d(x.log_scale(), linear(y))),
+            (false, true) => self.draw(builder.build_cartesian_2d(linear(x), y.log_scale())),
+            (true, true) => self.draw(builder.build_cartesian_2d(x.log_scale(), y.log_scale())),
         }
-        let drawn = format!("width=\"{}\" height=\"{}\"", SCALE * width, SCALE * height);
-        svg.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1)
     }
 
-    /// The points that can be shown.
-    fn shown<'a>(&self, series: &'a Series) -> impl Iterator<Item = (f64, f64)> + 'a {
+    /// Whether a point can be shown.
+    fn fits(&self, &(x, y): &(f64, f64)) -> bool {
         let (x_log, y_log) = self.logarithmic;
-        let fits =
-            move |&(x, y): &(f64, f64)| (x > 0.0 || !x_log) && (y > 0.0 || !y_log) && x.is_finite() && y.is_finite();
-        series.points.iter().copied().filter(fits)
+        (x > 0.0 || !x_log) && (y > 0.0 || !y_log) && x.is_finite() && y.is_finite()
     }
 
-    /// The range of the points, with a little room; from zero where nothing is below it.
+    /// The pieces of a series between points that can't be shown.
+    fn pieces<'a>(&'a self, series: &'a Series) -> impl Iterator<Item = &'a [(f64, f64)]> {
+        series.points.split(|point| !self.fits(point)).filter(|piece| !piece.is_empty())
+    }
+
+    /// The range of one coordinate of the points, with a little room; from zero where nothing is below it. Pictures over the
+    /// same arguments have the same range of them, whatever of their values can be shown.
     fn range(&self, value: impl Fn(&(f64, f64)) -> f64, logarithmic: bool) -> Range<f64> {
-        let values = || self.series.iter().flat_map(|series| self.shown(series)).map(|point| value(&point));
+        let points = || self.series.iter().flat_map(|series| &series.points);
+        let values = || points().map(&value).filter(|&value| value.is_finite() && (value > 0.0 || !logarithmic));
         let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         match logarithmic {
-            true => low..high * 1.1,
+            // nothing to show, or nothing but zeros
+            true if high <= 0.0 => 0.1..1.0,
+            false if high <= low.min(0.0) => 0.0..1.0,
+            // a hair of room below, so that a power of ten at the end has its label
+            true => low * (1.0 - 1e-9)..high * 1.1,
             false => low.min(0.0)..high + 0.06 * (high - low.min(0.0)),
         }
     }
@@ -115,29 +127,76 @@ impl Picture {
             .expect(IN_MEMORY);
         for (index, series) in self.series.iter().enumerate() {
             if series.dots {
-                chart.draw_series(self.shown(series).map(dot)).expect(IN_MEMORY);
-            } else {
-                chart.draw_series(LineSeries::new(self.shown(series), stroke(index))).expect(IN_MEMORY);
+                chart.draw_series(self.pieces(series).flatten().map(|&point| dot(point))).expect(IN_MEMORY);
+                continue;
+            }
+            for piece in self.pieces(series) {
+                chart.draw_series(LineSeries::new(piece.iter().copied(), stroke(index))).expect(IN_MEMORY);
             }
         }
     }
 
     /// The names of the series, each behind a piece of its line: beside the curves, or above them if there are few.
-    fn draw_legend<DB: DrawingBackend>(&self, root: &DrawingArea<DB, plotters::coord::Shift>, left: u32) {
-        let style = TextStyle::from(("sans-serif", SCALE * 13).into_font()).pos(Pos::new(HPos::Left, VPos::Center));
-        let left = (SCALE * left) as i32;
-        let length = 18 * SCALE as i32;
-        for (index, series) in self.series.iter().enumerate() {
-            let y = (SCALE * (24 + 19 * index as u32)) as i32;
-            let drawn = match series.dots {
-                true => root.draw(&dot((left + length / 2, y))),
-                false => root.draw(&PathElement::new([(left, y), (left + length, y)], stroke(index))),
-            };
-            drawn.map_err(|_| ()).expect(IN_MEMORY);
-            let text = Text::new(series.label.clone(), (left + length + 6 * SCALE as i32, y), style.clone());
-            root.draw(&text).map_err(|_| ()).expect(IN_MEMORY);
+    fn draw_legend(&self, root: &Area, left: u32) {
+        for index in 0..self.series.len() {
+            self.draw_name(root, index, (left, 24 + LINE * index as u32));
         }
     }
+
+    /// The name of the series at `index` behind a piece of its line, from the point `left`, `middle` [pixels] on.
+    fn draw_name(&self, root: &Area, index: usize, (left, middle): (u32, u32)) {
+        let style = TextStyle::from(("sans-serif", SCALE * 13).into_font()).pos(Pos::new(HPos::Left, VPos::Center));
+        let (x, y) = ((SCALE * left) as i32, (SCALE * middle) as i32);
+        let length = 18 * SCALE as i32;
+        let series = &self.series[index];
+        let drawn = match series.dots {
+            true => root.draw(&dot((x + length / 2, y))),
+            false => root.draw(&PathElement::new([(x, y), (x + length, y)], stroke(index))),
+        };
+        drawn.expect(IN_MEMORY);
+        root.draw(&Text::new(series.label.clone(), (x + length + 6 * SCALE as i32, y), style)).expect(IN_MEMORY);
+    }
+}
+
+/// Pictures of the same series beside each other, as one SVG of `width` pixels, each `height` pixels high, with one legend
+/// below them in as many columns as there is room for.
+pub fn side_by_side(pictures: &[Picture], width: u32, height: u32) -> String {
+    const MARGIN: u32 = 24;
+    let Some(first) = pictures.first() else { return String::new() };
+    let longest = first.series.iter().map(|series| series.label.chars().count() as u32).max().unwrap_or(0);
+    // a letter is some seven pixels wide; the line and the space between columns stand beside it
+    let column = 7 * longest + 52;
+    let columns = ((width - 2 * MARGIN) / column).max(1);
+    let rows = (first.series.len() as u32).div_ceil(columns);
+    svg(width, height + rows * LINE + MARGIN, |root| {
+        let (upper, lower) = root.split_vertically(SCALE * height);
+        for (picture, area) in pictures.iter().zip(upper.split_evenly((1, pictures.len()))) {
+            picture.draw_into(&area, 0);
+        }
+        for index in 0..first.series.len() {
+            let (row, place) = (index as u32 / columns, index as u32 % columns);
+            first.draw_name(&lower, index, (MARGIN + place * column, MARGIN / 2 + row * LINE));
+        }
+    })
+}
+
+/// What `draw` draws, as SVG of `width` by `height` pixels.
+fn svg(width: u32, height: u32, draw: impl FnOnce(&Area)) -> String {
+    let mut svg = String::new();
+    {
+        let root = SVGBackend::with_string(&mut svg, (SCALE * width, SCALE * height)).into_drawing_area();
+        draw(&root);
+        root.present().expect(IN_MEMORY);
+    }
+    let drawn = format!("width=\"{}\" height=\"{}\"", SCALE * width, SCALE * height);
+    svg.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1)
+}
+
+/// The line of the series at `index`, as CSS has it.
+pub fn css_line(index: usize) -> String {
+    let ShapeStyle { stroke_width, .. } = stroke(index);
+    let RGBColor(red, green, blue) = COLOURS[index % COLOURS.len()];
+    format!("{}px solid rgb({red} {green} {blue})", stroke_width / SCALE)
 }
 
 /// A dot of data.
@@ -153,6 +212,12 @@ fn stroke(index: usize) -> ShapeStyle {
 
 /// Room for a legend beside the curves.
 const LEGEND: u32 = 170;
+
+/// Height of a line of a legend.
+const LINE: u32 = 19;
+
+/// Where pictures are drawn.
+type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
 /// Drawing writes to a String, which takes everything.
 const IN_MEMORY: &str = "a drawing in memory";

@@ -30,6 +30,8 @@ pub struct Scene {
     pub unloading: Option<(&'static str, AnyUnloading)>,
     /// The law of a contact whose force depends on the rate; it has no other.
     pub damped: Option<(&'static str, AnyDamped)>,
+    /// Unloading gives back no more than loading took.
+    pub passivity_guard: bool,
     pub surface: Surface,
     pub impact: Impact,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
@@ -108,6 +110,7 @@ struct Law {
     restitution: Option<Spanned<f64>>,
     damping: Option<Spanned<String>>,
     unloading_parameters: Option<Given>,
+    passivity_guard: Option<Spanned<bool>>,
 }
 
 #[derive(Default, Deserialize)]
@@ -207,6 +210,8 @@ impl Scene {
     pub fn model(&self) -> Model<AnyLoading, AnyUnloading> {
         let pair = self.pair().expect("a checked scene has bodies that fit");
         let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
+        let guarded = if self.passivity_guard { unloading.guarded() } else { None };
+        let unloading = guarded.unwrap_or(unloading);
         Model { pair, loading: self.loading.1, unloading, surface: self.surface }
     }
 }
@@ -251,6 +256,8 @@ fn check(file: File) -> Result<Scene, Mistake> {
     let radius = *impactor.radius.get_ref();
     let steel_ball = Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 };
     let mass = file.impact.as_ref().map_or(Spanned::new(0..0, steel_ball.mass), |table| table.get_ref().mass.clone());
+    let passivity_guard = check_guard(file.law.passivity_guard.as_ref(), unloading)?;
+
     let values = [
         ("impactor.radius", Some(impactor.radius.clone())),
         ("impactor.youngs_modulus", impactor.youngs_modulus.clone()),
@@ -292,6 +299,7 @@ fn check(file: File) -> Result<Scene, Mistake> {
         loading,
         unloading,
         damped,
+        passivity_guard,
         surface,
         impact,
         impact_is_assumed,
@@ -459,6 +467,22 @@ fn check_curves(given: &Law, scene: &Scene) -> Result<(), Mistake> {
     law_check::check_loading(&model, laws::published(scene.loading.0))
         .map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
     law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
+}
+
+/// Whether the guard is asked for, of an unloading law that has a guarded form.
+fn check_guard(asked: Option<&Spanned<bool>>, unloading: Option<(&str, AnyUnloading)>) -> Result<bool, Mistake> {
+    let Some(asked) = asked.filter(|asked| *asked.get_ref()) else { return Ok(false) };
+    let Some((name, law)) = unloading else {
+        let message = "law.passivity_guard has no meaning here: hertz gives back just what was put in";
+        return Err(Mistake(asked.span(), message.into()));
+    };
+    if law.guarded().is_some() {
+        return Ok(true);
+    }
+    let guarded = AnyUnloading::ALL.iter().filter(|(_, law)| law.guarded().is_some()).map(|(name, _)| *name);
+    let names = guarded.collect::<Vec<_>>().join("`, `");
+    let message = format!("law.unloading = \"{name}\" has no passivity guard: `{names}` have one");
+    Err(Mistake(asked.span(), message))
 }
 
 pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {

@@ -135,6 +135,13 @@ impl Loading for JacksonGreen {
         elastic.work(scale.transition) + d_c * plastic
     }
 
+    fn work_between(&self, pair: &Pair, low: f64, high: f64) -> Option<f64> {
+        let scale = self.scale(pair);
+        let d_c = scale.unit.indentation;
+        let force = |y: f64| self.plastic_force(&scale, pair, y).value;
+        (low >= scale.transition).then(|| d_c * logarithmic_integral(low / d_c, high / d_c, &force))
+    }
+
     /// The paper's own.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let scale = self.scale(pair);

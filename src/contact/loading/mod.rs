@@ -62,6 +62,12 @@ pub trait Loading {
     /// Work of the loading from first contact to `indentation` [J]: in closed form, or to rounding.
     fn work(&self, pair: &Pair, indentation: f64) -> f64;
 
+    /// Work from `low` to `high` [J], on one smooth piece of the curve, of a law whose work is an integral there. None
+    /// where a difference of two [`Loading::work`] is as good.
+    fn work_between(&self, _pair: &Pair, _low: f64, _high: f64) -> Option<f64> {
+        None
+    }
+
     /// Contact radius [m] while loading.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64;
 
@@ -192,6 +198,10 @@ impl Loading for AnyLoading {
 
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         self.law().work(pair, indentation)
+    }
+
+    fn work_between(&self, pair: &Pair, low: f64, high: f64) -> Option<f64> {
+        self.law().work_between(pair, low, high)
     }
 
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {

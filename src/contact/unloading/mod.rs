@@ -7,6 +7,7 @@ pub mod brinell;
 pub mod contact_radius;
 pub mod deformed_radius;
 pub mod etsion;
+pub mod guarded;
 pub mod hertz_shift;
 pub mod jackson;
 pub mod luding;
@@ -19,6 +20,7 @@ pub use brinell::Brinell;
 pub use contact_radius::ContactRadius;
 pub use deformed_radius::DeformedRadius;
 pub use etsion::Etsion;
+pub use guarded::Guarded;
 pub use hertz_shift::HertzShift;
 pub use jackson::Jackson;
 pub use luding::Luding;
@@ -42,6 +44,8 @@ pub struct Peak {
     pub contact_radius: f64,
     /// Force at which the loading law begins to yield `F_y` [N].
     pub yield_force: f64,
+    /// Work of the loading up to there [J]; NaN for a law that doesn't [need](Unloading::needs_work) it.
+    pub work: f64,
 }
 
 /// An unloading law.
@@ -49,6 +53,16 @@ pub trait Unloading {
     /// Whether the whole path is one segment. Otherwise only its ends are of use, and [`Unloading::tangent`] and
     /// [`Unloading::work`] say the rest.
     const SEGMENTED: bool = true;
+
+    /// Whether the law asks for the work of the loading, which may be an integral.
+    fn needs_work(&self) -> bool {
+        false
+    }
+
+    /// Whether the passivity guard shortens the path from `peak`; without guard never.
+    fn holds_back(&self, _pair: &Pair, _peak: &Peak) -> bool {
+        false
+    }
 
     /// The path from the residual indentation `d_f` (`lower`) to `peak` (`upper`), for a peak beyond the yield point.
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment;
@@ -127,6 +141,14 @@ pub enum AnyUnloading {
     VuQuocZhang(VuQuocZhang),
     /// See [`Luding`].
     Luding(Luding),
+    /// See [`Guarded`].
+    GuardedContactRadius(Guarded<ContactRadius>),
+    /// See [`Guarded`].
+    GuardedThornton(Guarded<Thornton>),
+    /// See [`Guarded`].
+    GuardedOriginalRadius(Guarded<OriginalRadius>),
+    /// See [`Guarded`].
+    GuardedDeformedRadius(Guarded<DeformedRadius>),
 }
 
 impl AnyUnloading {
@@ -146,9 +168,42 @@ impl AnyUnloading {
     ];
 }
 
+impl AnyUnloading {
+    /// The law with the passivity guard; none for a law that has no guarded form.
+    pub fn guarded(self) -> Option<AnyUnloading> {
+        match self {
+            AnyUnloading::ContactRadius(law) => Some(AnyUnloading::GuardedContactRadius(Guarded(law))),
+            AnyUnloading::Thornton(law) => Some(AnyUnloading::GuardedThornton(Guarded(law))),
+            AnyUnloading::OriginalRadius(law) => Some(AnyUnloading::GuardedOriginalRadius(Guarded(law))),
+            AnyUnloading::DeformedRadius(law) => Some(AnyUnloading::GuardedDeformedRadius(Guarded(law))),
+            _ => None,
+        }
+    }
+}
+
 impl Unloading for AnyUnloading {
     // some are, some aren't; of those that are, the tangent and the work are the path's own
     const SEGMENTED: bool = false;
+
+    fn needs_work(&self) -> bool {
+        match self {
+            AnyUnloading::GuardedContactRadius(law) => law.needs_work(),
+            AnyUnloading::GuardedThornton(law) => law.needs_work(),
+            AnyUnloading::GuardedOriginalRadius(law) => law.needs_work(),
+            AnyUnloading::GuardedDeformedRadius(law) => law.needs_work(),
+            _ => false,
+        }
+    }
+
+    fn holds_back(&self, pair: &Pair, peak: &Peak) -> bool {
+        match self {
+            AnyUnloading::GuardedContactRadius(law) => law.holds_back(pair, peak),
+            AnyUnloading::GuardedThornton(law) => law.holds_back(pair, peak),
+            AnyUnloading::GuardedOriginalRadius(law) => law.holds_back(pair, peak),
+            AnyUnloading::GuardedDeformedRadius(law) => law.holds_back(pair, peak),
+            _ => false,
+        }
+    }
 
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         match self {
@@ -163,6 +218,10 @@ impl Unloading for AnyUnloading {
             AnyUnloading::Jackson(law) => law.path(pair, peak),
             AnyUnloading::VuQuocZhang(law) => law.path(pair, peak),
             AnyUnloading::Luding(law) => law.path(pair, peak),
+            AnyUnloading::GuardedContactRadius(law) => law.path(pair, peak),
+            AnyUnloading::GuardedThornton(law) => law.path(pair, peak),
+            AnyUnloading::GuardedOriginalRadius(law) => law.path(pair, peak),
+            AnyUnloading::GuardedDeformedRadius(law) => law.path(pair, peak),
         }
     }
 

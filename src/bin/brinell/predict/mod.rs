@@ -1,9 +1,13 @@
 //! `brinell predict`: what an impact will do, by energy balance, and the same turned round.
 
+pub mod inverse;
+pub mod page;
+pub mod rebound;
+pub mod sweep;
+
 use crate::laws::Choice;
-use crate::plot::{Picture, Series};
+use brinell::contact::Loading;
 use brinell::contact::impact::{Impact, Prediction, predict};
-use brinell::contact::{Loading, Pair};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -19,6 +23,10 @@ pub enum PredictError {
     Beyond { law: String, mass: f64, speed: f64 },
     #[error("no {what} between {low:e} and {high:e} explains {name} = {value}")]
     NoSolution { what: &'static str, low: f64, high: f64, name: &'static str, value: f64 },
+    #[error("restitution = {0} must be above 0 and at most 1")]
+    Restitution(f64),
+    #[error("nothing explains restitution = {goal}: {searched}")]
+    NoRebound { goal: f64, searched: String },
     #[error("--sweep {0}: expected `speed FROM:TO`, in m/s, with 0 < FROM < TO")]
     Sweep(String),
 }
@@ -46,6 +54,9 @@ pub fn one(choice: &Choice, impact: &Impact) -> Result<Prediction, PredictError>
 
 /// The quantities of a prediction: name, value, unit.
 fn quantities(prediction: &Prediction) -> [(&'static str, f64, &'static str); 9] {
+    let lost = prediction.energy - prediction.rebound_energy;
+    // energies that agree to rounding
+    let lost = if lost.abs() <= 8.0 * f64::EPSILON * prediction.energy { 0.0 } else { lost };
     [
         ("largest force", prediction.max_force, "N"),
         ("largest indentation", prediction.max_indentation, "m"),
@@ -53,7 +64,7 @@ fn quantities(prediction: &Prediction) -> [(&'static str, f64, &'static str); 9]
         ("dent", prediction.residual_indentation, "m"),
         ("restitution", prediction.restitution, ""),
         ("kinetic energy", prediction.energy, "J"),
-        ("energy lost", prediction.energy - prediction.rebound_energy, "J"),
+        ("energy lost", lost, "J"),
         ("loading time", prediction.loading_time, "s"),
         ("unloading time", prediction.unloading_time, "s"),
     ]
@@ -123,94 +134,4 @@ pub fn as_json(choices: &[Choice], impact: &Impact) -> Result<Value, PredictErro
         laws.push(law);
     }
     Ok(json!({ "mass": impact.mass, "speed": impact.speed, "laws": laws }))
-}
-
-/// A range of speeds, as `--sweep speed FROM:TO` says it.
-pub fn parse_sweep(words: &[String]) -> Result<(f64, f64), PredictError> {
-    let wrong = || PredictError::Sweep(words.join(" "));
-    let [quantity, range] = words else { return Err(wrong()) };
-    let (from, to) = range.split_once(':').ok_or_else(wrong)?;
-    let (from, to): (f64, f64) = (from.parse().map_err(|_| wrong())?, to.parse().map_err(|_| wrong())?);
-    if quantity == "speed" && from > 0.0 && to > from && to.is_finite() { Ok((from, to)) } else { Err(wrong()) }
-}
-
-/// Speeds of a sweep, evenly spread over its decades.
-fn speeds((from, to): (f64, f64)) -> Vec<f64> {
-    const SPEEDS: u32 = 200;
-    (0..=SPEEDS).map(|index| from * (to / from).powf(f64::from(index) / f64::from(SPEEDS))).collect()
-}
-
-/// A sweep as a table.
-pub fn sweep_csv(choices: &[Choice], mass: f64, range: (f64, f64)) -> Result<String, PredictError> {
-    let mut text = String::from(
-        "law,speed_m_per_s,largest_force_N,largest_indentation_m,largest_contact_radius_m,dent_m,restitution,\
-         kinetic_energy_J,energy_lost_J,loading_time_s,unloading_time_s,regime\n",
-    );
-    for choice in choices {
-        for speed in speeds(range) {
-            let prediction = one(choice, &Impact { mass, speed })?;
-            write!(text, "{},{speed:e}", choice.name).expect("a String takes everything");
-            for (_, value, _) in quantities(&prediction) {
-                write!(text, ",{value:e}").expect("a String takes everything");
-            }
-            writeln!(text, ",{}", prediction.regime as i32).expect("a String takes everything");
-        }
-    }
-    Ok(text)
-}
-
-/// A sweep as a picture of restitution against speed.
-pub fn sweep_svg(choices: &[Choice], mass: f64, range: (f64, f64)) -> Result<String, PredictError> {
-    let mut series = Vec::new();
-    for choice in choices {
-        let point = |speed: f64| Ok((speed, one(choice, &Impact { mass, speed })?.restitution));
-        let points = speeds(range).into_iter().map(point).collect::<Result<Vec<_>, PredictError>>()?;
-        series.push(Series { label: choice.name.clone(), points, dots: false });
-    }
-    let picture = Picture {
-        x_title: "speed [m/s]".into(),
-        y_title: "coefficient of restitution".into(),
-        logarithmic: (true, false),
-        series,
-    };
-    Ok(picture.svg(860, 480))
-}
-
-/// The speed [m/s] at which `mass` [kg] leaves a dent of `dent` [m].
-pub fn speed_of_dent(choice: &Choice, mass: f64, dent: f64) -> Result<f64, PredictError> {
-    // a speed too high for the law makes a dent deeper than any
-    let depth = |speed: f64| one(choice, &Impact { mass, speed }).map_or(f64::INFINITY, |p| p.residual_indentation);
-    root("speed [m/s]", (1e-9, 1e6), ("dent", dent), depth)
-}
-
-/// The yield strength [Pa] for which the impact leaves a dent of `dent` [m]: the Brinell test turned round.
-pub fn strength_of_dent(choice: &Choice, impact: &Impact, dent: f64) -> Result<f64, PredictError> {
-    let depth = |yield_strength: f64| {
-        let pair = Pair { yield_strength, ..choice.model.pair };
-        let softer = Choice { name: choice.name.clone(), model: brinell::contact::Model { pair, ..choice.model } };
-        // the dent falls with the strength; a target too soft for the law has the deepest
-        one(&softer, impact).map_or(f64::NEG_INFINITY, |prediction| -prediction.residual_indentation)
-    };
-    let modulus = choice.model.pair.modulus;
-    root("yield strength [Pa]", (1e-7 * modulus, modulus), ("dent", -dent), depth)
-}
-
-/// Where the rising function `of` has the value `goal`, by halving the logarithm of the argument to rounding.
-fn root(
-    what: &'static str,
-    (low, high): (f64, f64),
-    (name, goal): (&'static str, f64),
-    of: impl Fn(f64) -> f64,
-) -> Result<f64, PredictError> {
-    let none = PredictError::NoSolution { what, low, high, name, value: goal.abs() };
-    let (mut below, mut above) = (low, high);
-    let exceeds = |argument: f64| of(argument) >= goal;
-    if exceeds(below) || !exceeds(above) {
-        return Err(none);
-    }
-    while above > below.next_up() {
-        let middle = (below * above).sqrt().clamp(below.next_up(), above.next_down());
-        *(if exceeds(middle) { &mut above } else { &mut below }) = middle;
-    }
-    Ok(above)
 }

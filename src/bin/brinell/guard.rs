@@ -1,0 +1,62 @@
+//! Where the passivity guard of a scene acts, found by looking.
+
+use crate::scene::Scene;
+use brinell::contact::Loading;
+
+/// Largest indentation that is looked at, in yield indentations.
+const DEEPEST: f64 = 1e6;
+
+/// Depths that are looked at in each decade.
+const DEPTHS_PER_DECADE: u32 = 200;
+
+/// The ranges of the largest indentation in which the guard acts on the bodies of `scene`, in yield indentations of its law;
+/// none if the scene has no guard.
+pub fn ranges(scene: &Scene) -> Option<Vec<(f64, f64)>> {
+    if !scene.passivity_guard {
+        return None;
+    }
+    let model = scene.model();
+    let d_y = model.loading.yield_point(&model.pair).indentation;
+    let acts = |x: f64| model.is_held_back_at(x * d_y);
+    // between two depths of which the guard acts at the second: the border to some digits
+    let border = |(mut outside, mut inside): (f64, f64)| {
+        for _ in 0..40 {
+            let middle = 0.5 * (outside + inside);
+            *(if acts(middle) { &mut inside } else { &mut outside }) = middle;
+        }
+        inside
+    };
+    let steps = DEPTHS_PER_DECADE * DEEPEST.log10() as u32;
+    let depth = |step| DEEPEST.powf(f64::from(step) / f64::from(steps));
+    let mut ranges: Vec<(f64, f64)> = Vec::new();
+    let mut before = (1.0, false);
+    for step in 0..=steps {
+        let now = (depth(step), acts(depth(step)));
+        match (before.1, now.1) {
+            (false, true) => ranges.push((border((before.0, now.0)), now.0)),
+            (true, false) => ranges.last_mut().expect("a range has begun").1 = border((now.0, before.0)),
+            (true, true) => ranges.last_mut().expect("a range has begun").1 = now.0,
+            (false, false) => {}
+        }
+        before = now;
+    }
+    Some(ranges)
+}
+
+/// Where the guard acts, in words; none if the scene has no guard.
+pub fn words(scene: &Scene) -> Option<String> {
+    let ranges = ranges(scene)?;
+    let range = |&(from, to): &(f64, f64)| {
+        // the last depth that was looked at is no end
+        let end = if to >= DEEPEST { "on".into() } else { format!("to {to:.4}") };
+        format!("from {from:.4} {end}")
+    };
+    let words = match ranges.as_slice() {
+        [] => format!("nowhere up to {DEEPEST:e} yield indentations"),
+        some => {
+            let ranges = some.iter().map(range).collect::<Vec<_>>().join(" and ");
+            format!("at largest indentations {ranges} yield indentations")
+        }
+    };
+    Some(format!("acts {words} (bodies of the scene)"))
+}

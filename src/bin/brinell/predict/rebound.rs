@@ -1,0 +1,223 @@
+//! A measured rebound turned round. Restitution falls and rises again with speed and strength, so that a rebound may have
+//! several explanations, or none: all within a range are found.
+
+use super::PredictError;
+use crate::laws::Choice;
+use brinell::contact::impact::{Impact, restitution};
+use brinell::contact::{Model, Pair};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Speeds among which solutions are looked for [m/s].
+const SPEEDS: (f64, f64) = (1e-9, 1e6);
+
+/// Yield strengths among which solutions are looked for, in effective moduli.
+const STRENGTHS: (f64, f64) = (1e-7, 1.0);
+
+/// Points of the grid in a decade; finer turns of the curve are found too, if one of its points is nearest to the goal.
+const POINTS_PER_DECADE: f64 = 60.0;
+
+/// Restitutions that differ by less are the same: the elastic impact's is 1 to rounding.
+const SAME: f64 = 1e-13;
+
+/// The restitution at a solution is the goal to this; farther off the curve has jumped past it.
+const REACHED: f64 = 1e-10;
+
+/// Where a function has the value that was asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Solution {
+    At(f64),
+    /// Everywhere in between.
+    Between(f64, f64),
+    /// Nowhere, but it jumps past it here.
+    Jump(f64),
+}
+
+/// What was found in a range.
+struct Search {
+    range: (f64, f64),
+    /// Smallest and largest restitution on the grid.
+    reached: (f64, f64),
+    solutions: Vec<Solution>,
+}
+
+/// Both explanations of a rebound by one law.
+pub struct Rebound {
+    law: String,
+    speeds: Search,
+    strengths: Search,
+}
+
+/// A restitution that can have been measured.
+///
+/// # Errors
+/// [`PredictError::Restitution`] for any other number.
+pub fn measured(value: f64) -> Result<f64, PredictError> {
+    if value > 0.0 && value <= 1.0 { Ok(value) } else { Err(PredictError::Restitution(value)) }
+}
+
+/// At which speeds, and with which yield strengths at the speed of `impact`, each law rebounds with the restitution `goal`.
+///
+/// # Errors
+/// [`PredictError::NoRebound`] if no law explains it in either way.
+pub fn explain(choices: &[Choice], impact: &Impact, goal: f64) -> Result<Vec<Rebound>, PredictError> {
+    let rebounds: Vec<_> = choices.iter().map(|choice| explain_by(choice, impact, goal)).collect();
+    if rebounds.iter().all(|rebound| rebound.speeds.is_empty() && rebound.strengths.is_empty()) {
+        let searched = rebounds.iter().map(|rebound| {
+            let (speeds, strengths) =
+                (rebound.speeds.nothing("speed", "m/s"), rebound.strengths.nothing(STRENGTH, "Pa"));
+            format!("{}: {speeds}; {strengths}", rebound.law)
+        });
+        return Err(PredictError::NoRebound { goal, searched: searched.collect::<Vec<_>>().join("; ") });
+    }
+    Ok(rebounds)
+}
+
+const STRENGTH: &str = "yield strength";
+
+fn explain_by(choice: &Choice, impact: &Impact, goal: f64) -> Rebound {
+    let model = choice.model;
+    let pair = model.pair;
+    let speeds = search(SPEEDS, goal, |speed| restitution(&model, &Impact { speed, ..*impact }));
+    let range = (STRENGTHS.0 * pair.modulus, STRENGTHS.1 * pair.modulus);
+    let strengths = search(range, goal, |yield_strength| {
+        restitution(&Model { pair: Pair { yield_strength, ..pair }, ..model }, impact)
+    });
+    Rebound { law: choice.name.clone(), speeds, strengths }
+}
+
+/// Every place in `range` where the function `of`, which may be undefined in places, has the value `goal`.
+fn search(range: (f64, f64), goal: f64, of: impl Fn(f64) -> Option<f64>) -> Search {
+    let (low, high) = range;
+    let steps = (POINTS_PER_DECADE * (high / low).log10()).ceil() as u32;
+    let argument = |step| low * (high / low).powf(f64::from(step) / f64::from(steps));
+    // zero where it is the goal to rounding
+    let over = |argument: f64| {
+        let over = of(argument)? - goal;
+        Some((argument, if over.abs() <= SAME { 0.0 } else { over }))
+    };
+    let grid: Vec<_> = (0..=steps).map(|step| over(argument(step))).collect();
+    let reached = grid.iter().flatten().map(|(_, over)| goal + over);
+    let reached = (reached.clone().fold(f64::INFINITY, f64::min), reached.fold(f64::NEG_INFINITY, f64::max));
+    let value = |argument| over(argument).map_or(f64::NAN, |(_, over)| over);
+    let mut points: Vec<_> = grid.iter().copied().flatten().collect();
+    for three in grid.windows(3) {
+        let &[Some(before), Some(point), Some(after)] = three else { continue };
+        // the curve may turn towards the goal between two points, and pass it twice
+        let nearest = |other: f64| point.1 * other > 0.0 && point.1.abs() <= other.abs();
+        if nearest(before.1) && nearest(after.1) {
+            points.push(turn((before.0, after.0), point.1.signum(), value));
+        }
+    }
+    points.sort_by(|one, other| one.0.total_cmp(&other.0));
+    Search { range, reached, solutions: solutions(&points, value) }
+}
+
+/// Where the function of one sign in `from..to` is smallest, by the golden section, with its value there.
+fn turn((mut from, mut to): (f64, f64), sign: f64, value: impl Fn(f64) -> f64) -> (f64, f64) {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    for _ in 0..80 {
+        let (left, right) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
+        if sign * value(left) < sign * value(right) {
+            to = right;
+        } else {
+            from = left;
+        }
+    }
+    let found = 0.5 * (from + to);
+    (found, value(found))
+}
+
+/// The solutions between `points`: arguments in order, and how far the function is above the goal there.
+fn solutions(points: &[(f64, f64)], value: impl Fn(f64) -> f64) -> Vec<Solution> {
+    let mut found = Vec::new();
+    let mut zeros: Option<(f64, f64)> = None;
+    for (index, &(at, over)) in points.iter().enumerate() {
+        let before = index.checked_sub(1).map(|before| points[before]);
+        if over == 0.0 {
+            let begin = before.map_or(at, |(before, _)| border((before, at), |x| value(x) == 0.0));
+            zeros = Some((zeros.map_or(begin, |(begin, _)| begin), at));
+            continue;
+        }
+        if let Some((begin, last)) = zeros.take() {
+            let end = border((at, last), |x| value(x) == 0.0);
+            found.push(plateau(begin, end));
+        } else if let Some((before, other)) = before.filter(|(_, other)| other * over < 0.0) {
+            let root = border((before, at), |x| value(x) * other <= 0.0);
+            found.push(if value(root).abs() <= REACHED { Solution::At(root) } else { Solution::Jump(root) });
+        }
+    }
+    found.extend(zeros.map(|(begin, last)| plateau(begin, last)));
+    found
+}
+
+/// From `begin` to `end` the function has the value; a few units in the last place apart they are one solution.
+fn plateau(begin: f64, end: f64) -> Solution {
+    if end - begin <= 1e-9 * end { Solution::At(0.5 * (begin + end)) } else { Solution::Between(begin, end) }
+}
+
+/// The first number from `outside` to `inside` that `holds`, by halving to rounding.
+fn border((mut outside, mut inside): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
+    loop {
+        let middle = 0.5 * (outside + inside);
+        if middle == outside || middle == inside {
+            return inside;
+        }
+        *(if holds(middle) { &mut inside } else { &mut outside }) = middle;
+    }
+}
+
+impl Search {
+    fn is_empty(&self) -> bool {
+        !self.solutions.iter().any(|solution| !matches!(solution, Solution::Jump(_)))
+    }
+
+    fn nothing(&self, what: &str, unit: &str) -> String {
+        let ((low, high), (least, most)) = (self.range, self.reached);
+        format!("with a {what} from {low:.3e} to {high:.3e} {unit} restitution is {least:.6} to {most:.6}")
+    }
+
+    fn json(&self) -> Value {
+        let points = self.solutions.iter().filter_map(|s| if let Solution::At(x) = s { Some(*x) } else { None });
+        let ranges =
+            self.solutions.iter().filter_map(|s| if let Solution::Between(a, b) = s { Some([*a, *b]) } else { None });
+        let jumps = self.solutions.iter().filter_map(|s| if let Solution::Jump(x) = s { Some(*x) } else { None });
+        json!({
+            "solutions": points.collect::<Vec<_>>(), "ranges": ranges.collect::<Vec<_>>(), "jumps": jumps.collect::<Vec<_>>(),
+            "searched": [self.range.0, self.range.1], "restitution_reached": [self.reached.0, self.reached.1],
+        })
+    }
+
+    fn text(&self, text: &mut String, what: &str, unit: &str) {
+        let mut line = |line: std::fmt::Arguments| writeln!(text, "  {line}").expect("a String takes everything");
+        for solution in &self.solutions {
+            match solution {
+                Solution::At(x) => line(format_args!("with a {what} of {x:.6e} {unit}")),
+                Solution::Between(from, to) => line(format_args!("with any {what} from {from:.6e} to {to:.6e} {unit}")),
+                Solution::Jump(x) => line(format_args!("not at {x:.6e} {unit}, where restitution jumps past it")),
+            }
+        }
+        if self.is_empty() {
+            line(format_args!("with no {what}: {}", self.nothing(what, unit)));
+        }
+    }
+}
+
+/// The explanations for people.
+pub fn text(rebounds: &[Rebound], impact: &Impact, goal: f64) -> String {
+    let mut text = String::new();
+    for Rebound { law, speeds, strengths } in rebounds {
+        writeln!(text, "{law}: restitution is {goal} on the target of the scene").expect("a String takes everything");
+        speeds.text(&mut text, "speed", "m/s");
+        writeln!(text, "and at {} m/s on a target", impact.speed).expect("a String takes everything");
+        strengths.text(&mut text, STRENGTH, "Pa");
+    }
+    text
+}
+
+/// The explanations for a program.
+pub fn as_json(rebounds: &[Rebound], impact: &Impact, goal: f64) -> Value {
+    let law = |Rebound { law, speeds, strengths }: &Rebound| json!({ "law": law, "speed": speeds.json(), "yield_strength": strengths.json() });
+    let laws: Vec<_> = rebounds.iter().map(law).collect();
+    json!({ "restitution": goal, "mass": impact.mass, "impact_speed": impact.speed, "laws": laws })
+}

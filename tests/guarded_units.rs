@@ -1,0 +1,93 @@
+//! Units with the passivity guard: what is said of it, and that they do what is predicted.
+
+#[path = "support/command.rs"]
+mod command;
+
+use command::{empty_folder, run};
+use std::fs;
+use std::path::Path;
+
+/// Writes a scene with these laws to `folder`; `guard` is the line about the guard.
+fn write(folder: &Path, loading: &str, guard: &str) {
+    let scene = format!(
+        "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[law]\n\
+         loading = \"{loading}\"\nunloading = \"thornton\"\n{guard}\n[impact]\nmass = 4.11e-3\nspeed = 0.0025\n"
+    );
+    fs::write(folder.join("scene.toml"), scene).unwrap();
+}
+
+/// A file inside the unit.
+fn inside(folder: &Path, path: &str) -> String {
+    let script = "import sys, zipfile; sys.stdout.write(zipfile.ZipFile('unit.fmu').read(sys.argv[1]).decode())";
+    command::output(std::process::Command::new("python3").args(["-c", script, path]).current_dir(folder))
+        .with_status(0)
+        .out
+}
+
+#[test]
+fn a_guarded_unit_says_where_the_guard_acts_and_does_what_is_predicted() {
+    let folder = empty_folder();
+    for loading in ["stronge", "kogut-etsion", "brake-2012-tangent", "brake-2012-line", "brake-2015", "ghaednia"] {
+        write(folder.path(), loading, "passivity_guard = true");
+        let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+        let ranges = exported["passivity_guard"].as_array().unwrap().clone();
+        assert!(!ranges.is_empty(), "{loading} makes energy: {exported}");
+        run(folder.path(), ["check", "unit.fmu"]).with_status(0);
+        let said = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0).out;
+        let words = format!("from {:.4} to {:.4}", ranges[0][0].as_f64().unwrap(), ranges[0][1].as_f64().unwrap());
+        assert!(said.contains("guard      acts at largest indentations") && said.contains(&words), "{said}");
+        let page = inside(folder.path(), "documentation/index.html");
+        assert!(page.contains("Passivity guard") && page.contains(&words), "{loading}");
+        assert!(inside(folder.path(), "modelDescription.xml").contains("logStatusWarning"), "{loading}");
+    }
+}
+
+#[test]
+fn the_guard_is_off_unless_it_is_asked_for_and_then_nothing_is_said() {
+    let folder = empty_folder();
+    let mut constants = Vec::new();
+    for guard in ["", "passivity_guard = false"] {
+        write(folder.path(), "stronge", guard);
+        constants.push(run(folder.path(), ["constants", "scene.toml"]).with_status(0).out);
+    }
+    assert_eq!(constants[0], constants[1]);
+    assert!(constants[0].contains("GUARD: Option<&str> = None") && !constants[0].contains("Guarded"));
+    let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+    assert!(exported["passivity_guard"].is_null(), "{exported}");
+    let bytes = exported["library_size"].as_u64().unwrap();
+    assert!(!inside(folder.path(), "documentation/index.html").contains("Passivity guard"));
+    assert!(!inside(folder.path(), "modelDescription.xml").contains("logStatusWarning"));
+    let restitution = |expected: &dyn Fn(f64) -> bool| {
+        let predicted = run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json();
+        let restitution = predicted["laws"][0]["restitution"].as_f64().unwrap();
+        assert!(expected(restitution), "{restitution}");
+    };
+    restitution(&|e| e > 1.05);
+    write(folder.path(), "stronge", "passivity_guard = true");
+    restitution(&|e| (e - 1.0).abs() < 1e-13);
+    let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+    assert!(exported["library_size"].as_u64().unwrap() > bytes, "a unit without guard has nothing of it");
+}
+
+#[test]
+fn the_range_that_is_said_ends_where_energy_begins_to_be_lost() {
+    let folder = empty_folder();
+    write(folder.path(), "stronge", "passivity_guard = true");
+    let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+    let ranges = exported["passivity_guard"].as_array().unwrap();
+    let [from, to] = [0, 1].map(|end| ranges[0][end].as_f64().unwrap());
+    // d_y = R (3 pi 1.1 S/(4 E*))^2 of 5 mm on mild steel
+    let ratio = 3.0 * std::f64::consts::PI * 1.1 * 300e6 / (4.0 * 206e9 / (1.0 - 0.3 * 0.3));
+    let d_y = 0.005 * ratio * ratio;
+    let lost = |x: f64| {
+        let to = format!("{:e}", x * d_y);
+        let table = run(folder.path(), ["curve", "scene.toml", "--to", &to]).with_status(0).out;
+        let row = table.lines().last().unwrap().split(',').map(|cell| cell.parse().unwrap_or(f64::NAN));
+        let row: Vec<f64> = row.collect();
+        // the dissipated energy at the end, in F_y d_y with F_y = 1.1 pi S R d_y
+        row[8] / (1.1 * std::f64::consts::PI * 300e6 * 0.005 * d_y * d_y)
+    };
+    assert!(ranges.len() == 1 && (from - 1.0).abs() < 1e-12, "{exported}");
+    assert!(lost(0.999 * to).abs() < 1e-12 && lost(0.5 * to).abs() < 1e-12, "{}", lost(0.999 * to));
+    assert!(lost(1.001 * to) > 1e-6, "{}", lost(1.001 * to));
+}
