@@ -123,7 +123,7 @@ fn laws_says_how_far_each_law_is_from_the_truth() {
     let folder = empty_folder();
     let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
     let law = |name: &str| {
-        let found = laws.as_array().unwrap().iter().find(|law| law["name"] == name);
+        let found = laws["loading"].as_array().unwrap().iter().find(|law| law["name"] == name);
         found.unwrap_or_else(|| panic!("no {name} in {laws}")).clone()
     };
     // measured independently: +30 % at some 25 to 30 yield indentations, within 0.5 %, and Stronge's known surplus
@@ -132,13 +132,43 @@ fn laws_says_how_far_each_law_is_from_the_truth() {
     assert!(number(&law("brinell")["worst_error"]).abs() < 0.005);
     close(number(&law("stronge")["largest_restitution"]), 1.154, 1e-3);
     assert_eq!(number(&published["largest_jump"]), 0.0);
-    for measured in laws.as_array().unwrap() {
+    for measured in laws["loading"].as_array().unwrap() {
         assert!(!measured["reference"].as_str().unwrap().is_empty() && measured["rms_error"].as_f64().is_some());
     }
     run(folder.path(), ["laws", "-o", "laws.svg"]).with_status(0);
     assert!(fs::read_to_string(folder.path().join("laws.svg")).unwrap().contains("big-alabo"));
     let text = run(folder.path(), ["laws"]).with_status(0).out;
     assert!(text.contains("makes energy") && text.contains("passive"));
+}
+
+#[test]
+fn laws_lists_constants_validity_and_reference_of_every_law() {
+    let folder = empty_folder();
+    let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
+    let text = run(folder.path(), ["laws"]).with_status(0).out;
+    assert!(text.lines().all(|line| line.chars().count() <= 120), "{text}");
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = |value: &Value| value.as_str().unwrap().to_string();
+    for kind in ["loading", "unloading"] {
+        for law in laws[kind].as_array().unwrap() {
+            assert!(words.contains(&format!("{}: {}", said(&law["name"]), said(&law["title"]))), "{law}");
+            assert!(words.contains(&said(&law["reference"])) && words.contains(&said(&law["notes"])), "{law}");
+            for parameter in law["parameters"].as_array().unwrap() {
+                let (name, value) = (said(&parameter["name"]), number(&parameter["value"]));
+                let shown = format!("{name} = {value} {}", said(&parameter["unit"]));
+                assert!(words.contains(shown.trim_end()), "nothing of {shown} in {words}");
+                assert!(number(&parameter["minimum"]) <= value && value <= number(&parameter["maximum"]), "{law}");
+            }
+        }
+    }
+    for law in laws["loading"].as_array().unwrap() {
+        assert!(words.contains(&format!("validity {}", said(&law["validity"]))), "{law}");
+        assert_eq!(law["passive"], number(&law["largest_restitution"]) <= 1.0 + 1e-12, "{law}");
+        assert_eq!(law["continuous"], number(&law["largest_jump"]) == 0.0, "{law}");
+    }
+    let broken = laws["loading"].as_array().unwrap().iter().filter(|law| law["continuous"] == false);
+    assert_eq!(broken.map(|law| said(&law["name"])).collect::<Vec<_>>(), ["ghaednia", "jackson-green", "kogut-etsion"]);
+    assert!(words.contains("exponent = 1.2") && words.contains("coefficient = 1.5 F_y"));
 }
 
 #[test]

@@ -250,6 +250,8 @@ fn only_the_deformed_radius_jumps_at_yield_and_as_documented() {
             "vu-quoc-zhang" => assert!((depth - 1.4e-7).abs() < 5e-9, "{name}: {depth}"),
             // d_m (1 - k_1/k_2) from the start
             "walton-braun" => assert!((depth - 0.75).abs() < 2e-9, "{name}: {depth}"),
+            // d_m (1 - 1/(1 + 3 d_m/d*)), with d* = 11302 d_y for this pair
+            "luding" => assert!((depth - 2.654e-4).abs() < 5e-8, "{name}: {depth}"),
             _ => assert!(depth < 2e-9, "{name}: {depth}"),
         }
     }

@@ -58,11 +58,10 @@ pub fn model(loading_name: &str, unloading_name: &str) -> AnyModel {
 }
 
 /// Loading laws that make sense with these unloading laws only, and why.
-pub const MADE_FOR: &[(&str, &[&str], &str)] = &[(
-    "walton-braun",
-    &["walton-braun"],
-    "a line through zero is stiffer there than any recovery made from Hertz's law",
-)];
+pub const MADE_FOR: &[(&str, &[&str], &str)] = &[
+    ("walton-braun", &["walton-braun"], "a line through zero is stiffer there than any recovery made from Hertz's law"),
+    ("luding", &["luding"], "beyond its limit it is elastic along a line that only its own unloading follows back"),
+];
 
 /// Loading laws that aren't passive, the unloading laws with which they are, and why.
 pub const NOT_PASSIVE: &[(&str, &[&str], &str)] = &[
@@ -70,6 +69,11 @@ pub const NOT_PASSIVE: &[(&str, &[&str], &str)] = &[
         "stronge",
         &["walton-braun"],
         "the slope jumps up at yield and the curve is above Hertz's up to 15.4 d_y; only a line four times as stiff isn't softer",
+    ),
+    (
+        "johnson",
+        &["walton-braun"],
+        "above Hertz's curve up to 2.618 d_y, where the cavity formula is still below the pressure at yield",
     ),
     ("kogut-etsion", &[], "force jumps up at its three borders, which needs no work; restitution up to 1.015"),
     ("ghaednia", &[], "force jumps up by 0.44 % where Hertz's curve ends; restitution up to 1.0035"),
@@ -87,18 +91,32 @@ pub const NOT_PASSIVE: &[(&str, &[&str], &str)] = &[
 ];
 
 /// Unloading laws that were fitted to one loading law, in its units: elsewhere they may be softer than the loading.
-pub const FITTED_TO: &[(&str, &str)] =
-    &[("etsion", "kogut-etsion"), ("jackson", "jackson-green"), ("vu-quoc-zhang", "vu-quoc-zhang")];
+pub const FITTED_TO: &[(&str, &str)] = &[
+    ("etsion", "kogut-etsion"),
+    ("jackson", "jackson-green"),
+    ("vu-quoc-zhang", "vu-quoc-zhang"),
+    // its stiffness depends on the limit of the loading law
+    ("luding", "luding"),
+];
 
 /// Loading laws that are above Hertz's curve in places, which Hertz's curve lowered to their force never is.
-pub const ABOVE_HERTZ: &[&str] =
-    &["stronge", "kogut-etsion", "jackson-green", "ghaednia", "brake-2012-tangent", "brake-2012-line", "brake-2015"];
+pub const ABOVE_HERTZ: &[&str] = &[
+    "stronge",
+    "johnson",
+    "kogut-etsion",
+    "jackson-green",
+    "ghaednia",
+    "brake-2012-tangent",
+    "brake-2012-line",
+    "brake-2015",
+];
 
 /// Loading laws whose force jumps where one fit ends and the next begins, as published.
 pub const WITH_JUMPS: &[&str] = &["kogut-etsion", "jackson-green", "ghaednia"];
 
-/// Loading laws whose normalised curve depends on `E*/S`, through the exponent `B` of the area and the contact radius over `R`.
-pub const NOT_SCALE_FREE: &[&str] = &["jackson-green", "ghaednia"];
+/// Loading laws whose normalised curve depends on `E*/S`, through the exponent `B` of the area and the contact radius
+/// over `R`, or through a limit that is a part of the radius.
+pub const NOT_SCALE_FREE: &[&str] = &["jackson-green", "ghaednia", "luding"];
 
 /// Whether the two laws make sense together.
 pub fn belong_together(loading_name: &str, unloading_name: &str) -> bool {

@@ -1,6 +1,7 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
 use crate::interface::{Entry, experiment, prediction};
+use crate::parameters::{self, Constant};
 use crate::plot::{Picture, Series};
 use crate::scene::Scene;
 use crate::table::{self, Causality};
@@ -41,12 +42,19 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
     impact(page, scene)?;
     writeln!(page, "<figure>\n{}</figure>", curve(scene))?;
     writeln!(page, "<h2>Law</h2>")?;
-    match scene.damped {
-        Some((name, _)) => law(page, "Rate-dependent", table::damped_law(name))?,
-        None => law(page, "Loading", table::loading_law(scene.loading.0))?,
+    if let Some((name, damped)) = scene.damped {
+        let told = table::damped_law(name);
+        law(page, "Rate-dependent", told)?;
+        law_constants(page, &parameters::constants(&damped, told))?;
+    } else {
+        let told = table::loading_law(scene.loading.0);
+        law(page, "Loading", told)?;
+        law_constants(page, &parameters::constants(&scene.loading.1, told))?;
     }
-    if let Some((name, _)) = scene.unloading {
-        law(page, "Unloading and reloading", table::unloading_law(name))?;
+    if let Some((name, unloading)) = scene.unloading {
+        let told = table::unloading_law(name);
+        law(page, "Unloading and reloading", told)?;
+        law_constants(page, &parameters::constants(&unloading, told))?;
     }
     writeln!(page, "<h2>Variables</h2>")?;
     variables(page, entries)?;
@@ -104,6 +112,23 @@ fn law(page: &mut String, heading: &str, law: &table::Law) -> std::fmt::Result {
         writeln!(page, "<li><code>{}</code></li>", escape(formula))?;
     }
     writeln!(page, "</ul>\n<p>{} Reference: {}.</p>", escape(&law.notes), escape(&law.reference))
+}
+
+/// The constants of a law as they are in this unit.
+fn law_constants(page: &mut String, constants: &[Constant]) -> std::fmt::Result {
+    if constants.is_empty() {
+        return Ok(());
+    }
+    writeln!(page, "<p>Its constants in this unit (the text above has those of the reference):</p>\n<table>")?;
+    for Constant { name, value, unit, description, .. } in constants {
+        writeln!(
+            page,
+            "<tr><td><code>{name}</code></td><td class=\"n\">{}</td><td>{unit}</td><td>{}</td></tr>",
+            digits(*value),
+            escape(description)
+        )?;
+    }
+    writeln!(page, "</table>")
 }
 
 fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {

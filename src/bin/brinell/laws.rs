@@ -1,13 +1,10 @@
-//! `brinell laws`: what laws there are, and how good each is, measured when it is asked for. Choosing laws by name.
+//! Choosing laws by name, and which go together.
 
+use crate::parameters;
 use crate::scene::Scene;
-use crate::table;
-use crate::truth;
-use brinell::contact::history::LARGEST_INDENTATION;
+use brinell::contact::Model;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Loading, Model};
-use serde::Serialize;
 
 /// A model of the scene with laws that may be others than the scene's.
 pub struct Choice {
@@ -29,9 +26,23 @@ pub enum UnknownLaw {
 const FITTED_TO: [(&str, &str); 3] =
     [("etsion", "kogut-etsion"), ("jackson", "jackson-green"), ("vu-quoc-zhang", "vu-quoc-zhang")];
 
+/// Loading laws that go only with the unloading law of the same name, and why.
+const MADE_FOR_ITSELF: [(&str, &str); 2] = [
+    ("walton-braun", "it has no elastic part"),
+    ("luding", "it has no elastic part, and a limit beyond which it is elastic again"),
+];
+
 /// Loading laws that are above Hertz's curve in places, so that Hertz's curve can't be lowered to them.
-const ABOVE_HERTZ: [&str; 7] =
-    ["stronge", "kogut-etsion", "jackson-green", "ghaednia", "brake-2012-tangent", "brake-2012-line", "brake-2015"];
+const ABOVE_HERTZ: [&str; 8] = [
+    "stronge",
+    "johnson",
+    "kogut-etsion",
+    "jackson-green",
+    "ghaednia",
+    "brake-2012-tangent",
+    "brake-2012-line",
+    "brake-2015",
+];
 
 /// Refuses two laws that don't make sense together.
 ///
@@ -39,8 +50,11 @@ const ABOVE_HERTZ: [&str; 7] =
 /// Why they don't, and what does.
 pub fn check_pairing(loading: &str, unloading: &str) -> Result<(), String> {
     let pair = format!("law.loading = \"{loading}\" doesn't go with law.unloading = \"{unloading}\"");
-    if loading == "walton-braun" && unloading != "walton-braun" {
-        return Err(format!("{pair}: it has no elastic part, and unloads by \"walton-braun\""));
+    if let Some((own, why)) = MADE_FOR_ITSELF.iter().find(|(own, _)| *own == loading && loading != unloading) {
+        return Err(format!("{pair}: {why}, and unloads by \"{own}\""));
+    }
+    if loading != "luding" && unloading == "luding" {
+        return Err(format!("{pair}: that stiffens up to the limit of the loading law \"luding\""));
     }
     if unloading == "hertz-shift" && ABOVE_HERTZ.contains(&loading) {
         return Err(format!("{pair}: its curve is above Hertz's in places, which can't be lowered to it"));
@@ -51,9 +65,23 @@ pub fn check_pairing(loading: &str, unloading: &str) -> Result<(), String> {
     }
 }
 
+/// Refuses two laws whose constants contradict each other.
+///
+/// # Errors
+/// What must be the same, or stay as published.
+pub fn check_ties(loading: (&str, AnyLoading), unloading: (&str, AnyUnloading)) -> Result<(), String> {
+    parameters::check_ties((loading.0, &loading.1, &published(loading.0)), (unloading.0, &unloading.1))
+}
+
+/// The loading law `name`, which there is, with its reference constants.
+pub fn published(name: &str) -> AnyLoading {
+    let found = AnyLoading::ALL.into_iter().find(|(known, _)| *known == name);
+    found.expect("a law that was found by its name").1
+}
+
 /// The unloading law of a scene that names none: "contact-radius", where it can be.
 pub fn default_unloading(loading: &str) -> &'static str {
-    if loading == "walton-braun" { "walton-braun" } else { "contact-radius" }
+    MADE_FOR_ITSELF.iter().find(|(own, _)| *own == loading).map_or("contact-radius", |(own, _)| own)
 }
 
 /// Loading laws that were published with an unloading law of another name.
@@ -69,13 +97,23 @@ const OWN_UNLOADING: [(&str, &str); 8] = [
 ];
 
 /// The unloading that belongs to a loading law: the one it was published with, or the scene's.
-fn unloading_of(loading: &str, scene: &Scene) -> (&'static str, AnyUnloading) {
+pub fn unloading_of(loading: &str, scene: &Scene) -> (&'static str, AnyUnloading) {
     let published = OWN_UNLOADING.iter().find(|(name, _)| *name == loading).map_or(loading, |(_, own)| own);
     let own = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == published);
     own.or(scene.unloading).unwrap_or(AnyUnloading::ALL[0])
 }
 
+/// The laws of these names: with the scene's constants if they are the scene's own, else with those of the reference.
+fn find_loading(name: &str, scene: &Scene) -> Option<(&'static str, AnyLoading)> {
+    [scene.loading].into_iter().chain(AnyLoading::ALL).find(|(known, _)| *known == name)
+}
+
+fn find_unloading(name: &str, scene: &Scene) -> Option<(&'static str, AnyUnloading)> {
+    scene.unloading.into_iter().chain(AnyUnloading::ALL).find(|(known, _)| *known == name)
+}
+
 /// The models that `names` mean: `LOADING` or `LOADING/UNLOADING`, or the scene's own if there are none; "all" is every law.
+/// Laws that are the scene's have its constants; its loading law alone means its unloading law too.
 ///
 /// # Errors
 /// [`UnknownLaw`]
@@ -94,114 +132,20 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
         let (name, known) = (name.into(), known.join("`, `"));
         UnknownLaw::Name { kind, name, known }
     };
-    let loading = AnyLoading::ALL.into_iter().find(|(known, _)| *known == loading_name);
+    let loading = find_loading(loading_name, scene);
     let known = || AnyLoading::ALL.iter().map(|(name, _)| *name).collect();
     let (_, loading) = loading.ok_or_else(|| unknown("loading", loading_name, known()))?;
     let unloading = match unloading_name {
-        None => Some(unloading_of(loading_name, scene)),
-        Some(asked) => AnyUnloading::ALL.into_iter().find(|(known, _)| *known == asked),
+        None if loading_name == scene.loading.0 => scene.unloading.or(Some(unloading_of(loading_name, scene))),
+        None => find_unloading(unloading_of(loading_name, scene).0, scene),
+        Some(asked) => find_unloading(asked, scene),
     };
     let known = || AnyUnloading::ALL.iter().map(|(name, _)| *name).collect();
     let asked = unloading_name.unwrap_or_default();
     let (chosen, unloading) = unloading.ok_or_else(|| unknown("unloading", asked, known()))?;
     if loading_name != "hertz" {
         check_pairing(loading_name, chosen).map_err(UnknownLaw::Pairing)?;
+        check_ties((loading_name, loading), (chosen, unloading)).map_err(UnknownLaw::Pairing)?;
     }
     Ok(Choice { name: name.into(), model: Model { loading, unloading, ..scene.model() } })
-}
-
-/// What was measured of a loading law.
-#[derive(Debug, Serialize)]
-pub struct Measured {
-    pub name: &'static str,
-    pub title: String,
-    /// Unloading law with which the energy was measured.
-    pub unloading: &'static str,
-    /// Largest jump of the force at a corner, relative to the force.
-    pub largest_jump: f64,
-    /// Largest restitution over all depths: above 1 the law makes energy.
-    pub largest_restitution: f64,
-    /// Largest error of the loading force against the truth.
-    pub worst_error: f64,
-    /// Where, in yield indentations.
-    pub worst_at: f64,
-    /// Root mean square of that error.
-    pub rms_error: f64,
-    pub validity: String,
-    pub reference: String,
-}
-
-/// Measures every loading law on the bodies of `scene`.
-pub fn measure_all(scene: &Scene) -> Vec<Measured> {
-    AnyLoading::ALL.into_iter().map(|(name, loading)| measure(scene, name, loading)).collect()
-}
-
-fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
-    let (unloading_name, unloading) = unloading_of(name, scene);
-    let model = Model { loading, unloading, ..scene.model() };
-    let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
-    let force = |d: f64| loading.segment(&model.pair, d).force(d);
-    let (mut worst_error, mut worst_at, mut squares) = (0.0f64, 0.0, 0.0);
-    let points = truth::loading();
-    for point in &points {
-        let error = force(point.x * unit.indentation) / (point.f * unit.force) - 1.0;
-        squares += error * error;
-        if error.abs() > worst_error.abs() {
-            (worst_error, worst_at) = (error, point.x);
-        }
-    }
-    let mut largest_jump = 0.0f64;
-    let mut corner = loading.next_corner(&model.pair, 0.0);
-    while corner < 1e4 * unit.indentation && corner < LARGEST_INDENTATION {
-        let (below, above) = (force(corner.next_down()), force(corner));
-        let jump = (above - below) / above;
-        largest_jump = if jump.abs() > largest_jump.abs() { jump } else { largest_jump };
-        corner = loading.next_corner(&model.pair, corner);
-    }
-    // fine enough to see the narrow range just above yield where some laws make energy
-    let depths = (0..=2000).map(|step| unit.indentation * 10f64.powf(f64::from(step) / 500.0 - 1.0));
-    let returned = |d: f64| (model.recovered_work(d, d) / loading.work(&model.pair, d)).sqrt();
-    let largest_restitution = depths.map(returned).fold(0.0, f64::max);
-    let law = table::loading_law(name);
-    Measured {
-        name,
-        title: law.title.clone(),
-        unloading: unloading_name,
-        // a few units in the last place are no jump
-        largest_jump: if largest_jump.abs() < 1e-12 { 0.0 } else { largest_jump },
-        largest_restitution,
-        worst_error,
-        worst_at,
-        rms_error: (squares / points.len() as f64).sqrt(),
-        validity: law.notes.clone(),
-        reference: law.reference.clone(),
-    }
-}
-
-/// The table for people.
-pub fn print(measured: &[Measured]) {
-    println!(
-        "loading laws; error of the force against finite elements up to 1000 yield indentations (truth/README.md)\n"
-    );
-    println!("{:<22}{:>16}{:>9}{:>10}   energy", "law", "worst error", "rms", "jump");
-    for law in measured {
-        let percent = |value: f64| format!("{:+.1} %", 100.0 * value);
-        let jump = if law.largest_jump == 0.0 { "none".into() } else { percent(law.largest_jump) };
-        let energy = match law.largest_restitution {
-            e if e <= 1.0 + 1e-12 => format!("passive (with {})", law.unloading),
-            e => format!("makes energy: restitution up to {e:.4} (with {})", law.unloading),
-        };
-        let worst = format!("{} at {:.4}", percent(law.worst_error), law.worst_at);
-        let rms = format!("{:.1} %", 100.0 * law.rms_error);
-        println!("{:<22}{worst:>16}{rms:>9}{jump:>10}   {energy}", law.name);
-    }
-    println!("\nvalidity and reference");
-    for law in measured {
-        println!("{:<22}{} {}.", law.name, law.validity, law.reference);
-    }
-    println!("\nunloading laws");
-    for (name, _) in AnyUnloading::ALL {
-        let law = table::unloading_law(name);
-        println!("{name:<22}{} {}.", law.notes, law.reference);
-    }
 }

@@ -7,10 +7,13 @@ mod curve;
 mod documentation;
 mod importer;
 mod interface;
+mod law_check;
+mod law_list;
 mod laws;
 mod model;
 mod model_description;
 mod package;
+mod parameters;
 mod plot;
 mod predict;
 mod scene;
@@ -242,11 +245,11 @@ fn list_laws(output: Option<&Path>, as_json: bool) -> Result<(), Box<dyn Error>>
         let choices = laws::choose(&scene, &["all".to_string()])?;
         return deliver(&curve::over_hertz(&choices), output);
     }
-    let measured = laws::measure_all(&scene);
+    let list = law_list::all(&scene);
     if as_json {
-        println!("{}", serde_json::to_string(&measured)?);
+        println!("{}", serde_json::to_string(&list)?);
     } else {
-        laws::print(&measured);
+        law_list::print(&list);
     }
     Ok(())
 }

@@ -1,6 +1,8 @@
 //! The contact of a scene as the physics sees it.
 
-use brinell::contact::damped::{self, AnyDamped};
+use brinell::contact::damped::hunt_crossley::DampingFactor;
+use brinell::contact::damped::tsuji::TsujiDamping;
+use brinell::contact::damped::{self, AnyDamped, HuntCrossley, Tsuji};
 use brinell::contact::impact::{self, Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
@@ -81,3 +83,36 @@ fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 
 /// Points of a branch.
 const POINTS: u32 = 60;
+
+/// The ways in which a rate-dependent law can make its damping, by name.
+pub trait Dampings: Sized {
+    /// Their names; none if there is but one.
+    fn dampings(&self) -> Vec<&'static str>;
+
+    /// The law with the damping of this name; `None` if there is none.
+    fn with_damping(self, name: &str) -> Option<Self>;
+}
+
+impl Dampings for AnyDamped {
+    fn dampings(&self) -> Vec<&'static str> {
+        match self {
+            AnyDamped::HuntCrossley(_) => DampingFactor::ALL.iter().map(|(name, _)| *name).collect(),
+            AnyDamped::Tsuji(_) => TsujiDamping::ALL.iter().map(|(name, _)| *name).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn with_damping(self, name: &str) -> Option<AnyDamped> {
+        match self {
+            AnyDamped::HuntCrossley(_) => {
+                let (_, damping_factor) = DampingFactor::ALL.into_iter().find(|(known, _)| *known == name)?;
+                Some(AnyDamped::HuntCrossley(HuntCrossley { damping_factor }))
+            }
+            AnyDamped::Tsuji(_) => {
+                let (_, damping_factor) = TsujiDamping::ALL.into_iter().find(|(known, _)| *known == name)?;
+                Some(AnyDamped::Tsuji(Tsuji { damping_factor }))
+            }
+            _ => None,
+        }
+    }
+}

@@ -116,6 +116,8 @@ crate-type = ["cdylib"]
 [features]
 default = ["fmu"]
 fmu = []
+# named in the source, and never on
+exporter = []
 
 [dependencies]
 libm = {{ version = "={}", default-features = false, features = ["arch"] }}

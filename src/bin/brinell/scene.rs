@@ -1,7 +1,9 @@
 //! The scene file: what is in contact, by which laws, and what the unit shows of it.
 
+use crate::law_check;
 use crate::laws;
-use crate::model::AnyModel;
+use crate::model::{AnyModel, Dampings};
+use crate::parameters::{self, Given};
 use crate::table::{self, Causality, MATERIALS, VARIABLES};
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::impact::Impact;
@@ -101,8 +103,11 @@ enum SurfaceName {
 #[serde(deny_unknown_fields)]
 struct Law {
     loading: Option<Spanned<String>>,
+    loading_parameters: Option<Given>,
     unloading: Option<Spanned<String>>,
     restitution: Option<Spanned<f64>>,
+    damping: Option<Spanned<String>>,
+    unloading_parameters: Option<Given>,
 }
 
 #[derive(Default, Deserialize)]
@@ -122,7 +127,7 @@ struct ImpactTable {
 }
 
 /// A mistake at a place in the text.
-struct Mistake(std::ops::Range<usize>, String);
+pub struct Mistake(pub std::ops::Range<usize>, pub String);
 
 impl Scene {
     /// Reads and checks the scene at `path`.
@@ -237,10 +242,11 @@ fn check(file: File) -> Result<Scene, Mistake> {
     let damped = find_damped(&file.law)?;
     let loading = match damped {
         Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
-        None => check_loading(file.law.loading.as_ref(), strength.is_some())?,
+        None => check_loading(&file.law, strength.is_some())?,
     };
     let elastic = matches!(loading.1, AnyLoading::Hertz(_));
-    let unloading = check_unloading(file.law.unloading.as_ref(), loading.0, elastic)?;
+    let unloading = check_unloading(&file.law, loading.0, elastic)?;
+    check_parameters(&file.law, &loading, unloading.as_ref())?;
 
     let radius = *impactor.radius.get_ref();
     let steel_ball = Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 };
@@ -300,6 +306,7 @@ fn check(file: File) -> Result<Scene, Mistake> {
         );
         return Err(Mistake(socket.span(), message));
     }
+    check_curves(&file.law, &scene)?;
     if scene.any_model().predict(&scene.impact).is_none() {
         let Impact { mass, speed } = scene.impact;
         let message = format!(
@@ -355,10 +362,39 @@ fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mistake> 
         let message = format!("law.unloading = \"{asked}\" has no meaning here: {name} leaves no dent");
         return Err(Mistake(unloading.span(), message));
     }
-    Ok(found)
+    let Some((name, reference)) = found else {
+        return match &law.damping {
+            Some(damping) => Err(Mistake(damping.span(), format!("law.damping is for \"{}\"", with_dampings()))),
+            None => Ok(None),
+        };
+    };
+    let chosen = match &law.damping {
+        Some(damping) => with_damping(name, reference, damping)?,
+        None => reference,
+    };
+    let parameters = law.loading_parameters.as_ref();
+    Ok(Some((name, parameters::apply(chosen, "law.loading", parameters, table::damped_law(name))?)))
 }
 
-fn check_loading(name: Option<&Spanned<String>>, yields: bool) -> Result<(&'static str, AnyLoading), Mistake> {
+/// The names of the laws with several dampings, for a message.
+fn with_dampings() -> String {
+    let several = AnyDamped::ALL.into_iter().filter(|(_, law)| !law.dampings().is_empty());
+    several.map(|(name, _)| name).collect::<Vec<_>>().join("\" and \"")
+}
+
+/// The law `name` with the damping that the scene names.
+fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<AnyDamped, Mistake> {
+    let dampings = law.dampings();
+    if dampings.is_empty() {
+        let message = format!("law.damping is for \"{}\"; {name} has one damping", with_dampings());
+        return Err(Mistake(asked.span(), message));
+    }
+    law.with_damping(asked.get_ref())
+        .ok_or_else(|| Mistake(asked.span(), unknown("law.damping", asked.get_ref(), dampings.into_iter())))
+}
+
+fn check_loading(given: &Law, yields: bool) -> Result<(&'static str, AnyLoading), Mistake> {
+    let name = given.loading.as_ref();
     let default = if yields { "big-alabo" } else { "hertz" };
     let asked = name.map_or(default, |name| name.get_ref().as_str());
     let span = name.map_or(0..0, Spanned::span);
@@ -372,29 +408,60 @@ fn check_loading(name: Option<&Spanned<String>>, yields: bool) -> Result<(&'stat
             format!("law.loading = \"{asked}\" needs target.yield_strength (or a material); \"hertz\" doesn't");
         return Err(Mistake(span, message));
     }
-    Ok(law)
+    let parameters = given.loading_parameters.as_ref();
+    Ok((law.0, parameters::apply(law.1, "law.loading", parameters, table::loading_law(law.0))?))
 }
 
-fn check_unloading(
-    name: Option<&Spanned<String>>,
-    loading: &str,
-    elastic: bool,
-) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
+fn check_unloading(given: &Law, loading: &str, elastic: bool) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
+    let name = given.unloading.as_ref();
+    let parameters = given.unloading_parameters.as_ref();
     let span = name.map_or(0..0, Spanned::span);
     let asked = name.map_or(laws::default_unloading(loading), |name| name.get_ref().as_str());
     if elastic {
         let message = format!("law.unloading = \"{asked}\" has no meaning here: hertz unloads along the loading curve");
-        return if name.is_some() { Err(Mistake(span, message)) } else { Ok(None) };
+        return match (name, parameters) {
+            (Some(_), _) => Err(Mistake(span, message)),
+            (None, Some(parameters)) => {
+                let message = "law.unloading_parameters has no meaning here: hertz unloads along the loading curve";
+                Err(Mistake(parameters.span(), message.into()))
+            }
+            (None, None) => Ok(None),
+        };
     }
     let law = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
         let names = AnyUnloading::ALL.iter().map(|(name, _)| *name);
         Mistake(span.clone(), unknown("law.unloading", asked, names))
     })?;
     laws::check_pairing(loading, asked).map_err(|message| Mistake(span, message))?;
-    Ok(Some(law))
+    Ok(Some((law.0, parameters::apply(law.1, "law.unloading", parameters, table::unloading_law(law.0))?)))
 }
 
-fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
+/// Where the scene gives constants to its laws, if it does.
+fn parameters_span(given: &Law) -> Option<std::ops::Range<usize>> {
+    given.loading_parameters.as_ref().or(given.unloading_parameters.as_ref()).map(Spanned::span)
+}
+
+/// Refuses constants of the two laws that contradict each other.
+fn check_parameters(
+    given: &Law,
+    loading: &(&'static str, AnyLoading),
+    unloading: Option<&(&'static str, AnyUnloading)>,
+) -> Result<(), Mistake> {
+    let (Some(span), Some(unloading)) = (parameters_span(given), unloading) else { return Ok(()) };
+    laws::check_ties(*loading, *unloading).map_err(|message| Mistake(span, message))
+}
+
+/// Refuses laws that the scene's constants have made useless on its bodies.
+fn check_curves(given: &Law, scene: &Scene) -> Result<(), Mistake> {
+    let Some(span) = parameters_span(given).filter(|_| scene.unloading.is_some()) else { return Ok(()) };
+    let model = scene.model();
+    let unloading = given.unloading_parameters.as_ref().map_or(span.clone(), Spanned::span);
+    law_check::check_loading(&model, laws::published(scene.loading.0))
+        .map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
+    law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
+}
+
+pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
     let names = names.collect::<Vec<_>>().join("`, `");
     format!("unknown {what} `{asked}`, expected one of `{names}`")
 }

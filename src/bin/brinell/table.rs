@@ -84,7 +84,31 @@ pub struct Law {
     pub title: String,
     pub formulas: Vec<String>,
     pub notes: String,
+    /// In which range the law was made, or holds; of loading laws.
+    #[serde(default)]
+    pub validity: String,
     pub reference: String,
+    /// What a scene can change.
+    #[serde(default)]
+    pub parameters: Vec<LawParameter>,
+    /// Constants that belong together, so that a scene can't change them.
+    #[serde(default)]
+    pub fixed: Vec<String>,
+}
+
+/// A constant of a law that a scene can change.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LawParameter {
+    pub name: String,
+    /// Empty for a pure number.
+    #[serde(default)]
+    pub unit: String,
+    pub minimum: f64,
+    pub maximum: f64,
+    /// The parameter of the same law that it must be below.
+    pub below: Option<String>,
+    pub description: String,
 }
 
 #[derive(Deserialize)]

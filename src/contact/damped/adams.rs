@@ -11,6 +11,7 @@ use libm::{pow, sqrt};
 ///
 /// Reference: the IMPACT and STEP functions in the help of Altair MotionSolve and SolidWorks Motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Adams {
     /// Force at the damping depth over Hertz's.
     pub stiffness_factor: f64,

@@ -6,6 +6,7 @@ use libm::{exp, log, log1p};
 
 /// How the damping factor `chi` is made from the wanted restitution `e`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
 pub enum DampingFactor {
     /// The root of `(1 + chi)/(1 - chi e) = exp(chi (1 + e))`: the law then gives `e`, to rounding.
     Exact,
@@ -89,6 +90,7 @@ const HALVINGS: u32 = 64;
 /// Reference: K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440-445. What each factor really gives follows
 /// from `(1 + chi)/(1 - chi e) = exp(chi (1 + e))`, which holds for any exponent of the indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct HuntCrossley {
     /// How `chi` follows from the restitution.
     pub damping_factor: DampingFactor,

@@ -14,6 +14,7 @@ use libm::{log, pow, sqrt};
 /// Reference: T. Schwager, T. Poeschel, *Granular Matter* 9 (2007) 465-469; the stiffness is that of the hysteretic Hooke
 /// model of LIGGGHTS.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct KelvinVoigt {
     /// `V` [m/s].
     pub characteristic_speed: f64,

@@ -11,6 +11,7 @@ use libm::sqrt;
 /// Reference: G. Kuwabara, K. Kono, *Jpn. J. Appl. Phys.* 26 (1987) 1230-1233; N. V. Brilliantov et al., *Phys. Rev. E* 53
 /// (1996) 5382-5392.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct KuwabaraKono {
     /// `A` [s].
     pub relaxation_time: f64,

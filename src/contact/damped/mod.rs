@@ -89,6 +89,7 @@ fn power_three_halves(d: f64) -> Shape {
 
 /// A rate-dependent law chosen while the program runs. The FMU doesn't need it: a scene names its law.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
 pub enum AnyDamped {
     /// See [`HuntCrossley`].
     HuntCrossley(HuntCrossley),

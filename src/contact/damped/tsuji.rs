@@ -7,6 +7,7 @@ use libm::{exp, log, sqrt};
 
 /// How the damping `alpha` is made from the wanted restitution `e`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
 pub enum TsujiDamping {
     /// `-sqrt(5) ln e/sqrt(pi^2 + ln^2 e)`: exact if the surface could pull until `d = 0`. Asked for 0.5, the law gives 0.5503.
     Original,
@@ -56,6 +57,7 @@ fn polynomial<const COUNT: usize>(x: f64, coefficients: [f64; COUNT]) -> f64 {
 ///
 /// Reference: Y. Tsuji, T. Tanaka, T. Ishida, *Powder Technology* 71 (1992) 239-250.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Tsuji {
     /// How `alpha` follows from the restitution.
     pub damping_factor: TsujiDamping,

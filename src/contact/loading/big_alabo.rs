@@ -20,6 +20,7 @@ use libm::{log, sqrt};
 ///
 /// Reference: A. Big-Alabo, P. Harrison, M. P. Cartmell, *Computers & Structures* 151 (2015) 20-29.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct BigAlabo {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,

@@ -24,6 +24,7 @@ use libm::{atan, sqrt};
 ///
 /// Reference: M. R. W. Brake, *Int. J. Solids Struct.* 49 (2012) 3129-3141.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Brake2012 {
     /// Brinell pressure over the yield strength.
     pub hardness_factor: f64,

@@ -25,6 +25,7 @@ use libm::sqrt;
 ///
 /// Reference: M. R. W. Brake, *Int. J. Solids Struct.* 62 (2015) 104-123.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Brake2015 {
     /// Brinell pressure over the yield strength.
     pub hardness_factor: f64,

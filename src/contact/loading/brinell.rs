@@ -25,6 +25,7 @@ const PIECES: usize = 8;
 /// within 0.6 %. Small strain, nu = 0.3, no hardening; large deformation differs by 0.5 % up to `x = 200` at `E*/S = 1000`,
 /// by 1 % at `x = 82.5` and 7 % at `x = 200` at `E*/S = 100`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Brinell {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,

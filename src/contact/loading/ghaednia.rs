@@ -33,6 +33,7 @@ use libm::{exp, expm1, log, sqrt};
 ///
 /// Reference: H. Ghaednia, M. R. W. Brake, M. Berryhill, R. L. Jackson, *J. Tribol.* 141 (2019) 031402.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Ghaednia {
     /// Tangent modulus over Young's modulus `t`.
     pub hardening: f64,

@@ -12,6 +12,7 @@ use libm::sqrt;
 ///
 /// Reference: H. Hertz, *J. reine angew. Math.* 92 (1882) 156; K. L. Johnson, *Contact Mechanics*, 1985, section 4.2.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Hertz;
 
 /// The Hertzian piece of any law that begins elastically, up to `upper` [m].

@@ -24,6 +24,7 @@ use libm::{exp, pow, sqrt};
 ///
 /// Reference: R. L. Jackson, I. Green, *J. Tribol.* 127 (2005) 343-354.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct JacksonGreen {
     /// `C` at `nu = 0`: the largest pressure at yield over the yield strength.
     pub yield_constant: f64,

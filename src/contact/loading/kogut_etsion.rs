@@ -22,6 +22,7 @@ use libm::{pow, sqrt};
 ///
 /// Reference: L. Kogut, I. Etsion, *J. Appl. Mech.* 69 (2002) 657-662.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct KogutEtsion {
     /// Hardness `H` over the yield strength.
     pub hardness_factor: f64,

@@ -25,6 +25,7 @@ use libm::{log, sqrt};
 ///
 /// Reference: D. Ma, C. S. Liu, *J. Appl. Mech.* 82 (2015) 121006.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct MaLiu {
     /// Peak pressure at yield over the yield strength.
     pub peak_pressure_factor: f64,

@@ -7,7 +7,9 @@ pub mod brinell;
 pub mod ghaednia;
 pub mod hertz;
 pub mod jackson_green;
+pub mod johnson;
 pub mod kogut_etsion;
+pub mod luding;
 pub mod ma_liu;
 pub mod power;
 pub mod stronge;
@@ -24,7 +26,9 @@ pub use brinell::Brinell;
 pub use ghaednia::Ghaednia;
 pub use hertz::Hertz;
 pub use jackson_green::JacksonGreen;
+pub use johnson::Johnson;
 pub use kogut_etsion::KogutEtsion;
+pub use luding::Luding;
 pub use ma_liu::MaLiu;
 pub use power::Power;
 pub use stronge::Stronge;
@@ -40,8 +44,8 @@ use super::segment::Segment;
 
 /// A loading law: the law's own constants, without the bodies.
 ///
-/// All indentations are in m and not negative. The curve begins at zero indentation with Hertz's law; [`WaltonBraun`]
-/// alone yields there.
+/// All indentations are in m and not negative. The curve begins at zero indentation with Hertz's law; only [`WaltonBraun`]
+/// and [`Luding`] yield there.
 pub trait Loading {
     /// The end of the elastic part; infinite if the law never yields.
     fn yield_point(&self, pair: &Pair) -> YieldPoint;
@@ -84,6 +88,7 @@ fn work_over_segments(law: &impl Loading, pair: &Pair, indentation: f64) -> f64 
 
 /// A loading law chosen while the program runs. The FMU doesn't need it: a scene names its law.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
 pub enum AnyLoading {
     /// See [`Hertz`].
     Hertz(Hertz),
@@ -117,11 +122,15 @@ pub enum AnyLoading {
     KogutEtsion(KogutEtsion),
     /// See [`VuQuocZhang`].
     VuQuocZhang(VuQuocZhang),
+    /// See [`Johnson`].
+    Johnson(Johnson),
+    /// See [`Luding`].
+    Luding(Luding),
 }
 
 impl AnyLoading {
     /// Every law under the name it has in a scene, with its reference constants.
-    pub const ALL: [(&'static str, AnyLoading); 17] = [
+    pub const ALL: [(&'static str, AnyLoading); 19] = [
         ("hertz", AnyLoading::Hertz(Hertz)),
         ("big-alabo", AnyLoading::BigAlabo(BigAlabo::REFERENCE)),
         ("brinell", AnyLoading::Brinell(Brinell::REFERENCE)),
@@ -139,6 +148,8 @@ impl AnyLoading {
         ("jackson-green", AnyLoading::JacksonGreen(JacksonGreen::REFERENCE)),
         ("kogut-etsion", AnyLoading::KogutEtsion(KogutEtsion::REFERENCE)),
         ("vu-quoc-zhang", AnyLoading::VuQuocZhang(VuQuocZhang::REFERENCE)),
+        ("johnson", AnyLoading::Johnson(Johnson::REFERENCE)),
+        ("luding", AnyLoading::Luding(Luding::REFERENCE)),
     ];
 
     /// The law itself.
@@ -160,6 +171,8 @@ impl AnyLoading {
             AnyLoading::JacksonGreen(law) => law,
             AnyLoading::KogutEtsion(law) => law,
             AnyLoading::VuQuocZhang(law) => law,
+            AnyLoading::Johnson(law) => law,
+            AnyLoading::Luding(law) => law,
         }
     }
 }

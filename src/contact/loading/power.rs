@@ -19,6 +19,7 @@ use libm::{pow, sqrt};
 ///
 /// Nothing ensures that a pair of `k` and `n` is passive: the curve must stay below Hertz's.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Power {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,

@@ -25,6 +25,7 @@ use libm::{exp, log, sqrt};
 ///
 /// Reference: W. J. Stronge, *Impact Mechanics*, Cambridge 2000, section 6.3.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Stronge {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,

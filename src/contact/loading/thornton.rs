@@ -22,6 +22,7 @@ use libm::sqrt;
 ///
 /// Reference: C. Thornton, *J. Appl. Mech.* 64 (1997) 383-386; C. Thornton, Z. Ning, *Powder Technology* 99 (1998) 154-162.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Thornton {
     /// Limiting contact pressure `p_y`, the peak of Hertz's pressure at yield, over the yield strength.
     pub peak_pressure_factor: f64,

@@ -25,6 +25,7 @@ use libm::{cbrt, sqrt};
 /// Reference: L. Vu-Quoc, X. Zhang, *Proc. R. Soc. A* 455 (1999) 4013-4044; L. Vu-Quoc, X. Zhang, L. Lesburg, *J. Appl. Mech.* 67
 /// (2000) 363-371.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct VuQuocZhang {
     /// Largest pressure at yield over the yield strength.
     pub peak_pressure_factor: f64,

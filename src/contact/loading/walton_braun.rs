@@ -18,6 +18,7 @@ use libm::sqrt;
 ///
 /// Reference: O. R. Walton, R. L. Braun, *J. Rheology* 30 (1986) 949-980.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct WaltonBraun {
     /// Mean pressure over the yield strength where Hertz's secant is taken.
     pub yield_pressure_factor: f64,

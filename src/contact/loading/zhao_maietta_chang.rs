@@ -23,6 +23,7 @@ use libm::{log, sqrt};
 ///
 /// Reference: Y. Zhao, D. M. Maietta, L. Chang, *J. Tribology* 122 (2000) 86-93.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct ZhaoMaiettaChang {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,

@@ -15,6 +15,7 @@ use libm::sqrt;
 /// `2 E*`. Within 0.4 % of `F_m` of the truth at every point of five depths; recovery within 0.8 %, dissipated energy
 /// within 0.5 %, restitution within 0.2 %. Fitted for the loading law `brinell` by `fit/fit_brinell.py`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Brinell {
     /// Size of `g`.
     pub height: f64,

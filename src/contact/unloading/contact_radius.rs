@@ -11,6 +11,7 @@ use crate::contact::segment::Segment;
 ///
 /// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 6.4(b).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct ContactRadius;
 
 impl Unloading for ContactRadius {

@@ -15,6 +15,7 @@ use libm::{cbrt, sqrt};
 /// Reference: C. Thornton, Z. Ning, *Powder Technology* 99 (1998) 154-162; used by A. Big-Alabo, P. Harrison,
 /// M. P. Cartmell, *Computers & Structures* 151 (2015) 20-29.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct DeformedRadius {
     /// Limiting pressure `p_y` over the yield strength.
     pub pressure_factor: f64,

@@ -16,6 +16,7 @@ use libm::{pow, sqrt};
 ///
 /// Reference: I. Etsion, Y. Kligerman, Y. Kadin, *Int. J. Solids Struct.* 42 (2005) 3716-3729.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Etsion {
     /// Exponent of `y_m` in one factor of the residual indentation.
     pub first_residual_exponent: f64,

@@ -12,6 +12,7 @@ use libm::{cbrt, sqrt};
 ///
 /// Reference: A. S. Yigit, A. P. Christoforou, *Composites Engineering* 4 (1994) 1143-1152.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct HertzShift;
 
 impl Unloading for HertzShift {

@@ -14,6 +14,7 @@ use libm::pow;
 ///
 /// Reference: R. L. Jackson, I. Chusoipin, I. Green, *J. Tribol.* 127 (2005) 484-493.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Jackson {
     /// Residual ratio of an infinitely deep dent.
     pub factor: f64,

@@ -9,6 +9,7 @@ pub mod deformed_radius;
 pub mod etsion;
 pub mod hertz_shift;
 pub mod jackson;
+pub mod luding;
 pub mod original_radius;
 pub mod thornton;
 pub mod vu_quoc_zhang;
@@ -20,6 +21,7 @@ pub use deformed_radius::DeformedRadius;
 pub use etsion::Etsion;
 pub use hertz_shift::HertzShift;
 pub use jackson::Jackson;
+pub use luding::Luding;
 pub use original_radius::OriginalRadius;
 pub use thornton::Thornton;
 pub use vu_quoc_zhang::VuQuocZhang;
@@ -101,6 +103,7 @@ fn hertzian(peak: &Peak, recovery: f64) -> Segment {
 
 /// An unloading law chosen while the program runs. The FMU doesn't need it: a scene names its law.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
 pub enum AnyUnloading {
     /// See [`ContactRadius`].
     ContactRadius(ContactRadius),
@@ -122,11 +125,13 @@ pub enum AnyUnloading {
     Jackson(Jackson),
     /// See [`VuQuocZhang`].
     VuQuocZhang(VuQuocZhang),
+    /// See [`Luding`].
+    Luding(Luding),
 }
 
 impl AnyUnloading {
     /// Every law under the name it has in a scene, with its reference constants.
-    pub const ALL: [(&'static str, AnyUnloading); 10] = [
+    pub const ALL: [(&'static str, AnyUnloading); 11] = [
         ("contact-radius", AnyUnloading::ContactRadius(ContactRadius)),
         ("thornton", AnyUnloading::Thornton(Thornton)),
         ("original-radius", AnyUnloading::OriginalRadius(OriginalRadius)),
@@ -137,6 +142,7 @@ impl AnyUnloading {
         ("etsion", AnyUnloading::Etsion(Etsion::REFERENCE)),
         ("jackson", AnyUnloading::Jackson(Jackson::REFERENCE)),
         ("vu-quoc-zhang", AnyUnloading::VuQuocZhang(VuQuocZhang::REFERENCE)),
+        ("luding", AnyUnloading::Luding(Luding::REFERENCE)),
     ];
 }
 
@@ -156,6 +162,7 @@ impl Unloading for AnyUnloading {
             AnyUnloading::Etsion(law) => law.path(pair, peak),
             AnyUnloading::Jackson(law) => law.path(pair, peak),
             AnyUnloading::VuQuocZhang(law) => law.path(pair, peak),
+            AnyUnloading::Luding(law) => law.path(pair, peak),
         }
     }
 

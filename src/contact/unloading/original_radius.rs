@@ -9,6 +9,7 @@ use libm::cbrt;
 ///
 /// Simple and widely used; with it the restitution falls as `v^(-1/6)` at high speed instead of Johnson's `v^(-1/4)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct OriginalRadius;
 
 impl Unloading for OriginalRadius {

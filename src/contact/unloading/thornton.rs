@@ -10,6 +10,7 @@ use libm::sqrt;
 /// Reference: C. Thornton, *J. Appl. Mech.* 64 (1997) 383-386; the same closure in M. R. W. Brake, *Int. J. Solids
 /// Struct.* 49 (2012) 3129-3141.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Thornton;
 
 impl Unloading for Thornton {

@@ -18,6 +18,7 @@ use libm::{cbrt, sqrt};
 ///
 /// Reference: L. Vu-Quoc, X. Zhang, *Proc. R. Soc. A* 455 (1999) 4013-4044.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct VuQuocZhang {
     /// `B`: relative growth of the radius of curvature for each `F_y` beyond yield.
     pub curvature: f64,

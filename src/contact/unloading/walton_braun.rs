@@ -12,6 +12,7 @@ use crate::contact::segment::Segment;
 ///
 /// Reference: O. R. Walton, R. L. Braun, *J. Rheology* 30 (1986) 949-980.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct WaltonBraun {
     /// `k_2/k_1` > 1.
     pub stiffness_ratio: f64,

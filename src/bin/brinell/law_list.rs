@@ -1,0 +1,175 @@
+//! `brinell laws`: what laws there are, and how good each is, measured when it is asked for.
+
+use crate::laws::unloading_of;
+use crate::parameters::{self, Constant};
+use crate::scene::Scene;
+use crate::table;
+use crate::truth;
+use brinell::contact::history::LARGEST_INDENTATION;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Loading, Model};
+use serde::Serialize;
+
+/// Every law.
+#[derive(Debug, Serialize)]
+pub struct List {
+    pub loading: Vec<Measured>,
+    pub unloading: Vec<Told>,
+}
+
+/// What was measured of a loading law, and what is said of it.
+#[derive(Debug, Serialize)]
+pub struct Measured {
+    pub name: &'static str,
+    pub title: &'static str,
+    /// Unloading law with which the energy was measured.
+    pub unloading: &'static str,
+    pub continuous: bool,
+    /// Largest jump of the force at a corner, relative to the force.
+    pub largest_jump: f64,
+    pub passive: bool,
+    /// Largest restitution over all depths: above 1 the law makes energy.
+    pub largest_restitution: f64,
+    /// Largest error of the loading force against the truth.
+    pub worst_error: f64,
+    /// Where, in yield indentations.
+    pub worst_at: f64,
+    /// Root mean square of that error.
+    pub rms_error: f64,
+    pub parameters: Vec<Constant>,
+    pub validity: &'static str,
+    pub notes: &'static str,
+    pub reference: &'static str,
+}
+
+/// What is said of an unloading law.
+#[derive(Debug, Serialize)]
+pub struct Told {
+    pub name: &'static str,
+    pub title: &'static str,
+    pub parameters: Vec<Constant>,
+    pub notes: &'static str,
+    pub reference: &'static str,
+}
+
+/// Every law, the loading laws measured on the bodies of `scene`.
+pub fn all(scene: &Scene) -> List {
+    let loading = AnyLoading::ALL.into_iter().map(|(name, loading)| measure(scene, name, loading)).collect();
+    let unloading = AnyUnloading::ALL.into_iter().map(|(name, law)| tell(name, &law)).collect();
+    List { loading, unloading }
+}
+
+fn tell(name: &'static str, law: &AnyUnloading) -> Told {
+    let told = table::unloading_law(name);
+    let parameters = parameters::constants(law, told);
+    Told { name, title: &told.title, parameters, notes: &told.notes, reference: &told.reference }
+}
+
+/// Jumps and surplus of energy up to this are rounding.
+const ROUNDING: f64 = 1e-12;
+
+fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
+    let (unloading_name, unloading) = unloading_of(name, scene);
+    let model = Model { loading, unloading, ..scene.model() };
+    let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
+    let force = |d: f64| loading.segment(&model.pair, d).force(d);
+    let (mut worst_error, mut worst_at, mut squares) = (0.0f64, 0.0, 0.0);
+    let points = truth::loading();
+    for point in &points {
+        let error = force(point.x * unit.indentation) / (point.f * unit.force) - 1.0;
+        squares += error * error;
+        if error.abs() > worst_error.abs() {
+            (worst_error, worst_at) = (error, point.x);
+        }
+    }
+    let mut largest_jump = 0.0f64;
+    let mut corner = loading.next_corner(&model.pair, 0.0);
+    while corner < 1e4 * unit.indentation && corner < LARGEST_INDENTATION {
+        let (below, above) = (force(corner.next_down()), force(corner));
+        let jump = (above - below) / above;
+        largest_jump = if jump.abs() > largest_jump.abs() { jump } else { largest_jump };
+        corner = loading.next_corner(&model.pair, corner);
+    }
+    let continuous = largest_jump.abs() < ROUNDING;
+    // fine enough to see the narrow range just above yield where some laws make energy
+    let depths = (0..=2000).map(|step| unit.indentation * 10f64.powf(f64::from(step) / 500.0 - 1.0));
+    let returned = |d: f64| (model.recovered_work(d, d) / loading.work(&model.pair, d)).sqrt();
+    let largest_restitution = depths.map(returned).fold(0.0, f64::max);
+    let told = table::loading_law(name);
+    Measured {
+        name,
+        title: &told.title,
+        unloading: unloading_name,
+        continuous,
+        largest_jump: if continuous { 0.0 } else { largest_jump },
+        passive: largest_restitution <= 1.0 + ROUNDING,
+        largest_restitution,
+        worst_error,
+        worst_at,
+        rms_error: (squares / points.len() as f64).sqrt(),
+        parameters: parameters::constants(&loading, told),
+        validity: &told.validity,
+        notes: &told.notes,
+        reference: &told.reference,
+    }
+}
+
+/// The list for people: a table, then a paragraph for each law.
+pub fn print(list: &List) {
+    println!("loading laws; error of the force against finite elements up to 1000 yield indentations d_y");
+    println!("(truth/README.md), on the bodies of the default scene\n");
+    println!("{:<20}{:>22}{:>9}   {:<12}energy (with this unloading law)", "law", "worst error", "rms", "continuous");
+    for law in &list.loading {
+        let percent = |value: f64| format!("{:+.1} %", 100.0 * value);
+        let jump = if law.continuous { "yes".into() } else { format!("{} jump", percent(law.largest_jump)) };
+        let energy = match law.largest_restitution {
+            _ if law.passive => format!("passive ({})", law.unloading),
+            e => format!("makes energy: restitution up to {e:.3} ({})", law.unloading),
+        };
+        let worst_at: f64 = format!("{:.3e}", law.worst_at).parse().expect("a number");
+        let worst = format!("{} at {worst_at} d_y", percent(law.worst_error));
+        let rms = format!("{:.1} %", 100.0 * law.rms_error);
+        println!("{:<20}{worst:>22}{rms:>9}   {jump:<12}{energy}", law.name);
+    }
+    println!("\nEach law with its reference constants; a scene changes them by law.loading_parameters.");
+    for law in &list.loading {
+        println!("\n{}: {}", law.name, law.title);
+        entry("parameters", &values(&law.parameters));
+        entry("validity", law.validity);
+        entry("notes", law.notes);
+        entry("reference", law.reference);
+    }
+    println!("\nunloading laws; a scene changes their constants by law.unloading_parameters");
+    for law in &list.unloading {
+        println!("\n{}: {}", law.name, law.title);
+        entry("parameters", &values(&law.parameters));
+        entry("notes", law.notes);
+        entry("reference", law.reference);
+    }
+}
+
+fn values(constants: &[Constant]) -> String {
+    let value =
+        |constant: &Constant| format!("{} = {} {}", constant.name, constant.value, constant.unit).trim_end().into();
+    let all: Vec<String> = constants.iter().map(value).collect();
+    if all.is_empty() { "none".into() } else { all.join(", ") }
+}
+
+/// Prints `text` behind its `heading`, in lines of at most 118 characters.
+fn entry(heading: &str, text: &str) {
+    const WIDTH: usize = 104;
+    let mut heading = heading;
+    let mut line = String::new();
+    for word in text.split(' ') {
+        if !line.is_empty() && line.len() + 1 + word.len() > WIDTH {
+            println!("  {heading:<12}{line}");
+            (heading, line) = ("", String::new());
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    println!("  {heading:<12}{line}");
+}

@@ -1,0 +1,194 @@
+//! The constants of a law: which there are, and the law with those that a scene gives.
+
+use crate::scene::{Mistake, unknown};
+use crate::table;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+use toml::Spanned;
+
+/// A table of constants as it stands in a scene.
+pub type Given = Spanned<BTreeMap<Spanned<String>, Spanned<toml::Value>>>;
+
+/// A constant of a law with its value, for people and programs.
+#[derive(Debug, Serialize)]
+pub struct Constant {
+    pub name: &'static str,
+    pub value: f64,
+    pub unit: &'static str,
+    pub minimum: f64,
+    pub maximum: f64,
+    pub description: &'static str,
+}
+
+/// The fields of a serialized law. An enum of laws is a table with one entry, the name of the variant, around them; a law
+/// without constants has none.
+fn fields(law: &mut Value) -> Option<&mut Map<String, Value>> {
+    let Value::Object(outer) = law else { return None };
+    let is_enum = outer.len() == 1 && outer.values().all(|value| value.is_object() || value.is_null());
+    if is_enum { outer.values_mut().next().and_then(Value::as_object_mut) } else { Some(outer) }
+}
+
+fn serialized(law: &impl Serialize) -> Value {
+    serde_json::to_value(law).expect("a law is made of numbers")
+}
+
+/// The constant `name` of `law`; `None` if it has none of this name, or a list.
+pub fn value_of(law: &impl Serialize, name: &str) -> Option<f64> {
+    fields(&mut serialized(law))?.get(name)?.as_f64()
+}
+
+/// `law` with the `given` constants in place of its own.
+///
+/// # Errors
+/// The first name that isn't a number of the law.
+pub fn with_parameters<T: Serialize + DeserializeOwned>(law: &T, given: &[(String, f64)]) -> Result<T, String> {
+    let mut tree = serialized(law);
+    for (name, value) in given {
+        match fields(&mut tree).and_then(|fields| fields.get_mut(name)) {
+            Some(field) if field.is_number() => *field = Value::from(*value),
+            _ => return Err(name.clone()),
+        }
+    }
+    Ok(serde_json::from_value(tree).expect("numbers in place of numbers"))
+}
+
+/// The constants of `law` that a scene can change, in the order of the `table`.
+pub fn constants(law: &impl Serialize, table: &'static table::Law) -> Vec<Constant> {
+    let constant = |parameter: &'static table::LawParameter| {
+        let value = value_of(law, &parameter.name).expect("a test compares the table with the laws");
+        let table::LawParameter { name, unit, minimum, maximum, description, .. } = parameter;
+        Constant { name, value, unit, minimum: *minimum, maximum: *maximum, description }
+    };
+    table.parameters.iter().map(constant).collect()
+}
+
+/// The law with the constants that the scene gives under `key` ("law.loading"), checked one by one and against each other.
+pub fn apply<T: Serialize + DeserializeOwned>(
+    law: T,
+    key: &str,
+    given: Option<&Given>,
+    table: &'static table::Law,
+) -> Result<T, Mistake> {
+    let Some(given) = given else { return Ok(law) };
+    let given = given.get_ref();
+    let mut checked = Vec::new();
+    for (name, value) in given {
+        let number = check_one(key, name, value, table)?;
+        checked.push((name.get_ref().clone(), number));
+    }
+    let law = with_parameters(&law, &checked).expect("the table names the law's own constants");
+    for parameter in &table.parameters {
+        let Some(below) = &parameter.below else { continue };
+        let value = |name: &str| value_of(&law, name).expect("the table names the law's own constants");
+        let (small, large) = (value(&parameter.name), value(below));
+        let mut mentioned = given.keys().filter(|name| *name.get_ref() == parameter.name || name.get_ref() == below);
+        if let Some(name) = mentioned.next().filter(|_| small >= large) {
+            let message = format!("{key}_parameters.{} = {small:?} must be below {below} = {large:?}", parameter.name);
+            return Err(Mistake(given[name].span(), message));
+        }
+    }
+    Ok(law)
+}
+
+/// The number that the scene gives for the constant `name`.
+fn check_one(
+    key: &str,
+    name: &Spanned<String>,
+    value: &Spanned<toml::Value>,
+    table: &table::Law,
+) -> Result<f64, Mistake> {
+    let asked = name.get_ref();
+    let law = &table.name;
+    if table.fixed.contains(asked) {
+        let message =
+            format!("{key}_parameters.{asked} belongs to the fit of `{law}` as a whole: a scene can't change it");
+        return Err(Mistake(name.span(), message));
+    }
+    let Some(parameter) = table.parameters.iter().find(|parameter| parameter.name == *asked) else {
+        let message = match table.parameters.as_slice() {
+            [] => format!("unknown parameter `{asked}` of {key} = \"{law}\", which has none"),
+            all => {
+                unknown(&format!("parameter of {key} = \"{law}\""), asked, all.iter().map(|other| other.name.as_str()))
+            }
+        };
+        return Err(Mistake(name.span(), message));
+    };
+    let number = match value.get_ref() {
+        toml::Value::Float(number) => *number,
+        toml::Value::Integer(number) => *number as f64,
+        other => {
+            let message = format!("{key}_parameters.{asked} = {other} is not a number");
+            return Err(Mistake(value.span(), message));
+        }
+    };
+    let table::LawParameter { minimum, maximum, unit, .. } = parameter;
+    if !(*minimum..=*maximum).contains(&number) {
+        let message = format!(
+            "{key}_parameters.{asked} = {number:?} is out of range: allowed is {minimum:?} to {maximum:?} {unit}"
+        );
+        return Err(Mistake(value.span(), message.trim_end().into()));
+    }
+    Ok(number)
+}
+
+/// An unloading law that shares constants with its loading law.
+struct Tie {
+    loading: &'static str,
+    unloading: &'static str,
+    /// Constants that both have, and that must be the same.
+    same: &'static [&'static str],
+    /// Constants of the loading law that the unloading law takes as published.
+    published: &'static [&'static str],
+}
+
+const TIES: [Tie; 4] = [
+    Tie { loading: "luding", unloading: "luding", same: &["stiffness_ratio", "limit_depth"], published: &[] },
+    Tie {
+        loading: "kogut-etsion",
+        unloading: "etsion",
+        same: &[],
+        published: &["hardness_factor", "yield_constant", "yield_slope"],
+    },
+    Tie { loading: "jackson-green", unloading: "jackson", same: &[], published: &["yield_constant", "yield_growth"] },
+    Tie {
+        loading: "vu-quoc-zhang",
+        unloading: "vu-quoc-zhang",
+        same: &["curvature"],
+        published: &["peak_pressure_factor"],
+    },
+];
+
+/// Refuses two laws by `(name, law)` whose constants contradict each other.
+///
+/// # Errors
+/// What must be the same, or stay as published.
+pub fn check_ties<L: Serialize, U: Serialize>(
+    (loading_name, loading, reference): (&str, &L, &L),
+    (unloading_name, unloading): (&str, &U),
+) -> Result<(), String> {
+    let mut ties = TIES.iter().filter(|tie| tie.loading == loading_name && tie.unloading == unloading_name);
+    let Some(tie) = ties.next() else { return Ok(()) };
+    for name in tie.same {
+        let (one, other) = (value_of(loading, name), value_of(unloading, name));
+        if one != other {
+            return Err(format!(
+                "`{name}` must be the same in law.loading_parameters ({:?}) and law.unloading_parameters ({:?})",
+                one.unwrap_or(f64::NAN),
+                other.unwrap_or(f64::NAN)
+            ));
+        }
+    }
+    for name in tie.published {
+        let (one, published) = (value_of(loading, name), value_of(reference, name));
+        if one != published {
+            return Err(format!(
+                "law.unloading = \"{unloading_name}\" counts in the units of \"{loading_name}\" as published: with it \
+                 `{name}` must be {:?}",
+                published.unwrap_or(f64::NAN)
+            ));
+        }
+    }
+    Ok(())
+}
