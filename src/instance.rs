@@ -42,6 +42,8 @@ pub struct Instance {
     rate: f64,
     time: f64,
     stop: f64,
+    /// Where plain steps end [s]: at the stop time while stepping, and nowhere otherwise.
+    limit: f64,
     phase: Phase,
     experiment_defined: bool,
     pair: Pair,
@@ -61,6 +63,9 @@ const TIME_TOLERANCE: f64 = 0.1;
 /// How far a step may end behind the stop time, in steps: room for the rounding of some thousand sums, far below the
 /// hundredth of a step that would be a mistake.
 const STOP_TOLERANCE: f64 = 1e-3;
+
+/// A limit before every time [s].
+const NOWHERE: f64 = -f64::MAX;
 
 /// Room for rounding of a time far from zero, as a fraction of it.
 const TIME_ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -86,6 +91,18 @@ fn start_of(pair: Pair, values: &Values) -> Result<History, Fault> {
     Ok(History::start(&scene::model(pair, values), scene::parameter(Parameter::InitialGap, values))?)
 }
 
+/// Whether `value` is neither infinite nor NaN, in the fewest instructions.
+#[inline(always)]
+fn is_finite(value: f64) -> bool {
+    // zero, or NaN for those two
+    !core::ops::Sub::sub(value, value).is_nan()
+}
+
+/// Where plain steps end in this phase [s].
+fn limit(phase: Phase, stop: f64) -> f64 {
+    if phase == Phase::StepComplete { stop } else { NOWHERE }
+}
+
 impl From<TooDeep> for Fault {
     fn from(TooDeep { indentation }: TooDeep) -> Fault {
         Fault::TooDeep { indentation }
@@ -105,6 +122,7 @@ impl Instance {
             rate: 0.0,
             time: 0.0,
             stop: f64::MAX,
+            limit: NOWHERE,
             phase: Phase::Instantiated,
             experiment_defined: false,
             pair,
@@ -118,9 +136,14 @@ impl Instance {
         self.phase
     }
 
+    fn set_phase(&mut self, phase: Phase) {
+        self.phase = phase;
+        self.limit = limit(phase, self.stop);
+    }
+
     /// After a failed call: nothing but reading, resetting and restoring is left.
     pub fn fail(&mut self) {
-        self.phase = Phase::Error;
+        self.set_phase(Phase::Error);
     }
 
     /// End of the last step [s], or the start time.
@@ -149,7 +172,7 @@ impl Instance {
         if !self.experiment_defined {
             return Err(Fault::NoExperiment);
         }
-        self.phase = Phase::Initialization;
+        self.set_phase(Phase::Initialization);
         Ok(())
     }
 
@@ -159,14 +182,14 @@ impl Instance {
         self.pair = pair_of(&self.values)?;
         self.history = start_of(self.pair, &self.values)?;
         self.check_rate(self.rate)?;
-        self.phase = Phase::StepComplete;
+        self.set_phase(Phase::StepComplete);
         Ok(())
     }
 
     /// Ends the simulation. An instance that was never initialized, or has ended already, stays as it is.
     pub fn terminate(&mut self) {
         if self.phase == Phase::StepComplete {
-            self.phase = Phase::Terminated;
+            self.set_phase(Phase::Terminated);
         }
     }
 
@@ -188,11 +211,11 @@ impl Instance {
     #[inline(always)]
     pub fn do_plain_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
-        // without a stop time `stop` is the largest number, so that an infinite step isn't plain
-        let in_order = self.phase == Phase::StepComplete
-            && step > 0.0
-            && (time - self.time).abs() <= TIME_TOLERANCE * step
-            && end <= self.stop;
+        // a step that is zero, negative or NaN is not larger than any distance; without a stop time `stop` is the largest
+        // number, so that an infinite step isn't plain
+        let follows = (time - self.time).abs() * (1.0 / TIME_TOLERANCE) < step;
+        let beyond = end > self.limit;
+        let in_order = follows && !beyond;
         let done = in_order && self.history.plain_step(self.rate, step);
         if done {
             self.time = end;
@@ -274,7 +297,7 @@ impl Instance {
     /// Sets the input and reports true if that is all there is to do: the input may be set now, and `rate` is finite.
     #[inline(always)]
     pub fn set_plain_rate(&mut self, rate: f64) -> bool {
-        let plain = self.phase == Phase::StepComplete && rate.abs() <= f64::MAX && self.history.is_finite_at_rate(rate);
+        let plain = self.phase == Phase::StepComplete && is_finite(rate) && self.history.is_finite_at_rate(rate);
         if plain {
             self.rate = rate;
         }
@@ -356,6 +379,7 @@ impl Instance {
             rate,
             time,
             stop,
+            limit: limit(phase, stop),
             phase,
             experiment_defined: experiment_defined == 1,
             pair,

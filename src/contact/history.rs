@@ -17,6 +17,9 @@ const FARTHEST: f64 = (-LARGEST_INDENTATION).next_up();
 /// The smallest positive indentation [m]: an elastic contact is open at zero and closed here.
 const TOUCHING: f64 = f64::from_bits(1);
 
+/// The least increment of a branch that is followed both ways [m].
+const ANY: f64 = -f64::MAX;
+
 /// Which part of the law a contact is on. The numbers are those of the variable `regime`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
@@ -50,6 +53,9 @@ pub struct History {
     indentation: Sum,
     max_indentation: f64,
     segment: Segment,
+    /// The smallest increment that leaves the contact on its branch [m]: zero on the loading curve, where the way back is
+    /// another.
+    least_increment: f64,
     regime: Regime,
     /// Energy lost in dents that were left behind [J] ([`Surface::Fresh`]).
     left_behind: f64,
@@ -69,7 +75,7 @@ impl Regime {
 
 impl History {
     /// Number of words that hold a history.
-    pub const WORDS: usize = 12;
+    pub const WORDS: usize = 13;
 
     /// A contact at `gap` [m] before any motion; a negative gap is an indentation reached along the loading curve.
     pub fn start<L: Loading, U: Unloading>(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
@@ -78,10 +84,11 @@ impl History {
             indentation: Sum::new(0.0 - gap),
             max_indentation: 0.0,
             segment: Segment::apart(0.0, 0.0),
+            least_increment: ANY,
             regime: Regime::Apart,
             left_behind: 0.0,
         };
-        let indentation = history.indentation.value;
+        let indentation = history.indentation();
         history.enter(model, indentation, false)?;
         Ok(history)
     }
@@ -98,8 +105,10 @@ impl History {
         if !self.advance_on_branch(increment) {
             let sum = self.indentation.plus(increment);
             // no motion, no other branch: at its very end a branch that was entered from below is still the right one
-            if sum.value != self.indentation.value {
-                self.enter(&model(), sum.value, increment > 0.0)?;
+            // what overflows has no rest
+            let indentation = if sum.value.is_finite() { sum.total() } else { sum.value };
+            if indentation != self.indentation.total() {
+                self.enter(&model(), indentation, increment > 0.0)?;
             }
             self.indentation = sum;
         }
@@ -129,20 +138,14 @@ impl History {
     #[inline(always)]
     pub fn advance_on_branch(&mut self, increment: f64) -> bool {
         let sum = self.indentation.plus(increment);
-        let indentation = sum.value;
-        let stays = self.segment.contains(indentation);
+        let indentation = sum.total();
+        // a NaN is not above the lower end
+        let leaves = indentation >= self.segment.upper || increment < self.least_increment;
+        let stays = indentation >= self.segment.lower && !leaves;
         if stays {
-            self.max_indentation = if indentation > self.max_indentation { indentation } else { self.max_indentation };
-            self.segment.lower = if self.yields() { indentation } else { self.segment.lower };
             self.indentation = sum;
         }
         stays
-    }
-
-    /// Whether the contact is yielding now: then the way back leads to another branch.
-    #[inline]
-    fn yields(&self) -> bool {
-        matches!(self.regime, Regime::ElastoplasticFirst | Regime::ElastoplasticSecond | Regime::FullyPlastic)
     }
 
     /// Finds the branch that holds at `indentation`; at a corner the one that lies in the direction of motion.
@@ -158,6 +161,8 @@ impl History {
         if !within {
             return Err(TooDeep { indentation });
         }
+        // on the loading curve the largest indentation is the present one
+        self.max_indentation = self.max_indentation();
         if model.surface == Surface::Fresh && indentation <= 0.0 && self.has_parted(model, indentation) {
             self.left_behind += self.dissipated_in_dent(model);
             self.max_indentation = 0.0;
@@ -166,14 +171,15 @@ impl History {
             self.max_indentation = indentation;
         }
         let largest = self.max_indentation;
+        self.least_increment = ANY;
         if indentation > 0.0 && indentation >= largest {
             self.regime = model.loading.regime(&model.pair, indentation);
-            let lower = if self.yields() { indentation } else { TOUCHING };
-            self.segment = Segment { lower, ..model.loading.segment(&model.pair, indentation) };
+            self.segment = Segment { lower: indentation, ..model.loading.segment(&model.pair, indentation) };
+            self.least_increment = 0.0;
         } else if model.is_elastic_at(largest) {
             if indentation > 0.0 {
                 self.regime = Regime::Elastic;
-                self.segment = Segment { lower: TOUCHING, ..model.loading.segment(&model.pair, 0.0) };
+                self.segment = Segment { lower: TOUCHING, upper: largest, ..model.loading.segment(&model.pair, 0.0) };
             } else {
                 self.regime = Regime::Apart;
                 self.segment = Segment::apart(FARTHEST, TOUCHING);
@@ -198,19 +204,20 @@ impl History {
 
     /// Whether there is no contact at `indentation` [m] <= 0. Laws that make energy may hold on beyond the original surface.
     fn has_parted<L: Loading, U: Unloading>(&self, model: &Model<L, U>, indentation: f64) -> bool {
-        let largest = self.max_indentation;
+        let largest = self.max_indentation();
         model.is_elastic_at(largest) || indentation <= model.unloading_path(largest).lower
     }
 
     /// Indentation [m]; negative while apart.
     #[inline]
     pub fn indentation(&self) -> f64 {
-        self.indentation.value
+        self.indentation.total()
     }
 
     /// Largest indentation of the present dent [m].
     pub fn max_indentation(&self) -> f64 {
-        self.max_indentation
+        let indentation = self.indentation();
+        if indentation > self.max_indentation { indentation } else { self.max_indentation }
     }
 
     /// The part of the law the contact is on.
@@ -221,7 +228,7 @@ impl History {
     /// Normal force [N], compressive positive; exactly zero while apart.
     #[inline]
     pub fn force(&self) -> f64 {
-        self.segment.force(self.indentation.value)
+        self.segment.force_inside(self.indentation.total())
     }
 
     /// The force, which doesn't depend on the rate [N].
@@ -238,7 +245,7 @@ impl History {
 
     /// dF/d(indentation) on the present branch [N/m]; at a corner the one in the direction of the last motion.
     pub fn stiffness(&self) -> f64 {
-        self.segment.stiffness(self.indentation.value)
+        self.segment.stiffness(self.indentation.total())
     }
 
     /// The stiffness, which doesn't depend on the rate [N/m].
@@ -248,18 +255,22 @@ impl History {
 
     /// Depth of the dent that would remain if the load were taken off now [m].
     pub fn residual_indentation<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
-        if model.is_elastic_at(self.max_indentation) { 0.0 } else { model.unloading_path(self.max_indentation).lower }
+        if model.is_elastic_at(self.max_indentation()) {
+            0.0
+        } else {
+            model.unloading_path(self.max_indentation()).lower
+        }
     }
 
     /// Contact radius [m], 0 while apart: that of the loading law up to the largest indentation, and from there down
     /// that of the unloading law.
     pub fn contact_radius<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
-        let indentation = self.indentation.value;
+        let indentation = self.indentation.total();
         match self.regime {
             Regime::Apart => 0.0,
             Regime::Unloaded => {
-                let path = model.unloading_path(self.max_indentation);
-                let peak = model.peak(self.max_indentation);
+                let path = model.unloading_path(self.max_indentation());
+                let peak = model.peak(self.max_indentation());
                 model.unloading.contact_radius(&model.pair, &peak, &path, indentation)
             }
             _ => model.loading.contact_radius(&model.pair, indentation),
@@ -281,8 +292,8 @@ impl History {
     pub fn elastic_energy<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         match self.regime {
             Regime::Apart => 0.0,
-            Regime::Elastic => model.loading.work(&model.pair, self.indentation.value),
-            _ => model.recovered_work(self.max_indentation, self.indentation.value),
+            Regime::Elastic => model.loading.work(&model.pair, self.indentation.total()),
+            _ => model.recovered_work(self.max_indentation(), self.indentation.total()),
         }
     }
 
@@ -293,7 +304,7 @@ impl History {
 
     /// Loading work up to the largest indentation, less what unloading from there gives back [J].
     fn dissipated_in_dent<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
-        let largest = self.max_indentation;
+        let largest = self.max_indentation();
         if model.is_elastic_at(largest) {
             return 0.0;
         }
@@ -310,12 +321,12 @@ impl History {
     pub fn to_words(&self) -> [u64; History::WORDS] {
         let Segment { lower, upper, origin, constant, linear, power, square } = self.segment;
         let Sum { value, rest } = self.indentation;
-        let state = [value, rest, self.max_indentation, self.left_behind].map(f64::to_bits);
+        let state = [value, rest, self.max_indentation, self.left_behind, self.least_increment].map(f64::to_bits);
         let segment = [lower, upper, origin, constant, linear, power, square].map(f64::to_bits);
-        let [value, rest, largest, left_behind] = state;
+        let [value, rest, largest, left_behind, least] = state;
         let [lower, upper, origin, constant, linear, power, square] = segment;
         let regime = self.regime as u64;
-        [value, rest, largest, left_behind, lower, upper, origin, constant, linear, power, square, regime]
+        [value, rest, largest, left_behind, least, lower, upper, origin, constant, linear, power, square, regime]
     }
 
     /// The history of a contact by `model` that [`History::to_words`] stored; `None` if a word is not a finite number or not a regime.
@@ -324,13 +335,14 @@ impl History {
         if numbers.iter().any(|number| !number.is_finite()) {
             return None;
         }
-        let [value, rest, max_indentation, left_behind, lower, upper, origin, constant, linear, power, square] =
-            numbers;
+        let [value, rest, max_indentation, left_behind, least_increment, segment @ ..] = numbers;
+        let [lower, upper, origin, constant, linear, power, square] = segment;
         let regime = Regime::ALL.into_iter().find(|&candidate| candidate as u64 == regime.to_bits())?;
         Some(History {
             indentation: Sum { value, rest },
             max_indentation,
             segment: Segment { lower, upper, origin, constant, linear, power, square },
+            least_increment,
             regime,
             left_behind,
         })

@@ -1,5 +1,6 @@
 //! One branch of a force-indentation curve.
 
+use super::history::LARGEST_INDENTATION;
 use libm::sqrt;
 
 /// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5 + c3 z^2`, `z = indentation - origin`.
@@ -31,7 +32,7 @@ impl Segment {
 
     /// Apart: no force, over `[lower, upper)` [m].
     pub const fn apart(lower: f64, upper: f64) -> Segment {
-        Segment { lower, upper, ..Segment::NOTHING }
+        Segment { lower, upper, origin: -LARGEST_INDENTATION, ..Segment::NOTHING }
     }
 
     /// The tangent of a curve that has no segments, at `indentation` [m] with `force` [N] and `stiffness` [N/m]. It holds at
@@ -64,6 +65,13 @@ impl Segment {
     #[inline]
     pub fn force(&self, indentation: f64) -> f64 {
         let z = self.above_origin(indentation);
+        self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
+    }
+
+    /// Force at an `indentation` [m] that the branch [contains](Segment::contains), which is never below its origin [N].
+    #[inline(always)]
+    pub fn force_inside(&self, indentation: f64) -> f64 {
+        let z = indentation - self.origin;
         self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
     }
 

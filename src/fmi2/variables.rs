@@ -18,9 +18,9 @@ fn real(reference: fmi2ValueReference) -> Result<Real, Fault> {
 /// # Safety
 /// A pointer to references that isn't null points to as many as announced.
 #[inline(always)]
-unsafe fn is_for<T>(wanted: Real, vr: *const fmi2ValueReference, nvr: usize, value: *const T) -> bool {
+unsafe fn is_for(wanted: Real, vr: *const fmi2ValueReference, nvr: usize) -> bool {
     // SAFETY: as the caller promises.
-    unsafe { nvr == 1 && !vr.is_null() && !value.is_null() && scene::real(*vr) == Some(wanted) }
+    unsafe { nvr == 1 && !vr.is_null() && scene::real(*vr) == Some(wanted) }
 }
 
 /// Reads Real variables.
@@ -33,9 +33,10 @@ pub unsafe extern "C" fn fmi2GetReal(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        if is_for(Real::Force, vr, nvr, value)
+        if is_for(Real::Force, vr, nvr)
             && let Some(component) = component(c)
             && let Some(force) = component.instance.plain_force()
+            && !value.is_null()
         {
             *value = force;
             return fmi2OK;
@@ -100,8 +101,9 @@ pub unsafe extern "C" fn fmi2SetReal(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        if is_for(Real::IndentationRate, vr, nvr, value)
+        if is_for(Real::IndentationRate, vr, nvr)
             && let Some(component) = component(c)
+            && !value.is_null()
             && component.instance.set_plain_rate(*value)
         {
             return fmi2OK;

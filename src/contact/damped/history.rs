@@ -52,8 +52,8 @@ impl<D: Damped + Copy> History<D> {
     /// [`TooDeep`] as for [`History::start`], and where force or heat would be beyond all numbers; the history is left as it was.
     pub fn step(&mut self, rate: f64, step: f64, _model: impl FnOnce() -> Model<D>) -> Result<(), TooDeep> {
         let sum = self.indentation.plus(rate * step);
-        let to = within(sum.value)?;
-        let from = self.indentation.value;
+        let to = within(sum.total())?;
+        let from = self.indentation.total();
         let mut next = *self;
         let touches = if from > 0.0 { self.touch_speed <= 0.0 } else { to > 0.0 };
         if touches && rate > 0.0 {
@@ -67,7 +67,7 @@ impl<D: Damped + Copy> History<D> {
         next.dissipated = self.dissipated.plus(next.dissipation(positive(from), positive(to), rate));
         next.indentation = sum;
         // written positively, so that a NaN fails
-        let finite = next.is_finite_at_rate(rate) && next.stored() + next.dissipated.value < f64::INFINITY;
+        let finite = next.is_finite_at_rate(rate) && next.stored() + next.dissipated.total() < f64::INFINITY;
         if !finite {
             return Err(TooDeep { indentation: to });
         }
@@ -98,21 +98,21 @@ impl<D: Damped + Copy> History<D> {
     /// Whether force, stiffness and pressure are numbers with `rate` [m/s]: a contact that was touched at next to no speed can
     /// have more damping than there are numbers.
     pub fn is_finite_at_rate(&self, rate: f64) -> bool {
-        let indentation = self.indentation.value;
+        let indentation = self.indentation.total();
         // pressure and stiffness are forces over lengths, and these are their sizes
         indentation <= 0.0 || self.force_at_rate(rate) * ROOM / indentation < f64::INFINITY
     }
 
     /// Normal force with `rate` [m/s], [N]; zero while apart, and where the surface would have to pull.
     pub fn force_at_rate(&self, rate: f64) -> f64 {
-        let indentation = self.indentation.value;
+        let indentation = self.indentation.total();
         let force = if indentation > 0.0 { self.sum_of_forces(indentation, rate) } else { 0.0 };
         if force > 0.0 { force } else { 0.0 }
     }
 
     /// dF/d(indentation) with `rate` held [N/m]; zero where there is no force.
     pub fn stiffness_at_rate(&self, rate: f64) -> f64 {
-        let indentation = self.indentation.value;
+        let indentation = self.indentation.total();
         if self.force_at_rate(rate) > 0.0 {
             self.factors.elastic * self.law.elastic(indentation).slope
                 + self.damping_factor() * rate * self.law.damping(indentation).slope
@@ -180,7 +180,7 @@ impl<D: Damped + Copy> History<D> {
 
     /// Indentation [m]; negative while apart.
     pub fn indentation(&self) -> f64 {
-        self.indentation.value
+        self.indentation.total()
     }
 
     /// Largest indentation of the present contact, or of the last one [m].
@@ -195,12 +195,12 @@ impl<D: Damped + Copy> History<D> {
 
     /// Elastic while the surface is pressed in.
     pub fn regime(&self) -> Regime {
-        if self.indentation.value > 0.0 { Regime::Elastic } else { Regime::Apart }
+        if self.indentation.total() > 0.0 { Regime::Elastic } else { Regime::Apart }
     }
 
     /// Contact radius of Hertz, `a^2 = R d` [m]; 0 while apart.
     pub fn contact_radius(&self, model: &Model<D>) -> f64 {
-        let indentation = self.indentation.value;
+        let indentation = self.indentation.total();
         if indentation > 0.0 { sqrt(model.pair.radius * indentation) } else { 0.0 }
     }
 
@@ -216,13 +216,13 @@ impl<D: Damped + Copy> History<D> {
     }
 
     fn stored(&self) -> f64 {
-        let indentation = self.indentation.value;
+        let indentation = self.indentation.total();
         if indentation > 0.0 { self.factors.elastic * self.law.elastic(indentation).integral } else { 0.0 }
     }
 
     /// Work turned into heat since the start [J]: summed step by step, each exactly for its held rate.
     pub fn dissipated_energy(&self, _model: &Model<D>) -> f64 {
-        self.dissipated.value
+        self.dissipated.total()
     }
 
     /// Work done on the contact by the bodies since the start [J]. A contact that starts pressed in counts the way there
