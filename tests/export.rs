@@ -160,7 +160,9 @@ fn every_scene_is_exported_and_agrees_with_its_prediction() {
         assert_eq!(fs::metadata(folder.path().join(unit)).unwrap().len(), export["size"].as_u64().unwrap());
         let check = run(folder.path(), ["check", unit, "--json"]).with_status(0).json();
         assert_eq!(check["passed"], true, "{check}");
-        assert_eq!(check["rows"].as_array().expect("rows").len(), 5, "{check}");
+        // a rate-dependent law leaves no dent to compare
+        let rows = if unit == "damped.fmu" { 4 } else { 5 };
+        assert_eq!(check["rows"].as_array().expect("rows").len(), rows, "{check}");
         assert_eq!(check["variables"].as_u64(), export["variables"].as_array().map(|list| list.len() as u64));
     }
 }
