@@ -33,6 +33,8 @@ pub struct Scene {
     /// Unloading gives back no more than loading took.
     pub passivity_guard: bool,
     pub surface: Surface,
+    /// Yield strength of the target [Pa], if it has one, whether or not the scene's law asks for it.
+    pub yield_strength: Option<f64>,
     pub impact: Impact,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
     pub impact_is_assumed: bool,
@@ -245,6 +247,7 @@ fn check(file: File) -> Result<Scene, Mistake> {
         return Err(Mistake(given.map_or(0..0, Spanned::span), message.into()));
     }
     let damped = find_damped(&file.law)?;
+    let yield_strength = strength.as_ref().map(|strength| *strength.get_ref());
     let loading = match damped {
         Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
         None => check_loading(&file.law, strength.is_some())?,
@@ -301,6 +304,7 @@ fn check(file: File) -> Result<Scene, Mistake> {
         damped,
         passivity_guard,
         surface,
+        yield_strength,
         impact,
         impact_is_assumed,
         text: String::new(),
