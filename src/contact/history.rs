@@ -148,6 +148,21 @@ impl History {
         stays
     }
 
+    /// Puts the contact at `indentation` [m] exactly; at a corner on the branch that lies in the direction of motion.
+    ///
+    /// # Errors
+    /// As for [`History::advance`].
+    pub(super) fn go_to<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        indentation: f64,
+        rising: bool,
+    ) -> Result<(), TooDeep> {
+        self.enter(model, indentation, rising)?;
+        self.indentation = Sum::new(indentation);
+        Ok(())
+    }
+
     /// Finds the branch that holds at `indentation`; at a corner the one that lies in the direction of motion.
     #[cold]
     #[inline(never)]

@@ -15,6 +15,9 @@
 //! | [`quadrature`] | work and time where there is no closed form |
 //! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | what an impact will do, from the energy balance |
+//! | [`piece`] | the smooth pieces along which a contact moves |
+//! | [`momentum`] | the integral of force over time |
+//! | [`motion`] | a contact that knows the mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
 
 pub mod damped;
@@ -23,7 +26,10 @@ pub mod history;
 pub mod impact;
 pub mod loading;
 pub mod material;
+pub mod momentum;
+pub mod motion;
 pub mod path;
+pub mod piece;
 pub mod quadrature;
 pub mod segment;
 pub mod unloading;

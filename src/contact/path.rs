@@ -1,4 +1,6 @@
-//! The indentation over time: a sum that loses nothing.
+//! The indentation over time: its course over a step, and a sum that loses nothing.
+
+use libm::sqrt;
 
 /// A sum of many small increments, carried to twice the precision of `f64`.
 ///
@@ -35,5 +37,57 @@ impl Sum {
     #[inline(always)]
     pub fn total(self) -> f64 {
         self.value + self.rest
+    }
+}
+
+/// The rate over one step: `rate + slope t + bend t^2/2`. The indentation is then a polynomial of third degree.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Course {
+    /// Rate at the start of the step [m/s].
+    pub rate: f64,
+    /// Its first derivative [m/s^2].
+    pub slope: f64,
+    /// Its second derivative [m/s^3].
+    pub bend: f64,
+}
+
+impl Course {
+    /// The rate held.
+    pub const fn held(rate: f64) -> Course {
+        Course { rate, slope: 0.0, bend: 0.0 }
+    }
+
+    /// Whether the rate is held.
+    #[inline(always)]
+    pub fn is_held(&self) -> bool {
+        self.slope == 0.0 && self.bend == 0.0
+    }
+
+    /// The rate after `time` [s], [m/s].
+    pub fn rate_after(&self, time: f64) -> f64 {
+        self.rate + time * (self.slope + 0.5 * self.bend * time)
+    }
+
+    /// The way after `time` [s], [m].
+    pub fn way(&self, time: f64) -> f64 {
+        time * (self.rate + time * (0.5 * self.slope + self.bend * time / 6.0))
+    }
+
+    /// The ends of the monotone parts of a step [s]: where the rate changes its sign inside of it, in order, and the end of the
+    /// step for the parts that there aren't.
+    pub fn monotone_ends(&self, step: f64) -> [f64; 3] {
+        let inside = |time: f64| if time > 0.0 && time < step { time } else { step };
+        let half = 0.5 * self.slope;
+        let discriminant = half * half - 0.5 * self.bend * self.rate;
+        // no real root, or one that only touches: the sign doesn't change
+        let negative = discriminant <= 0.0 && self.bend != 0.0;
+        if negative || self.is_held() {
+            return [step; 3];
+        }
+        // the two roots of bend t^2/2 + slope t + rate, in the form that doesn't cancel
+        let q = -(half + if half >= 0.0 { sqrt(discriminant) } else { -sqrt(discriminant) });
+        let one = if self.bend != 0.0 { inside(q / (0.5 * self.bend)) } else { step };
+        let other = if q != 0.0 { inside(self.rate / q) } else { step };
+        if one < other { [one, other, step] } else { [other, one, step] }
     }
 }

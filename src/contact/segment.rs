@@ -75,6 +75,23 @@ impl Segment {
         self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
     }
 
+    /// Mean of the force over the way `from`..`to` [m], in either direction, in a form that doesn't cancel on a short one [N].
+    pub fn mean_force(&self, from: f64, to: f64) -> f64 {
+        let (y, z) = (self.above_origin(from), self.above_origin(to));
+        let (p, q) = (sqrt(y), sqrt(z));
+        // (q^5 - p^5)/(q^2 - p^2); both may be zero
+        let powers = if p + q > 0.0 { (y * y + z * z + p * q * (y + z + p * q)) / (p + q) } else { 0.0 };
+        self.constant
+            + 0.5 * self.linear * (y + z)
+            + 0.4 * self.power * powers
+            + self.square * (y * y + y * z + z * z) / 3.0
+    }
+
+    /// d2F/d(indentation)^2 [N/m^2]; infinite where a power begins.
+    pub fn curvature(&self, indentation: f64) -> f64 {
+        0.75 * self.power / sqrt(self.above_origin(indentation)) + 2.0 * self.square
+    }
+
     /// dF/d(indentation) [N/m].
     #[inline]
     pub fn stiffness(&self, indentation: f64) -> f64 {

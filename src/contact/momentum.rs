@@ -1,0 +1,110 @@
+//! The integral of force over time: what a step does to the momentum of the bodies.
+
+use super::history::{History, TooDeep};
+use super::loading::Loading;
+use super::path::Course;
+use super::piece::Piece;
+use super::quadrature::{gauss, graded_integral};
+use super::unloading::Unloading;
+use super::{Model, Surface};
+use libm::fabs;
+
+/// Impulse [N.s] of a step on `course` over `step` [s] from where the contact is, which stays where it is.
+///
+/// The way is cut where the direction changes and where the law has a corner. On each part the force is smooth in time and
+/// is integrated in closed form if the rate is held and the law has segments, else by Gauss's rule, to rounding.
+///
+/// # Errors
+/// [`TooDeep`] as for [`History::advance`].
+pub fn impulse<L: Loading, U: Unloading>(
+    history: &History,
+    model: &Model<L, U>,
+    course: &Course,
+    step: f64,
+) -> Result<f64, TooDeep> {
+    let mut walk = Walk { contact: *history, model, course, origin: history.indentation(), time: 0.0, impulse: 0.0 };
+    for end in course.monotone_ends(step) {
+        while walk.time < end {
+            walk.go_on(end)?;
+        }
+    }
+    Ok(walk.impulse)
+}
+
+/// A contact on its way through a step.
+struct Walk<'a, L, U> {
+    contact: History,
+    model: &'a Model<L, U>,
+    course: &'a Course,
+    /// Indentation at the start of the step [m].
+    origin: f64,
+    /// Time since then [s].
+    time: f64,
+    impulse: f64,
+}
+
+impl<L: Loading, U: Unloading> Walk<'_, L, U> {
+    /// Indentation after `time` [m].
+    fn at(&self, time: f64) -> f64 {
+        self.origin + self.course.way(time)
+    }
+
+    /// Goes on in one direction, to `end` [s] or to the next corner of the law.
+    fn go_on(&mut self, end: f64) -> Result<(), TooDeep> {
+        let (from, to) = (self.contact.indentation(), self.at(end));
+        let rising = to > from;
+        let surface = self.contact.residual_indentation(self.model);
+        let touches = from > surface || (from == surface && rising);
+        if !touches {
+            // a fresh surface forgets the dent at zero
+            let forgets = !rising && self.model.surface == Surface::Fresh && from > 0.0 && to < 0.0;
+            let border = if rising { surface } else { 0.0 };
+            let stops = (rising && to > surface) || forgets;
+            let (time, goal) = if stops { (self.when(border, end), border) } else { (end, to) };
+            self.time = time;
+            return self.contact.go_to(self.model, goal, rising);
+        }
+        let piece = Piece::of(&self.contact, self.model, rising);
+        let leaves = if rising { to > piece.upper } else { to < piece.lower };
+        let border = if rising { piece.upper } else { piece.lower };
+        let (time, goal) = if leaves { (self.when(border, end), border) } else { (end, to) };
+        self.impulse += self.over(&piece, (self.time, time), (from, goal));
+        self.time = time;
+        self.contact.go_to(self.model, goal, rising)
+    }
+
+    /// Impulse over the smooth `piece`, from one time and indentation to another.
+    fn over(&self, piece: &Piece<'_, L, U>, (start, end): (f64, f64), (from, to): (f64, f64)) -> f64 {
+        if self.course.is_held()
+            && let Some(segment) = piece.whole()
+        {
+            return (end - start) * segment.mean_force(from, to);
+        }
+        let force = |time: f64| piece.force(self.at(time));
+        // where the force begins at the surface it is a fractional power
+        let nearest = if from < to { from } else { to };
+        if nearest - piece.lower > fabs(to - from) {
+            gauss(start, end, &force)
+        } else {
+            graded_integral(start, end, &force)
+        }
+    }
+
+    /// When, between now and `end` [s], the indentation is `border` [m]: Newton's method in a bracket.
+    fn when(&self, border: f64, end: f64) -> f64 {
+        let (mut low, mut high) = (self.time, end);
+        let below_at_end = self.at(end) < border;
+        let mut time = 0.5 * (low + high);
+        for _ in 0..200 {
+            let beyond = self.at(time) - border;
+            *(if (beyond < 0.0) == below_at_end { &mut high } else { &mut low }) = time;
+            let newton = time - beyond / self.course.rate_after(time);
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if next == time || beyond == 0.0 || !(next > low && next < high) {
+                break;
+            }
+            time = next;
+        }
+        if time < end { time } else { end }
+    }
+}

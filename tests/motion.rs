@@ -1,0 +1,146 @@
+//! A contact that knows the mass: its motion inside of one step.
+
+#[path = "support/physics.rs"]
+mod physics;
+
+use brinell::contact::impact::{Impact, predict};
+use brinell::contact::motion::{Drive, NoMotion, Outcome, follow};
+use brinell::contact::{History, Surface};
+use physics::{AnyModel, MASS, all_models, mild, model, unit};
+
+fn go(history: &mut History, model: &AnyModel, acceleration: f64, speed: f64, step: f64) -> Outcome {
+    follow(history, model, &Drive { mass: MASS, acceleration }, speed, step).expect("within range")
+}
+
+fn assert_close(what: &str, value: f64, expected: f64, tolerance: f64) {
+    let error = (value / expected - 1.0).abs();
+    assert!(error <= tolerance, "{what}: {value:e} instead of {expected:e}, off by {error:e}");
+}
+
+#[test]
+fn one_step_over_a_whole_impact_gives_the_predicted_rebound() {
+    for (name, model) in all_models(mild()) {
+        for speed in [1e-3, 0.03, 1.0, 20.0] {
+            let prediction = predict(&model, &Impact { mass: MASS, speed }).expect("within range");
+            let mut history = History::start(&model, 0.0).unwrap();
+            let outcome = go(&mut history, &model, 0.0, speed, 2.0 * prediction.contact_time());
+            let name = format!("{name} at {speed} m/s ({} evaluations)", outcome.evaluations);
+            assert_close(&format!("{name}: restitution"), -outcome.speed / speed, prediction.restitution, 1e-11);
+            assert_close(&format!("{name}: depth"), history.max_indentation(), prediction.max_indentation, 1e-11);
+            assert_eq!(history.force(), 0.0, "{name}");
+            // apart since the end of the contact; the quadrature of the prediction has the last digits of its energies only
+            let flown = prediction.residual_indentation - history.indentation();
+            let time = 2.0 * prediction.contact_time() + flown / outcome.speed;
+            assert_close(&format!("{name}: contact time"), time, prediction.contact_time(), 1e-7);
+        }
+    }
+}
+
+#[test]
+fn it_does_not_matter_how_time_is_cut() {
+    for (name, model) in all_models(mild()) {
+        let steps = |count: u32| {
+            let mut history = History::start(&model, 1e-6).unwrap();
+            let mut speed = 0.7;
+            for _ in 0..count {
+                speed = go(&mut history, &model, 9.81, speed, 60e-6 / f64::from(count)).speed;
+            }
+            (history.indentation(), speed)
+        };
+        let (indentation, speed) = steps(1);
+        for count in [2, 7, 100] {
+            let (other, other_speed) = steps(count);
+            assert!((other - indentation).abs() < 1e-11 * 1e-5, "{name}: {other:e}, {indentation:e} in one step");
+            assert_close(&name, other_speed, speed, 1e-10);
+        }
+    }
+}
+
+/// Energy of motion, of position in the field of the acceleration, and of the contact [J].
+fn energy(history: &History, model: &AnyModel, acceleration: f64, speed: f64) -> f64 {
+    0.5 * MASS * speed * speed - MASS * acceleration * history.indentation() + history.work(model)
+}
+
+#[test]
+fn a_ball_that_is_pressed_bounces_and_keeps_its_energy() {
+    for surface in [Surface::Dented, Surface::Fresh] {
+        for (name, model) in all_models(mild()) {
+            // what makes energy has none to keep
+            if !physics::is_passive(&model) {
+                continue;
+            }
+            let model = AnyModel { surface, ..model };
+            let (acceleration, mut speed) = (2000.0, 0.0);
+            let mut history = History::start(&model, 20e-6).unwrap();
+            let before = energy(&history, &model, acceleration, speed);
+            let mut bounces = 0;
+            for _ in 0..40 {
+                let outcome = go(&mut history, &model, acceleration, speed, 50e-6);
+                bounces += u32::from(outcome.speed < 0.0 && speed >= 0.0);
+                speed = outcome.speed;
+                let now = energy(&history, &model, acceleration, speed);
+                let scale = 0.5 * MASS * 0.3 * 0.3;
+                assert!((now - before).abs() < 1e-10 * scale, "{name}: {now:e} J instead of {before:e} J");
+            }
+            assert!(bounces >= 2, "{name}: {bounces} bounces were seen");
+        }
+    }
+}
+
+#[test]
+fn a_second_with_many_bounces_is_one_step() {
+    let model = model("big-alabo", "contact-radius");
+    let mut history = History::start(&model, 1e-3).unwrap();
+    let outcome = go(&mut history, &model, 9.81, 0.1, 1.0);
+    let scale = 0.5 * MASS * 0.2 * 0.2;
+    let now = energy(&history, &model, 9.81, outcome.speed) - 0.5 * MASS * 0.01 - MASS * 9.81 * 1e-3;
+    assert!(now.abs() < 1e-9 * scale, "off by {now:e} J of {scale:e} J");
+    assert!(outcome.evaluations > 3000, "several contacts need some evaluations: {}", outcome.evaluations);
+}
+
+#[test]
+fn a_body_at_rest_on_the_surface_is_carried() {
+    // the force of a contact in balance with the acceleration
+    let model = model("hertz", "contact-radius");
+    let depth = unit(&mild()).indentation;
+    let mut history = History::start(&model, -depth).unwrap();
+    let acceleration = history.force() / MASS;
+    let outcome = go(&mut history, &model, acceleration, 0.0, 1e-3);
+    assert!(outcome.speed.abs() < 1e-12, "{outcome:?}");
+    assert!((history.indentation() / depth - 1.0).abs() < 1e-10);
+}
+
+#[test]
+fn bodies_that_part_fly_on() {
+    let model = model("big-alabo", "contact-radius");
+    let mut history = History::start(&model, 1e-3).unwrap();
+    let outcome = go(&mut history, &model, -5.0, -0.5, 0.1);
+    assert_eq!((outcome.evaluations, history.force()), (0, 0.0));
+    assert_close("gap", -history.indentation(), 1e-3 + 0.05 + 0.5 * 5.0 * 0.01, 1e-14);
+    assert_close("speed", outcome.speed, -1.0, 1e-15);
+}
+
+#[test]
+fn a_step_with_more_bounces_than_can_be_followed_is_refused() {
+    let model = model("hertz", "contact-radius");
+    let mut history = History::start(&model, 1e-9).unwrap();
+    let refused = follow(&mut history, &model, &Drive { mass: MASS, acceleration: 1e5 }, 0.0, 1e4);
+    assert_eq!(refused, Err(NoMotion::TooLong));
+    let mut history = History::start(&model, 0.0).unwrap();
+    let deep = follow(&mut history, &model, &Drive { mass: 1e300, acceleration: 0.0 }, 1e10, 1e200);
+    assert!(matches!(deep, Err(NoMotion::TooDeep(_) | NoMotion::TooLong)), "{deep:?}");
+}
+
+#[test]
+fn an_impact_takes_a_bounded_number_of_evaluations() {
+    let mut most = 0;
+    for (name, model) in all_models(mild()) {
+        for speed in [1e-4, 1e-2, 1.0, 50.0] {
+            let time = 2.0 * predict(&model, &Impact { mass: MASS, speed }).unwrap().contact_time();
+            let outcome = go(&mut History::start(&model, 0.0).unwrap(), &model, 0.0, speed, time);
+            assert!(outcome.evaluations < 8000, "{name} at {speed} m/s: {} evaluations", outcome.evaluations);
+            most = most.max(outcome.evaluations);
+        }
+    }
+    println!("at most {most} evaluations");
+}
