@@ -75,3 +75,11 @@ pub enum Integer {
     /// Number of the [`Regime`](crate::contact::Regime).
     Regime,
 }
+
+/// Which kind of variable a value reference means, and of which contact: those of a kind follow each other.
+#[inline(always)]
+pub fn kind_and_contact(value_reference: u32, contacts: usize) -> (u32, usize) {
+    let contacts = contacts as u32;
+    let kind = value_reference.checked_div(contacts).unwrap_or(0);
+    (kind, (value_reference - kind * contacts) as usize)
+}
