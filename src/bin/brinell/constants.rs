@@ -26,7 +26,7 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
     let loading = value_of(&scene.loading.1);
     // an elastic contact never unloads by another law; the compiler leaves out whatever stands here
     let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.model().unloading));
-    let surface = match scene.surface {
+    let surface = match scene.contacts[0].surface {
         Surface::Dented => "Dented",
         Surface::Fresh => "Fresh",
     };
