@@ -10,6 +10,23 @@ use crate::variable::{Integer, Parameter, Real, Settable, kind_and_contact};
 /// What the model description and the binary recognise each other by.
 pub const GUID: &str = "unpacked";
 
+/// How many contacts there are.
+pub const CONTACTS: usize = 1;
+/// How many groups of equal contacts they form.
+pub const GROUPS: usize = 1;
+/// The name of each group, and whether its contacts are counted.
+pub static GROUP_NAMES: [(&str, bool); GROUPS] = [("", false)];
+
+/// The group of a contact.
+pub fn group(_contact: usize) -> usize {
+    0
+}
+
+/// The contact behind the last one of a group.
+pub fn end(_group: usize) -> usize {
+    CONTACTS
+}
+
 /// The loading law.
 pub type Loading = loading::BigAlabo;
 /// The loading law with its constants.
@@ -29,34 +46,19 @@ pub const UNLOADING: Unloading = unloading::ContactRadius;
 /// Where the passivity guard acts, if there is one.
 pub const GUARD: Option<&str> = None;
 
-/// What a new contact meets.
-pub const SURFACE: Surface = Surface::Dented;
+/// What a new contact of a group meets.
+pub fn surface(_group: usize) -> Surface {
+    Surface::Dented
+}
 
 /// What a contact remembers.
 pub type History = contact::History;
 /// What is in contact, and by which laws.
 pub type Model = contact::Model<Loading, Unloading>;
 
-/// How many contacts there are.
-pub const CONTACTS: usize = 1;
-/// How many groups of equal contacts they form.
-pub const GROUPS: usize = 1;
-/// The name of each group, and whether its contacts are counted.
-pub const GROUP_NAMES: [(&str, bool); GROUPS] = [("", false)];
-
-/// The group of a contact.
-pub fn group(_contact: usize) -> usize {
-    0
-}
-
-/// The contact behind the last one of a group.
-pub fn end(_group: usize) -> usize {
-    CONTACTS
-}
-
 /// These bodies with the laws of the scene.
-pub fn model(pair: Pair, _group: usize, _settable: &Values) -> Model {
-    Model { pair, loading: LOADING, unloading: UNLOADING, surface: SURFACE }
+pub fn model(pair: Pair, group: usize, _settable: &Values) -> Model {
+    Model { pair, loading: LOADING, unloading: UNLOADING, surface: surface(group) }
 }
 
 /// The parameters that can be set.
@@ -68,7 +70,7 @@ pub const SETTABLE: [Settable; 5] = [
     Settable { name: "initial_gap", unit: "m", start: 0.0, minimum: -1e6, maximum: 1e6 },
 ];
 
-/// The value of any parameter: set, or constant in this scene.
+/// The value of any parameter for the contacts of a group: set, or constant in this scene.
 pub fn parameter(parameter: Parameter, _group: usize, settable: &Values) -> f64 {
     match parameter {
         Parameter::ImpactorRadius => settable[0],
