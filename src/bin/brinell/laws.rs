@@ -163,7 +163,7 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     }
     let yield_strength = scene.yield_strength.ok_or_else(|| UnknownLaw::NoYieldStrength(name.into()))?;
     let pair = Pair { yield_strength, ..scene.model().pair };
-    let model = Model { pair, loading, unloading, surface: scene.surface };
+    let model = Model { pair, loading, unloading, surface: scene.contacts[0].surface };
     Ok(Choice { name: name.into(), model: AnyModel::Elastoplastic(model) })
 }
 

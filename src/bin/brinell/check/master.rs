@@ -1,0 +1,83 @@
+//! The master of a check: it moves the mass against one contact, as a user's own would.
+
+use crate::importer::{ImportError, Instance};
+use brinell::contact::impact::Impact;
+
+/// How often a force that follows the rate is asked for again with the speed that it leads to.
+const ITERATIONS: u32 = 3;
+
+/// What an explicit co-simulation finds.
+pub struct Simulated {
+    pub max_indentation: f64,
+    pub max_force: f64,
+    pub residual_indentation: f64,
+    pub restitution: f64,
+    pub contact_time: f64,
+}
+
+/// A master that moves the mass and holds the rate over each step: the leap-frog method, of second order, and explicit.
+pub struct Master<'a, 'b> {
+    pub instance: &'a mut Instance<'b>,
+    pub rate: u32,
+    pub force: u32,
+    pub time: f64,
+    /// Whether the force follows the rate at the same instant.
+    pub follows: bool,
+}
+
+impl Master<'_, '_> {
+    /// Steps with `rate` [m/s] and gives the force at the end [N].
+    fn step(&mut self, rate: f64, step: f64) -> Result<f64, ImportError> {
+        self.instance.set_real(self.rate, rate)?;
+        self.instance.do_step(self.time, step)?;
+        self.time += step;
+        self.instance.real(self.force)
+    }
+
+    /// The force at this moment with `rate` [m/s], [N].
+    fn force_at(&mut self, rate: f64) -> Result<f64, ImportError> {
+        self.instance.set_real(self.rate, rate)?;
+        self.instance.real(self.force)
+    }
+
+    /// Lets the mass of `impact` meet the contact, after the way across `gap` [m], until they part again.
+    pub fn impact(&mut self, impact: &Impact, gap: f64, step: f64) -> Result<Simulated, ImportError> {
+        if gap > 0.0 {
+            self.step(impact.speed, gap / impact.speed)?;
+        }
+        // the speed in the middle of each step; that the force at first contact may not be zero is an error of one step
+        let mut speed = impact.speed;
+        let (mut indentation, mut time) = (0.0, 0.0);
+        let (mut max_indentation, mut max_force) = (0.0, 0.0);
+        // indentation and force at the ends of the last two steps
+        let mut before = [(0.0, 0.0); 2];
+        loop {
+            indentation += speed * step;
+            time += step;
+            let mut force = self.step(speed, step)?;
+            for _ in 0..if self.follows { ITERATIONS } else { 0 } {
+                force = self.force_at(speed - 0.5 * step * force / impact.mass)?;
+            }
+            max_indentation = f64::max(max_indentation, indentation);
+            max_force = f64::max(max_force, force);
+            if force <= 0.0 && speed < 0.0 {
+                let residual = end_of_contact(before);
+                return Ok(Simulated {
+                    max_indentation,
+                    max_force,
+                    residual_indentation: residual,
+                    restitution: -speed / impact.speed,
+                    contact_time: time - (residual - indentation) / -speed,
+                });
+            }
+            before = [before[1], (indentation, force)];
+            speed -= step * force / impact.mass;
+        }
+    }
+}
+
+/// Where the force ends [m], from the last two points of the contact: it vanishes as `(d - d_f)^1.5`.
+fn end_of_contact([(first, first_force), (last, last_force)]: [(f64, f64); 2]) -> f64 {
+    let (first_root, last_root) = (f64::powf(first_force, 2.0 / 3.0), f64::powf(last_force, 2.0 / 3.0));
+    last - last_root * (first - last) / (first_root - last_root)
+}

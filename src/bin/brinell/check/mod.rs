@@ -1,0 +1,139 @@
+//! `brinell check`: a packed unit, loaded as any importer would, runs the impact that its scene is made for.
+
+mod master;
+mod trial;
+
+use crate::importer::{Archive, Description, ImportError, Instance};
+use crate::scene::{Scene, SceneError};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use trial::{STEPS_PER_CONTACT, Trial};
+
+/// Largest relative difference between prediction and simulation.
+const TOLERANCE: f64 = 1e-3;
+
+/// A unit that couldn't be checked.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckError {
+    #[error("{}: {source}", path.display())]
+    Import { path: PathBuf, source: ImportError },
+    #[error("{}: there is no resources/scene.toml: it was not made by brinell, so that there is no impact to run", .0.display())]
+    NoScene(PathBuf),
+    #[error("{}: its scene can't be read: {source}", path.display())]
+    Scene { path: PathBuf, source: SceneError },
+}
+
+/// What came out.
+#[derive(Debug, Serialize)]
+pub struct Outcome {
+    pub fmu: PathBuf,
+    pub platforms: Vec<String>,
+    pub variables: usize,
+    pub impact: ImpactNumbers,
+    pub impact_is_assumed: bool,
+    /// How the predicted numbers were found.
+    pub prediction: &'static str,
+    pub steps_per_contact: u32,
+    /// Of a unit whose variables have plain names.
+    #[serde(flatten)]
+    pub plain: Option<Trial>,
+    /// Of a unit with named contacts: the first of each group.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<Trial>,
+    /// Start values whose binary differs from the model description.
+    pub wrong_starts: Vec<String>,
+    pub passed: bool,
+}
+
+/// The impact that was run.
+#[derive(Debug, Serialize)]
+pub struct ImpactNumbers {
+    /// [kg]
+    pub mass: f64,
+    /// [m/s]
+    pub speed: f64,
+}
+
+/// Loads the unit at `path` and runs the impact of its scene.
+///
+/// # Errors
+/// [`CheckError`] if it can't be loaded or a call fails; numbers that differ are in the outcome.
+pub fn check(path: &Path) -> Result<Outcome, CheckError> {
+    let import_error = |source| CheckError::Import { path: path.into(), source };
+    let archive = Archive::open(path).map_err(import_error)?;
+    let text = archive.scene.clone().ok_or_else(|| CheckError::NoScene(path.into()))?;
+    let scene = Scene::parse(text, &path.join("resources/scene.toml"));
+    let scene = scene.map_err(|source| CheckError::Scene { path: path.into(), source })?;
+    run(&archive, &scene, path).map_err(import_error)
+}
+
+fn run(archive: &Archive, scene: &Scene, path: &Path) -> Result<Outcome, ImportError> {
+    let description = &archive.description;
+    let unit = archive.load()?;
+    let trial = |group| Trial::run(&mut unit.instantiate(&description.guid)?, description, scene, group);
+    let trials = (0..scene.contacts.len()).map(trial).collect::<Result<Vec<_>, ImportError>>()?;
+    let (plain, contacts): (Vec<_>, Vec<_>) = trials.into_iter().partition(|trial| trial.contact.is_none());
+    let wrong_starts = wrong_starts(&mut unit.instantiate(&description.guid)?, description)?;
+    let all = || plain.iter().chain(&contacts);
+    let agree = all().flat_map(|trial| &trial.rows).all(|row| row.difference.abs() < TOLERANCE);
+    let passed = agree && wrong_starts.is_empty() && all().all(|trial| trial.disturbed.is_empty());
+    Ok(Outcome {
+        fmu: path.into(),
+        platforms: archive.platforms.iter().cloned().collect(),
+        variables: description.variables.len(),
+        impact: ImpactNumbers { mass: scene.impact.mass, speed: scene.impact.speed },
+        impact_is_assumed: scene.impact_is_assumed,
+        prediction: scene.any_model().method(),
+        steps_per_contact: STEPS_PER_CONTACT,
+        plain: plain.into_iter().next(),
+        contacts,
+        wrong_starts,
+        passed,
+    })
+}
+
+/// Start values in the XML that aren't those of the binary.
+fn wrong_starts(instance: &mut Instance, description: &Description) -> Result<Vec<String>, ImportError> {
+    let mut wrong = Vec::new();
+    instance.setup_experiment(0.0)?;
+    instance.call("fmi2EnterInitializationMode")?;
+    for (name, variable) in &description.variables {
+        let Some(start) = variable.start else { continue };
+        let value = instance.real(variable.reference)?;
+        if value.to_bits() != start.to_bits() {
+            wrong.push(format!("{name}: {start:?} in the XML, {value:?} in the binary"));
+        }
+    }
+    wrong.sort();
+    Ok(wrong)
+}
+
+impl std::fmt::Display for Outcome {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let ImpactNumbers { mass, speed } = self.impact;
+        let assumed =
+            if self.impact_is_assumed { " (the scene names no impact: a solid steel ball is assumed)" } else { "" };
+        writeln!(f, "{}", self.fmu.display())?;
+        writeln!(f, "  platforms {}; {} variables", self.platforms.join(", "), self.variables)?;
+        for wrong in &self.wrong_starts {
+            writeln!(f, "  start value differs: {wrong}")?;
+        }
+        let trials = || self.plain.iter().chain(&self.contacts);
+        if trials().any(|trial| trial.skipped.is_none()) {
+            writeln!(f, "  impact of {mass} kg at {speed} m/s{assumed}")?;
+            let steps = match &self.plain {
+                Some(Trial { step, .. }) => format!("{step:.3e} s steps ({} per contact)", self.steps_per_contact),
+                None => format!("{} steps per contact", self.steps_per_contact),
+            };
+            writeln!(f, "  predicted {}, simulated by explicit co-simulation with {steps}", self.prediction)?;
+        }
+        for trial in trials() {
+            write!(f, "{trial}")?;
+        }
+        if trials().all(|trial| trial.skipped.is_some()) {
+            return Ok(());
+        }
+        let verdict = if self.passed { "agree" } else { "DO NOT AGREE" };
+        writeln!(f, "\n  they {verdict} to {} % (dent: of the largest indentation)", 100.0 * TOLERANCE)
+    }
+}

@@ -1,0 +1,162 @@
+//! The impact of a scene on one contact of its unit, beside what is predicted for it.
+
+use super::master::{Master, Simulated};
+use crate::importer::{Description, ImportError, Instance};
+use crate::scene::{Parameter, Scene};
+use brinell::contact::impact::Prediction;
+use serde::Serialize;
+
+/// Steps of the simulated contact. The method is of second order: at this number its error is far below the tolerance.
+pub const STEPS_PER_CONTACT: u32 = 4096;
+
+/// The impact on one contact.
+#[derive(Debug, Serialize)]
+pub struct Trial {
+    /// The contact, if it has a name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<String>,
+    /// How many contacts are equal to this one, and itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub count: Option<usize>,
+    /// Why no impact was run.
+    pub skipped: Option<String>,
+    /// [s]
+    pub step: f64,
+    pub rows: Vec<Row>,
+    /// Contacts at rest whose force has changed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub disturbed: Vec<String>,
+}
+
+/// One quantity, by energy balance and by co-simulation.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    pub quantity: &'static str,
+    pub unit: &'static str,
+    pub predicted: f64,
+    pub simulated: f64,
+    /// Relative to the predicted value, or to `scale`.
+    pub difference: f64,
+}
+
+impl Trial {
+    /// The impact on the first contact of `group`; all others are at rest.
+    pub fn run(
+        instance: &mut Instance,
+        description: &Description,
+        scene: &Scene,
+        group: usize,
+    ) -> Result<Trial, ImportError> {
+        let given = &scene.contacts[group];
+        let prefix = given.prefix(0);
+        let prediction = scene.any_model_of(group).predict(&scene.impact).expect("a checked scene has a prediction");
+        let step = prediction.contact_time() / f64::from(STEPS_PER_CONTACT);
+        let contact = given.name.is_some().then(|| prefix.trim_end_matches('.').to_string());
+        let mut trial =
+            Trial { contact, count: given.count, skipped: None, step, rows: Vec::new(), disturbed: Vec::new() };
+        instance.setup_experiment(0.0)?;
+        instance.call("fmi2EnterInitializationMode")?;
+        let (gap_variable, gap) = gap(scene, group);
+        // the impact begins at first contact; a gap that is a constant of the unit is crossed first
+        let gap = if let Some(name) = gap_variable {
+            instance.set_real(description.real(&name)?, 0.0)?;
+            0.0
+        } else {
+            gap
+        };
+        instance.call("fmi2ExitInitializationMode")?;
+        if gap < 0.0 {
+            trial.skipped = Some("the scene starts pressed in, and initial_gap is a constant of it".into());
+            return Ok(trial);
+        }
+        let rate = description.real(&format!("{prefix}indentation_rate"))?;
+        let force = description.real(&format!("{prefix}force"))?;
+        let at_rest = others_at_rest(scene, group, description)?;
+        let before = forces(instance, &at_rest)?;
+        let follows = scene.damped.is_some();
+        let mut master = Master { instance: &mut *instance, rate, force, time: 0.0, follows };
+        let simulated = master.impact(&scene.impact, gap, step)?;
+        trial.rows = compare(&prediction, &simulated);
+        if follows {
+            // nothing remains, and where the force ends says nothing
+            trial.rows.retain(|row| row.quantity != "dent");
+        }
+        let after = forces(instance, &at_rest)?;
+        let changed = at_rest.into_iter().zip(before.iter().zip(&after)).filter(|(_, (before, after))| before != after);
+        trial.disturbed = changed.map(|((name, _), _)| name).collect();
+        instance.call("fmi2Terminate")?;
+        Ok(trial)
+    }
+}
+
+/// What the initial gap of the contacts of `group` is called, if it can be set, and its value [m].
+fn gap(scene: &Scene, group: usize) -> (Option<String>, f64) {
+    let given = &scene.contacts[group];
+    let is_gap = |parameter: &&Parameter| parameter.name == "initial_gap";
+    let name = match given.own.iter().find(is_gap) {
+        Some(own) => own.settable.then(|| given.variable("initial_gap")),
+        None => scene.settable().find(is_gap).map(|shared| shared.name.to_string()),
+    };
+    (name, scene.group_value(group, "initial_gap").unwrap_or(0.0))
+}
+
+/// Names and value references of the forces of all contacts but the first of `group`.
+fn others_at_rest(scene: &Scene, group: usize, description: &Description) -> Result<Vec<(String, u32)>, ImportError> {
+    let mut forces = Vec::new();
+    for (place, other) in scene.contacts.iter().enumerate() {
+        for index in usize::from(place == group)..other.len() {
+            let name = format!("{}force", other.prefix(index));
+            let reference = description.real(&name)?;
+            forces.push((name, reference));
+        }
+    }
+    Ok(forces)
+}
+
+/// The forces of these contacts, bit for bit.
+fn forces(instance: &mut Instance, contacts: &[(String, u32)]) -> Result<Vec<u64>, ImportError> {
+    contacts.iter().map(|(_, reference)| Ok(instance.real(*reference)?.to_bits())).collect()
+}
+
+fn compare(predicted: &Prediction, simulated: &Simulated) -> Vec<Row> {
+    let row = |quantity, unit, predicted: f64, simulated: f64, scale: f64| Row {
+        quantity,
+        unit,
+        predicted,
+        simulated,
+        difference: (simulated - predicted) / scale,
+    };
+    let Prediction { max_indentation, max_force, residual_indentation, restitution, .. } = *predicted;
+    let contact_time = predicted.contact_time();
+    vec![
+        row("largest force", "N", max_force, simulated.max_force, max_force),
+        row("largest indentation", "m", max_indentation, simulated.max_indentation, max_indentation),
+        // a dent may be zero: its difference is told in largest indentations
+        row("dent", "m", residual_indentation, simulated.residual_indentation, max_indentation),
+        row("restitution", "", restitution, simulated.restitution, restitution),
+        row("contact time", "s", contact_time, simulated.contact_time, contact_time),
+    ]
+}
+
+impl std::fmt::Display for Trial {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let name = match (&self.contact, self.count) {
+            (None, _) => String::new(),
+            (Some(name), None) => name.clone(),
+            (Some(name), Some(count)) => format!("{name}, one of {count}"),
+        };
+        if let Some(reason) = &self.skipped {
+            let separator = if name.is_empty() { "" } else { ": " };
+            return writeln!(f, "  {name}{separator}no impact was run: {reason}");
+        }
+        writeln!(f, "\n  {name:<20} {:>14} {:>14}    {:>11}", "predicted", "simulated", "difference")?;
+        for Row { quantity, unit, predicted, simulated, difference } in &self.rows {
+            let difference = 100.0 * difference;
+            writeln!(f, "  {quantity:<20} {predicted:>14.6e} {simulated:>14.6e} {unit:<2} {difference:>+11.5} %")?;
+        }
+        for other in &self.disturbed {
+            writeln!(f, "  {other} has changed, though its contact was at rest")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,192 @@
+//! Checking a scene: from the file as it is written to what can be built.
+
+use super::contacts::Contacts;
+use super::file::{File, ImpactTable};
+use super::laws;
+use super::{Mistake, Parameter, Scene};
+use crate::table::{self, Causality, VARIABLES};
+use brinell::contact::impact::Impact;
+use brinell::contact::loading::{AnyLoading, Hertz};
+use std::collections::HashSet;
+use std::f64::consts::PI;
+use std::ops::Range;
+use toml::Spanned;
+
+/// The scene of `file`, without its text.
+///
+/// # Errors
+/// The first mistake.
+pub fn check(file: File) -> Result<Scene, Mistake> {
+    let name = check_identifier(&file.name)?;
+    let mut contacts = Contacts::of(&file)?;
+    let damped = laws::find_damped(&file.law)?;
+    let loading = match damped {
+        Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
+        None => laws::check_loading(&file.law, &contacts)?,
+    };
+    let elastic = matches!(loading.1, AnyLoading::Hertz(_));
+    let unloading = laws::check_unloading(&file.law, loading.0, elastic)?;
+    laws::check_parameters(&file.law, &loading, unloading.as_ref())?;
+    let passivity_guard = laws::check_guard(file.law.passivity_guard.as_ref(), unloading)?;
+    let yield_strength = contacts.number(0, "target.yield_strength").map(|strength| *strength.get_ref());
+    if elastic {
+        contacts.forget_strength();
+    }
+    let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), &contacts)?;
+    let (mut parameters, groups) = contacts.parameters();
+    let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
+    let span = file.impact.as_ref().map(|table| table.get_ref().mass.span());
+    let mass = mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass));
+    for (name, value) in [("restitution", file.law.restitution.clone()), ("effective_mass", mass)] {
+        let Some(value) = value else { continue };
+        check_limits(name, "", &value)?;
+        parameters.push(Parameter { name, value: *value.get_ref(), settable: true });
+    }
+    parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
+    let mut scene = Scene {
+        name,
+        description: file.description,
+        parameters,
+        contacts: groups,
+        outputs: check_outputs(&file.fmu.outputs)?,
+        loading,
+        unloading,
+        damped,
+        passivity_guard,
+        yield_strength,
+        impact,
+        impact_is_assumed: file.impact.is_none(),
+        text: String::new(),
+    };
+    choose_settable(&mut scene, file.fmu.parameters.as_deref())?;
+    for group in 0..scene.contacts.len() {
+        let of_contact = |Mistake(span, message)| Mistake(span, contacts.said(group, &message));
+        check_pair(&scene, group, &contacts).map_err(of_contact)?;
+        laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
+        check_depth(&scene, group, file.impact.as_ref().map_or(0..0, Spanned::span)).map_err(of_contact)?;
+    }
+    Ok(scene)
+}
+
+/// Text that is a C identifier.
+pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
+    let text = name.get_ref();
+    let mut characters = text.chars();
+    let begins = characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
+    // the name is that of a file too
+    let short = text.len() <= 100;
+    if short && begins && characters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        return Ok(text.clone());
+    }
+    let message = format!(
+        "name = {text:?} is not a C identifier of at most 100 letters, digits and `_`, not beginning with a digit"
+    );
+    Err(Mistake(name.span(), message))
+}
+
+/// The impact that the scene names, or a solid steel ball's with the radius of the first contact's impactor.
+fn check_impact(given: Option<&ImpactTable>, contacts: &Contacts) -> Result<Impact, Mistake> {
+    if let Some(table) = given {
+        let mass = positive("impact.mass", &table.mass)?;
+        return Ok(Impact { mass, speed: positive("impact.speed", &table.speed)? });
+    }
+    let radius = contacts.number(0, "impactor.radius").map_or(f64::NAN, |radius| *radius.get_ref());
+    Ok(Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 })
+}
+
+/// Refuses bodies that don't touch in one point.
+fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mistake> {
+    if scene.pair_of(group).is_some() {
+        return Ok(());
+    }
+    let flat = Spanned::new(0..0, f64::NAN);
+    let socket = contacts.number(group, "target.radius").unwrap_or(&flat);
+    let radius = scene.group_value(group, "impactor.radius").unwrap_or(f64::NAN);
+    let message = format!(
+        "target.radius = {:?} does not fit impactor.radius = {radius:?}: a socket (negative) must be wider than the \
+         impactor, and no radius is below 1e-12 m",
+        socket.get_ref()
+    );
+    Err(Mistake(socket.span(), message))
+}
+
+/// Refuses an impact beyond what the law can be evaluated for.
+fn check_depth(scene: &Scene, group: usize, span: Range<usize>) -> Result<(), Mistake> {
+    if scene.any_model_of(group).predict(&scene.impact).is_some() {
+        return Ok(());
+    }
+    let Impact { mass, speed } = scene.impact;
+    let message = format!(
+        "the impact of mass = {mass:?} kg and speed = {speed:?} m/s drives the bodies deeper than the law can be evaluated"
+    );
+    Err(Mistake(span, message))
+}
+
+/// What there is instead of a name that was asked for.
+pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let names = names.collect::<Vec<_>>().join("`, `");
+    format!("unknown {what} `{asked}`, expected one of `{names}`")
+}
+
+/// Refuses a value of the parameter `name` out of its range; `owner` stands before the name in the message.
+pub fn check_limits(name: &str, owner: &str, value: &Spanned<f64>) -> Result<(), Mistake> {
+    let variable = table::variable(name);
+    let (minimum, maximum) = (variable.minimum.unwrap_or(f64::MIN), variable.maximum.unwrap_or(f64::MAX));
+    if (minimum..=maximum).contains(value.get_ref()) {
+        return Ok(());
+    }
+    let unit = variable.unit.as_deref().unwrap_or("");
+    let message =
+        format!("{owner}{name} = {:?} is out of range: allowed is {minimum:?} to {maximum:?} {unit}", value.get_ref());
+    Err(Mistake(value.span(), message.trim_end().into()))
+}
+
+fn positive(name: &str, value: &Spanned<f64>) -> Result<f64, Mistake> {
+    let number = *value.get_ref();
+    if number > 0.0 && number.is_finite() {
+        return Ok(number);
+    }
+    Err(Mistake(value.span(), format!("{name} = {number:?} must be positive and finite")))
+}
+
+/// Leaves settable what `chosen` names, or everything: parameters of all contacts, and those of one.
+fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Result<(), Mistake> {
+    let Some(chosen) = chosen else { return Ok(()) };
+    let names: HashSet<&str> = chosen.iter().map(|name| name.get_ref().as_str()).collect();
+    let mut known = Vec::new();
+    let mut choose = |parameter: &mut Parameter, name: String| {
+        parameter.settable = names.contains(name.as_str());
+        known.push(name);
+    };
+    for parameter in &mut scene.parameters {
+        choose(parameter, parameter.name.to_string());
+    }
+    for group in &mut scene.contacts {
+        let mut own = std::mem::take(&mut group.own);
+        own.iter_mut().for_each(|parameter| choose(parameter, group.variable(parameter.name)));
+        group.own = own;
+    }
+    let known_names: HashSet<&str> = known.iter().map(String::as_str).collect();
+    match chosen.iter().find(|name| !known_names.contains(name.get_ref().as_str())) {
+        Some(name) => {
+            let message = unknown("parameter", name.get_ref(), known.iter().map(String::as_str));
+            Err(Mistake(name.span(), message))
+        }
+        None => Ok(()),
+    }
+}
+
+fn check_outputs(chosen: &[Spanned<String>]) -> Result<Vec<String>, Mistake> {
+    let available = || VARIABLES.iter().filter(|v| v.causality == Causality::Output).map(|v| v.name.as_str());
+    let mut outputs: Vec<String> = Vec::new();
+    for name in chosen {
+        let text = name.get_ref();
+        if !available().any(|output| output == text) {
+            return Err(Mistake(name.span(), unknown("output", text, available())));
+        }
+        if text != "force" && !outputs.contains(text) {
+            outputs.push(text.clone());
+        }
+    }
+    Ok(outputs)
+}

@@ -1,0 +1,261 @@
+//! What is in contact: the numbers that a scene gives for all contacts, and those that a contact has instead.
+
+use super::checks::{check_identifier, check_limits, unknown};
+use super::file::{Contact, File, Impactor, SurfaceName, Target};
+use super::{Group, Mistake, Parameter};
+use crate::table::{self, MATERIALS, VARIABLES};
+use brinell::contact::Surface;
+use std::collections::HashSet;
+use std::ops::Range;
+use toml::Spanned;
+
+/// Most contacts of a unit: the model description then has some hundred megabytes.
+const MOST_CONTACTS: i64 = 100_000;
+
+/// What the contacts of a scene may give themselves, in the order of the table.
+const PROPERTIES: [&str; 8] = [
+    "impactor.radius",
+    "impactor.youngs_modulus",
+    "impactor.poissons_ratio",
+    "target.radius",
+    "target.youngs_modulus",
+    "target.poissons_ratio",
+    "target.yield_strength",
+    "initial_gap",
+];
+
+/// The numbers that one level of the scene gives, the whole scene or one contact, each where it stands in the file.
+struct Numbers(Vec<(&'static str, Spanned<f64>)>);
+
+impl Numbers {
+    /// A number stands before the one of a material.
+    fn of(impactor: &Impactor, target: &Target, initial_gap: Option<&Spanned<f64>>) -> Result<Numbers, Mistake> {
+        let material = match &target.material {
+            Some(name) => Some((find_material(name)?, name.span())),
+            None => None,
+        };
+        let of_material = |value: fn(&table::Material) -> f64| {
+            let (material, span) = material.clone()?;
+            Some(Spanned::new(span, value(material)))
+        };
+        let given = [
+            impactor.radius.clone(),
+            impactor.youngs_modulus.clone(),
+            impactor.poissons_ratio.clone(),
+            target.radius.clone(),
+            target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus)),
+            target.poissons_ratio.clone().or_else(|| of_material(|material| material.poissons_ratio)),
+            target.yield_strength.clone().or_else(|| of_material(|material| material.yield_strength)),
+            initial_gap.cloned(),
+        ];
+        let numbers = PROPERTIES.into_iter().zip(given);
+        Ok(Numbers(numbers.filter_map(|(name, value)| Some((name, value?))).collect()))
+    }
+
+    fn get(&self, name: &str) -> Option<&Spanned<f64>> {
+        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+    }
+
+    fn remove(&mut self, name: &str) {
+        self.0.retain(|(known, _)| *known != name);
+    }
+
+    /// As parameters that can be set, where `wanted` says so.
+    fn parameters(&self, wanted: impl Fn(&str) -> bool) -> Vec<Parameter> {
+        let wanted = self.0.iter().filter(|(name, _)| wanted(name));
+        wanted.map(|(name, value)| Parameter { name, value: *value.get_ref(), settable: true }).collect()
+    }
+}
+
+/// One `[[contact]]`, or the one contact of a scene without any.
+struct Given {
+    name: Option<String>,
+    count: Option<usize>,
+    surface: Surface,
+    own: Numbers,
+    /// Where a mistake in it is shown, if nothing smaller can be shown.
+    span: Range<usize>,
+}
+
+/// The contacts of a scene.
+pub struct Contacts {
+    shared: Numbers,
+    given: Vec<Given>,
+}
+
+impl Contacts {
+    /// The contacts of the scene `file`, each complete.
+    pub fn of(file: &File) -> Result<Contacts, Mistake> {
+        let impactor = file.impactor.as_ref().map(Spanned::get_ref);
+        let target = file.target.as_ref().map(Spanned::get_ref);
+        let standard = (Impactor::default(), Target::default());
+        let no_gap = Spanned::new(0..0, 0.0);
+        let gap = file.fmu.initial_gap.as_ref().unwrap_or(&no_gap);
+        let shared = Numbers::of(impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1), Some(gap))?;
+        check_numbers(&shared, "")?;
+        let surface = target.and_then(|target| target.surface);
+        let contacts = Contacts { shared, given: given(file, surface)? };
+        for index in 0..contacts.given.len() {
+            match contacts.given[index].name {
+                Some(_) => contacts.check_complete(index)?,
+                None => check_tables(file, &contacts)?,
+            }
+            contacts.check_impactor(index)?;
+        }
+        Ok(contacts)
+    }
+
+    /// The number `name` of a contact: its own, or that of all.
+    pub fn number(&self, index: usize, name: &str) -> Option<&Spanned<f64>> {
+        self.given[index].own.get(name).or_else(|| self.shared.get(name))
+    }
+
+    /// `text`, with the contact's name before it if there is one.
+    pub fn said(&self, index: usize, text: &str) -> String {
+        self.given[index].name.as_ref().map_or(text.into(), |name| format!("contact `{name}`: {text}"))
+    }
+
+    /// Whether a contact has a yield strength.
+    pub fn any_yields(&self) -> bool {
+        (0..self.given.len()).any(|index| self.number(index, "target.yield_strength").is_some())
+    }
+
+    /// Refuses a contact without yield strength for a `law` that needs one.
+    pub fn check_strength(&self, law: &str) -> Result<(), Mistake> {
+        let elastic = |index: &usize| self.number(*index, "target.yield_strength").is_none();
+        let Some(index) = (0..self.given.len()).find(elastic) else { return Ok(()) };
+        let message = format!("law.loading = \"{law}\" needs target.yield_strength (or a material) for every contact");
+        Err(Mistake(self.given[index].span.clone(), self.said(index, &message)))
+    }
+
+    /// For a law that has no yield strength.
+    pub fn forget_strength(&mut self) {
+        self.shared.remove("target.yield_strength");
+        for given in &mut self.given {
+            given.own.remove("target.yield_strength");
+        }
+    }
+
+    /// The parameters of all contacts, those that no contact takes left out, and the groups with their own.
+    pub fn parameters(&self) -> (Vec<Parameter>, Vec<Group>) {
+        let taken = |name: &str| self.given.iter().any(|given| given.own.get(name).is_none());
+        let group = |given: &Given| {
+            let own = given.own.parameters(|_| true);
+            Group { name: given.name.clone(), count: given.count, own, surface: given.surface }
+        };
+        (self.shared.parameters(taken), self.given.iter().map(group).collect())
+    }
+
+    /// Refuses a contact that has not all that a contact needs.
+    fn check_complete(&self, index: usize) -> Result<(), Mistake> {
+        let missing = |name| self.number(index, name).is_none();
+        let span = self.given[index].span.clone();
+        if missing("impactor.radius") {
+            let message = "impactor.radius is missing: the contact gives none, nor [impactor] for all of them";
+            return Err(Mistake(span, self.said(index, message)));
+        }
+        if missing("target.youngs_modulus") || missing("target.poissons_ratio") {
+            return Err(Mistake(span, self.said(index, &target_needs())));
+        }
+        Ok(())
+    }
+
+    fn check_impactor(&self, index: usize) -> Result<(), Mistake> {
+        let modulus = self.number(index, "impactor.youngs_modulus");
+        let ratio = self.number(index, "impactor.poissons_ratio");
+        if let (Some(given), None) | (None, Some(given)) = (modulus, ratio) {
+            let message = "an elastic impactor needs both `youngs_modulus` and `poissons_ratio`; a rigid one neither";
+            return Err(Mistake(given.span(), self.said(index, message)));
+        }
+        Ok(())
+    }
+}
+
+/// Refuses a scene without `[[contact]]` whose tables have not all that a contact needs.
+fn check_tables(file: &File, contacts: &Contacts) -> Result<(), Mistake> {
+    let span =
+        |table: Option<Range<usize>>, name| table.ok_or_else(|| Mistake(0..0, format!("missing table `{name}`")));
+    let impactor = span(file.impactor.as_ref().map(Spanned::span), "impactor")?;
+    let target = span(file.target.as_ref().map(Spanned::span), "target")?;
+    let missing = |name| contacts.shared.get(name).is_none();
+    if missing("impactor.radius") {
+        return Err(Mistake(impactor, "missing field `radius` of the impactor".into()));
+    }
+    if missing("target.youngs_modulus") || missing("target.poissons_ratio") {
+        return Err(Mistake(target, target_needs()));
+    }
+    Ok(())
+}
+
+fn target_needs() -> String {
+    let names = MATERIALS.iter().map(|material| material.name.as_str()).collect::<Vec<_>>().join("`, `");
+    format!("the target needs `youngs_modulus` and `poissons_ratio`, or a `material`: there are `{names}`")
+}
+
+fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mistake> {
+    MATERIALS.iter().find(|material| &material.name == name.get_ref()).ok_or_else(|| {
+        let names = MATERIALS.iter().map(|material| material.name.as_str());
+        Mistake(name.span(), unknown("material", name.get_ref(), names))
+    })
+}
+
+/// Refuses a number out of range; `owner` stands before its name.
+fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
+    numbers.0.iter().try_for_each(|(name, value)| check_limits(name, owner, value))
+}
+
+/// What each contact gives, where the others have `surface`.
+fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistake> {
+    let surface_of = |own: Option<SurfaceName>| own.or(surface).map_or(Surface::Dented, Surface::from);
+    let Some(contacts) = &file.contact else {
+        let (own, surface) = (Numbers(Vec::new()), surface_of(None));
+        return Ok(vec![Given { name: None, count: None, surface, own, span: 0..0 }]);
+    };
+    if contacts.get_ref().is_empty() {
+        let message = "the list of contacts is empty: leave it out for one contact with plain variable names";
+        return Err(Mistake(contacts.span(), message.into()));
+    }
+    let (mut names, mut total) = (HashSet::new(), 0);
+    let mut all = Vec::new();
+    for contact in contacts.get_ref() {
+        let span = contact.span();
+        let Contact { name, count, impactor, target, initial_gap } = contact.get_ref();
+        let text = check_contact_name(name)?;
+        if !names.insert(text.clone()) {
+            return Err(Mistake(name.span(), format!("name = {text:?} is taken by another contact")));
+        }
+        let count = count.as_ref().map(check_count).transpose()?;
+        total += count.unwrap_or(1);
+        if total > MOST_CONTACTS {
+            let message =
+                format!("with contact `{text}` there are {total} contacts in all: allowed are {MOST_CONTACTS}");
+            return Err(Mistake(span, message));
+        }
+        let own = Numbers::of(impactor, target, initial_gap.as_ref())?;
+        check_numbers(&own, &format!("{text}."))?;
+        let surface = surface_of(target.surface);
+        all.push(Given { name: Some(text), count: count.map(|count| count as usize), surface, own, span });
+    }
+    Ok(all)
+}
+
+/// The name of a contact, which must not be the beginning of another variable's name.
+fn check_contact_name(name: &Spanned<String>) -> Result<String, Mistake> {
+    let text = check_identifier(name)?;
+    let mut taken: Vec<_> = VARIABLES.iter().filter_map(|variable| variable.name.split('.').next()).collect();
+    taken.dedup();
+    if taken.contains(&text.as_str()) {
+        let message = format!("name = {text:?} belongs to a variable of the unit, as do `{}`", taken.join("`, `"));
+        return Err(Mistake(name.span(), message));
+    }
+    Ok(text)
+}
+
+fn check_count(count: &Spanned<i64>) -> Result<i64, Mistake> {
+    let number = *count.get_ref();
+    if (1..=MOST_CONTACTS).contains(&number) {
+        return Ok(number);
+    }
+    let message = format!("count = {number} is out of range: allowed is 1 to {MOST_CONTACTS}");
+    Err(Mistake(count.span(), message))
+}

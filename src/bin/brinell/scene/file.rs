@@ -1,0 +1,117 @@
+//! The scene file as it is written: tables and keys, without meaning.
+
+use super::Mistake;
+use crate::parameters::Given;
+use brinell::contact::Surface;
+use serde::Deserialize;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct File {
+    pub name: Spanned<String>,
+    #[serde(default)]
+    pub description: String,
+    pub impactor: Option<Spanned<Impactor>>,
+    pub target: Option<Spanned<Target>>,
+    #[serde(default)]
+    pub law: Law,
+    #[serde(default)]
+    pub fmu: Fmu,
+    pub impact: Option<Spanned<ImpactTable>>,
+    pub contact: Option<Spanned<Vec<Spanned<Contact>>>>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Impactor {
+    pub radius: Option<Spanned<f64>>,
+    pub youngs_modulus: Option<Spanned<f64>>,
+    pub poissons_ratio: Option<Spanned<f64>>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Target {
+    pub material: Option<Spanned<String>>,
+    pub youngs_modulus: Option<Spanned<f64>>,
+    pub poissons_ratio: Option<Spanned<f64>>,
+    pub yield_strength: Option<Spanned<f64>>,
+    pub radius: Option<Spanned<f64>>,
+    pub surface: Option<SurfaceName>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SurfaceName {
+    Dented,
+    Fresh,
+}
+
+impl From<SurfaceName> for Surface {
+    fn from(name: SurfaceName) -> Surface {
+        match name {
+            SurfaceName::Dented => Surface::Dented,
+            SurfaceName::Fresh => Surface::Fresh,
+        }
+    }
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Law {
+    pub loading: Option<Spanned<String>>,
+    pub loading_parameters: Option<Given>,
+    pub unloading: Option<Spanned<String>>,
+    pub restitution: Option<Spanned<f64>>,
+    pub damping: Option<Spanned<String>>,
+    pub unloading_parameters: Option<Given>,
+    pub passivity_guard: Option<Spanned<bool>>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fmu {
+    #[serde(default)]
+    pub outputs: Vec<Spanned<String>>,
+    pub parameters: Option<Vec<Spanned<String>>>,
+    pub initial_gap: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImpactTable {
+    pub mass: Spanned<f64>,
+    pub speed: Spanned<f64>,
+}
+
+/// One contact, or `count` equal ones: what differs from the tables above.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    pub name: Spanned<String>,
+    pub count: Option<Spanned<i64>>,
+    #[serde(default)]
+    pub impactor: Impactor,
+    #[serde(default)]
+    pub target: Target,
+    pub initial_gap: Option<Spanned<f64>>,
+}
+
+impl File {
+    /// Reads the `text` of a scene.
+    ///
+    /// # Errors
+    /// What is no TOML, of the wrong type, or unknown, with its place.
+    pub fn read(text: &str) -> Result<File, Mistake> {
+        toml::from_str::<File>(text).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
+            // the parser speaks of Rust's types and doesn't name the key: the line does
+            let message = error.message().replace("expected f64", "expected a number");
+            let message = message.replace("expected i64", "expected a whole number");
+            let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
+            let line = text[line..].lines().next().unwrap_or_default().trim();
+            Mistake(span, format!("{message} in `{line}`"))
+        })
+    }
+}

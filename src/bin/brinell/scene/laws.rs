@@ -1,0 +1,163 @@
+//! The laws that a scene names, and whether they make sense on its bodies.
+
+use super::checks::unknown;
+use super::contacts::Contacts;
+use super::file::Law;
+use super::{Mistake, Scene};
+use crate::law_check;
+use crate::laws;
+use crate::model::Dampings;
+use crate::parameters;
+use crate::table;
+use brinell::contact::damped::AnyDamped;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use toml::Spanned;
+
+/// The rate-dependent law that the scene names, with what belongs to it.
+pub fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mistake> {
+    let asked = law.loading.as_ref();
+    let found = asked.and_then(|asked| AnyDamped::ALL.into_iter().find(|(name, _)| name == asked.get_ref()));
+    let needs_restitution = found.is_some_and(|(_, law)| law.needs_restitution());
+    match (&law.restitution, asked) {
+        (Some(restitution), _) if !needs_restitution => {
+            let names = AnyDamped::ALL.iter().filter(|(_, law)| law.needs_restitution()).map(|(name, _)| *name);
+            let names = names.collect::<Vec<_>>().join("\", \"");
+            let message = format!("law.restitution is for the loading laws \"{names}\"; this one has its own");
+            return Err(Mistake(restitution.span(), message));
+        }
+        (None, Some(asked)) if needs_restitution => {
+            let message = format!("law.loading = \"{}\" needs law.restitution, from 0.001 to 1", asked.get_ref());
+            return Err(Mistake(asked.span(), message));
+        }
+        _ => {}
+    }
+    if let (Some((name, _)), Some(unloading)) = (found, &law.unloading) {
+        let asked = unloading.get_ref();
+        let message = format!("law.unloading = \"{asked}\" has no meaning here: {name} leaves no dent");
+        return Err(Mistake(unloading.span(), message));
+    }
+    let Some((name, reference)) = found else {
+        return match &law.damping {
+            Some(damping) => Err(Mistake(damping.span(), format!("law.damping is for \"{}\"", with_dampings()))),
+            None => Ok(None),
+        };
+    };
+    let chosen = match &law.damping {
+        Some(damping) => with_damping(name, reference, damping)?,
+        None => reference,
+    };
+    let parameters = law.loading_parameters.as_ref();
+    Ok(Some((name, parameters::apply(chosen, "law.loading", parameters, table::damped_law(name))?)))
+}
+
+/// The names of the laws with several dampings, for a message.
+fn with_dampings() -> String {
+    let several = AnyDamped::ALL.into_iter().filter(|(_, law)| !law.dampings().is_empty());
+    several.map(|(name, _)| name).collect::<Vec<_>>().join("\" and \"")
+}
+
+/// The law `name` with the damping that the scene names.
+fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<AnyDamped, Mistake> {
+    let dampings = law.dampings();
+    if dampings.is_empty() {
+        let message = format!("law.damping is for \"{}\"; {name} has one damping", with_dampings());
+        return Err(Mistake(asked.span(), message));
+    }
+    law.with_damping(asked.get_ref())
+        .ok_or_else(|| Mistake(asked.span(), unknown("law.damping", asked.get_ref(), dampings.into_iter())))
+}
+
+/// The loading law of a scene without rate-dependent law.
+pub fn check_loading(given: &Law, contacts: &Contacts) -> Result<(&'static str, AnyLoading), Mistake> {
+    let name = given.loading.as_ref();
+    let yields = contacts.any_yields();
+    let default = if yields { "big-alabo" } else { "hertz" };
+    let asked = name.map_or(default, |name| name.get_ref().as_str());
+    let span = name.map_or(0..0, Spanned::span);
+    let law = AnyLoading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
+        let names = AnyLoading::ALL.iter().map(|(name, _)| *name);
+        let names = names.chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
+        Mistake(span.clone(), unknown("law.loading", asked, names))
+    })?;
+    if !yields && law.0 != "hertz" {
+        let message =
+            format!("law.loading = \"{asked}\" needs target.yield_strength (or a material); \"hertz\" doesn't");
+        return Err(Mistake(span, message));
+    }
+    if law.0 != "hertz" {
+        contacts.check_strength(law.0)?;
+    }
+    let parameters = given.loading_parameters.as_ref();
+    Ok((law.0, parameters::apply(law.1, "law.loading", parameters, table::loading_law(law.0))?))
+}
+
+/// The unloading law; none if the contact is `elastic`.
+pub fn check_unloading(
+    given: &Law,
+    loading: &str,
+    elastic: bool,
+) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
+    let name = given.unloading.as_ref();
+    let parameters = given.unloading_parameters.as_ref();
+    let span = name.map_or(0..0, Spanned::span);
+    let asked = name.map_or(laws::default_unloading(loading), |name| name.get_ref().as_str());
+    if elastic {
+        let message = format!("law.unloading = \"{asked}\" has no meaning here: hertz unloads along the loading curve");
+        return match (name, parameters) {
+            (Some(_), _) => Err(Mistake(span, message)),
+            (None, Some(parameters)) => {
+                let message = "law.unloading_parameters has no meaning here: hertz unloads along the loading curve";
+                Err(Mistake(parameters.span(), message.into()))
+            }
+            (None, None) => Ok(None),
+        };
+    }
+    let law = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
+        let names = AnyUnloading::ALL.iter().map(|(name, _)| *name);
+        Mistake(span.clone(), unknown("law.unloading", asked, names))
+    })?;
+    laws::check_pairing(loading, asked).map_err(|message| Mistake(span, message))?;
+    Ok(Some((law.0, parameters::apply(law.1, "law.unloading", parameters, table::unloading_law(law.0))?)))
+}
+
+/// Where the scene gives constants to its laws, if it does.
+fn parameters_span(given: &Law) -> Option<std::ops::Range<usize>> {
+    given.loading_parameters.as_ref().or(given.unloading_parameters.as_ref()).map(Spanned::span)
+}
+
+/// Refuses constants of the two laws that contradict each other.
+pub fn check_parameters(
+    given: &Law,
+    loading: &(&'static str, AnyLoading),
+    unloading: Option<&(&'static str, AnyUnloading)>,
+) -> Result<(), Mistake> {
+    let (Some(span), Some(unloading)) = (parameters_span(given), unloading) else { return Ok(()) };
+    laws::check_ties(*loading, *unloading).map_err(|message| Mistake(span, message))
+}
+
+/// Refuses laws that the scene's constants have made useless on the bodies of `group`.
+pub fn check_curves(given: &Law, scene: &Scene, group: usize) -> Result<(), Mistake> {
+    let Some(span) = parameters_span(given).filter(|_| scene.unloading.is_some()) else { return Ok(()) };
+    let model = scene.model_of(group);
+    let unloading = given.unloading_parameters.as_ref().map_or(span.clone(), Spanned::span);
+    law_check::check_loading(&model, laws::published(scene.loading.0))
+        .map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
+    law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
+}
+
+/// Whether the guard is asked for, of an unloading law that has a guarded form.
+pub fn check_guard(asked: Option<&Spanned<bool>>, unloading: Option<(&str, AnyUnloading)>) -> Result<bool, Mistake> {
+    let Some(asked) = asked.filter(|asked| *asked.get_ref()) else { return Ok(false) };
+    let Some((name, law)) = unloading else {
+        let message = "law.passivity_guard has no meaning here: hertz gives back just what was put in";
+        return Err(Mistake(asked.span(), message.into()));
+    };
+    if law.guarded().is_some() {
+        return Ok(true);
+    }
+    let guarded = AnyUnloading::ALL.iter().filter(|(_, law)| law.guarded().is_some()).map(|(name, _)| *name);
+    let names = guarded.collect::<Vec<_>>().join("`, `");
+    let message = format!("law.unloading = \"{name}\" has no passivity guard: `{names}` have one");
+    Err(Mistake(asked.span(), message))
+}

@@ -1,0 +1,195 @@
+//! The scene file: what is in contact, by which laws, and what the unit shows of it.
+
+mod checks;
+mod contacts;
+mod file;
+mod laws;
+
+pub use checks::unknown;
+
+use crate::model::AnyModel;
+use brinell::contact::damped::{self, AnyDamped};
+use brinell::contact::impact::Impact;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Body, Model, Pair, Surface};
+use std::path::{Path, PathBuf};
+
+/// A scene that has been checked.
+#[derive(Debug)]
+pub struct Scene {
+    /// Name of the unit: a C identifier.
+    pub name: String,
+    pub description: String,
+    /// The parameters that belong to all contacts, in the order of the table.
+    pub parameters: Vec<Parameter>,
+    /// What is in contact: at least one.
+    pub contacts: Vec<Group>,
+    /// The chosen outputs beside force.
+    pub outputs: Vec<String>,
+    pub loading: (&'static str, AnyLoading),
+    /// None for an elastic contact.
+    pub unloading: Option<(&'static str, AnyUnloading)>,
+    /// The law of a contact whose force depends on the rate; it has no other.
+    pub damped: Option<(&'static str, AnyDamped)>,
+    /// Unloading gives back no more than loading took.
+    pub passivity_guard: bool,
+    /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law asks for it.
+    pub yield_strength: Option<f64>,
+    pub impact: Impact,
+    /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
+    pub impact_is_assumed: bool,
+    /// The file as it is.
+    pub text: String,
+}
+
+/// A parameter of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    pub name: &'static str,
+    pub value: f64,
+    /// Whether it stays settable; otherwise it is a constant of the unit.
+    pub settable: bool,
+}
+
+/// One contact, or several equal ones: a table `[[contact]]`, or all that a scene without such a table has.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// None for the one contact of a scene without `[[contact]]`, whose variables have plain names.
+    pub name: Option<String>,
+    /// How many contacts the group has, if their names are counted.
+    pub count: Option<usize>,
+    /// The parameters that this group has instead of those of all contacts, in the order of the table.
+    pub own: Vec<Parameter>,
+    pub surface: Surface,
+}
+
+/// A scene that can't be used: where, and why.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    #[error("{}: {source}", path.display())]
+    Unreadable { path: PathBuf, source: std::io::Error },
+    #[error("{}:{line}:{column}: {message}", path.display())]
+    Wrong { path: PathBuf, line: usize, column: usize, message: String },
+}
+
+/// A mistake at a place in the text.
+pub struct Mistake(pub std::ops::Range<usize>, pub String);
+
+impl Scene {
+    /// Reads and checks the scene at `path`.
+    ///
+    /// # Errors
+    /// [`SceneError`] with line and column of the first mistake, and what is allowed there.
+    pub fn read(path: &Path) -> Result<Scene, SceneError> {
+        let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
+        Scene::parse(std::fs::read_to_string(path).map_err(unreadable)?, path)
+    }
+
+    /// Checks the scene `text`; `path` is for messages.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn parse(text: String, path: &Path) -> Result<Scene, SceneError> {
+        let checked = file::File::read(&text).and_then(checks::check);
+        match checked {
+            Ok(scene) => Ok(Scene { text, ..scene }),
+            Err(Mistake(span, message)) => {
+                let before = &text[..span.start];
+                let line = before.matches('\n').count() + 1;
+                let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+                Err(SceneError::Wrong { path: path.into(), line, column, message })
+            }
+        }
+    }
+
+    /// The value of a parameter of all contacts; `None` if the scene hasn't got it.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| parameter.value)
+    }
+
+    /// The value of a parameter for the contacts of `group`: their own, or that of all.
+    pub fn group_value(&self, group: usize, name: &str) -> Option<f64> {
+        let own = self.contacts[group].own.iter().find(|parameter| parameter.name == name);
+        own.map(|parameter| parameter.value).or_else(|| self.value(name))
+    }
+
+    /// The parameters of all contacts that stay settable.
+    pub fn settable(&self) -> impl Iterator<Item = &Parameter> {
+        self.parameters.iter().filter(|parameter| parameter.settable)
+    }
+
+    /// How many contacts the unit has.
+    pub fn contact_count(&self) -> usize {
+        self.contacts.iter().map(Group::len).sum()
+    }
+
+    /// The bodies of the contacts of `group`; none if they don't fit.
+    fn pair_of(&self, group: usize) -> Option<Pair> {
+        let value = |name| self.group_value(group, name);
+        let impactor = Body {
+            radius: value("impactor.radius").unwrap_or(f64::NAN),
+            youngs_modulus: value("impactor.youngs_modulus").unwrap_or(f64::INFINITY),
+            poissons_ratio: value("impactor.poissons_ratio").unwrap_or(0.0),
+        };
+        let target = Body {
+            radius: value("target.radius").unwrap_or(f64::INFINITY),
+            youngs_modulus: value("target.youngs_modulus").unwrap_or(f64::NAN),
+            poissons_ratio: value("target.poissons_ratio").unwrap_or(f64::NAN),
+        };
+        let strength = value("target.yield_strength").unwrap_or(f64::INFINITY);
+        Pair::new(&impactor, &target, strength)
+    }
+
+    /// The first contact as the physics sees it.
+    pub fn any_model(&self) -> AnyModel {
+        self.any_model_of(0)
+    }
+
+    /// The contacts of `group` as the physics sees them.
+    pub fn any_model_of(&self, group: usize) -> AnyModel {
+        let Some((_, law)) = self.damped else { return AnyModel::Elastoplastic(self.model_of(group)) };
+        AnyModel::Damped(damped::Model {
+            pair: self.pair_of(group).expect("a checked scene has bodies that fit"),
+            law,
+            restitution: self.value("restitution").unwrap_or(1.0),
+            mass: self.value("effective_mass").unwrap_or(f64::INFINITY),
+        })
+    }
+
+    /// The first contact by its elastoplastic laws.
+    pub fn model(&self) -> Model<AnyLoading, AnyUnloading> {
+        self.model_of(0)
+    }
+
+    /// The contacts of `group` by their elastoplastic laws; the unloading of an elastic contact is never asked for.
+    pub fn model_of(&self, group: usize) -> Model<AnyLoading, AnyUnloading> {
+        let pair = self.pair_of(group).expect("a checked scene has bodies that fit");
+        let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
+        let guarded = if self.passivity_guard { unloading.guarded() } else { None };
+        let unloading = guarded.unwrap_or(unloading);
+        Model { pair, loading: self.loading.1, unloading, surface: self.contacts[group].surface }
+    }
+}
+
+impl Group {
+    /// How many contacts there are in the group.
+    #[expect(clippy::len_without_is_empty, reason = "no group is empty")]
+    pub fn len(&self) -> usize {
+        self.count.unwrap_or(1)
+    }
+
+    /// What stands before the names of the variables of a contact, which is counted from 0: "", "left." or "contact\[7].".
+    pub fn prefix(&self, index: usize) -> String {
+        match (&self.name, self.count) {
+            (None, _) => String::new(),
+            (Some(name), None) => format!("{name}."),
+            (Some(name), Some(_)) => format!("{name}[{}].", index + 1),
+        }
+    }
+
+    /// What the group's own parameter `name` is called in the unit.
+    pub fn variable(&self, name: &str) -> String {
+        self.name.as_ref().map_or(name.into(), |own| format!("{own}.{name}"))
+    }
+}
