@@ -96,6 +96,23 @@ pub enum Fault {
         /// The indentation [m].
         indentation: f64,
     },
+    /// A derivative of an order that there isn't.
+    DerivativeOrder {
+        /// The order asked for.
+        order: i32,
+        /// The largest there is.
+        largest: i32,
+    },
+    /// A derivative of a variable that has none.
+    NoDerivative {
+        /// Of what there are derivatives.
+        of: &'static str,
+    },
+    /// A step in which the bodies meet more often than can be followed.
+    TooLong {
+        /// The step [s].
+        step: f64,
+    },
     /// The unit doesn't have this capability.
     Unsupported,
     /// There is no such information.

@@ -1,6 +1,9 @@
 //! Co-simulation as safe Rust: phase, time, variables, step, reset, save and load. Nothing here is particular to FMI 2.0.
 
+use crate::contact::motion::{Drive, NoMotion};
+use crate::contact::path::Course;
 use crate::contact::{Body, Pair, Regime, TooDeep};
+use crate::coupling::{CURVE_WORDS, Curve, MOMENTUM_WORDS, Momentum};
 use crate::fault::Fault;
 use crate::scene::{self, History, Model};
 use crate::variable::{Integer, Parameter, Real, Settable};
@@ -41,6 +44,15 @@ const START: Values = {
 /// force follows the rate; of many the step has it at hand.
 const FORCES: usize = if scene::CONTACTS == 1 || History::FOLLOWS_RATE { 0 } else { scene::CONTACTS };
 
+/// How many contacts have a course of their input: all whose history can follow one.
+const CURVES: usize = if History::FOLLOWS_RATE { 0 } else { scene::CONTACTS };
+
+/// How many contacts have a momentum: all, if an output tells it.
+const MOMENTA: usize = if scene::MOMENTUM { scene::CONTACTS } else { 0 };
+
+/// Whether every step is plain that keeps the contact on its branch.
+const PLAIN: bool = scene::FOLLOW.is_none();
+
 /// One instance of the unit: everything that a saved state holds. Memory full of zeros is one too, of no use before it is
 /// [reset](Instance::reset): an instance of many contacts is too large to be moved.
 #[derive(Debug)]
@@ -54,8 +66,14 @@ pub struct Instance {
     limit: f64,
     pairs: [Bodies; scene::GROUPS],
     values: Values,
+    curves: [Curve; CURVES],
+    momenta: [Momentum; MOMENTA],
+    /// Length of the last step [s], where a force is predicted from it.
+    last_step: [f64; scene::PREDICTS as usize],
     phase: Phase,
     experiment_defined: bool,
+    /// A derivative of an input is set, or was in the last step: no step is plain then.
+    curved: bool,
     /// Many contacts move together or not at all. Unless this is set that needs no look ahead: see [`FAST`].
     fast: bool,
 }
@@ -70,10 +88,14 @@ struct Bodies {
 }
 
 /// The words of an instance that don't belong to a contact or a parameter.
-const OWN_WORDS: usize = 4;
+const OWN_WORDS: usize = 5;
 
-/// The words of a contact: its rate and its history.
-const CONTACT_WORDS: usize = 1 + History::WORDS;
+/// Where the words of a contact begin that are there in some scenes only: behind its rate and its history.
+const CURVE_AT: usize = 1 + History::WORDS;
+const MOMENTUM_AT: usize = CURVE_AT + if CURVES > 0 { CURVE_WORDS } else { 0 };
+
+/// The words of a contact.
+const CONTACT_WORDS: usize = MOMENTUM_AT + if scene::MOMENTUM { MOMENTUM_WORDS } else { 0 };
 
 /// Number of words that hold an instance.
 pub const WORDS: usize = OWN_WORDS + scene::SETTABLE.len() + CONTACT_WORDS * scene::CONTACTS;
@@ -168,6 +190,8 @@ impl Instance {
         self.stop = f64::MAX;
         self.experiment_defined = false;
         self.fast = false;
+        self.last_step.fill(0.0);
+        self.straighten();
         self.set_phase(Phase::Instantiated);
         self.start()
     }
@@ -190,8 +214,18 @@ impl Instance {
             }
             first = end;
         }
+        for (momentum, history) in self.momenta.iter_mut().zip(&self.histories) {
+            *momentum = Momentum::start(history.force_at_rate(0.0));
+        }
         self.note_forces();
         Ok(())
+    }
+
+    /// Forgets the derivatives of inputs.
+    fn straighten(&mut self) {
+        self.curved = false;
+        self.curves.fill(Curve::default());
+        self.set_limit();
     }
 
     /// Writes down the forces, where they are kept.
@@ -209,7 +243,11 @@ impl Instance {
 
     fn set_phase(&mut self, phase: Phase) {
         self.phase = phase;
-        self.limit = limit(phase, self.stop);
+        self.set_limit();
+    }
+
+    fn set_limit(&mut self) {
+        self.limit = if self.curved { NOWHERE } else { limit(self.phase, self.stop) };
     }
 
     /// After a failed call: nothing but reading, resetting and restoring is left.
@@ -290,8 +328,13 @@ impl Instance {
             return in_order && scene::GUARD.is_none() && self.advance(end, step).is_ok();
         }
         let (Some(history), Some(&rate)) = (self.histories.first_mut(), self.rates.first()) else { return false };
-        let done = in_order && history.plain_step(rate, step);
+        let from = if scene::MOMENTUM { history.indentation() } else { 0.0 };
+        let done = PLAIN && in_order && history.plain_step(rate, step);
         if done {
+            for momentum in &mut self.momenta {
+                momentum.add(history.mean_force_since(from), step);
+            }
+            self.last_step.fill(step);
             self.time = end;
         }
         done
@@ -300,28 +343,106 @@ impl Instance {
     /// Moves all contacts over `step` [s], to the time `end` [s], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        let (pairs, values) = (&self.pairs, &self.values);
-        let model = |contact: usize| {
-            let group = scene::group(contact);
-            move || model_of(group, pairs.get(group).copied().unwrap_or(NO_BODIES), values)
-        };
-        let far = History::FOLLOWS_RATE || self.fast || end.abs() > LATE;
-        if scene::CONTACTS > 1 && far {
-            for (contact, (history, &rate)) in self.histories.iter().zip(&self.rates).enumerate() {
-                let mut next = *history;
-                next.step(rate, step, model(contact)).map_err(|deep| too_deep(contact, deep))?;
+        let ahead = History::FOLLOWS_RATE || self.curved || self.fast || end.abs() > LATE || !PLAIN;
+        if scene::CONTACTS > 1 && ahead {
+            for contact in 0..scene::CONTACTS {
+                self.moved(contact, step)?;
             }
         }
+        if self.curved || !PLAIN || History::FOLLOWS_RATE && scene::MOMENTUM {
+            self.advance_any(step)?;
+        } else {
+            self.advance_held(step)?;
+        }
+        self.last_step.fill(step);
+        self.time = end;
+        Ok(())
+    }
+
+    /// Moves all contacts with their rates held.
+    #[inline]
+    fn advance_held(&mut self, step: f64) -> Result<(), Fault> {
+        let (pairs, values) = (&self.pairs, &self.values);
         for (contact, (history, &rate)) in self.histories.iter_mut().zip(&self.rates).enumerate() {
-            if !history.plain_step(rate, step) {
-                history.step(rate, step, model(contact)).map_err(|deep| too_deep(contact, deep))?;
+            let from = if scene::MOMENTUM { history.indentation() } else { 0.0 };
+            let before = *history;
+            let plain = history.plain_step(rate, step);
+            let group = scene::group(contact);
+            let model = || model_of(group, pairs.get(group).copied().unwrap_or(NO_BODIES), values);
+            if !plain {
+                history.step(rate, step, model).map_err(|deep| too_deep(contact, deep))?;
             }
             if let Some(force) = self.forces.get_mut(contact) {
                 *force = history.force_at_rate(rate);
             }
+            if let Some(momentum) = self.momenta.get_mut(contact) {
+                let mean = match plain {
+                    true => history.mean_force_since(from),
+                    false => before
+                        .mean_force_along(&Course::held(rate), step, &model())
+                        .map_err(|deep| too_deep(contact, deep))?,
+                };
+                momentum.add(mean, step);
+            }
         }
-        self.time = end;
         Ok(())
+    }
+
+    /// Moves all contacts, each on the course of its input, or by its mass.
+    #[cold]
+    fn advance_any(&mut self, step: f64) -> Result<(), Fault> {
+        let curved = !PLAIN || self.curves.iter().any(|curve| curve.slope != 0.0 || curve.bend != 0.0);
+        self.curved |= !PLAIN;
+        for contact in 0..scene::CONTACTS {
+            let Moved { history, course, mean_force } = self.moved(contact, step)?;
+            if let Some(momentum) = self.momenta.get_mut(contact) {
+                momentum.add(mean_force, step);
+            }
+            if let Some(slot) = self.histories.get_mut(contact) {
+                *slot = history;
+            }
+            if let Some(curve) = self.curves.get_mut(contact) {
+                curve.end_of(&course, step);
+            }
+            if let Some(force) = self.forces.get_mut(contact) {
+                *force = history.force_at_rate(course.rate);
+            }
+        }
+        // how the step ended is known until the next one, which isn't plain for that reason
+        if !curved {
+            self.straighten();
+        }
+        Ok(())
+    }
+
+    /// Where `contact` will be after `step` [s].
+    fn moved(&self, contact: usize, step: f64) -> Result<Moved, Fault> {
+        let (Some(history), Some(&rate)) = (self.histories.get(contact), self.rates.get(contact)) else {
+            return Err(Fault::Unavailable);
+        };
+        let mut history = *history;
+        let mut course = self.curves.get(contact).copied().unwrap_or_default().course(rate);
+        let model = self.model(contact);
+        let failed = |deep| too_deep(contact, deep);
+        if let Some(follow) = scene::FOLLOW {
+            let mass = scene::parameter(Parameter::EffectiveMass, scene::group(contact), &self.values);
+            let drive = Drive { mass, acceleration: course.slope };
+            let outcome = follow(&mut history, &model, &drive, rate, step).map_err(|reason| match reason {
+                NoMotion::TooDeep(deep) => failed(deep),
+                NoMotion::TooLong => Fault::TooLong { step },
+            })?;
+            let mean_force = mass * (course.slope - (outcome.speed - rate) / step);
+            // as if the rate had gone there in a straight line
+            let slope = course.slope - history.force_at_rate(outcome.speed) / mass;
+            course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
+            return Ok(Moved { history, course, mean_force });
+        }
+        let mean_force = match scene::MOMENTUM {
+            true => history.mean_force_along(&course, step, &model).map_err(failed)?,
+            false => 0.0,
+        };
+        history.step_along(&course, step, || model).map_err(failed)?;
+        Ok(Moved { history, course, mean_force })
     }
 
     /// Whether the passivity guard has shortened the path on which the load comes off, or came off.
@@ -484,7 +605,73 @@ impl Instance {
             Real::Work => history.work(&model),
             Real::ElasticEnergy => history.elastic_energy(&model),
             Real::DissipatedEnergy => history.dissipated_energy(&model),
+            Real::Impulse => self.momenta.get(contact).map_or(f64::NAN, Momentum::impulse),
+            Real::MeanForce => self.momenta.get(contact).map_or(f64::NAN, |momentum| momentum.mean_force),
+            Real::PredictedForce => {
+                let mut next = *history;
+                let step = self.last_step.first().copied().unwrap_or(0.0);
+                let moved = next.step(self.end_of(contact).0, step, || model);
+                // where the law ends there is no other force than the present one
+                if moved.is_ok() { next.force_at_rate(rate) } else { history.force_at_rate(rate) }
+            }
             Real::Parameter(index) => self.values.get(index).copied().unwrap_or(f64::NAN),
+        }
+    }
+
+    /// Rate [m/s] and its derivative [m/s^2] of `contact` at this moment: how the last step ended, or the input.
+    fn end_of(&self, contact: usize) -> (f64, f64) {
+        match self.curves.get(contact) {
+            Some(curve) if self.curved => (curve.end_rate, curve.end_slope),
+            _ => (self.rates.get(contact).copied().unwrap_or(0.0), 0.0),
+        }
+    }
+
+    /// The derivative of this `order` of the force by time [N/s or N/s^2], at the end of the last step.
+    ///
+    /// # Errors
+    /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`].
+    pub fn output_derivative(&self, (variable, contact): (Real, usize), order: i32) -> Result<f64, Fault> {
+        if variable != Real::Force {
+            return Err(Fault::NoDerivative { of: "force" });
+        }
+        check_order(order, History::DERIVATIVES)?;
+        let (rate, slope) = self.end_of(contact);
+        let model = self.model(contact);
+        Ok(self.histories.get(contact).map_or(f64::NAN, |history| history.force_derivative(order, rate, slope, &model)))
+    }
+
+    /// Whether the derivative of this `order` of an input may be set to `value` now.
+    ///
+    /// # Errors
+    /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`], [`Fault::NotFinite`],
+    /// [`Fault::Unsupported`] for a law that follows the rate.
+    pub fn check_input_derivative(&self, (variable, _): (Real, usize), order: i32, value: f64) -> Result<(), Fault> {
+        if CURVES == 0 {
+            return Err(Fault::Unsupported);
+        }
+        if variable != Real::IndentationRate {
+            return Err(Fault::NoDerivative { of: "indentation_rate" });
+        }
+        check_order(order, INPUT_DERIVATIVES)?;
+        if value.is_finite() {
+            Ok(())
+        } else {
+            Err(Fault::NotFinite { name: "a derivative of indentation_rate", value })
+        }
+    }
+
+    /// Sets a derivative that [`Instance::check_input_derivative`] has allowed; it holds for the next step.
+    pub fn set_input_derivative(&mut self, contact: usize, order: i32, value: f64) {
+        if let Some(curve) = self.curves.get_mut(contact) {
+            *(if order == 1 { &mut curve.slope } else { &mut curve.bend }) = value;
+            if value != 0.0 && !self.curved {
+                // the ends of contacts that had none
+                for (curve, &rate) in self.curves.iter_mut().zip(&self.rates) {
+                    (curve.end_rate, curve.end_slope) = (rate, 0.0);
+                }
+                self.curved = true;
+                self.set_limit();
+            }
         }
     }
 
@@ -505,19 +692,35 @@ impl Instance {
         self.values.copy_from_slice(&other.values);
         (self.time, self.stop, self.limit) = (other.time, other.stop, other.limit);
         (self.phase, self.experiment_defined, self.fast) = (other.phase, other.experiment_defined, other.fast);
+        self.momenta.copy_from_slice(&other.momenta);
+        self.last_step.copy_from_slice(&other.last_step);
+        // what isn't curved has curves of no meaning
+        if other.curved {
+            self.curves.copy_from_slice(&other.curves);
+        }
+        self.curved = other.curved;
     }
 
     /// The instance as [`WORDS`] words, to be stored.
     pub fn to_words(&self, mut store: impl FnMut(u64)) {
-        for word in [self.phase as u64, u64::from(self.experiment_defined), self.time.to_bits(), self.stop.to_bits()] {
+        let last_step = self.last_step.first().copied().unwrap_or(0.0);
+        let flags = u64::from(self.experiment_defined) | u64::from(self.curved) << 1;
+        for word in [self.phase as u64, flags, self.time.to_bits(), self.stop.to_bits(), last_step.to_bits()] {
             store(word);
         }
         for value in &self.values {
             store(value.to_bits());
         }
-        for (history, rate) in self.histories.iter().zip(&self.rates) {
+        for (contact, (history, rate)) in self.histories.iter().zip(&self.rates).enumerate() {
             store(rate.to_bits());
             for word in history.to_words() {
+                store(word);
+            }
+            // of contacts with neither there are none
+            for word in self.curves.get(contact).into_iter().flat_map(|curve| curve.to_words()) {
+                store(word);
+            }
+            for word in self.momenta.get(contact).into_iter().flat_map(|momentum| momentum.to_words()) {
                 store(word);
             }
         }
@@ -527,8 +730,10 @@ impl Instance {
     /// true. If the words don't make one nothing is done.
     pub fn restore(&mut self, word: impl Fn(usize) -> u64) -> bool {
         let number = |place| f64::from_bits(word(place));
+        // a word of something that there are this many of
+        let word_of = |many, place| if many > 0 { word(place) } else { 0 };
         let (mut values, mut fast) = (START, false);
-        let mut bad = word(1) > 1 || !number(2).is_finite() || !number(3).is_finite();
+        let mut bad = word(1) > 3 || [2, 3, 4].into_iter().any(|place| !number(place).is_finite());
         for ((value, settable), place) in values.iter_mut().zip(&scene::SETTABLE).zip(OWN_WORDS..) {
             *value = number(place);
             bad |= !allows(settable, *value);
@@ -557,23 +762,52 @@ impl Instance {
                     let Some(history) = History::from_words(&words, &model).filter(|_| rate.is_finite()) else {
                         return false;
                     };
+                    let curve =
+                        Curve::from_words(core::array::from_fn(|index| word_of(CURVES, place + CURVE_AT + index)));
+                    let momentum = Momentum::from_words(core::array::from_fn(|index| {
+                        word_of(MOMENTA, place + MOMENTUM_AT + index)
+                    }));
+                    let (Some(curve), Some(momentum)) = (curve, momentum) else { return false };
                     fast |= rate.abs() > FAST || history.indentation().abs() > FAR;
                     if in_earnest
                         && let (Some(own), Some(slot)) = (self.histories.get_mut(contact), self.rates.get_mut(contact))
                     {
                         (*own, *slot) = (history, rate);
+                        if let Some(slot) = self.curves.get_mut(contact) {
+                            *slot = curve;
+                        }
+                        if let Some(slot) = self.momenta.get_mut(contact) {
+                            *slot = momentum;
+                        }
                     }
                     contact += 1;
                 }
             }
         }
         (self.time, self.stop) = (number(2), number(3));
-        self.experiment_defined = word(1) == 1;
+        self.experiment_defined = word(1) & 1 != 0;
+        self.curved = word(1) & 2 != 0;
+        self.last_step.fill(number(4));
         self.fast = fast;
         self.set_phase(phase);
         self.note_forces();
         true
     }
+}
+
+/// Up to which order the derivatives of inputs go.
+const INPUT_DERIVATIVES: i32 = if scene::FOLLOW.is_some() { 1 } else { 2 };
+
+fn check_order(order: i32, largest: i32) -> Result<(), Fault> {
+    if order >= 1 && order <= largest { Ok(()) } else { Err(Fault::DerivativeOrder { order, largest }) }
+}
+
+/// A contact after a step that it has yet to make.
+struct Moved {
+    history: History,
+    /// The course that ends as the step did.
+    course: Course,
+    mean_force: f64,
 }
 
 /// What stands where there is no group.

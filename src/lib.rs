@@ -42,6 +42,7 @@
 //! |---|---|
 //! | [`contact`] | the physics: not one word of FMI |
 //! | [`instance`] | co-simulation as safe Rust: phase, time, variables, step, reset |
+//! | [`coupling`] | the course of an input in a step, and the momentum of the last one |
 //! | [`variable`] | the variables that there can be |
 //! | [`scene`] | which laws and variables a unit has: written by the exporter |
 //! | `fmi2` (feature `fmu`) | the C interface, and the only `unsafe` of the library |
@@ -59,6 +60,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod contact;
+pub mod coupling;
 pub mod fault;
 #[cfg(feature = "fmu")]
 pub mod fmi2;

@@ -56,10 +56,20 @@ pub type History = contact::History;
 /// What is in contact, and by which laws.
 pub type Model = contact::Model<Loading, Unloading>;
 
+/// What moves a contact through a step by its mass.
+pub type Follow = contact::motion::Follow<History, Model>;
+
 /// These bodies with the laws of the scene.
 pub fn model(pair: Pair, group: usize, _settable: &Values) -> Model {
     Model { pair, loading: LOADING, unloading: UNLOADING, surface: surface(group) }
 }
+
+/// Whether an output tells the momentum of a step.
+pub const MOMENTUM: bool = false;
+/// Whether an output predicts the force of the next step.
+pub const PREDICTS: bool = false;
+/// How the bodies move through a step, if the unit knows their mass.
+pub const FOLLOW: Option<Follow> = None;
 
 /// The parameters that can be set.
 pub const SETTABLE: [Settable; 5] = [

@@ -85,6 +85,12 @@ pub enum Real {
     ElasticEnergy,
     /// [J]
     DissipatedEnergy,
+    /// [N.s]
+    Impulse,
+    /// [N]
+    MeanForce,
+    /// [N]
+    PredictedForce,
     /// The settable parameter with this index in [`SETTABLE`](crate::scene::SETTABLE).
     Parameter(usize),
 }

@@ -1,7 +1,8 @@
 //! The state of a contact, and its path through the branches of the law.
 
 use super::loading::Loading;
-use super::path::Sum;
+use super::momentum;
+use super::path::{Course, Sum};
 use super::segment::Segment;
 use super::unloading::Unloading;
 use super::{Model, Surface};
@@ -80,6 +81,9 @@ impl History {
     /// Whether the force depends on the rate at the same instant.
     pub const FOLLOWS_RATE: bool = false;
 
+    /// Up to which order there are derivatives of the force by time.
+    pub const DERIVATIVES: i32 = 2;
+
     /// A contact at `gap` [m] before any motion; a negative gap is an indentation reached along the loading curve.
     pub fn start<L: Loading, U: Unloading>(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         let mut history = History {
@@ -107,9 +111,9 @@ impl History {
     ) -> Result<(), TooDeep> {
         if !self.advance_on_branch(increment) {
             let sum = self.indentation.plus(increment);
-            // no motion, no other branch: at its very end a branch that was entered from below is still the right one
             // what overflows has no rest
             let indentation = if sum.value.is_finite() { sum.total() } else { sum.value };
+            // no motion, no other branch: at its very end a branch that was entered from below is still the right one
             if indentation != self.indentation.total() {
                 self.enter(&model(), indentation, increment > 0.0)?;
             }
@@ -129,6 +133,77 @@ impl History {
         model: impl FnOnce() -> Model<L, U>,
     ) -> Result<(), TooDeep> {
         self.advance(rate * step, model)
+    }
+
+    /// Moves the contact on `course` over `step` [s].
+    ///
+    /// # Errors
+    /// As for [`History::advance`].
+    pub fn step_along<L: Loading, U: Unloading>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        model: impl Fn() -> Model<L, U>,
+    ) -> Result<(), TooDeep> {
+        let mut moved = *self;
+        let mut from = 0.0;
+        for end in course.monotone_ends(step) {
+            let to = course.way(end);
+            moved.advance(to - from, &model)?;
+            from = to;
+        }
+        *self = moved;
+        Ok(())
+    }
+
+    /// Mean force over a step on `course` over `step` [s] that is yet to be made [N].
+    ///
+    /// # Errors
+    /// As for [`History::advance`].
+    pub fn mean_force_along<L: Loading, U: Unloading>(
+        &self,
+        course: &Course,
+        step: f64,
+        model: &Model<L, U>,
+    ) -> Result<f64, TooDeep> {
+        Ok(momentum::impulse(self, model, course, step)? / step)
+    }
+
+    /// Mean force of a step that came from the indentation `from` [m] on the branch that the contact is on [N].
+    #[inline]
+    pub fn mean_force_since(&self, from: f64) -> f64 {
+        self.segment.mean_force(from, self.indentation())
+    }
+
+    /// Derivative of the force by time [N/s], or of second `order` [N/s^2], with this `rate` [m/s] and its derivative `slope`
+    /// [m/s^2], on the branch that the contact is on.
+    pub fn force_derivative<L: Loading, U: Unloading>(
+        &self,
+        order: i32,
+        rate: f64,
+        slope: f64,
+        model: &Model<L, U>,
+    ) -> f64 {
+        let stiffness = self.stiffness();
+        if order == 1 { stiffness * rate } else { self.curvature(model) * rate * rate + stiffness * slope }
+    }
+
+    /// d2F/d(indentation)^2 on the present branch [N/m^2]; of a law without segments from its stiffness near by.
+    fn curvature<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+        let indentation = self.indentation();
+        if self.segment.upper > indentation.next_up() || self.regime == Regime::Apart {
+            return self.segment.curvature(indentation);
+        }
+        let width = 1e-5 * indentation;
+        let slope_at = |indentation: f64| {
+            let mut near = *self;
+            // at the end of the range there is no neighbour
+            let rising = self.least_increment == 0.0;
+            near.max_indentation = if rising { 0.0 } else { self.max_indentation };
+            near.indentation = Sum::new(0.0);
+            near.go_to(model, indentation, rising).map_or(0.0, |()| near.stiffness())
+        };
+        (slope_at(indentation + width) - slope_at(indentation - width)) / (2.0 * width)
     }
 
     /// The step if it leaves the contact on its branch; otherwise nothing is done, and false.

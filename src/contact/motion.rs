@@ -28,6 +28,9 @@ pub struct Outcome {
     pub evaluations: u32,
 }
 
+/// [`follow`], for the history and the model of a scene.
+pub type Follow<H, M> = fn(&mut H, &M, &Drive, f64, f64) -> Result<Outcome, NoMotion>;
+
 /// Why a step could not be followed to its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoMotion {

@@ -89,7 +89,8 @@ impl Segment {
 
     /// d2F/d(indentation)^2 [N/m^2]; infinite where a power begins.
     pub fn curvature(&self, indentation: f64) -> f64 {
-        0.75 * self.power / sqrt(self.above_origin(indentation)) + 2.0 * self.square
+        let rise = if self.power == 0.0 { 0.0 } else { 0.75 * self.power / sqrt(self.above_origin(indentation)) };
+        rise + 2.0 * self.square
     }
 
     /// dF/d(indentation) [N/m].

@@ -158,6 +158,15 @@ fn describe(text: &mut Text, fault: &Fault) {
             .string("the indentation would become ")
             .number(indentation)
             .string(" m, for which the law can't be evaluated; is indentation_rate in m/s?"),
+        Fault::DerivativeOrder { order, largest } => {
+            text.string("there is no derivative of order ").number(f64::from(order));
+            text.string(": allowed is 1").string(if largest > 1 { " or 2" } else { "" })
+        }
+        Fault::NoDerivative { of } => text.string("there are derivatives of ").string(of).string(" only"),
+        Fault::TooLong { step } => text
+            .string("the bodies rebound too often to be followed within communicationStepSize = ")
+            .number(step)
+            .string(" s"),
         Fault::Unsupported => text.string("this unit doesn't have this capability (see its model description)"),
         Fault::Unavailable => text.string("not available: every step is complete when its call returns"),
         Fault::UnknownCategory => text.string(match scene::GUARD {

@@ -1,8 +1,9 @@
 //! The step, its derivatives and its status.
 
 use super::abi::*;
-use super::component::{call, component, object};
+use super::component::{array, array_mut, call, component, object};
 use super::order::{self, Function};
+use super::variables::real;
 use crate::fault::Fault;
 
 /// Moves the contact over a step with the indentation rate held; complete when it returns.
@@ -58,7 +59,7 @@ pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
     unsafe { unsupported(c, &order::CANCEL_STEP) }
 }
 
-/// Refused: see `canInterpolateInputs`.
+/// Sets derivatives of inputs for the next step, after the inputs themselves. If one is refused none is set.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     c: fmi2Component,
@@ -67,12 +68,25 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     order: *const fmi2Integer,
     value: *const fmi2Real,
 ) -> fmi2Status {
-    let _ = (vr, nvr, order, value);
-    // SAFETY: the caller's component.
-    unsafe { unsupported(c, &order::SET_REAL_INPUT_DERIVATIVES) }
+    // SAFETY: the caller's component, and arrays as long as announced.
+    unsafe {
+        call(c, &order::SET_REAL_INPUT_DERIVATIVES, |component| {
+            let references = array(vr, nvr, "vr")?;
+            let orders = array(order, nvr, "order")?;
+            let values = array(value, nvr, "value")?;
+            let all = || references.iter().zip(orders).zip(values);
+            for ((&reference, &order), &value) in all() {
+                component.instance.check_input_derivative(real(reference)?, order, value)?;
+            }
+            for ((&reference, &order), &value) in all() {
+                component.instance.set_input_derivative(real(reference)?.1, order, value);
+            }
+            Ok(())
+        })
+    }
 }
 
-/// Refused: see `maxOutputDerivativeOrder`.
+/// Reads derivatives of forces by time, at the end of the last step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     c: fmi2Component,
@@ -81,9 +95,18 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     order: *const fmi2Integer,
     value: *mut fmi2Real,
 ) -> fmi2Status {
-    let _ = (vr, nvr, order, value);
-    // SAFETY: the caller's component.
-    unsafe { unsupported(c, &order::GET_REAL_OUTPUT_DERIVATIVES) }
+    // SAFETY: the caller's component, and arrays as long as announced.
+    unsafe {
+        call(c, &order::GET_REAL_OUTPUT_DERIVATIVES, |component| {
+            let references = array(vr, nvr, "vr")?;
+            let orders = array(order, nvr, "order")?;
+            let values = array_mut(value, nvr, "value")?;
+            for ((value, &reference), &order) in values.iter_mut().zip(references).zip(orders) {
+                *value = component.instance.output_derivative(real(reference)?, order)?;
+            }
+            Ok(())
+        })
+    }
 }
 
 /// Refused: see `providesDirectionalDerivative`.

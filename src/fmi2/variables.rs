@@ -9,7 +9,7 @@ use crate::variable::Real;
 
 /// The Real variable with this reference.
 #[inline]
-fn real(reference: fmi2ValueReference) -> Result<(Real, usize), Fault> {
+pub(super) fn real(reference: fmi2ValueReference) -> Result<(Real, usize), Fault> {
     scene::real(reference).ok_or(Fault::UnknownReference { kind: "Real", reference })
 }
 

@@ -21,7 +21,7 @@ const ABSENT: [(&str, f64); 6] = [
 /// The constants of `scene` with the variables `entries`, under the identification `guid`.
 pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
     let mut text = String::from(HEAD);
-    let uses = if scene.damped.is_some() { "Pair, damped" } else { "self, Pair, Surface, loading, unloading" };
+    let uses = if scene.damped.is_some() { "self, Pair, damped" } else { "self, Pair, Surface, loading, unloading" };
     let several = differing(scene).next().is_some();
     let uses_variable = if several { USES.into() } else { USES.replace("Source, ", "") };
     add(&mut text, &format!("use crate::contact::{{{uses}}};\n{uses_variable}"));
@@ -52,6 +52,7 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
         add_surface(&mut text, scene);
         add(&mut text, MODEL);
     }
+    add_coupling(&mut text, scene);
     add_settable(&mut text, entries);
     add_parameters(&mut text, scene);
     add_reals(&mut text, entries);
@@ -77,6 +78,9 @@ pub type History = contact::History;
 /// What is in contact, and by which laws.
 pub type Model = contact::Model<Loading, Unloading>;
 
+/// What moves a contact through a step by its mass.
+pub type Follow = contact::motion::Follow<History, Model>;
+
 /// These bodies with the laws of the scene.
 pub fn model(pair: Pair, group: usize, _settable: &Values) -> Model {
     Model { pair, loading: LOADING, unloading: UNLOADING, surface: surface(group) }
@@ -88,6 +92,9 @@ const DAMPED_MODEL: &str = "\
 pub type History = damped::History<Law>;
 /// What is in contact, and by which law.
 pub type Model = damped::Model<Law>;
+
+/// What moves a contact through a step by its mass.
+pub type Follow = contact::motion::Follow<History, Model>;
 
 /// These bodies with the law of the scene.
 pub fn model(pair: Pair, group: usize, settable: &Values) -> Model {
@@ -134,6 +141,20 @@ fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &
         &format!(
             "/// The {module} law.\npub type {kind} = {module}::{name};\n\
              /// The {module} law with its constants.\npub const {constant}: {kind} = {module}::{value};\n"
+        ),
+    );
+}
+
+fn add_coupling(text: &mut String, scene: &Scene) {
+    let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
+    let (momentum, predicts) = (chosen(&["impulse", "mean_force"]), chosen(&["predicted_force"]));
+    let follow = if scene.knows_mass { "Some(contact::motion::follow)" } else { "None" };
+    add(
+        text,
+        &format!(
+            "/// Whether an output tells the momentum of a step.\npub const MOMENTUM: bool = {momentum};\n\
+             /// Whether an output predicts the force of the next step.\npub const PREDICTS: bool = {predicts};\n\
+             /// How the bodies move through a step, if the unit knows their mass.\npub const FOLLOW: Option<Follow> = {follow};\n"
         ),
     );
 }

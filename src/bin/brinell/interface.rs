@@ -159,6 +159,8 @@ struct Nominals(HashMap<Vec<(&'static str, u64)>, Nominal>);
 struct Nominal {
     prediction: Prediction,
     stiffness: f64,
+    /// Of the scene's impact [m/s].
+    speed: f64,
 }
 
 impl Nominals {
@@ -166,7 +168,8 @@ impl Nominals {
         let bodies = scene.contacts[group].own.iter().map(|own| (own.name, own.value.to_bits())).collect();
         *self.0.entry(bodies).or_insert_with(|| {
             let prediction = prediction_of(scene, group);
-            Nominal { prediction, stiffness: scene.any_model_of(group).stiffness(prediction.max_indentation) }
+            let stiffness = scene.any_model_of(group).stiffness(prediction.max_indentation);
+            Nominal { prediction, stiffness, speed: scene.impact.speed }
         })
     }
 }
@@ -181,6 +184,7 @@ impl Nominal {
             "max_mean_pressure" => max_force / (PI * max_contact_radius * max_contact_radius),
             "max_stiffness" => self.stiffness,
             "energy" => energy,
+            "momentum" => 2.0 * energy / self.speed,
             other => unreachable!("variables.toml names the nominal size {other}, which nobody computes"),
         };
         Some(one_digit(size, f64::round))

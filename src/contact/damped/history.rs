@@ -2,7 +2,8 @@
 
 use super::{Damped, Factors, Model};
 use crate::contact::history::{LARGEST_INDENTATION, Regime, TooDeep};
-use crate::contact::path::Sum;
+use crate::contact::path::{Course, Sum};
+use crate::contact::quadrature::graded_integral;
 use core::f64::consts::PI;
 use libm::sqrt;
 
@@ -31,6 +32,9 @@ impl<D: Damped + Copy> History<D> {
     /// Whether the force depends on the rate at the same instant.
     pub const FOLLOWS_RATE: bool = true;
 
+    /// Up to which order there are derivatives of the force by time: the second needs the third one of the indentation.
+    pub const DERIVATIVES: i32 = 1;
+
     /// A contact at `gap` [m] before any motion. One that starts pressed in has not been touched at any speed: the first
     /// closing rate then counts as that speed.
     ///
@@ -58,10 +62,7 @@ impl<D: Damped + Copy> History<D> {
         let to = within(sum.total())?;
         let from = self.indentation.total();
         let mut next = *self;
-        let touches = if from > 0.0 { self.touch_speed <= 0.0 } else { to > 0.0 };
-        if touches && rate > 0.0 {
-            next.touch_speed = rate;
-        }
+        next.touch(to, rate);
         if from <= 0.0 && to > 0.0 {
             next.max_indentation = 0.0;
         }
@@ -78,9 +79,68 @@ impl<D: Damped + Copy> History<D> {
         Ok(())
     }
 
+    /// Moves the contact on `course` over `step` [s]. The rate must be held: inputs of these laws have no derivatives.
+    ///
+    /// # Errors
+    /// As for [`History::step`].
+    pub fn step_along(&mut self, course: &Course, step: f64, model: impl Fn() -> Model<D>) -> Result<(), TooDeep> {
+        debug_assert!(course.is_held());
+        self.step(course.rate, step, model)
+    }
+
+    /// Mean force over a step on `course` over `step` [s] that is yet to be made [N]; the rate must be held.
+    ///
+    /// # Errors
+    /// As for [`History::step`].
+    pub fn mean_force_along(&self, course: &Course, step: f64, _model: &Model<D>) -> Result<f64, TooDeep> {
+        debug_assert!(course.is_held());
+        let rate = course.rate;
+        let from = self.indentation.total();
+        let mut moved = *self;
+        moved.touch(from + rate * step, rate);
+        let force = |time: f64| {
+            let indentation = from + rate * time;
+            let force = if indentation > 0.0 { moved.sum_of_forces(indentation, rate) } else { 0.0 };
+            if force > 0.0 { force } else { 0.0 }
+        };
+        // the borders where the force begins, ends or has a corner
+        let when = |indentation: f64| (indentation - from) / rate;
+        let [first, second] = self.law.borders();
+        let change = moved.sign_change(0.0, if from > 0.0 { from } else { 0.0 }, rate);
+        let times = [when(0.0), when(first), when(second), when(change), step];
+        let (mut start, mut impulse) = (0.0, 0.0);
+        for _ in times {
+            let next = times
+                .into_iter()
+                .filter(|&time| time > start)
+                .fold(step, |next, time| if time < next { time } else { next });
+            impulse += graded_integral(start, next, &force);
+            start = next;
+        }
+        Ok(impulse / step)
+    }
+
+    /// There is no branch to come from: see [`History::mean_force_along`].
+    pub fn mean_force_since(&self, _from: f64) -> f64 {
+        f64::NAN
+    }
+
+    /// Derivative of the force by time with this `rate` held [N/s]; see [`History::DERIVATIVES`].
+    pub fn force_derivative(&self, _order: i32, rate: f64, _slope: f64, _model: &Model<D>) -> f64 {
+        self.stiffness_at_rate(rate) * rate
+    }
+
     /// There are no plain steps here.
     pub fn plain_step(&mut self, _rate: f64, _step: f64) -> bool {
         false
+    }
+
+    /// Notes the speed of a first touch on the way to `to` [m].
+    fn touch(&mut self, to: f64, rate: f64) {
+        let touches = if self.indentation.total() > 0.0 { self.touch_speed <= 0.0 } else { to > 0.0 };
+        if touches && rate > 0.0 {
+            self.touch_speed = rate;
+        }
     }
 
     /// `C`, divided by the touch speed if the law wants it [N.s/m]; none before there was a touch.

@@ -1,7 +1,7 @@
 //! Checking a scene: from the file as it is written to what can be built.
 
 use super::contacts::Contacts;
-use super::file::{File, ImpactTable};
+use super::file::{CouplingTable, File, ImpactTable};
 use super::laws;
 use super::{Mistake, Parameter, Scene};
 use crate::table::{self, Causality, VARIABLES};
@@ -34,9 +34,11 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     }
     let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), &contacts)?;
     let (mut parameters, groups) = contacts.parameters();
+    let coupling = check_coupling(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
+    let knows_mass = coupling.is_some();
     let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
     let span = file.impact.as_ref().map(|table| table.get_ref().mass.span());
-    let mass = mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass));
+    let mass = coupling.or(mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass)));
     for (name, value) in [("restitution", file.law.restitution.clone()), ("effective_mass", mass)] {
         let Some(value) = value else { continue };
         check_limits(name, "", &value)?;
@@ -54,6 +56,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         damped,
         passivity_guard,
         yield_strength,
+        knows_mass,
         impact,
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),
@@ -92,6 +95,22 @@ fn check_impact(given: Option<&ImpactTable>, contacts: &Contacts) -> Result<Impa
     }
     let radius = contacts.number(0, "impactor.radius").map_or(f64::NAN, |radius| *radius.get_ref());
     Ok(Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 })
+}
+
+/// The mass that the unit is to know.
+fn check_coupling(
+    given: Option<&Spanned<CouplingTable>>,
+    damped: Option<&str>,
+) -> Result<Option<Spanned<f64>>, Mistake> {
+    let Some(table) = given else { return Ok(None) };
+    if let Some(name) = damped {
+        let message =
+            format!("a contact that knows the mass needs a law whose force doesn't depend on the rate; {name}'s does");
+        return Err(Mistake(table.span(), message));
+    }
+    let mass = &table.get_ref().effective_mass;
+    positive("coupling.effective_mass", mass)?;
+    Ok(Some(mass.clone()))
 }
 
 /// Refuses bodies that don't touch in one point.

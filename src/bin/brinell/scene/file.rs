@@ -19,6 +19,7 @@ pub struct File {
     #[serde(default)]
     pub fmu: Fmu,
     pub impact: Option<Spanned<ImpactTable>>,
+    pub coupling: Option<Spanned<CouplingTable>>,
     pub contact: Option<Spanned<Vec<Spanned<Contact>>>>,
 }
 
@@ -76,6 +77,12 @@ pub struct Fmu {
     pub outputs: Vec<Spanned<String>>,
     pub parameters: Option<Vec<Spanned<String>>>,
     pub initial_gap: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CouplingTable {
+    pub effective_mass: Spanned<f64>,
 }
 
 #[derive(Deserialize)]

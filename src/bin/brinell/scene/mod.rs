@@ -36,6 +36,8 @@ pub struct Scene {
     pub passivity_guard: bool,
     /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law asks for it.
     pub yield_strength: Option<f64>,
+    /// The unit moves the bodies through a step by their mass.
+    pub knows_mass: bool,
     pub impact: Impact,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
     pub impact_is_assumed: bool,
