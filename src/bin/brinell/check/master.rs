@@ -23,6 +23,8 @@ pub struct Master<'a, 'b> {
     pub time: f64,
     /// Whether the force follows the rate at the same instant.
     pub follows: bool,
+    /// The mean force of a unit that moves the mass itself: the rate is then that at the start of a step.
+    pub mean_force: Option<u32>,
 }
 
 impl Master<'_, '_> {
@@ -52,12 +54,16 @@ impl Master<'_, '_> {
         // indentation and force at the ends of the last two steps
         let mut before = [(0.0, 0.0); 2];
         loop {
-            indentation += speed * step;
-            time += step;
+            let start = speed;
             let mut force = self.step(speed, step)?;
             for _ in 0..if self.follows { ITERATIONS } else { 0 } {
                 force = self.force_at(speed - 0.5 * step * force / impact.mass)?;
             }
+            if let Some(mean_force) = self.mean_force {
+                speed -= step * self.instance.real(mean_force)? / impact.mass;
+            }
+            indentation += 0.5 * (start + speed) * step;
+            time += step;
             max_indentation = f64::max(max_indentation, indentation);
             max_force = f64::max(max_force, force);
             if force <= 0.0 && speed < 0.0 {
@@ -71,7 +77,9 @@ impl Master<'_, '_> {
                 });
             }
             before = [before[1], (indentation, force)];
-            speed -= step * force / impact.mass;
+            if self.mean_force.is_none() {
+                speed -= step * force / impact.mass;
+            }
         }
     }
 }

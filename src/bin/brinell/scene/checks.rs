@@ -32,10 +32,10 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     if elastic {
         contacts.forget_strength();
     }
-    let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), &contacts)?;
-    let (mut parameters, groups) = contacts.parameters();
     let coupling = check_coupling(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
     let knows_mass = coupling.is_some();
+    let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), coupling.as_ref(), &contacts)?;
+    let (mut parameters, groups) = contacts.parameters();
     let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
     let span = file.impact.as_ref().map(|table| table.get_ref().mass.span());
     let mass = coupling.or(mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass)));
@@ -45,12 +45,17 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         parameters.push(Parameter { name, value: *value.get_ref(), settable: true });
     }
     parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
+    let mut outputs = check_outputs(&file.fmu.outputs)?;
+    // of no use without it
+    if knows_mass && !outputs.iter().any(|output| output == "mean_force") {
+        outputs.push("mean_force".into());
+    }
     let mut scene = Scene {
         name,
         description: file.description,
         parameters,
         contacts: groups,
-        outputs: check_outputs(&file.fmu.outputs)?,
+        outputs,
         loading,
         unloading,
         damped,
@@ -87,11 +92,24 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
     Err(Mistake(name.span(), message))
 }
 
-/// The impact that the scene names, or a solid steel ball's with the radius of the first contact's impactor.
-fn check_impact(given: Option<&ImpactTable>, contacts: &Contacts) -> Result<Impact, Mistake> {
+/// The impact that the scene names, or one at 1 m/s of the mass that the unit knows, or else of a solid steel ball with the
+/// radius of the first contact's impactor.
+fn check_impact(
+    given: Option<&ImpactTable>,
+    known: Option<&Spanned<f64>>,
+    contacts: &Contacts,
+) -> Result<Impact, Mistake> {
     if let Some(table) = given {
         let mass = positive("impact.mass", &table.mass)?;
+        if let Some(known) = known.map(Spanned::get_ref).filter(|known| **known != mass) {
+            let message =
+                format!("impact.mass = {mass:?} and coupling.effective_mass = {known:?} must be the same mass");
+            return Err(Mistake(table.mass.span(), message));
+        }
         return Ok(Impact { mass, speed: positive("impact.speed", &table.speed)? });
+    }
+    if let Some(mass) = known {
+        return Ok(Impact { mass: *mass.get_ref(), speed: 1.0 });
     }
     let radius = contacts.number(0, "impactor.radius").map_or(f64::NAN, |radius| *radius.get_ref());
     Ok(Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 })
