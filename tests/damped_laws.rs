@@ -9,6 +9,7 @@ use brinell::contact::damped::{
     Adams, AnyDamped, Damped, History, HuntCrossley, KelvinVoigt, KuwabaraKono, Model, Tsuji, impact,
 };
 use brinell::contact::impact::{Impact, Prediction};
+use brinell::contact::path::Course;
 use physics::{MASS, logarithmic, mild};
 use std::f64::consts::PI;
 
@@ -349,5 +350,29 @@ fn factors_follow_the_bodies() {
     ] {
         let (soft, stiff) = (law.factors(&pair, 0.5, 2.0), law.factors(&stiffer, 0.5, 2.0));
         assert_close(name, stiff.damping / soft.damping, f64::powf(2.0, power), 1e-12);
+    }
+}
+
+#[test]
+fn the_mean_force_of_a_step_is_that_of_many_small_ones() {
+    for (name, law) in every_law() {
+        let model = model_of(law, 0.4);
+        let mut history = History::start(&model, 1e-6).unwrap();
+        // to the surface and in, out slowly, faster than the surface follows, and out of contact
+        for (rate, time) in [(1.0, 2.1e-5), (-0.3, 5e-6), (-20.0, 0.5e-6), (0.4, 3e-5), (-3.0, 8e-6), (-3.0, 4e-6)] {
+            let mean = history.mean_force_along(&Course::held(rate), time, &model).unwrap();
+            let parts = 20_000;
+            let part = time / f64::from(parts);
+            let (mut sum, mut largest) = (0.0, 1e-3f64);
+            for _ in 0..parts {
+                let before = history.force_at_rate(rate);
+                history.step(rate, part, || model).unwrap();
+                let after = history.force_at_rate(rate);
+                sum += 0.5 * (before + after);
+                largest = largest.max(after);
+            }
+            let slow = sum / f64::from(parts);
+            assert!((mean - slow).abs() < 2e-4 * largest, "{name} at {rate} m/s: {mean:e} N instead of {slow:e} N");
+        }
     }
 }

@@ -114,3 +114,35 @@ fn the_monotone_parts_of_a_course_end_where_the_rate_changes_its_sign() {
     assert_eq!(ends(0.25, -1.0, 2.0), [1.0; 3]);
     assert_eq!(ends(0.0, 1.0, 0.0), [1.0; 3]);
 }
+
+#[test]
+fn derivatives_of_the_force_are_those_of_its_course() {
+    let d_y = unit(&mild()).indentation;
+    for (name, model) in all_models(mild()) {
+        // loading in each region, and half way down
+        for (depth, back) in [(0.6, 0.0), (3.7, 0.0), (31.0, 0.0), (150.0, 0.0), (31.0, 0.3), (150.0, 0.2)] {
+            let mut history = History::start(&model, -depth * d_y).unwrap();
+            let recovery = depth * d_y - model.unloading_path(depth * d_y).lower;
+            history.advance(-back * recovery, || model).unwrap();
+            let sign = if back > 0.0 { -1.0 } else { 1.0 };
+            // onto the branch that lies in the direction of motion
+            history.advance(sign * 1e-9 * d_y, || model).unwrap();
+            let (rate, slope) = (sign * 0.7, 3e4);
+            let course = Course { rate, slope, bend: 0.0 };
+            let time = 1e-4 * if back > 0.0 { recovery } else { depth * d_y };
+            let force = |time: f64| {
+                let mut moved = history;
+                moved.advance(course.way(time), || model).unwrap();
+                moved.force()
+            };
+            let forces = [force(0.0), force(time), force(2.0 * time), force(3.0 * time)];
+            let first = (-11.0 * forces[0] + 18.0 * forces[1] - 9.0 * forces[2] + 2.0 * forces[3]) / (6.0 * time);
+            let second = (2.0 * forces[0] - 5.0 * forces[1] + 4.0 * forces[2] - forces[3]) / (time * time);
+            let exact = [1, 2].map(|order| history.force_derivative(order, rate, slope, &model));
+            let scale = first.abs() + 1e-3 * forces[0] / time;
+            assert!((exact[0] - first).abs() < 1e-6 * scale, "{name} at {depth}, {back}: {} for {first}", exact[0]);
+            let scale = second.abs() + 0.01 * forces[0] / (time * time) * 1e-4 + scale * 1e3;
+            assert!((exact[1] - second).abs() < 1e-2 * scale, "{name} at {depth}, {back}: {} for {second}", exact[1]);
+        }
+    }
+}

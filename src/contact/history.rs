@@ -191,7 +191,8 @@ impl History {
     /// d2F/d(indentation)^2 on the present branch [N/m^2]; of a law without segments from its stiffness near by.
     fn curvature<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let indentation = self.indentation();
-        if self.segment.upper > indentation.next_up() || self.regime == Regime::Apart {
+        let segmented = model.loading.is_segmented() && U::SEGMENTED;
+        if segmented || self.segment.upper > indentation.next_up() {
             return self.segment.curvature(indentation);
         }
         let width = 1e-5 * indentation;

@@ -96,6 +96,10 @@ impl Brake2012 {
 }
 
 impl Loading for Brake2012 {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         pair.yield_point(first_yield(pair.poissons_ratio) / 1.5)
     }

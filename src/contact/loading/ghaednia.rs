@@ -102,6 +102,10 @@ impl Ghaednia {
 }
 
 impl Loading for Ghaednia {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         JacksonGreen::REFERENCE.yield_point(pair)
     }

@@ -102,6 +102,10 @@ impl JacksonGreen {
 }
 
 impl Loading for JacksonGreen {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         let indentation = self.scale(pair).transition;
         YieldPoint { indentation, force: pair.hertz_stiffness() * (indentation * sqrt(indentation)) }

@@ -76,6 +76,10 @@ impl Johnson {
 }
 
 impl Loading for Johnson {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         pair.yield_point(self.yield_pressure_factor)
     }

@@ -88,6 +88,10 @@ impl KogutEtsion {
 }
 
 impl Loading for KogutEtsion {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         self.unit(pair)
     }

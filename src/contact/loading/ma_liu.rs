@@ -77,6 +77,10 @@ impl MaLiu {
 }
 
 impl Loading for MaLiu {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     /// The peak of Hertz's pressure is 1.5 times its mean.
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         pair.yield_point(self.peak_pressure_factor / 1.5)

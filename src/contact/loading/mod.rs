@@ -54,6 +54,11 @@ pub trait Loading {
     /// the curve has no segments it is the [tangent](Segment::tangent); the elastic part always is a segment.
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment;
 
+    /// Whether every piece of the curve is a segment, and none a tangent.
+    fn is_segmented(&self) -> bool {
+        true
+    }
+
     /// The first indentation above `indentation` where the curve or its slope is not smooth [m].
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         self.segment(pair, indentation).upper
@@ -190,6 +195,10 @@ impl Loading for AnyLoading {
 
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         self.law().segment(pair, indentation)
+    }
+
+    fn is_segmented(&self) -> bool {
+        self.law().is_segmented()
     }
 
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {

@@ -36,6 +36,10 @@ impl Power {
 }
 
 impl Loading for Power {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         pair.yield_point(self.yield_pressure_factor)
     }

@@ -62,6 +62,10 @@ impl Stronge {
 }
 
 impl Loading for Stronge {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         pair.yield_point(self.yield_pressure_factor)
     }

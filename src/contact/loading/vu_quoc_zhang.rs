@@ -77,6 +77,10 @@ impl VuQuocZhang {
 }
 
 impl Loading for VuQuocZhang {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         pair.yield_point(self.peak_pressure_factor / 1.5)
     }

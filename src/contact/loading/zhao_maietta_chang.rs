@@ -83,6 +83,10 @@ impl ZhaoMaiettaChang {
 }
 
 impl Loading for ZhaoMaiettaChang {
+    fn is_segmented(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         pair.yield_point(self.yield_pressure_factor)
     }
