@@ -1,7 +1,7 @@
 //! The variables that a scene's unit has, in order: the one list from which XML, constants and documentation are made.
 
 use crate::scene::{Group, Parameter, Scene};
-use crate::table::{self, Causality, VARIABLES, Variable};
+use crate::table::{self, Causality, Follows, VARIABLES, Variable};
 use brinell::contact::damped::Damped;
 use brinell::contact::impact::Prediction;
 use std::collections::HashMap;
@@ -71,7 +71,11 @@ pub fn entries(scene: &Scene) -> Vec<Entry<'_>> {
                 (damped_from_the_start || name != "restitution")
                     && variable.depends_on.iter().any(|other| other == "*" || other == name)
             };
-            let follows = scene.damped.is_some() && variable.follows_rate;
+            let follows = match variable.follows_rate {
+                Follows::Never => false,
+                Follows::WithLaw => scene.damped.is_some(),
+                Follows::Always => true,
+            };
             entries.push(Entry {
                 variable,
                 group: Some(group),

@@ -21,10 +21,20 @@ pub struct Variable {
     #[serde(default)]
     pub depends_on: Vec<String>,
     pub nominal_from: Option<String>,
-    /// Whether it follows the rate at the same instant, where the law does.
     #[serde(default)]
-    pub follows_rate: bool,
+    pub follows_rate: Follows,
     pub description: String,
+}
+
+/// Whether an output follows the rate at the same instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Follows {
+    #[default]
+    Never,
+    /// Where the law does.
+    WithLaw,
+    Always,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
