@@ -176,8 +176,21 @@ def derivatives(unit, mass, speed, step):
     return -speed
 
 
+def derivatives_of_both(unit, mass, speed, step):
+    """As before; the second derivative of the force has its place in the jerk, so that the step ends where the speed's
+    polynomial of one degree more would."""
+    force = slope = curvature = 0.0
+    while force > 0.0 or speed > 0.0:
+        unit.set_rate(speed, -force / mass, -(slope + 0.25 * step * curvature) / mass)
+        unit.step(step)
+        speed -= step * unit.get("mean_force") / mass
+        force = unit.get("force")
+        slope, curvature = unit.force_derivatives()
+    return -speed
+
+
 def rollback(unit, mass, speed, step):
-    """As before, but the step is made again until the course of the speed ends with the speed that the force makes."""
+    """With the acceleration and a jerk, but the step is made again until the course of the speed ends with the speed that the force makes."""
     force = slope = 0.0
     state = unit.slave.getFMUstate()
     while force > 0.0 or speed > 0.0:
@@ -221,7 +234,8 @@ WAYS = {
     "serial (leap-frog)": serial,
     "velocity Verlet": verlet,
     "input derivatives, `mean_force`": derivatives,
-    "the same with rollback": rollback,
+    "the same, and the second derivative of `force`": derivatives_of_both,
+    "input derivatives with rollback": rollback,
     "mass known": mass_known,
 }
 
@@ -230,10 +244,11 @@ def contact_time(unit, impact, step, place):
     """How long the bodies touch [s], by the input derivatives: the times at which the polynomials that the master has given
     pass the surface and the dent."""
     unit.start(initial_gap=place * impact.speed * step)
-    speed, force, slope, began = impact.speed, 0.0, 0.0, None
+    speed, began = impact.speed, None
+    force = slope = curvature = 0.0
     while True:
         before, start = unit.get("indentation"), unit.time
-        acceleration, jerk = -force / impact.mass, -slope / impact.mass
+        acceleration, jerk = -force / impact.mass, -(slope + 0.25 * step * curvature) / impact.mass
         unit.set_rate(speed, acceleration, jerk)
         unit.step(step)
         after, dent = unit.get("indentation"), unit.get("residual_indentation")
@@ -249,7 +264,7 @@ def contact_time(unit, impact, step, place):
             return passes(dent) - began
         speed -= step * unit.get("mean_force") / impact.mass
         force = unit.get("force")
-        slope, _ = unit.force_derivatives()
+        slope, curvature = unit.force_derivatives()
 
 
 def error(way, unit, impact, steps_per_contact, places=PLACES):
@@ -294,7 +309,7 @@ def main(plain, knowing, impact):
         print(f"| {name} | " + " | ".join(cells) + f" | {result[32][1]:.0f} | {1e6 * result[32][2]:.0f} |")
     single, calls, _ = error(mass_known, units[mass_known], impact, 0.5)
     print(f"\nmass known, a single step over the whole impact: {single:.1e}, {calls:.0f} calls")
-    times = [contact_time(units[derivatives], impact, impact.contact_time / 32, (place + 0.5) / PLACES)
+    times = [contact_time(units[derivatives_of_both], impact, impact.contact_time / 32, (place + 0.5) / PLACES)
              for place in range(PLACES)]
     spread = math.sqrt(sum((found / impact.contact_time - 1.0) ** 2 for found in times) / PLACES)
     print(f"contact time by input derivatives, 32 steps per contact: {spread:.1e}")
