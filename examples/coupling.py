@@ -281,6 +281,13 @@ def error(way, unit, impact, steps_per_contact, places=PLACES):
     return rms, calls / places, (time.perf_counter() - began) / places
 
 
+def error_of_contact_time(unit, impact, steps_per_contact, places=PLACES):
+    """Relative, as the error of the restitution."""
+    step = impact.contact_time / steps_per_contact
+    found = [contact_time(unit, impact, step, (place + 0.5) / places) for place in range(places)]
+    return math.sqrt(sum((time / impact.contact_time - 1.0) ** 2 for time in found) / places)
+
+
 def order(errors, first=16, last=512):
     """Slope of the error over the step, fitted where neither big steps nor rounding speak."""
     counts = [count for count in errors if first <= count <= last and errors[count] > 1e-11]
@@ -309,9 +316,7 @@ def main(plain, knowing, impact):
         print(f"| {name} | " + " | ".join(cells) + f" | {result[32][1]:.0f} | {1e6 * result[32][2]:.0f} |")
     single, calls, _ = error(mass_known, units[mass_known], impact, 0.5)
     print(f"\nmass known, a single step over the whole impact: {single:.1e}, {calls:.0f} calls")
-    times = [contact_time(units[derivatives_of_both], impact, impact.contact_time / 32, (place + 0.5) / PLACES)
-             for place in range(PLACES)]
-    spread = math.sqrt(sum((found / impact.contact_time - 1.0) ** 2 for found in times) / PLACES)
+    spread = error_of_contact_time(units[derivatives_of_both], impact, 32)
     print(f"contact time by input derivatives, 32 steps per contact: {spread:.1e}")
     for unit in units.values():
         unit.close()

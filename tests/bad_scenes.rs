@@ -372,3 +372,19 @@ fn constants_of_two_laws_that_contradict_each_other_are_refused() {
     );
     refused_with("[law]\nloading = \"hertz\"\nunloading_parameters = §{}", &["unloading_parameters", "hertz unloads"]);
 }
+
+#[test]
+fn a_mass_to_be_known_that_is_none_is_refused() {
+    let mass = |value: &str| format!("[coupling]\neffective_mass = §{value}");
+    for (value, said) in [("0.0", "0.0"), ("-0.0", "-0.0"), ("-4e-3", "-0.004"), ("nan", "NaN"), ("inf", "inf")] {
+        refused_with(&mass(value), &[&format!("coupling.effective_mass = {said}")]);
+    }
+    refused_with("§[coupling]\n", &["effective_mass"]);
+    refused_with("[coupling]\neffective_mass = 1.0\n§mass = 1.0", &["`mass`", "`effective_mass`"]);
+}
+
+#[test]
+fn a_law_that_follows_the_rate_can_not_know_the_mass() {
+    let law = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.5\n";
+    refused_with(&format!("{law}§[coupling]\neffective_mass = 1.0"), &["hunt-crossley", "rate"]);
+}

@@ -13,7 +13,7 @@ use std::process::Command;
 use unit::{export, scene, scenes, write_scene};
 
 /// Runs tests/fmpy/`file` with the units of `scenes`, whose paths it finds as JSON in the variable BRINELL_TEST_UNITS,
-/// by the name of the scene.
+/// by the name of the scene, and the program in BRINELL_TEST_PROGRAM.
 fn pytest(file: &str, scenes: &[PathBuf]) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmpy");
     assert!(folder.join(file).is_file(), "there is no tests/fmpy/{file}");
@@ -23,6 +23,7 @@ fn pytest(file: &str, scenes: &[PathBuf]) {
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
         .current_dir(folder)
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
+        .env("BRINELL_TEST_PROGRAM", env!("CARGO_BIN_EXE_brinell"))
         // nothing is left behind in the source tree
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
@@ -123,6 +124,50 @@ fn the_force_of_rate_dependent_laws_follows_the_input() {
         write_scene(&name, &text)
     });
     pytest("test_force_follows_the_rate.py", &scenes);
+}
+
+/// The bodies of scenes/coupled.toml with these lines of `[fmu]` and what follows it.
+fn with_bodies_of_coupled(name: &str, more: &str) -> PathBuf {
+    let bodies = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
+    write_scene(name, &format!("name = \"{name}\"\n{bodies}[impact]\nmass = 4e-3\nspeed = 1.0\n{more}\n"))
+}
+
+const ENERGIES: &str = r#"[fmu]
+outputs = ["residual_indentation", "work", "elastic_energy", "mean_force"]"#;
+
+#[test]
+fn each_way_of_coupling_has_its_error_and_order() {
+    let energies = with_bodies_of_coupled("energies", ENERGIES);
+    pytest("test_coupling.py", &[scene("coupled"), scene("mass_known"), energies]);
+}
+
+#[test]
+fn derivatives_and_momentum_mean_what_the_standard_says() {
+    let all_outputs = r#"
+name = "all_outputs"
+impactor = { radius = 10e-3, youngs_modulus = 210e9, poissons_ratio = 0.3 }
+target = { material = "aluminium 6061-T6", radius = -50e-3, surface = "fresh" }
+law = { loading = "jackson-green", unloading = "jackson" }
+fmu = { outputs = [
+    "indentation", "max_indentation", "residual_indentation", "contact_radius", "mean_pressure", "stiffness", "work",
+    "elastic_energy", "dissipated_energy", "impulse", "mean_force", "predicted_force", "regime"] }
+"#;
+    let rate_dependent = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.6\n\
+        [fmu]\noutputs = [\"impulse\", \"mean_force\", \"predicted_force\"]";
+    let two = "[[contact]]\nname = \"left\"\n[[contact]]\nname = \"right\"\n";
+    let outputs = "[fmu]\noutputs = [\"indentation\", \"max_indentation\", \"impulse\", \"mean_force\"]\n";
+    let known = "impactor = { radius = 8e-3 }\n[coupling]\neffective_mass = 4e-3";
+    let scenes = [
+        scene("coupled"),
+        scene("mass_known"),
+        scene("steel_ball"),
+        write_scene("all_outputs", all_outputs),
+        with_bodies_of_coupled("energies", ENERGIES),
+        with_bodies_of_coupled("rate_dependent", rate_dependent),
+        with_bodies_of_coupled("two_plain", &format!("{outputs}{two}")),
+        with_bodies_of_coupled("two_known", &format!("{outputs}{two}{known}")),
+    ];
+    pytest("test_derivatives_and_momentum.py", &scenes);
 }
 
 #[test]

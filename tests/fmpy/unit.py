@@ -146,6 +146,29 @@ class Instance:
     def outputs(self):
         return {name: self.get(name) for name in self.unit.outputs}
 
+    # derivatives
+
+    def try_set_derivatives(self, name, orders, values):
+        count = len(orders)
+        references = (fmi2.fmi2ValueReference * count)(*[self._reference(name)] * count)
+        return self.try_("SetRealInputDerivatives", references, count, (c_int * count)(*orders), (c_double * count)(*values))
+
+    def set_derivatives(self, *values, name="indentation_rate"):
+        """First, second ... derivative of the input."""
+        if self.try_set_derivatives(name, range(1, len(values) + 1), values) != OK:
+            raise Refused(f"SetRealInputDerivatives({values})", ERROR, self.log)
+
+    def try_derivative(self, name, order):
+        value = (c_double * 1)()
+        references = (fmi2.fmi2ValueReference * 1)(self._reference(name))
+        return self.try_("GetRealOutputDerivatives", references, 1, (c_int * 1)(order), value), value[0]
+
+    def derivative(self, order, name="force"):
+        status, value = self.try_derivative(name, order)
+        if status != OK:
+            raise Refused(f"GetRealOutputDerivatives({name}, {order})", status, self.log)
+        return value
+
     # steps
 
     def try_step(self, time, step):

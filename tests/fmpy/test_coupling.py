@@ -1,0 +1,136 @@
+"""What the README says about coupling: the error and the order of each way, as examples/coupling.py measures them."""
+
+import functools
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from unit import paths, unit
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples"))
+import coupling  # noqa: E402
+
+GRAVITY = 9.81
+
+
+@functools.cache
+def impact(tmp=Path(os.environ.get("TMPDIR", "/tmp"))):
+    """The prediction of the program, from the scene that the unit carries along."""
+    scene = Path(unit("coupled").folder) / "resources" / "scene.toml"
+    command = [os.environ["BRINELL_TEST_PROGRAM"], "predict", scene, "--json"]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    file = Path(unit("coupled").folder) / "impact.json"
+    file.write_text(printed, encoding="utf-8")
+    return coupling.Impact.read(file)
+
+
+@functools.cache
+def coupled(name):
+    return coupling.Unit(paths()[name])
+
+
+def error(way, steps_per_contact, name="coupled"):
+    return coupling.error(way, coupled(name), impact(), steps_per_contact)[0]
+
+
+# the largest error at 32 steps per contact, and the order
+@pytest.mark.parametrize(
+    ("way", "largest", "order"),
+    [
+        (coupling.parallel, 0.2, 1),
+        (coupling.predicted_early, 2e-2, 2),
+        (coupling.predicted, 1.0e-3, 2),
+        (coupling.serial, 1.0e-3, 2),
+        (coupling.verlet, 1.0e-3, 2),
+        (coupling.derivatives, 1.4e-4, 3),
+        (coupling.derivatives_of_both, 1.0e-5, 4),
+        (coupling.rollback, 5e-5, 3),
+    ],
+    ids=lambda value: getattr(value, "__name__", ""),
+)
+def test_each_way_has_its_error_and_its_order(way, largest, order):
+    errors = {steps: error(way, steps) for steps in (16, 32, 64, 128, 256, 512)}
+    assert errors[32] <= largest
+    assert abs(coupling.order(errors) - order) < 0.2, errors
+
+
+def test_the_force_one_step_late_is_far_off_where_the_others_are_not():
+    assert error(coupling.parallel, 32) > 0.1
+
+
+@pytest.mark.parametrize("steps_per_contact", [0.5, 1, 2, 3, 7, 32, 1000])
+def test_a_unit_that_knows_the_mass_is_right_at_any_step(steps_per_contact):
+    assert error(coupling.mass_known, steps_per_contact, "mass_known") < 1e-12
+
+
+def test_input_derivatives_locate_the_contact_time():
+    assert coupling.error_of_contact_time(coupled("coupled"), impact(), 32) <= 1e-5
+
+
+def rebound_under_gravity(speed, mass):
+    """Closing speed squared at which the ball leaves the dent: along the loading curve until the energy is used up, and back
+    with what is elastic. The heights count from the surface. Energies are those of a unit that doesn't know the mass."""
+    probe = coupled_with_energies()
+
+    def missing(depth):
+        probe_at(probe, depth)
+        return probe.get("work") - 0.5 * mass * speed**2 - mass * GRAVITY * depth
+
+    low, high = 0.0, 1e-3
+    while high - low > 1e-16 * high:
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            break
+        low, high = (low, middle) if missing(middle) > 0.0 else (middle, high)
+    probe_at(probe, low)
+    way = low - probe.get("residual_indentation")
+    return 2.0 / mass * (probe.get("elastic_energy") - mass * GRAVITY * way)
+
+
+def coupled_with_energies():
+    return unit("energies").instance()
+
+
+def probe_at(probe, depth):
+    probe.call("Reset")
+    probe.initialize(initial_gap=0.0)
+    probe.step(1.0, depth)
+
+
+def test_a_dropped_ball_rebounds_as_predicted_with_steps_of_a_millisecond():
+    mass, height, step = impact().mass, 0.05, 1e-3
+    ball = unit("mass_known").ready(initial_gap=height)
+    speed = 0.0
+    while speed >= 0.0:
+        ball.set(indentation_rate=speed)
+        ball.set_derivatives(GRAVITY)
+        ball.step(step)
+        speed += step * (GRAVITY - ball.get("mean_force") / mass)
+    risen = ball.get("residual_indentation") - ball.get("indentation")
+    rebound = math.sqrt(speed**2 + 2.0 * GRAVITY * risen)
+    met = math.sqrt(2.0 * GRAVITY * height)
+    expected = math.sqrt(rebound_under_gravity(met, mass))
+    assert ball.get("force") == 0.0 and risen > 0.0
+    assert abs(rebound / expected - 1.0) <= 1e-6
+    # gravity acts within the contact, too, which a prediction for the speed alone doesn't know
+    assert abs(rebound / met / impact().restitution - 1.0) < 1e-2
+
+
+def test_a_ball_bounces_many_times_as_a_chain_of_predictions():
+    mass, step = impact().mass, 1e-3
+    ball = unit("mass_known").ready(initial_gap=0.02)
+    speed, potential = 0.0, mass * GRAVITY * 0.02
+    for _ in range(400):
+        ball.set(indentation_rate=speed)
+        ball.set_derivatives(GRAVITY)
+        ball.step(step)
+        speed += step * (GRAVITY - ball.get("mean_force") / mass)
+    kinetic = 0.5 * mass * speed**2
+    lost = potential + mass * GRAVITY * ball.get("indentation") - kinetic - ball.get("dissipated_energy")
+    # what is left is stored in the contact, if the ball lies in its dent
+    assert -1e-12 * potential < lost < potential
+    if ball.get("force") == 0.0:
+        assert abs(lost) < 1e-10 * potential

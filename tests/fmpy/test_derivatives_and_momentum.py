@@ -1,0 +1,439 @@
+"""Input derivatives, output derivatives, impulse, mean and predicted force: what each call means, and what is refused."""
+
+import ctypes
+import math
+from fractions import Fraction
+
+import pytest
+from unit import ERROR, OK, bits, paths, unit
+
+STEP = 1e-6
+
+# each as (rates of steps before, course of the step): loading in each region, unloading, in and out again, apart
+COURSES = {
+    "elastic": ([], (0.001, 200.0, 1e8)),
+    "first region": ([0.01], (0.02, 3e4, -4e9)),
+    "plastic": ([3.0], (0.7, -2e5, 5e10)),
+    "unloading": ([3.0, -0.1], (-0.3, -2e5, 5e10)),
+    "reloading": ([3.0, -0.3], (0.2, -1e5, 3e10)),
+    "through the end of the dent": ([3.0, 3.0], (-2.0, 1e5, 0.0)),
+    "in and out again": ([0.5], (2.0, -4e6, 0.0)),
+    "out and in again": ([2.0], (-2.0, 1.6e7, -3e13)),
+    "apart": ([-1.0], (-0.1, 5e3, 1e8)),
+}
+every_course = pytest.mark.parametrize("name", COURSES)
+momentum_units = pytest.mark.parametrize("name", ["coupled", "all_outputs", "mass_known"])
+
+
+def prepared(name, rates=(), **parameters):
+    made = unit(name).ready(**parameters)
+    for rate in rates:
+        made.step(STEP, rate)
+    return made
+
+
+def course(made, rate, slope, bend):
+    made.set(indentation_rate=rate)
+    made.set_derivatives(slope, bend)
+
+
+def way(rate, slope, bend, time):
+    """In exact arithmetic."""
+    rate, slope, bend, time = map(Fraction, (rate, slope, bend, time))
+    return time * (rate + time * (slope / 2 + bend * time / 6))
+
+
+def at_course_after(rate, slope, bend, time):
+    """The same polynomial, begun later."""
+    return (rate + time * (slope + 0.5 * bend * time), slope + bend * time, bend)
+
+
+# input derivatives
+
+
+@every_course
+def test_the_indentation_follows_the_polynomial(name):
+    rates, polynomial = COURSES[name]
+    made = prepared("coupled", rates)
+    before = made.get("indentation")
+    course(made, *polynomial)
+    made.step(STEP)
+    expected = float(Fraction(before) + way(*polynomial, STEP))
+    assert made.get("indentation") == pytest.approx(expected, rel=1e-14, abs=1e-20)
+
+
+@pytest.mark.parametrize(("order", "value"), [(1, -4e4), (2, -3e9)])
+def test_one_derivative_alone_is_enough(order, value):
+    made = prepared("coupled")
+    made.set(indentation_rate=1.0)
+    assert made.try_set_derivatives("indentation_rate", [order], [value]) == OK
+    made.step(STEP)
+    expected = STEP + value * STEP ** (order + 1) / (2 if order == 1 else 6)
+    assert made.get("indentation") == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("arrangement", [([1, 2], 0), ([2, 1], 1)])
+def test_orders_and_values_belong_together_in_any_sequence(arrangement):
+    orders, _ = arrangement
+    values = {1: -4e4, 2: -3e9}
+    made, expected = prepared("coupled"), prepared("coupled")
+    made.set(indentation_rate=1.0)
+    assert made.try_set_derivatives("indentation_rate", orders, [values[order] for order in orders]) == OK
+    course(expected, 1.0, values[1], values[2])
+    made.step(STEP)
+    expected.step(STEP)
+    assert made.state() == expected.state()
+
+
+def test_of_an_order_that_is_named_twice_the_last_value_counts():
+    made, expected = prepared("coupled"), prepared("coupled")
+    made.set(indentation_rate=1.0)
+    assert made.try_set_derivatives("indentation_rate", [1, 1], [7e4, -4e4]) == OK
+    expected.set(indentation_rate=1.0)
+    expected.set_derivatives(-4e4)
+    made.step(STEP)
+    expected.step(STEP)
+    assert made.state() == expected.state()
+
+
+def test_an_empty_list_of_derivatives_sets_nothing():
+    made = prepared("coupled")
+    before = made.state()
+    assert made.try_("SetRealInputDerivatives", None, 0, None, None) == OK
+    assert made.state() == before
+
+
+@every_course
+def test_derivatives_hold_for_one_step_only(name):
+    rates, polynomial = COURSES[name]
+    made = prepared("coupled", rates)
+    course(made, *polynomial)
+    made.step(STEP)
+    before = made.get("indentation")
+    made.step(STEP)
+    assert made.get("indentation") - before == pytest.approx(polynomial[0] * STEP, rel=1e-9)
+
+
+def test_derivatives_of_zero_leave_a_plain_step():
+    made, plain = prepared("coupled", [3.0]), prepared("coupled", [3.0])
+    course(made, 0.7, 0.0, 0.0)
+    made.step(STEP)
+    plain.step(STEP, 0.7)
+    assert {key: bits(value) for key, value in made.outputs().items()} == {
+        key: bits(value) for key, value in plain.outputs().items()
+    }
+
+
+@pytest.mark.parametrize(
+    ("polynomial", "turn"),
+    [
+        ((1.0, -2.0e6, 0.0), Fraction(1, 2) * Fraction(1e-6)),
+        # the rate (t - 3e-7)(t - 8e-7) bend/2: in up to the first root, out up to the second, and in again
+        ((4.0, -3.6666666666666664e7, 3.3333333333333331e13), None),
+        # and one that only slows down
+        ((2.0, -1.9e6, 0.0), Fraction(1e-6)),
+    ],
+)
+def test_a_step_that_goes_in_and_out_again_leaves_the_dent_of_its_extreme(polynomial, turn):
+    made = prepared("coupled")
+    course(made, *polynomial)
+    made.step(STEP)
+    rate, slope, bend = polynomial
+    if turn is None:
+        turn = -2.0 * rate / (slope - math.sqrt(slope * slope - 2.0 * bend * rate))
+    deepest = float(max(way(*polynomial, turn), way(*polynomial, STEP)))
+    assert made.get("max_indentation") == pytest.approx(deepest, rel=1e-15)
+    pressed = prepared("coupled", initial_gap=-deepest)
+    assert made.get("residual_indentation") == pytest.approx(pressed.get("residual_indentation"), rel=1e-14)
+
+
+@every_course
+def test_a_step_is_the_same_as_its_parts(name):
+    rates, polynomial = COURSES[name]
+    whole, parts = prepared("all_outputs", rates), prepared("all_outputs", rates)
+    course(whole, *polynomial)
+    whole.step(STEP)
+    for part in range(64):
+        course(parts, *at_course_after(*polynomial, STEP * part / 64))
+        parts.step(STEP / 64)
+    expected = parts.outputs()
+    for key, value in whole.outputs().items():
+        if key not in ("mean_force", "predicted_force", "stiffness"):
+            assert value == pytest.approx(expected[key], rel=1e-10, abs=1e-16), key
+
+
+def refusals(name):
+    """Array of references, orders, values, and what the message must name."""
+    rate = "left.indentation_rate" if name == "two_plain" else "indentation_rate"
+    force = rate.replace("indentation_rate", "force")
+    cases = [(rate, order, 1.0, [f"order {order}"]) for order in (0, 3, -1, 17)]
+    if name == "mass_known":
+        cases.append((rate, 2, 1.0, ["order 2", "allowed is 1"]))
+    cases += [(rate, 1, value, [str(value)]) for value in (math.nan, math.inf, -math.inf)]
+    cases += [(force, 1, 1.0, ["indentation_rate"]), (unit(name).parameters[0], 1, 1.0, ["indentation_rate"])]
+    return cases
+
+
+@pytest.mark.parametrize("name", ["coupled", "mass_known", "two_plain"])
+def test_wrong_derivatives_are_refused_with_their_value_and_set_nothing(name):
+    for variable, order, value, words in refusals(name):
+        rate = "left.indentation_rate" if name == "two_plain" else "indentation_rate"
+        made = prepared(name)
+        references = (ctypes.c_uint * 2)(unit(name).reference[rate], unit(name).reference[variable])
+        status = made.try_(
+            "SetRealInputDerivatives", references, 2, (ctypes.c_int * 2)(1, order), (ctypes.c_double * 2)(5.0, value)
+        )
+        assert status == ERROR, (variable, order, value)
+        message = made.log[-1][3]
+        assert all(word.lower() in message.lower() for word in words), message
+        # fmpy hands messages to the logger that was made last
+        other = prepared(name)
+        assert other.try_step(0.0, -1.0) == ERROR
+        assert made.state() == other.state(), "an instance that failed for another reason"
+
+
+def test_derivatives_are_refused_where_inputs_are():
+    made = prepared("coupled")
+    made.call("Terminate")
+    assert made.try_set_derivatives("indentation_rate", [1], [1.0]) == ERROR
+    failed = prepared("coupled")
+    assert failed.try_step(0.0, -1.0) == ERROR
+    assert failed.try_set_derivatives("indentation_rate", [1], [1.0]) == ERROR
+    assert "fmi2SetRealInputDerivatives" in failed.log[-1][3]
+
+
+def test_derivatives_set_in_initialization_mode_hold_for_the_first_step():
+    made, expected = unit("coupled").instance(), prepared("coupled")
+    made.setup()
+    made.call("EnterInitializationMode")
+    course(made, 1.0, -4e4, -3e9)
+    made.call("ExitInitializationMode")
+    made.step(STEP)
+    course(expected, 1.0, -4e4, -3e9)
+    expected.step(STEP)
+    assert made.outputs() == expected.outputs()
+    assert made.log == []
+
+
+def test_output_derivatives_are_refused_before_there_is_an_output():
+    made = unit("coupled").instance()
+    assert made.try_derivative("force", 1)[0] == ERROR
+    made = unit("coupled").instance()
+    made.setup()
+    made.call("EnterInitializationMode")
+    assert made.try_derivative("force", 1)[0] == ERROR
+
+
+@pytest.mark.parametrize(("name", "order"), [("force", 0), ("force", 3), ("force", -1), ("indentation", 1),
+                                             ("mean_force", 1), ("indentation_rate", 1)])
+def test_other_output_derivatives_are_refused(name, order):
+    made = prepared("coupled", [1.0])
+    status, _ = made.try_derivative(name, order)
+    assert status == ERROR
+    assert ("force" if order == 1 else f"order {order}") in made.log[-1][3]
+
+
+def test_a_law_that_follows_the_rate_takes_no_input_derivatives_and_gives_one_of_the_force():
+    made = prepared("rate_dependent", [1.0])
+    assert made.unit.description.coSimulation.canInterpolateInputs is False
+    assert made.unit.description.coSimulation.maxOutputDerivativeOrder == 1
+    assert math.isfinite(made.derivative(1))
+    assert made.try_derivative("force", 2)[0] == ERROR
+    made = prepared("rate_dependent", [1.0])
+    assert made.try_set_derivatives("indentation_rate", [1], [1.0]) == ERROR
+
+
+def test_the_model_description_says_what_there_is():
+    for name in ("coupled", "mass_known", "steel_ball"):
+        capabilities = unit(name).description.coSimulation
+        assert capabilities.canInterpolateInputs is True
+        assert capabilities.maxOutputDerivativeOrder == 2
+
+
+# output derivatives
+
+
+@every_course
+def test_output_derivatives_are_those_of_the_force_at_the_end_of_the_step(name):
+    rates, polynomial = COURSES[name]
+    made = prepared("coupled", rates)
+    saved, time = made.state(), made.time
+
+    def force(end):
+        made.restore(saved)
+        made.time = time
+        course(made, *polynomial)
+        made.step(end)
+        return made.get("force")
+
+    # the force by time, from the left: four points a little apart, scaled so that neither error speaks
+    wide = 2e-3 * STEP
+    values = [force(STEP - index * wide) for index in range(5)]
+    assert force(STEP) == values[0]
+    first = (25 * values[0] - 48 * values[1] + 36 * values[2] - 16 * values[3] + 3 * values[4]) / (12 * wide)
+    second = (35 * values[0] - 104 * values[1] + 114 * values[2] - 56 * values[3] + 11 * values[4]) / (12 * wide**2)
+    scale = abs(values[0]) / STEP
+    assert made.derivative(1) == pytest.approx(first, rel=1e-6, abs=1e-9 * scale)
+    assert made.derivative(2) == pytest.approx(second, rel=1e-3, abs=1e-6 * scale / STEP)
+
+
+def test_without_a_force_there_is_nothing_to_derive():
+    made = prepared("coupled", [-1.0])
+    assert (made.derivative(1), made.derivative(2)) == (0.0, 0.0)
+
+
+# momentum
+
+RATES = [1.3, 2.0, 0.7, -0.4, 0.3, -1.5, 1.0, 4.0, 5.0, -0.1, -9.0, 8.0]
+
+
+@momentum_units
+def test_the_mean_force_is_the_change_of_the_impulse_over_the_step(name):
+    made, before = prepared(name), 0.0
+    for rate in RATES:
+        made.step(STEP, rate)
+        impulse = made.get("impulse")
+        assert made.get("mean_force") * STEP == pytest.approx(impulse - before, rel=1e-13, abs=1e-15 * impulse)
+        before = impulse
+
+
+@pytest.mark.parametrize("name", ["coupled", "all_outputs", "rate_dependent"])
+def test_the_impulse_of_a_step_is_that_of_its_parts(name):
+    whole, parts = prepared(name), prepared(name)
+    for rate in RATES:
+        whole.step(STEP, rate)
+        for _ in range(50):
+            parts.step(STEP / 50, rate)
+        assert whole.get("impulse") == pytest.approx(parts.get("impulse"), rel=1e-11)
+
+
+@pytest.mark.parametrize("name", ["coupled", "all_outputs"])
+def test_a_held_rate_gives_the_work_over_the_way_as_mean_force(name):
+    made = prepared("energies" if name == "coupled" else name)
+    for rate in RATES:
+        before = made.get("work")
+        made.step(STEP, rate)
+        done = made.get("work") - before
+        assert made.get("mean_force") * rate * STEP == pytest.approx(done, rel=1e-9, abs=1e-12 * made.get("work"))
+
+
+@pytest.mark.parametrize("step", [1e-9, 1e-12, 1e-15])
+def test_the_mean_force_of_a_short_step_does_not_cancel(step):
+    made = prepared("coupled", [3.0])
+    before = made.get("force")
+    made.step(step, 0.5)
+    after = made.get("force")
+    assert before <= made.get("mean_force") <= after or made.get("mean_force") == pytest.approx(after, rel=1e-14)
+    assert made.get("mean_force") == pytest.approx(0.5 * (before + after), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["coupled", "all_outputs", "rate_dependent"])
+def test_the_predicted_force_is_the_force_after_such_a_step(name):
+    made = prepared(name)
+    for rate in RATES:
+        made.step(STEP, rate)
+        expected = made.get("predicted_force")
+        saved = made.state()
+        made.step(STEP)
+        assert bits(made.get("force")) == bits(expected)
+        made.restore(saved)
+        made.time -= STEP
+
+
+def test_the_predicted_force_follows_a_rate_that_is_set():
+    made = prepared("coupled", [3.0])
+    made.set(indentation_rate=0.5)
+    expected = made.get("predicted_force")
+    made.step(STEP)
+    assert bits(made.get("force")) == bits(expected)
+
+
+@momentum_units
+def test_before_the_first_step_there_is_no_impulse_and_the_mean_force_is_the_force(name):
+    made = prepared(name, initial_gap=-2e-6)
+    assert made.get("force") > 0.0
+    assert made.get("impulse") == 0.0
+    assert bits(made.get("mean_force")) == bits(made.get("force"))
+
+
+def test_outputs_that_a_scene_does_not_ask_for_are_not_there():
+    assert not {"impulse", "mean_force", "predicted_force", "effective_mass"} & unit("steel_ball").variables.keys()
+
+
+# state
+
+
+@pytest.mark.parametrize("name", ["coupled", "all_outputs", "mass_known"])
+def test_derivatives_and_momentum_belong_to_the_state(name):
+    made = prepared(name, RATES[:5])
+    orders = (-4e4,) if name == "mass_known" else (-4e4, -3e9)
+    made.set(indentation_rate=1.0)
+    made.set_derivatives(*orders)
+    saved, time, before = made.state(), made.time, made.outputs()
+    derivatives = made.derivative(1), made.derivative(2)
+
+    def go_on(instance):
+        instance.time = time
+        trace = [instance.outputs(), (instance.derivative(1), instance.derivative(2))]
+        for rate in (None, None, 0.3, -2.0):
+            instance.step(STEP, rate)
+            trace += [instance.outputs(), (instance.derivative(1), instance.derivative(2))]
+        return repr(trace)
+
+    expected = go_on(made)
+    assert repr([before, derivatives]) == repr(eval(expected)[:2])
+    made.restore(saved)
+    assert made.state() == saved
+    assert go_on(made) == expected
+    other = unit(name).instance()
+    other.restore(saved)
+    assert go_on(other) == expected
+    made.restore(saved)
+    made.call("Reset")
+    assert made.state() == unit(name).instance().state(), "a reset instance has no derivatives"
+
+
+# mass known
+
+
+@pytest.mark.parametrize("value", [0.0, -0.0, -4e-3, math.nan, math.inf])
+def test_a_mass_that_is_none_is_refused(value):
+    made = unit("mass_known").instance()
+    made.setup()
+    made.call("EnterInitializationMode")
+    assert made.try_set("effective_mass", value) == ERROR
+    assert "effective_mass" in made.log[-1][3]
+
+
+def test_two_contacts_that_know_their_mass_are_two_units():
+    both = unit("two_known").ready()
+    alone = {side: unit("mass_known").ready(impactor__radius=radius) for side, radius in (("left", 5e-3), ("right", 8e-3))}
+    speeds = {"left": 1.0, "right": 0.4}
+    for _ in range(12):
+        for side, speed in speeds.items():
+            both.set(**{f"{side}__indentation_rate": speed})
+            alone[side].set(indentation_rate=speed)
+        both.step(5e-6)
+        for side, single in alone.items():
+            single.step(5e-6)
+            for key in ("force", "indentation", "mean_force", "impulse"):
+                assert bits(both.get(f"{side}.{key}")) == bits(single.get(key)), (side, key)
+            speeds[side] -= 5e-6 * single.get("mean_force") / 4e-3
+    assert all(speed < 0.0 for speed in speeds.values()), "both have rebounded"
+
+
+def test_of_two_contacts_each_has_its_own_derivatives():
+    both, left, right = unit("two_plain").ready(), unit("coupled").ready(), unit("coupled").ready()
+    for made, name in ((both, "left.indentation_rate"), (left, "indentation_rate")):
+        made.try_set(name, 1.0)
+        made.set_derivatives(-3e5, 1e10, name=name)
+        made.step(STEP)
+        made.step(STEP)
+    right.step(STEP)
+    for key in ("force", "indentation", "max_indentation", "mean_force", "impulse"):
+        assert bits(both.get(f"left.{key}")) == bits(left.get(key)), key
+        assert bits(both.get(f"right.{key}")) == bits(0.0), key
+
+
+def test_every_unit_of_these_tests_is_there():
+    assert {"coupled", "mass_known", "all_outputs", "rate_dependent", "two_known", "two_plain"} <= paths().keys()
