@@ -431,7 +431,7 @@ impl Instance {
                 NoMotion::TooDeep(deep) => failed(deep),
                 NoMotion::TooLong => Fault::TooLong { step },
             })?;
-            let mean_force = mass * (course.slope - (outcome.speed - rate) / step);
+            let mean_force = mass * outcome.taken / step;
             // as if the rate had gone there in a straight line
             let slope = course.slope - history.force_at_rate(outcome.speed) / mass;
             course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };

@@ -24,6 +24,8 @@ pub struct Drive {
 pub struct Outcome {
     /// Closing speed at the end [m/s].
     pub speed: f64,
+    /// Speed that the contact force alone has taken [m/s]: its impulse over the mass. Zero without contact, and never less.
+    pub taken: f64,
     /// Evaluations of the force that it took.
     pub evaluations: u32,
 }
@@ -169,7 +171,7 @@ pub fn follow<L: Loading, U: Unloading>(
     speed: f64,
     step: f64,
 ) -> Result<Outcome, NoMotion> {
-    let mut motion = Motion { history, model, drive, speed, left: step, inner: step, evaluations: 0 };
+    let mut motion = Motion { history, model, drive, speed, taken: 0.0, left: step, inner: step, evaluations: 0 };
     while motion.left > 0.0 {
         if motion.is_apart() {
             motion.fly()?;
@@ -180,7 +182,9 @@ pub fn follow<L: Loading, U: Unloading>(
             return Err(NoMotion::TooLong);
         }
     }
-    Ok(Outcome { speed: motion.speed, evaluations: motion.evaluations })
+    // the contact only pushes: less than nothing is rounding
+    let taken = largest(motion.taken, 0.0);
+    Ok(Outcome { speed: motion.speed, taken, evaluations: motion.evaluations })
 }
 
 /// The motion as far as it has come.
@@ -189,6 +193,8 @@ struct Motion<'a, L, U> {
     model: &'a Model<L, U>,
     drive: &'a Drive,
     speed: f64,
+    /// Speed that the contact force has taken so far [m/s].
+    taken: f64,
     /// Time left [s].
     left: f64,
     /// Length of the next inner step [s].
@@ -256,7 +262,9 @@ impl<L: Loading, U: Unloading> Motion<'_, L, U> {
         if !rising && released {
             // a recovery of no more than rounding takes no time
             let energy = self.model.recovered_work(piece.upper, start);
-            self.speed = -sqrt(self.speed * self.speed + 2.0 * energy / self.drive.mass);
+            let speed = -sqrt(self.speed * self.speed + 2.0 * energy / self.drive.mass);
+            self.taken += self.speed - speed;
+            self.speed = speed;
             return Ok(self.history.go_to(self.model, piece.lower, false)?);
         }
         let mut inner = if self.inner < self.left { self.inner } else { self.left };
@@ -295,6 +303,7 @@ impl<L: Loading, U: Unloading> Motion<'_, L, U> {
             goal = end;
         }
         self.history.go_to(self.model, goal, rising)?;
+        self.taken += self.drive.acceleration * time - (trial.speed - self.speed);
         self.speed = trial.speed;
         self.left -= time;
         self.inner = if grows && !turns && !leaves { 2.0 * inner } else { inner };

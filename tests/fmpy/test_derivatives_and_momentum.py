@@ -437,3 +437,32 @@ def test_of_two_contacts_each_has_its_own_derivatives():
 
 def test_every_unit_of_these_tests_is_there():
     assert {"coupled", "mass_known", "all_outputs", "rate_dependent", "two_known", "two_plain"} <= paths().keys()
+
+
+def test_a_mass_in_flight_feels_no_force():
+    ball = unit("mass_known").ready(initial_gap=0.02)
+    speed = 0.0
+    for _ in range(50):
+        ball.set(indentation_rate=speed)
+        ball.set_derivatives(9.81)
+        ball.step(1e-3)
+        speed += 1e-3 * 9.81
+        assert (ball.get("mean_force"), ball.get("impulse")) == (0.0, 0.0)
+    assert ball.get("indentation") == pytest.approx(0.5 * 9.81 * 0.05**2 - 0.02, rel=1e-12)
+
+
+@pytest.mark.parametrize("total", [0.05, 0.2, 1.0, 10.0])
+def test_one_long_step_of_a_known_mass_is_many_short_ones(total):
+    ends = []
+    for steps in (1, 7, 1000):
+        ball, speed = unit("mass_known").ready(initial_gap=0.02), 0.0
+        for _ in range(steps):
+            ball.set(indentation_rate=speed)
+            ball.set_derivatives(9.81)
+            ball.step(total / steps)
+            assert ball.get("mean_force") >= 0.0
+            speed += total / steps * (9.81 - ball.get("mean_force") / 4e-3)
+        ends.append((speed, ball.get("indentation"), ball.get("dissipated_energy"), ball.get("impulse")))
+    # a bounce multiplies what rounding made of the one before
+    for end in ends[1:]:
+        assert end == pytest.approx(ends[0], rel=1e-7)
