@@ -68,7 +68,7 @@ pub fn entries(scene: &Scene) -> Vec<Entry<'_>> {
         let mut first = 0;
         for (index, group) in scene.contacts.iter().enumerate() {
             let depends = |name: &str| {
-                (damped_from_the_start || name != "restitution")
+                (damped_from_the_start || !["restitution", "effective_mass"].contains(&name))
                     && variable.depends_on.iter().any(|other| other == "*" || other == name)
             };
             let follows = match variable.follows_rate {
