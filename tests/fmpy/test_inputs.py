@@ -7,6 +7,7 @@ import pytest
 from unit import DISCARD, ERROR, OK, bits, paths, unit
 
 every_unit = pytest.mark.parametrize("name", sorted(paths()))
+every_unit_with_held_rate = pytest.mark.parametrize("name", [name for name in sorted(paths()) if not unit(name).knows_mass()])
 
 
 @every_unit
@@ -48,7 +49,7 @@ def test_an_indentation_beyond_the_law_is_an_error(name):
     assert "indentation" in instance.log[0][3]
 
 
-@every_unit
+@every_unit_with_held_rate
 def test_back_from_a_huge_indentation_the_force_is_that_of_the_law(name):
     instance = unit(name).ready()
     instance.step(1.0, 1e20)
@@ -64,7 +65,8 @@ def test_denormal_and_zero_inputs_are_harmless(name, value):
     instance.step(1e-6, 0.5)
     force = instance.get("force")
     instance.step(1e-6, value)
-    follows = any(unknown.dependencies for unknown in unit(name).description.outputs)
+    # a rate-dependent law pushes less at rest, and a mass that the unit knows moves on
+    follows = any(unknown.dependencies for unknown in unit(name).description.outputs) or unit(name).knows_mass()
     assert instance.get("force") == force or (follows and 0.0 < instance.get("force") < force)
     assert instance.log == []
 

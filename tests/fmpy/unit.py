@@ -44,6 +44,10 @@ class Unit:
         self.parameters = [name for name, v in self.variables.items() if v.causality == "parameter"]
         self.outputs = [name for name, v in self.variables.items() if v.causality == "output"]
 
+    def knows_mass(self):
+        """Whether it moves the bodies itself within a step, so that the rate isn't held over it."""
+        return "effective_mass" in self.variables and self.description.coSimulation.canInterpolateInputs
+
     def instance(self, **arguments):
         return Instance(self, **arguments)
 
