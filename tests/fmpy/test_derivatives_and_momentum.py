@@ -4,8 +4,6 @@ import ctypes
 import math
 from fractions import Fraction
 
-import fmpy
-import numpy as np
 import pytest
 from unit import ERROR, OK, bits, paths, unit
 
@@ -468,13 +466,3 @@ def test_one_long_step_of_a_known_mass_is_many_short_ones(total):
     # a bounce multiplies what rounding made of the one before
     for end in ends[1:]:
         assert end == pytest.approx(ends[0], rel=1e-7)
-
-
-def test_simulate_fmu_plays_a_ramp_exactly():
-    ramp = np.array([(0.0, 1.0), (1e-5, -1.0)], dtype=[("time", float), ("indentation_rate", float)])
-    result = fmpy.simulate_fmu(
-        paths()["coupled"], stop_time=1e-5, step_size=1e-6, output_interval=1e-6, input=ramp, set_input_derivatives=True,
-        output=["max_indentation", "indentation"],
-    )
-    assert result["max_indentation"][-1] == pytest.approx(2.5e-6, rel=1e-9)
-    assert result["indentation"][-1] == pytest.approx(0.0, abs=1e-15)
