@@ -153,6 +153,30 @@ fn many_instances_and_threads_do_not_disturb_each_other() {
 }
 
 #[test]
+fn several_contacts_are_described_as_they_are() {
+    let scenes =
+        [("several", "law = { loading = \"big-alabo\" }"), ("several_damped", "law = { loading = \"adams-impact\" }")];
+    let scenes = scenes.map(|(name, law)| {
+        let text = format!(
+            r#"
+name = "{name}"
+{law}
+impactor = {{ radius = 5e-3 }}
+target = {{ material = "mild steel" }}
+fmu = {{ outputs = ["indentation"] }}
+contact = [
+    {{ name = "left" }},
+    {{ name = "row", count = 100 }},
+    {{ name = "right", target = {{ youngs_modulus = 70e9 }}, initial_gap = 1e-6 }},
+]
+"#
+        );
+        write_scene(name, &text)
+    });
+    pytest("test_several_contacts.py", &scenes);
+}
+
+#[test]
 fn simulate_fmu_runs_with_its_defaults() {
     pytest("test_simulate_fmu.py", &scenes());
 }
