@@ -197,7 +197,7 @@ impl Instance {
     /// Writes down the forces, where they are kept.
     fn note_forces(&mut self) {
         for ((force, history), &rate) in self.forces.iter_mut().zip(&self.histories).zip(&self.rates) {
-            *force = history.force_at_rate(rate);
+            *force = history.plain_force(rate, Model::SQUARES);
         }
     }
 
@@ -313,11 +313,12 @@ impl Instance {
             }
         }
         for (contact, (history, &rate)) in self.histories.iter_mut().zip(&self.rates).enumerate() {
-            if !history.plain_step(rate, step) {
+            // one contact has been tried before
+            if scene::CONTACTS == 1 || !history.plain_step(rate, step) {
                 history.step(rate, step, model(contact)).map_err(|deep| too_deep(contact, deep))?;
             }
             if let Some(force) = self.forces.get_mut(contact) {
-                *force = history.force_at_rate(rate);
+                *force = history.plain_force(rate, Model::SQUARES);
             }
         }
         self.time = end;
@@ -441,7 +442,7 @@ impl Instance {
     pub fn plain_force(&self, contact: usize) -> Option<f64> {
         let force = match self.forces.get(contact) {
             Some(&force) => force,
-            None => self.histories.get(contact)?.force_at_rate(*self.rates.get(contact)?),
+            None => self.histories.get(contact)?.plain_force(*self.rates.get(contact)?, Model::SQUARES),
         };
         (self.phase == Phase::StepComplete).then_some(force)
     }
@@ -459,7 +460,7 @@ impl Instance {
             Some(known) => forces.iter_mut().zip(known).for_each(|(force, &known)| *force = known),
             None => {
                 for ((force, history), &rate) in forces.iter_mut().zip(histories).zip(rates) {
-                    *force = history.force_at_rate(rate);
+                    *force = history.plain_force(rate, Model::SQUARES);
                 }
             }
         }
@@ -499,12 +500,22 @@ impl Instance {
     #[inline(always)]
     pub fn copy_from(&mut self, other: &Instance) {
         self.rates.copy_from_slice(&other.rates);
-        self.histories.copy_from_slice(&other.histories);
+        if scene::CONTACTS == 1 {
+            self.histories.iter_mut().zip(&other.histories).for_each(|(own, history)| own.copy_from(history));
+        } else {
+            self.histories.copy_from_slice(&other.histories);
+        }
         self.forces.copy_from_slice(&other.forces);
         self.pairs.copy_from_slice(&other.pairs);
         self.values.copy_from_slice(&other.values);
         (self.time, self.stop, self.limit) = (other.time, other.stop, other.limit);
         (self.phase, self.experiment_defined, self.fast) = (other.phase, other.experiment_defined, other.fast);
+    }
+
+    /// The same where it needn't be quick.
+    #[inline(never)]
+    pub fn copy(&mut self, other: &Instance) {
+        self.copy_from(other);
     }
 
     /// The instance as [`WORDS`] words, to be stored.
@@ -553,7 +564,10 @@ impl Instance {
                 while contact < scene::end(group) {
                     let place = OWN_WORDS + scene::SETTABLE.len() + CONTACT_WORDS * contact;
                     let rate = number(place);
-                    let words = core::array::from_fn(|index| word(place + 1 + index));
+                    let mut words = [0; History::WORDS];
+                    for (index, slot) in words.iter_mut().enumerate() {
+                        *slot = word(place + 1 + index);
+                    }
                     let Some(history) = History::from_words(&words, &model).filter(|_| rate.is_finite()) else {
                         return false;
                     };

@@ -58,6 +58,9 @@ pub struct Model<L, U> {
 }
 
 impl<L: Loading, U: Unloading> Model<L, U> {
+    /// Whether a branch can have a quadratic term.
+    pub const SQUARES: bool = U::SQUARES;
+
     /// The point of the loading curve at `indentation` [m], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {
         Peak {

@@ -5,6 +5,7 @@ use super::text::Text;
 use crate::fault::Fault;
 use crate::instance::Phase;
 use crate::scene;
+use crate::variable::Settable;
 use core::ffi::CStr;
 
 /// A category of log messages, as declared in the model description.
@@ -97,74 +98,92 @@ fn contact_name(text: &mut Text, contact: usize) -> &mut Text {
     text.string(": ")
 }
 
+/// Writes `template` with the next of `words` in place of each `@`, and the next of `numbers` in place of each `~`.
+#[inline(never)]
+fn fill(text: &mut Text, template: &str, words: [&str; 2], numbers: [f64; 3]) {
+    let (mut words, mut numbers) = (words.iter(), numbers.iter());
+    for &byte in template.as_bytes() {
+        match byte {
+            b'@' => text.string(words.next().copied().unwrap_or("")),
+            b'~' => text.number(numbers.next().copied().unwrap_or(f64::NAN)),
+            plain => text.byte(plain),
+        };
+    }
+}
+
 fn describe(text: &mut Text, fault: &Fault) {
-    match *fault {
-        Fault::BadInstance { reason } => text.string(reason),
-        Fault::OutOfOrder { phase } => text.string("not allowed ").string(phase_name(phase)),
-        Fault::NullPointer { argument } => text.string("the argument ").string(argument).string(" is null"),
-        Fault::UnknownReference { kind, reference } => text
-            .string("there is no variable of type ")
-            .string(kind)
-            .string(" with value reference ")
-            .integer(reference),
-        Fault::NotSettable => text.string("an output can't be set"),
-        Fault::FixedParameter { name } => {
-            text.string("the parameter ").string(name).string(" can't be set after initialization")
+    const NO_WORDS: [&str; 2] = [""; 2];
+    const NO_NUMBERS: [f64; 3] = [0.0; 3];
+    let (template, words, numbers) = match *fault {
+        Fault::BadInstance { reason } => ("@", [reason, ""], NO_NUMBERS),
+        Fault::OutOfOrder { phase } => ("not allowed @", [phase_name(phase), ""], NO_NUMBERS),
+        Fault::NullPointer { argument } => ("the argument @ is null", [argument, ""], NO_NUMBERS),
+        Fault::UnknownReference { kind, reference } => {
+            // a number of up to ten digits
+            text.string("there is no variable of type ")
+                .string(kind)
+                .string(" with value reference ")
+                .integer(reference);
+            return;
         }
-        Fault::NotFinite { name, value } => text.string(name).string(" = ").number(value).string(" is not finite"),
+        Fault::NotSettable => ("an output can't be set", NO_WORDS, NO_NUMBERS),
+        Fault::FixedParameter { name } => ("the parameter @ can't be set after initialization", [name, ""], NO_NUMBERS),
+        Fault::NotFinite { name, value } => ("@ = ~ is not finite", [name, ""], [value, 0.0, 0.0]),
         Fault::TooFast { rate } => {
-            text.string("indentation_rate = ").number(rate).string(" is too fast: the force would not be finite")
+            ("indentation_rate = ~ is too fast: the force would not be finite", NO_WORDS, [rate, 0.0, 0.0])
         }
-        Fault::OutOfRange { settable, value } => text
-            .string(settable.name)
-            .string(" = ")
-            .number(value)
-            .string(" is out of range: allowed is ")
-            .number(settable.minimum)
-            .string(" to ")
-            .number(settable.maximum)
-            .string(if settable.unit.is_empty() { "" } else { " " })
-            .string(settable.unit),
-        Fault::NoPointContact { impactor, target } => text
-            .string("impactor.radius = ")
-            .number(impactor)
-            .string(" m does not fit target.radius = ")
-            .number(target)
-            .string(" m: a socket (negative) must be wider than the impactor, and no radius is below 1e-12 m"),
-        Fault::Experiment { start, stop } => text
-            .string("startTime = ")
-            .number(start)
-            .string(" s, stopTime = ")
-            .number(stop)
-            .string(" s: allowed are finite times with stopTime not before startTime"),
-        Fault::NoExperiment => text.string("fmi2SetupExperiment must be called before"),
-        Fault::StepSize { step } => text
-            .string("communicationStepSize = ")
-            .number(step)
-            .string(" s is not allowed: it must be positive and finite"),
-        Fault::CommunicationPoint { given, expected } => text
-            .string("currentCommunicationPoint = ")
-            .number(given)
-            .string(" s, but the last step ended at ")
-            .number(expected)
-            .string(" s"),
-        Fault::BeyondStopTime { end, stop } => text
-            .string("the step would end at ")
-            .number(end)
-            .string(" s, beyond the stop time ")
-            .number(stop)
-            .string(" s"),
-        Fault::TooDeep { contact, indentation } => contact_name(text, contact)
-            .string("the indentation would become ")
-            .number(indentation)
-            .string(" m, for which the law can't be evaluated; is indentation_rate in m/s?"),
-        Fault::Unsupported => text.string("this unit doesn't have this capability (see its model description)"),
-        Fault::Unavailable => text.string("not available: every step is complete when its call returns"),
-        Fault::UnknownCategory => text.string(match scene::GUARD {
-            None => "unknown log category: there are logStatusDiscard, logStatusError, logAll",
-            Some(_) => "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll",
-        }),
-        Fault::BadState { reason } => text.string("the FMU state can't be used: ").string(reason),
-        Fault::NoMemory => text.string("out of memory"),
+        Fault::OutOfRange { settable, value } => {
+            let Settable { name, unit, minimum, maximum, .. } = *settable;
+            let template = if unit.is_empty() {
+                "@ = ~ is out of range: allowed is ~ to ~"
+            } else {
+                "@ = ~ is out of range: allowed is ~ to ~ @"
+            };
+            (template, [name, unit], [value, minimum, maximum])
+        }
+        Fault::NoPointContact { impactor, target } => (
+            "impactor.radius = ~ m does not fit target.radius = ~ m: a socket (negative) must be wider than the impactor, \
+             and no radius is below 1e-12 m",
+            NO_WORDS,
+            [impactor, target, 0.0],
+        ),
+        Fault::Experiment { start, stop } => (
+            "startTime = ~ s, stopTime = ~ s: allowed are finite times with stopTime not before startTime",
+            NO_WORDS,
+            [start, stop, 0.0],
+        ),
+        Fault::NoExperiment => ("fmi2SetupExperiment must be called before", NO_WORDS, NO_NUMBERS),
+        Fault::StepSize { step } => {
+            ("communicationStepSize = ~ s is not allowed: it must be positive and finite", NO_WORDS, [step, 0.0, 0.0])
+        }
+        Fault::CommunicationPoint { given, expected } => {
+            ("currentCommunicationPoint = ~ s, but the last step ended at ~ s", NO_WORDS, [given, expected, 0.0])
+        }
+        Fault::BeyondStopTime { end, stop } => {
+            ("the step would end at ~ s, beyond the stop time ~ s", NO_WORDS, [end, stop, 0.0])
+        }
+        Fault::TooDeep { contact, indentation } => {
+            contact_name(text, contact);
+            (
+                "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?",
+                NO_WORDS,
+                [indentation, 0.0, 0.0],
+            )
+        }
+        Fault::Unsupported => {
+            ("this unit doesn't have this capability (see its model description)", NO_WORDS, NO_NUMBERS)
+        }
+        Fault::Unavailable => ("not available: every step is complete when its call returns", NO_WORDS, NO_NUMBERS),
+        Fault::UnknownCategory => (
+            match scene::GUARD {
+                None => "unknown log category: there are logStatusDiscard, logStatusError, logAll",
+                Some(_) => "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll",
+            },
+            NO_WORDS,
+            NO_NUMBERS,
+        ),
+        Fault::BadState { reason } => ("the FMU state can't be used: @", [reason, ""], NO_NUMBERS),
+        Fault::NoMemory => ("out of memory", NO_WORDS, NO_NUMBERS),
     };
+    fill(text, template, words, numbers);
 }

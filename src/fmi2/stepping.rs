@@ -34,9 +34,9 @@ pub unsafe extern "C" fn fmi2DoStep(
 unsafe fn do_any_step(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        call(c, &order::DO_STEP, |component| {
+        call(c, order::DO_STEP, |component| {
             component.instance.do_step(time, step)?;
-            component.warn_of_guard(&order::DO_STEP);
+            component.warn_of_guard(order::DO_STEP);
             Ok(())
         })
     }
@@ -46,7 +46,7 @@ unsafe fn do_any_step(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
 ///
 /// # Safety
 /// The caller's component.
-unsafe fn unsupported(c: fmi2Component, function: &'static Function) -> fmi2Status {
+unsafe fn unsupported(c: fmi2Component, function: Function) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe { call(c, function, |_| Err(Fault::Unsupported)) }
 }
@@ -55,7 +55,7 @@ unsafe fn unsupported(c: fmi2Component, function: &'static Function) -> fmi2Stat
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { unsupported(c, &order::CANCEL_STEP) }
+    unsafe { unsupported(c, order::CANCEL_STEP) }
 }
 
 /// Refused: see `canInterpolateInputs`.
@@ -69,7 +69,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 ) -> fmi2Status {
     let _ = (vr, nvr, order, value);
     // SAFETY: the caller's component.
-    unsafe { unsupported(c, &order::SET_REAL_INPUT_DERIVATIVES) }
+    unsafe { unsupported(c, order::SET_REAL_INPUT_DERIVATIVES) }
 }
 
 /// Refused: see `maxOutputDerivativeOrder`.
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 ) -> fmi2Status {
     let _ = (vr, nvr, order, value);
     // SAFETY: the caller's component.
-    unsafe { unsupported(c, &order::GET_REAL_OUTPUT_DERIVATIVES) }
+    unsafe { unsupported(c, order::GET_REAL_OUTPUT_DERIVATIVES) }
 }
 
 /// Refused: see `providesDirectionalDerivative`.
@@ -99,7 +99,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 ) -> fmi2Status {
     let _ = (vUnknown_ref, nUnknown, vKnown_ref, nKnown, dvKnown, dvUnknown);
     // SAFETY: the caller's component.
-    unsafe { unsupported(c, &order::GET_DIRECTIONAL_DERIVATIVE) }
+    unsafe { unsupported(c, order::GET_DIRECTIONAL_DERIVATIVE) }
 }
 
 /// Writes `answer` for the status `kind`, if `kind` is the one that there is an answer to.
@@ -108,7 +108,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 /// The caller's component and pointer.
 unsafe fn status<T: Copy>(
     c: fmi2Component,
-    function: &'static Function,
+    function: Function,
     value: *mut T,
     answer: impl FnOnce(&crate::instance::Instance) -> Option<T>,
 ) -> fmi2Status {
@@ -126,7 +126,7 @@ unsafe fn status<T: Copy>(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, &order::GET_STATUS, value, |_| (s == fmi2DoStepStatus).then_some(fmi2OK)) }
+    unsafe { status(c, order::GET_STATUS, value, |_| (s == fmi2DoStepStatus).then_some(fmi2OK)) }
 }
 
 /// For fmi2LastSuccessfulTime: the end of the last step.
@@ -134,7 +134,7 @@ pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, valu
 pub unsafe extern "C" fn fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
     unsafe {
-        status(c, &order::GET_REAL_STATUS, value, |instance| (s == fmi2LastSuccessfulTime).then_some(instance.time()))
+        status(c, order::GET_REAL_STATUS, value, |instance| (s == fmi2LastSuccessfulTime).then_some(instance.time()))
     }
 }
 
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(
 ) -> fmi2Status {
     let _ = s;
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, &order::GET_INTEGER_STATUS, value, |_| None) }
+    unsafe { status(c, order::GET_INTEGER_STATUS, value, |_| None) }
 }
 
 /// For fmi2Terminated: false, since the unit never wants to end by itself.
@@ -158,7 +158,7 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(
     value: *mut fmi2Boolean,
 ) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, &order::GET_BOOLEAN_STATUS, value, |_| (s == fmi2Terminated).then_some(fmi2False)) }
+    unsafe { status(c, order::GET_BOOLEAN_STATUS, value, |_| (s == fmi2Terminated).then_some(fmi2False)) }
 }
 
 /// There is no status of this type: no step is ever pending.
@@ -170,5 +170,5 @@ pub unsafe extern "C" fn fmi2GetStringStatus(
 ) -> fmi2Status {
     let _ = s;
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, &order::GET_STRING_STATUS, value, |_| None) }
+    unsafe { status(c, order::GET_STRING_STATUS, value, |_| None) }
 }
