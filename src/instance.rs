@@ -23,6 +23,12 @@ pub enum Phase {
     Error = 16,
 }
 
+impl Phase {
+    /// Every phase that an instance can be in.
+    const ALL: [Phase; 5] =
+        [Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
+}
+
 /// The settable parameters of the scene, in the order of [`scene::SETTABLE`].
 pub type Values = [f64; scene::SETTABLE.len()];
 
@@ -534,60 +540,69 @@ impl Instance {
         }
     }
 
-    /// Makes this the instance that [`Instance::to_words`] stored, of which `word` gives each word by its place, and reports
-    /// true. If the words don't make one nothing is done.
-    pub fn restore(&mut self, word: impl Fn(usize) -> u64) -> bool {
-        let number = |place| f64::from_bits(word(place));
-        let (mut values, mut fast) = (START, false);
-        let mut bad = word(1) > 1 || !number(2).is_finite() || !number(3).is_finite();
+    /// Makes this the instance that [`Instance::to_words`] stored, each word as little-endian bytes, and reports true. If the words
+    /// don't make one nothing is done.
+    pub fn restore(&mut self, words: &[[u8; 8]]) -> bool {
+        let number = |place| f64::from_bits(word(words, place));
+        let mut values = START;
+        let mut bad = word(words, 1) > 1 || !number(2).is_finite() || !number(3).is_finite();
         for ((value, settable), place) in values.iter_mut().zip(&scene::SETTABLE).zip(OWN_WORDS..) {
             *value = number(place);
             bad |= !allows(settable, *value);
         }
-        let phases = [Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
-        let Some(phase) = phases.into_iter().find(|&phase| phase as u64 == word(0)) else { return false };
-        if bad {
+        let Some(phase) = Phase::ALL.into_iter().find(|&phase| phase as u64 == word(words, 0)) else { return false };
+        // first a look at all that there is, and then the same again in earnest
+        if bad || !self.restore_contacts(words, &values, false) {
             return false;
         }
-        // first a look at all that there is, and then the same again in earnest
-        for in_earnest in [false, true] {
-            if in_earnest {
-                self.values = values;
-            }
-            let mut contact = 0;
-            for group in 0..scene::GROUPS {
-                let Ok(pair) = pair_of(group, &values) else { return false };
-                let model = scene::model(pair, group, &values);
-                if in_earnest && let Some(bodies) = self.pairs.get_mut(group) {
-                    *bodies = Bodies { radius: pair.radius, modulus: pair.modulus };
-                }
-                while contact < scene::end(group) {
-                    let place = OWN_WORDS + scene::SETTABLE.len() + CONTACT_WORDS * contact;
-                    let rate = number(place);
-                    let mut words = [0; History::WORDS];
-                    for (index, slot) in words.iter_mut().enumerate() {
-                        *slot = word(place + 1 + index);
-                    }
-                    let Some(history) = History::from_words(&words, &model).filter(|_| rate.is_finite()) else {
-                        return false;
-                    };
-                    fast |= rate.abs() > FAST || history.indentation().abs() > FAR;
-                    if in_earnest
-                        && let (Some(own), Some(slot)) = (self.histories.get_mut(contact), self.rates.get_mut(contact))
-                    {
-                        (*own, *slot) = (history, rate);
-                    }
-                    contact += 1;
-                }
-            }
-        }
+        self.fast = false;
+        self.restore_contacts(words, &values, true);
+        self.values = values;
         (self.time, self.stop) = (number(2), number(3));
-        self.experiment_defined = word(1) == 1;
-        self.fast = fast;
+        self.experiment_defined = word(words, 1) == 1;
         self.set_phase(phase);
         self.note_forces();
         true
     }
+
+    /// Reads all contacts, and puts them in place if it is `in_earnest`; false if the words don't make contacts.
+    #[inline(never)]
+    fn restore_contacts(&mut self, words: &[[u8; 8]], values: &Values, in_earnest: bool) -> bool {
+        let mut place = OWN_WORDS + scene::SETTABLE.len();
+        let mut contacts = self.histories.iter_mut().zip(&mut self.rates);
+        let mut first = 0;
+        for (group, bodies) in self.pairs.iter_mut().enumerate() {
+            let Ok(pair) = pair_of(group, values) else { return false };
+            let model = scene::model(pair, group, values);
+            if in_earnest {
+                *bodies = Bodies { radius: pair.radius, modulus: pair.modulus };
+            }
+            let end = scene::end(group);
+            for (own, slot) in contacts.by_ref().take(end - first) {
+                let rate = f64::from_bits(word(words, place));
+                let mut stored = [0; History::WORDS];
+                for (index, slot) in stored.iter_mut().enumerate() {
+                    *slot = word(words, place + 1 + index);
+                }
+                let Some(history) = History::from_words(&stored, &model).filter(|_| rate.is_finite()) else {
+                    return false;
+                };
+                if in_earnest {
+                    self.fast |= rate.abs() > FAST || history.indentation().abs() > FAR;
+                    (*own, *slot) = (history, rate);
+                }
+                place += CONTACT_WORDS;
+            }
+            first = end;
+        }
+        true
+    }
+}
+
+/// A word of those that [`Instance::to_words`] stored.
+#[inline(never)]
+fn word(words: &[[u8; 8]], place: usize) -> u64 {
+    words.get(place).map_or(0, |word| u64::from_le_bytes(*word))
 }
 
 /// What stands where there is no group.

@@ -29,13 +29,14 @@ impl Category {
 
     /// The bits that the declared category `name` stands for.
     pub fn bits(name: &CStr) -> Option<u8> {
-        match name.to_bytes() {
-            b"logStatusDiscard" => Some(Category::Discard as u8),
-            b"logStatusError" => Some(Category::Error as u8),
-            b"logStatusWarning" if scene::GUARD.is_some() => Some(WARNING),
-            b"logAll" => Some(ALL_CATEGORIES),
-            _ => None,
-        }
+        let name = name.to_bytes();
+        let known = [
+            (Category::Discard.name(), Category::Discard as u8),
+            (Category::Error.name(), Category::Error as u8),
+            (c"logAll", ALL_CATEGORIES),
+            (if scene::GUARD.is_some() { WARNING_NAME } else { c"logAll" }, WARNING),
+        ];
+        known.into_iter().find(|(own, _)| own.to_bytes() == name).map(|(_, bits)| bits)
     }
 }
 
@@ -112,78 +113,88 @@ fn fill(text: &mut Text, template: &str, words: [&str; 2], numbers: [f64; 3]) {
 }
 
 fn describe(text: &mut Text, fault: &Fault) {
-    const NO_WORDS: [&str; 2] = [""; 2];
-    const NO_NUMBERS: [f64; 3] = [0.0; 3];
-    let (template, words, numbers) = match *fault {
-        Fault::BadInstance { reason } => ("@", [reason, ""], NO_NUMBERS),
-        Fault::OutOfOrder { phase } => ("not allowed @", [phase_name(phase), ""], NO_NUMBERS),
-        Fault::NullPointer { argument } => ("the argument @ is null", [argument, ""], NO_NUMBERS),
+    let (mut words, mut numbers) = ([""; 2], [0.0; 3]);
+    let template = match *fault {
+        Fault::BadInstance { reason } => {
+            words[0] = reason;
+            "@"
+        }
+        Fault::OutOfOrder { phase } => {
+            words[0] = phase_name(phase);
+            "not allowed @"
+        }
+        Fault::NullPointer { argument } => {
+            words[0] = argument;
+            "the argument @ is null"
+        }
         Fault::UnknownReference { kind, reference } => {
-            // a number of up to ten digits
+            // a number is written with nine digits, and this may have ten
             text.string("there is no variable of type ")
                 .string(kind)
                 .string(" with value reference ")
                 .integer(reference);
             return;
         }
-        Fault::NotSettable => ("an output can't be set", NO_WORDS, NO_NUMBERS),
-        Fault::FixedParameter { name } => ("the parameter @ can't be set after initialization", [name, ""], NO_NUMBERS),
-        Fault::NotFinite { name, value } => ("@ = ~ is not finite", [name, ""], [value, 0.0, 0.0]),
+        Fault::NotSettable => "an output can't be set",
+        Fault::FixedParameter { name } => {
+            words[0] = name;
+            "the parameter @ can't be set after initialization"
+        }
+        Fault::NotFinite { name, value } => {
+            (words[0], numbers[0]) = (name, value);
+            "@ = ~ is not finite"
+        }
         Fault::TooFast { rate } => {
-            ("indentation_rate = ~ is too fast: the force would not be finite", NO_WORDS, [rate, 0.0, 0.0])
+            numbers[0] = rate;
+            "indentation_rate = ~ is too fast: the force would not be finite"
         }
         Fault::OutOfRange { settable, value } => {
             let Settable { name, unit, minimum, maximum, .. } = *settable;
-            let template = if unit.is_empty() {
+            (words, numbers) = ([name, unit], [value, minimum, maximum]);
+            if unit.is_empty() {
                 "@ = ~ is out of range: allowed is ~ to ~"
             } else {
                 "@ = ~ is out of range: allowed is ~ to ~ @"
-            };
-            (template, [name, unit], [value, minimum, maximum])
+            }
         }
-        Fault::NoPointContact { impactor, target } => (
+        Fault::NoPointContact { impactor, target } => {
+            (numbers[0], numbers[1]) = (impactor, target);
             "impactor.radius = ~ m does not fit target.radius = ~ m: a socket (negative) must be wider than the impactor, \
-             and no radius is below 1e-12 m",
-            NO_WORDS,
-            [impactor, target, 0.0],
-        ),
-        Fault::Experiment { start, stop } => (
-            "startTime = ~ s, stopTime = ~ s: allowed are finite times with stopTime not before startTime",
-            NO_WORDS,
-            [start, stop, 0.0],
-        ),
-        Fault::NoExperiment => ("fmi2SetupExperiment must be called before", NO_WORDS, NO_NUMBERS),
+             and no radius is below 1e-12 m"
+        }
+        Fault::Experiment { start, stop } => {
+            (numbers[0], numbers[1]) = (start, stop);
+            "startTime = ~ s, stopTime = ~ s: allowed are finite times with stopTime not before startTime"
+        }
+        Fault::NoExperiment => "fmi2SetupExperiment must be called before",
         Fault::StepSize { step } => {
-            ("communicationStepSize = ~ s is not allowed: it must be positive and finite", NO_WORDS, [step, 0.0, 0.0])
+            numbers[0] = step;
+            "communicationStepSize = ~ s is not allowed: it must be positive and finite"
         }
         Fault::CommunicationPoint { given, expected } => {
-            ("currentCommunicationPoint = ~ s, but the last step ended at ~ s", NO_WORDS, [given, expected, 0.0])
+            (numbers[0], numbers[1]) = (given, expected);
+            "currentCommunicationPoint = ~ s, but the last step ended at ~ s"
         }
         Fault::BeyondStopTime { end, stop } => {
-            ("the step would end at ~ s, beyond the stop time ~ s", NO_WORDS, [end, stop, 0.0])
+            (numbers[0], numbers[1]) = (end, stop);
+            "the step would end at ~ s, beyond the stop time ~ s"
         }
         Fault::TooDeep { contact, indentation } => {
             contact_name(text, contact);
-            (
-                "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?",
-                NO_WORDS,
-                [indentation, 0.0, 0.0],
-            )
+            numbers[0] = indentation;
+            "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
         }
-        Fault::Unsupported => {
-            ("this unit doesn't have this capability (see its model description)", NO_WORDS, NO_NUMBERS)
+        Fault::Unsupported => "this unit doesn't have this capability (see its model description)",
+        Fault::Unavailable => "not available: every step is complete when its call returns",
+        Fault::UnknownCategory => match scene::GUARD {
+            None => "unknown log category: there are logStatusDiscard, logStatusError, logAll",
+            Some(_) => "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll",
+        },
+        Fault::BadState { reason } => {
+            words[0] = reason;
+            "the FMU state can't be used: @"
         }
-        Fault::Unavailable => ("not available: every step is complete when its call returns", NO_WORDS, NO_NUMBERS),
-        Fault::UnknownCategory => (
-            match scene::GUARD {
-                None => "unknown log category: there are logStatusDiscard, logStatusError, logAll",
-                Some(_) => "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll",
-            },
-            NO_WORDS,
-            NO_NUMBERS,
-        ),
-        Fault::BadState { reason } => ("the FMU state can't be used: @", [reason, ""], NO_NUMBERS),
-        Fault::NoMemory => ("out of memory", NO_WORDS, NO_NUMBERS),
+        Fault::NoMemory => "out of memory",
     };
     fill(text, template, words, numbers);
 }

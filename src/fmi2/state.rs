@@ -92,10 +92,10 @@ impl Snapshot {
         let mut writer = Writer { slots: bytes.iter_mut(), sum: CHECKSUM_START };
         writer.put(&MAGIC);
         writer.put(scene::GUID.as_bytes());
-        writer.put(&(WORDS as u64).to_le_bytes());
-        self.instance.to_words(|word| writer.put(&word.to_le_bytes()));
+        writer.word(WORDS as u64);
+        self.instance.to_words(|word| writer.word(word));
         let sum = writer.sum;
-        writer.put(&sum.to_le_bytes());
+        writer.word(sum);
     }
 
     /// Makes the snapshot at `state`, which is made if there is none, from what [`Snapshot::serialize`] wrote.
@@ -107,10 +107,11 @@ impl Snapshot {
     /// As for [`Snapshot::at`].
     pub unsafe fn deserialize(state: &mut fmi2FMUstate, bytes: &[u8]) -> Result<(), Fault> {
         check(bytes)?;
+        let (words, _) = bytes.get(WORDS_AT..).unwrap_or(&[]).as_chunks();
         let made = if state.is_null() { Snapshot::allocate()? } else { *state };
         // SAFETY: as the caller promises; what was made here is released here.
         unsafe {
-            if !Snapshot::at(made)?.instance.restore(|index| word(bytes, WORDS_AT + 8 * index)) {
+            if !Snapshot::at(made)?.instance.restore(words) {
                 if state.is_null() {
                     memory::release(made);
                 }
@@ -135,6 +136,11 @@ impl Writer<'_> {
             self.sum = checksum(self.sum, byte);
             *slot = byte;
         }
+    }
+
+    #[inline(never)]
+    fn word(&mut self, word: u64) {
+        self.put(&word.to_le_bytes());
     }
 }
 
