@@ -91,6 +91,8 @@ pub enum Fault {
     },
     /// An indentation for which the law can't be evaluated.
     TooDeep {
+        /// Which contact, counted from 0.
+        contact: usize,
         /// The indentation [m].
         indentation: f64,
     },

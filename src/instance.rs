@@ -2,13 +2,15 @@
 
 use crate::contact::{Body, Pair, Regime, TooDeep};
 use crate::fault::Fault;
-use crate::scene::{self, History};
-use crate::variable::{Integer, Parameter, Real};
+use crate::scene::{self, History, Model};
+use crate::variable::{Integer, Parameter, Real, Settable};
 
 /// The phases in which an instance can be, as bits: a set of phases is their sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Phase {
+    /// Memory that isn't an instance yet.
+    Blank = 0,
     /// Just made, or reset.
     Instantiated = 1,
     /// Between entering and leaving Initialization Mode.
@@ -35,26 +37,46 @@ const START: Values = {
     values
 };
 
-/// One instance of the unit: everything that a saved state holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// How many contacts have their force in memory. One contact computes it when it is asked for, and so do those whose
+/// force follows the rate; of many the step has it at hand.
+const FORCES: usize = if scene::CONTACTS == 1 || History::FOLLOWS_RATE { 0 } else { scene::CONTACTS };
+
+/// One instance of the unit: everything that a saved state holds. Memory full of zeros is one too, of no use before it is
+/// [reset](Instance::reset): an instance of many contacts is too large to be moved.
+#[derive(Debug)]
 pub struct Instance {
-    history: History,
-    rate: f64,
+    rates: [f64; scene::CONTACTS],
+    histories: [History; scene::CONTACTS],
+    forces: [f64; FORCES],
     time: f64,
     stop: f64,
     /// Where plain steps end [s]: at the stop time while stepping, and nowhere otherwise.
     limit: f64,
+    pairs: [Bodies; scene::GROUPS],
+    values: Values,
     phase: Phase,
     experiment_defined: bool,
-    pair: Pair,
-    values: Values,
+    /// Many contacts move together or not at all. Unless this is set that needs no look ahead: see [`FAST`].
+    fast: bool,
 }
 
-/// Words of an instance besides its values and its history.
-const OWN_WORDS: usize = 5;
+/// What of a pair is worth keeping; the rest are parameters.
+#[derive(Clone, Copy, Debug)]
+struct Bodies {
+    /// Effective radius [m].
+    radius: f64,
+    /// Effective modulus [Pa].
+    modulus: f64,
+}
+
+/// The words of an instance that don't belong to a contact or a parameter.
+const OWN_WORDS: usize = 4;
+
+/// The words of a contact: its rate and its history.
+const CONTACT_WORDS: usize = 1 + History::WORDS;
 
 /// Number of words that hold an instance.
-pub const WORDS: usize = OWN_WORDS + scene::SETTABLE.len() + History::WORDS;
+pub const WORDS: usize = OWN_WORDS + scene::SETTABLE.len() + CONTACT_WORDS * scene::CONTACTS;
 
 /// How far a communication point may be from the end of the last step, in steps. Masters count `t += h` or `start + i h`;
 /// either is within rounding of the last end, and half a step off is a mistake.
@@ -70,9 +92,18 @@ const NOWHERE: f64 = -f64::MAX;
 /// Room for rounding of a time far from zero, as a fraction of it.
 const TIME_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// The pair of bodies that `values` describe.
-fn pair_of(values: &Values) -> Result<Pair, Fault> {
-    let value = |parameter| scene::parameter(parameter, values);
+/// The rate up to which no contact can come near the end of its range [m/s] while times are below [`LATE`].
+const FAST: f64 = 1e40;
+
+/// See [`FAST`] [m].
+const FAR: f64 = 1e90;
+
+/// See [`FAST`] [s].
+const LATE: f64 = 1e50;
+
+/// The pair of bodies of `group` that `values` describe.
+fn pair_of(group: usize, values: &Values) -> Result<Pair, Fault> {
+    let value = |parameter| scene::parameter(parameter, group, values);
     let impactor = Body {
         radius: value(Parameter::ImpactorRadius),
         youngs_modulus: value(Parameter::ImpactorYoungsModulus),
@@ -87,8 +118,26 @@ fn pair_of(values: &Values) -> Result<Pair, Fault> {
         .ok_or(Fault::NoPointContact { impactor: impactor.radius, target: target.radius })
 }
 
-fn start_of(pair: Pair, values: &Values) -> Result<History, Fault> {
-    Ok(History::start(&scene::model(pair, values), scene::parameter(Parameter::InitialGap, values))?)
+/// What is in contact in `group`, whose `bodies` are those of `values`.
+fn model_of(group: usize, bodies: Bodies, values: &Values) -> Model {
+    let value = |parameter| scene::parameter(parameter, group, values);
+    let pair = Pair {
+        radius: bodies.radius,
+        modulus: bodies.modulus,
+        yield_strength: value(Parameter::TargetYieldStrength),
+        youngs_modulus: value(Parameter::TargetYoungsModulus),
+        poissons_ratio: value(Parameter::TargetPoissonsRatio),
+    };
+    scene::model(pair, group, values)
+}
+
+/// A contact of `group` before any motion.
+#[inline(never)]
+fn start_of(group: usize, values: &Values) -> Result<(Bodies, History), Fault> {
+    let pair = pair_of(group, values)?;
+    let history =
+        History::start(&scene::model(pair, group, values), scene::parameter(Parameter::InitialGap, group, values));
+    Ok((Bodies { radius: pair.radius, modulus: pair.modulus }, history.map_err(|deep| too_deep(0, deep))?))
 }
 
 /// Whether `value` is neither infinite nor NaN, in the fewest instructions.
@@ -103,31 +152,53 @@ fn limit(phase: Phase, stop: f64) -> f64 {
     if phase == Phase::StepComplete { stop } else { NOWHERE }
 }
 
-impl From<TooDeep> for Fault {
-    fn from(TooDeep { indentation }: TooDeep) -> Fault {
-        Fault::TooDeep { indentation }
-    }
+fn too_deep(contact: usize, TooDeep { indentation }: TooDeep) -> Fault {
+    Fault::TooDeep { contact, indentation }
 }
 
 impl Instance {
-    /// An instance as it is before anything is set; reset gives the same, bit for bit.
+    /// Makes the instance as it is before anything is set, the same bit for bit each time.
     ///
     /// # Errors
     /// [`Fault::NoPointContact`] if the start values of the scene don't fit together.
-    pub fn new() -> Result<Instance, Fault> {
-        let pair = pair_of(&START)?;
-        let history = start_of(pair, &START)?;
-        Ok(Instance {
-            history,
-            rate: 0.0,
-            time: 0.0,
-            stop: f64::MAX,
-            limit: NOWHERE,
-            phase: Phase::Instantiated,
-            experiment_defined: false,
-            pair,
-            values: START,
-        })
+    pub fn reset(&mut self) -> Result<(), Fault> {
+        self.values = START;
+        self.rates.fill(0.0);
+        self.time = 0.0;
+        self.stop = f64::MAX;
+        self.experiment_defined = false;
+        self.fast = false;
+        self.set_phase(Phase::Instantiated);
+        self.start()
+    }
+
+    /// Puts all contacts where they are before any motion; if one can't be there nothing is done.
+    fn start(&mut self) -> Result<(), Fault> {
+        if scene::GROUPS > 1 {
+            for group in 0..scene::GROUPS {
+                start_of(group, &self.values)?;
+            }
+        }
+        let mut histories = self.histories.iter_mut();
+        let mut first = 0;
+        for (group, bodies) in self.pairs.iter_mut().enumerate() {
+            let (own, history) = start_of(group, &self.values)?;
+            *bodies = own;
+            let end = scene::end(group);
+            for slot in histories.by_ref().take(end - first) {
+                *slot = history;
+            }
+            first = end;
+        }
+        self.note_forces();
+        Ok(())
+    }
+
+    /// Writes down the forces, where they are kept.
+    fn note_forces(&mut self) {
+        for ((force, history), &rate) in self.forces.iter_mut().zip(&self.histories).zip(&self.rates) {
+            *force = history.force_at_rate(rate);
+        }
     }
 
     /// The phase the instance is in.
@@ -179,9 +250,10 @@ impl Instance {
     /// # Errors
     /// [`Fault::NoPointContact`] if the parameters don't fit together, [`Fault::TooFast`] if they don't fit the input.
     pub fn exit_initialization(&mut self) -> Result<(), Fault> {
-        self.pair = pair_of(&self.values)?;
-        self.history = start_of(self.pair, &self.values)?;
-        self.check_rate(self.rate)?;
+        self.start()?;
+        for (history, &rate) in self.histories.iter().zip(&self.rates) {
+            check_rate(history, rate)?;
+        }
         self.set_phase(Phase::StepComplete);
         Ok(())
     }
@@ -193,20 +265,17 @@ impl Instance {
         }
     }
 
-    /// Moves the contact from `time` over `step` [s] with the rate held.
+    /// Moves the contacts from `time` over `step` [s] with the rates held.
     ///
     /// # Errors
-    /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooDeep`]; the contact is
-    /// then where it was.
+    /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooDeep`]; every contact
+    /// is then where it was.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.check_step(time, step)?;
-        let (pair, values) = (self.pair, self.values);
-        self.history.step(self.rate, step, || scene::model(pair, &values))?;
-        self.time = time + step;
-        Ok(())
+        self.advance(time + step, step)
     }
 
-    /// The step that nearly every step is: plainly in order, and on the branch that the contact is on. It does what
+    /// The step that nearly every step is: plainly in order, and of one contact on the branch that it is on. It does what
     /// [`Instance::do_step`] does; if it isn't such a step nothing is done, and false.
     #[inline(always)]
     pub fn do_plain_step(&mut self, time: f64, step: f64) -> bool {
@@ -216,17 +285,57 @@ impl Instance {
         let follows = (time - self.time).abs() * (1.0 / TIME_TOLERANCE) < step;
         let beyond = end > self.limit;
         let in_order = follows && !beyond;
-        let done = in_order && self.history.plain_step(self.rate, step);
+        if scene::CONTACTS > 1 {
+            // what the passivity guard does must be told
+            return in_order && scene::GUARD.is_none() && self.advance(end, step).is_ok();
+        }
+        let (Some(history), Some(&rate)) = (self.histories.first_mut(), self.rates.first()) else { return false };
+        let done = in_order && history.plain_step(rate, step);
         if done {
             self.time = end;
         }
         done
     }
 
+    /// Moves all contacts over `step` [s], to the time `end` [s], or none of them.
+    #[inline]
+    fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
+        let (pairs, values) = (&self.pairs, &self.values);
+        let model = |contact: usize| {
+            let group = scene::group(contact);
+            move || model_of(group, pairs.get(group).copied().unwrap_or(NO_BODIES), values)
+        };
+        let far = History::FOLLOWS_RATE || self.fast || end.abs() > LATE;
+        if scene::CONTACTS > 1 && far {
+            for (contact, (history, &rate)) in self.histories.iter().zip(&self.rates).enumerate() {
+                let mut next = *history;
+                next.step(rate, step, model(contact)).map_err(|deep| too_deep(contact, deep))?;
+            }
+        }
+        for (contact, (history, &rate)) in self.histories.iter_mut().zip(&self.rates).enumerate() {
+            if !history.plain_step(rate, step) {
+                history.step(rate, step, model(contact)).map_err(|deep| too_deep(contact, deep))?;
+            }
+            if let Some(force) = self.forces.get_mut(contact) {
+                *force = history.force_at_rate(rate);
+            }
+        }
+        self.time = end;
+        Ok(())
+    }
+
     /// Whether the passivity guard has shortened the path on which the load comes off, or came off.
     pub fn is_held_back(&self) -> bool {
-        matches!(self.history.regime(), Regime::Unloaded | Regime::Apart)
-            && scene::model(self.pair, &self.values).is_held_back_at(self.history.max_indentation())
+        self.histories.iter().enumerate().any(|(contact, history)| {
+            matches!(history.regime(), Regime::Unloaded | Regime::Apart)
+                && self.model(contact).is_held_back_at(history.max_indentation())
+        })
+    }
+
+    /// What is in contact, and by which laws.
+    fn model(&self, contact: usize) -> Model {
+        let group = scene::group(contact);
+        model_of(group, self.pairs.get(group).copied().unwrap_or(NO_BODIES), &self.values)
     }
 
     fn check_step(&self, time: f64, step: f64) -> Result<(), Fault> {
@@ -246,21 +355,19 @@ impl Instance {
         Ok(())
     }
 
-    /// Whether `variable` may be set to `value` now.
+    /// Whether `variable` of `contact` may be set to `value` now.
     ///
     /// # Errors
     /// [`Fault::NotFinite`], [`Fault::TooFast`], [`Fault::OutOfRange`], [`Fault::NotSettable`], [`Fault::FixedParameter`].
-    pub fn check_real(&self, variable: Real, value: f64) -> Result<(), Fault> {
+    pub fn check_real(&self, (variable, contact): (Real, usize), value: f64) -> Result<(), Fault> {
         match variable {
-            Real::IndentationRate if value.is_finite() => self.check_rate(value),
+            Real::IndentationRate if value.is_finite() => {
+                self.histories.get(contact).map_or(Ok(()), |history| check_rate(history, value))
+            }
             Real::IndentationRate => Err(Fault::NotFinite { name: "indentation_rate", value }),
             Real::Parameter(index) => self.check_parameter(index, value),
             _ => Err(Fault::NotSettable),
         }
-    }
-
-    fn check_rate(&self, rate: f64) -> Result<(), Fault> {
-        if self.history.is_finite_at_rate(rate) { Ok(()) } else { Err(Fault::TooFast { rate }) }
     }
 
     fn check_parameter(&self, index: usize, value: f64) -> Result<(), Fault> {
@@ -268,122 +375,222 @@ impl Instance {
         if !matches!(self.phase, Phase::Instantiated | Phase::Initialization) {
             return Err(Fault::FixedParameter { name: settable.name });
         }
-        // written positively, so that a NaN fails
-        let allowed = value >= settable.minimum && value <= settable.maximum;
-        if allowed { Ok(()) } else { Err(Fault::OutOfRange { settable, value }) }
+        if allows(settable, value) { Ok(()) } else { Err(Fault::OutOfRange { settable, value }) }
     }
 
-    /// Sets `variable` to a `value` that [`Instance::check_real`] has allowed.
-    pub fn set_real(&mut self, variable: Real, value: f64) {
+    /// Sets a variable to a `value` that [`Instance::check_real`] has allowed; true for a parameter, which takes effect
+    /// when [`Instance::parameters_are_set`] is called.
+    pub fn set_real(&mut self, (variable, contact): (Real, usize), value: f64) -> bool {
         match variable {
-            Real::IndentationRate => self.rate = value,
-            Real::Parameter(index) => self.set_parameter(index, value),
+            Real::IndentationRate => {
+                self.fast |= value.abs() > FAST;
+                if let Some(rate) = self.rates.get_mut(contact) {
+                    *rate = value;
+                }
+            }
+            Real::Parameter(index) => {
+                if let Some(slot) = self.values.get_mut(index) {
+                    *slot = value;
+                }
+            }
             _ => {}
         }
+        matches!(variable, Real::Parameter(_))
     }
 
     /// What is read before the first step follows the parameters set so far. Bodies that don't fit are noticed when
     /// initialization ends: another parameter may still come.
-    fn set_parameter(&mut self, index: usize, value: f64) {
-        let Some(slot) = self.values.get_mut(index) else { return };
-        *slot = value;
-        if let Ok(pair) = pair_of(&self.values)
-            && let Ok(history) = start_of(pair, &self.values)
-        {
-            (self.pair, self.history) = (pair, history);
-        }
+    pub fn parameters_are_set(&mut self) {
+        let _ = self.start();
     }
 
-    /// Sets the input and reports true if that is all there is to do: the input may be set now, and `rate` is finite.
+    /// Sets the input of `contact` and reports true if that is all there is to do: the input may be set now, and `rate`
+    /// is plain.
     #[inline(always)]
-    pub fn set_plain_rate(&mut self, rate: f64) -> bool {
-        let plain = self.phase == Phase::StepComplete && is_finite(rate) && self.history.is_finite_at_rate(rate);
+    pub fn set_plain_rate(&mut self, contact: usize, rate: f64) -> bool {
+        let (Some(history), Some(slot)) = (self.histories.get(contact), self.rates.get_mut(contact)) else {
+            return false;
+        };
+        let plain = self.phase == Phase::StepComplete && is_plain(rate) && history.is_finite_at_rate(rate);
         if plain {
-            self.rate = rate;
+            *slot = rate;
         }
         plain
     }
 
-    /// The force [N], if outputs are plainly there: during the simulation.
-    #[inline(always)]
-    pub fn plain_force(&self) -> Option<f64> {
-        (self.phase == Phase::StepComplete).then(|| self.history.force_at_rate(self.rate))
+    /// Sets the inputs of the contacts from `first` on and reports true, as [`Instance::set_plain_rate`] does; or sets none.
+    pub fn set_plain_rates(&mut self, first: usize, rates: &[f64]) -> bool {
+        let end = first.wrapping_add(rates.len());
+        let (Some(histories), Some(slots)) = (self.histories.get(first..end), self.rates.get_mut(first..end)) else {
+            return false;
+        };
+        let mut plain = self.phase == Phase::StepComplete;
+        for (history, &rate) in histories.iter().zip(rates) {
+            plain &= is_plain(rate) && (!History::FOLLOWS_RATE || history.is_finite_at_rate(rate));
+        }
+        if plain {
+            for (slot, &rate) in slots.iter_mut().zip(rates) {
+                *slot = rate;
+            }
+        }
+        plain
     }
 
-    /// The value of `variable` now.
-    pub fn real(&self, variable: Real) -> f64 {
-        let model = scene::model(self.pair, &self.values);
+    /// The force of `contact` [N], if outputs are plainly there: during the simulation.
+    #[inline(always)]
+    pub fn plain_force(&self, contact: usize) -> Option<f64> {
+        let force = match self.forces.get(contact) {
+            Some(&force) => force,
+            None => self.histories.get(contact)?.force_at_rate(*self.rates.get(contact)?),
+        };
+        (self.phase == Phase::StepComplete).then_some(force)
+    }
+
+    /// Copies the forces [N] of the contacts from `first` on and reports true, if they are there.
+    pub fn copy_plain_forces(&self, first: usize, forces: &mut [f64]) -> bool {
+        let end = first.wrapping_add(forces.len());
+        let (Some(histories), Some(rates)) = (self.histories.get(first..end), self.rates.get(first..end)) else {
+            return false;
+        };
+        if self.phase != Phase::StepComplete {
+            return false;
+        }
+        match self.forces.get(first..end) {
+            Some(known) => forces.iter_mut().zip(known).for_each(|(force, &known)| *force = known),
+            None => {
+                for ((force, history), &rate) in forces.iter_mut().zip(histories).zip(rates) {
+                    *force = history.force_at_rate(rate);
+                }
+            }
+        }
+        true
+    }
+
+    /// The value of a variable now.
+    pub fn real(&self, (variable, contact): (Real, usize)) -> f64 {
+        let (Some(history), Some(&rate)) = (self.histories.get(contact), self.rates.get(contact)) else {
+            return f64::NAN;
+        };
+        let model = self.model(contact);
         match variable {
-            Real::IndentationRate => self.rate,
-            Real::Force => self.history.force_at_rate(self.rate),
-            Real::Indentation => self.history.indentation(),
-            Real::MaxIndentation => self.history.max_indentation(),
-            Real::ResidualIndentation => self.history.residual_indentation(&model),
-            Real::ContactRadius => self.history.contact_radius(&model),
-            Real::MeanPressure => self.history.mean_pressure_at_rate(&model, self.rate),
-            Real::Stiffness => self.history.stiffness_at_rate(self.rate),
-            Real::Work => self.history.work(&model),
-            Real::ElasticEnergy => self.history.elastic_energy(&model),
-            Real::DissipatedEnergy => self.history.dissipated_energy(&model),
+            Real::IndentationRate => rate,
+            Real::Force => history.force_at_rate(rate),
+            Real::Indentation => history.indentation(),
+            Real::MaxIndentation => history.max_indentation(),
+            Real::ResidualIndentation => history.residual_indentation(&model),
+            Real::ContactRadius => history.contact_radius(&model),
+            Real::MeanPressure => history.mean_pressure_at_rate(&model, rate),
+            Real::Stiffness => history.stiffness_at_rate(rate),
+            Real::Work => history.work(&model),
+            Real::ElasticEnergy => history.elastic_energy(&model),
+            Real::DissipatedEnergy => history.dissipated_energy(&model),
             Real::Parameter(index) => self.values.get(index).copied().unwrap_or(f64::NAN),
         }
     }
 
-    /// The value of `variable` now.
-    pub fn integer(&self, variable: Integer) -> i32 {
+    /// The value of a variable now.
+    pub fn integer(&self, (variable, contact): (Integer, usize)) -> i32 {
         match variable {
-            Integer::Regime => self.history.regime() as i32,
+            Integer::Regime => self.histories.get(contact).map_or(0, |history| history.regime() as i32),
         }
     }
 
-    /// The instance as words, to be stored.
-    pub fn to_words(&self) -> [u64; WORDS] {
-        let own = [
-            self.phase as u64,
-            u64::from(self.experiment_defined),
-            self.rate.to_bits(),
-            self.time.to_bits(),
-            self.stop.to_bits(),
-        ];
-        let values = self.values.iter().map(|value| value.to_bits());
-        let mut words = [0; WORDS];
-        let all = own.into_iter().chain(values).chain(self.history.to_words());
-        for (word, stored) in words.iter_mut().zip(all) {
-            *word = stored;
-        }
-        words
+    /// Makes this instance the same as `other`.
+    #[inline(always)]
+    pub fn copy_from(&mut self, other: &Instance) {
+        self.rates.copy_from_slice(&other.rates);
+        self.histories.copy_from_slice(&other.histories);
+        self.forces.copy_from_slice(&other.forces);
+        self.pairs.copy_from_slice(&other.pairs);
+        self.values.copy_from_slice(&other.values);
+        (self.time, self.stop, self.limit) = (other.time, other.stop, other.limit);
+        (self.phase, self.experiment_defined, self.fast) = (other.phase, other.experiment_defined, other.fast);
     }
 
-    /// The instance that [`Instance::to_words`] stored; `None` if the words don't make one.
-    pub fn from_words(words: &[u64; WORDS]) -> Option<Instance> {
-        let (own, rest) = words.split_first_chunk::<OWN_WORDS>()?;
-        let (stored_values, rest) = rest.split_first_chunk::<{ scene::SETTABLE.len() }>()?;
-        let [phase, experiment_defined, rate, time, stop] = *own;
-        let phase = [Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error]
-            .into_iter()
-            .find(|&candidate| candidate as u64 == phase)?;
-        let mut values = START;
-        for ((value, &stored), settable) in values.iter_mut().zip(stored_values).zip(&scene::SETTABLE) {
-            *value = f64::from_bits(stored);
-            if !(*value >= settable.minimum && *value <= settable.maximum) {
-                return None;
+    /// The instance as [`WORDS`] words, to be stored.
+    pub fn to_words(&self, mut store: impl FnMut(u64)) {
+        for word in [self.phase as u64, u64::from(self.experiment_defined), self.time.to_bits(), self.stop.to_bits()] {
+            store(word);
+        }
+        for value in &self.values {
+            store(value.to_bits());
+        }
+        for (history, rate) in self.histories.iter().zip(&self.rates) {
+            store(rate.to_bits());
+            for word in history.to_words() {
+                store(word);
             }
         }
-        let (rate, time, stop) = (f64::from_bits(rate), f64::from_bits(time), f64::from_bits(stop));
-        if !rate.is_finite() || !time.is_finite() || !stop.is_finite() || experiment_defined > 1 {
-            return None;
-        }
-        let pair = pair_of(&values).ok()?;
-        Some(Instance {
-            history: History::from_words(rest.first_chunk()?, &scene::model(pair, &values))?,
-            rate,
-            time,
-            stop,
-            limit: limit(phase, stop),
-            phase,
-            experiment_defined: experiment_defined == 1,
-            pair,
-            values,
-        })
     }
+
+    /// Makes this the instance that [`Instance::to_words`] stored, of which `word` gives each word by its place, and reports
+    /// true. If the words don't make one nothing is done.
+    pub fn restore(&mut self, word: impl Fn(usize) -> u64) -> bool {
+        let number = |place| f64::from_bits(word(place));
+        let (mut values, mut fast) = (START, false);
+        let mut bad = word(1) > 1 || !number(2).is_finite() || !number(3).is_finite();
+        for ((value, settable), place) in values.iter_mut().zip(&scene::SETTABLE).zip(OWN_WORDS..) {
+            *value = number(place);
+            bad |= !allows(settable, *value);
+        }
+        let phases = [Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
+        let Some(phase) = phases.into_iter().find(|&phase| phase as u64 == word(0)) else { return false };
+        if bad {
+            return false;
+        }
+        // first a look at all that there is, and then the same again in earnest
+        for in_earnest in [false, true] {
+            if in_earnest {
+                self.values = values;
+            }
+            let mut contact = 0;
+            for group in 0..scene::GROUPS {
+                let Ok(pair) = pair_of(group, &values) else { return false };
+                let model = scene::model(pair, group, &values);
+                if in_earnest && let Some(bodies) = self.pairs.get_mut(group) {
+                    *bodies = Bodies { radius: pair.radius, modulus: pair.modulus };
+                }
+                while contact < scene::end(group) {
+                    let place = OWN_WORDS + scene::SETTABLE.len() + CONTACT_WORDS * contact;
+                    let rate = number(place);
+                    let words = core::array::from_fn(|index| word(place + 1 + index));
+                    let Some(history) = History::from_words(&words, &model).filter(|_| rate.is_finite()) else {
+                        return false;
+                    };
+                    fast |= rate.abs() > FAST || history.indentation().abs() > FAR;
+                    if in_earnest
+                        && let (Some(own), Some(slot)) = (self.histories.get_mut(contact), self.rates.get_mut(contact))
+                    {
+                        (*own, *slot) = (history, rate);
+                    }
+                    contact += 1;
+                }
+            }
+        }
+        (self.time, self.stop) = (number(2), number(3));
+        self.experiment_defined = word(1) == 1;
+        self.fast = fast;
+        self.set_phase(phase);
+        self.note_forces();
+        true
+    }
+}
+
+/// What stands where there is no group.
+const NO_BODIES: Bodies = Bodies { radius: f64::NAN, modulus: f64::NAN };
+
+/// Whether an input needs no further look: finite, and of many contacts not [fast](FAST).
+#[inline(always)]
+fn is_plain(rate: f64) -> bool {
+    if scene::CONTACTS > 1 { rate.abs() <= FAST } else { is_finite(rate) }
+}
+
+/// Whether a parameter may have this `value`.
+fn allows(settable: &Settable, value: f64) -> bool {
+    // written positively, so that a NaN fails
+    value >= settable.minimum && value <= settable.maximum
+}
+
+fn check_rate(history: &History, rate: f64) -> Result<(), Fault> {
+    if history.is_finite_at_rate(rate) { Ok(()) } else { Err(Fault::TooFast { rate }) }
 }

@@ -5,10 +5,27 @@
 
 use crate::contact::{self, Pair, Surface, loading, unloading};
 use crate::instance::Values;
-use crate::variable::{Integer, Parameter, Real, Settable};
+use crate::variable::{Integer, Parameter, Real, Settable, kind_and_contact};
 
 /// What the model description and the binary recognise each other by.
 pub const GUID: &str = "unpacked";
+
+/// How many contacts there are.
+pub const CONTACTS: usize = 1;
+/// How many groups of equal contacts they form.
+pub const GROUPS: usize = 1;
+/// The name of each group, and whether its contacts are counted.
+pub static GROUP_NAMES: [(&str, bool); GROUPS] = [("", false)];
+
+/// The group of a contact.
+pub fn group(_contact: usize) -> usize {
+    0
+}
+
+/// The contact behind the last one of a group.
+pub fn end(_group: usize) -> usize {
+    CONTACTS
+}
 
 /// The loading law.
 pub type Loading = loading::BigAlabo;
@@ -29,8 +46,10 @@ pub const UNLOADING: Unloading = unloading::ContactRadius;
 /// Where the passivity guard acts, if there is one.
 pub const GUARD: Option<&str> = None;
 
-/// What a new contact meets.
-pub const SURFACE: Surface = Surface::Dented;
+/// What a new contact of a group meets.
+pub fn surface(_group: usize) -> Surface {
+    Surface::Dented
+}
 
 /// What a contact remembers.
 pub type History = contact::History;
@@ -38,8 +57,8 @@ pub type History = contact::History;
 pub type Model = contact::Model<Loading, Unloading>;
 
 /// These bodies with the laws of the scene.
-pub fn model(pair: Pair, _settable: &Values) -> Model {
-    Model { pair, loading: LOADING, unloading: UNLOADING, surface: SURFACE }
+pub fn model(pair: Pair, group: usize, _settable: &Values) -> Model {
+    Model { pair, loading: LOADING, unloading: UNLOADING, surface: surface(group) }
 }
 
 /// The parameters that can be set.
@@ -51,8 +70,8 @@ pub const SETTABLE: [Settable; 5] = [
     Settable { name: "initial_gap", unit: "m", start: 0.0, minimum: -1e6, maximum: 1e6 },
 ];
 
-/// The value of any parameter: set, or constant in this scene.
-pub fn parameter(parameter: Parameter, settable: &Values) -> f64 {
+/// The value of any parameter for the contacts of a group: set, or constant in this scene.
+pub fn parameter(parameter: Parameter, _group: usize, settable: &Values) -> f64 {
     match parameter {
         Parameter::ImpactorRadius => settable[0],
         Parameter::ImpactorYoungsModulus => f64::INFINITY,
@@ -67,28 +86,34 @@ pub fn parameter(parameter: Parameter, settable: &Values) -> f64 {
     }
 }
 
-/// The Real variable with this value reference.
+/// How many variables a contact has, beside the parameters.
+const KINDS: u32 = 6;
+
+/// The Real variable with this value reference, and its contact.
 #[inline]
-pub fn real(value_reference: u32) -> Option<Real> {
-    Some(match value_reference {
+pub fn real(value_reference: u32) -> Option<(Real, usize)> {
+    let (kind, contact) = kind_and_contact(value_reference, CONTACTS);
+    let variable = match kind {
         0 => Real::IndentationRate,
         1 => Real::Force,
         2 => Real::Indentation,
         3 => Real::ResidualIndentation,
         4 => Real::DissipatedEnergy,
-        6 => Real::Parameter(0),
-        7 => Real::Parameter(1),
-        8 => Real::Parameter(2),
-        9 => Real::Parameter(3),
-        10 => Real::Parameter(4),
+        KINDS.. => {
+            let index = (kind - KINDS) as usize * CONTACTS + contact;
+            return (index < SETTABLE.len()).then_some((Real::Parameter(index), 0));
+        }
         _ => return None,
-    })
+    };
+    Some((variable, contact))
 }
 
-/// The Integer variable with this value reference.
-pub fn integer(value_reference: u32) -> Option<Integer> {
-    Some(match value_reference {
+/// The Integer variable with this value reference, and its contact.
+pub fn integer(value_reference: u32) -> Option<(Integer, usize)> {
+    let (kind, contact) = kind_and_contact(value_reference, CONTACTS);
+    let variable = match kind {
         5 => Integer::Regime,
         _ => return None,
-    })
+    };
+    Some((variable, contact))
 }

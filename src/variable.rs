@@ -40,6 +40,26 @@ pub struct Settable {
     pub maximum: f64,
 }
 
+/// Where a parameter has its value from, if groups of contacts differ.
+#[derive(Clone, Copy, Debug)]
+pub enum Source {
+    /// From the parameter with this index in [`SETTABLE`](crate::scene::SETTABLE).
+    Settable(usize),
+    /// From the scene.
+    Constant(f64),
+}
+
+impl Source {
+    /// The value that a parameter has from `source`; NaN without one.
+    pub fn value(source: Option<&Source>, settable: &[f64]) -> f64 {
+        match source {
+            Some(Source::Constant(value)) => *value,
+            Some(Source::Settable(index)) => settable.get(*index).copied().unwrap_or(f64::NAN),
+            None => f64::NAN,
+        }
+    }
+}
+
 /// A variable of type Real.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Real {
@@ -74,4 +94,12 @@ pub enum Real {
 pub enum Integer {
     /// Number of the [`Regime`](crate::contact::Regime).
     Regime,
+}
+
+/// Which kind of variable a value reference means, and of which contact: those of a kind follow each other.
+#[inline(always)]
+pub fn kind_and_contact(value_reference: u32, contacts: usize) -> (u32, usize) {
+    let contacts = contacts as u32;
+    let kind = value_reference.checked_div(contacts).unwrap_or(0);
+    (kind, (value_reference - kind * contacts) as usize)
 }

@@ -77,6 +77,9 @@ impl History {
     /// Number of words that hold a history.
     pub const WORDS: usize = 13;
 
+    /// Whether the force depends on the rate at the same instant.
+    pub const FOLLOWS_RATE: bool = false;
+
     /// A contact at `gap` [m] before any motion; a negative gap is an indentation reached along the loading curve.
     pub fn start<L: Loading, U: Unloading>(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         let mut history = History {

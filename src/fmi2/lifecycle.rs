@@ -6,7 +6,6 @@ use super::memory;
 use super::order;
 use super::report::{ALL_CATEGORIES, Category, Report};
 use crate::fault::Fault;
-use crate::instance::Instance;
 use crate::scene;
 use core::ffi::CStr;
 
@@ -77,18 +76,23 @@ unsafe fn instantiate(
             reason: "fmuGUID is not the one of this library: modelDescription.xml and binary are from different exports",
         });
     }
-    let instance = Instance::new()?;
     let name = name.to_bytes_with_nul();
     let memory = memory::allocate(size_of::<Component>() + name.len());
     if memory.is_null() {
         return Err(Fault::NoMemory);
     }
-    let component = memory.cast::<Component>();
-    let categories = if logging_on { ALL_CATEGORIES } else { 0 };
-    // SAFETY: the memory is large enough for the component and, behind it, the name, and aligned for any object.
+    // SAFETY: the memory is large enough for the component and, behind it, the name, and aligned for any object; a
+    // component is made of numbers, enumerations with a variant 0, and pointers that may be null, so that zeros are one.
     unsafe {
-        component.write(Component { instance, logger, categories });
+        let component = memory.cast::<Component>();
         core::ptr::copy_nonoverlapping(name.as_ptr(), component.add(1).cast(), name.len());
+        let component = &mut *component;
+        component.logger = logger;
+        component.categories = if logging_on { ALL_CATEGORIES } else { 0 };
+        if let Err(fault) = component.instance.reset() {
+            memory::release(memory);
+            return Err(fault);
+        }
     }
     Ok(memory)
 }
@@ -176,10 +180,5 @@ pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe {
-        call(c, &order::RESET, |component| {
-            component.instance = Instance::new()?;
-            Ok(())
-        })
-    }
+    unsafe { call(c, &order::RESET, |component| component.instance.reset()) }
 }

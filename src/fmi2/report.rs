@@ -73,12 +73,28 @@ impl Report {
 
 fn phase_name(phase: Phase) -> &'static str {
     match phase {
+        Phase::Blank => "",
         Phase::Instantiated => "before initialization",
         Phase::Initialization => "in Initialization Mode",
         Phase::StepComplete => "after initialization",
         Phase::Terminated => "after fmi2Terminate",
         Phase::Error => "after an error; fmi2Reset, fmi2SetFMUstate and fmi2FreeInstance are",
     }
+}
+
+/// Names a contact, if there are several.
+fn contact_name(text: &mut Text, contact: usize) -> &mut Text {
+    if scene::CONTACTS == 1 {
+        return text;
+    }
+    let group = scene::group(contact);
+    let (name, counted) = scene::GROUP_NAMES.get(group).copied().unwrap_or(("contact", true));
+    text.string(name);
+    if counted {
+        let first = group.checked_sub(1).map_or(0, scene::end);
+        text.string("[").integer((contact + 1 - first) as u32).string("]");
+    }
+    text.string(": ")
 }
 
 fn describe(text: &mut Text, fault: &Fault) {
@@ -138,7 +154,7 @@ fn describe(text: &mut Text, fault: &Fault) {
             .string(" s, beyond the stop time ")
             .number(stop)
             .string(" s"),
-        Fault::TooDeep { indentation } => text
+        Fault::TooDeep { contact, indentation } => contact_name(text, contact)
             .string("the indentation would become ")
             .number(indentation)
             .string(" m, for which the law can't be evaluated; is indentation_rate in m/s?"),

@@ -12,7 +12,8 @@ use crate::scene;
 /// of a save straight on to the loads of a restore.
 #[repr(C)]
 pub struct Snapshot {
-    instance: Instance,
+    /// The instance as it was.
+    pub instance: Instance,
     mark: u64,
 }
 
@@ -52,24 +53,22 @@ impl Snapshot {
     /// # Safety
     /// As for [`Snapshot::at`].
     pub unsafe fn store(state: &mut fmi2FMUstate, instance: &Instance) -> Result<(), Fault> {
-        if state.is_null() {
-            let made = memory::allocate(size_of::<Snapshot>());
-            if made.is_null() {
-                return Err(Fault::NoMemory);
+        // SAFETY: as the caller promises.
+        unsafe {
+            if state.is_null() {
+                *state = Snapshot::allocate()?;
             }
-            // SAFETY: the memory is large enough and aligned for any object.
-            unsafe { made.cast::<Snapshot>().write(Snapshot { instance: *instance, mark: MARK }) };
-            *state = made;
-        } else {
-            // SAFETY: as the caller promises.
-            unsafe { Snapshot::at(*state)? }.instance = *instance;
+            Snapshot::at(*state)?.instance.copy_from(instance);
         }
         Ok(())
     }
 
-    /// The instance as it was.
-    pub fn instance(&self) -> &Instance {
-        &self.instance
+    /// A snapshot of nothing.
+    fn allocate() -> Result<fmi2FMUstate, Fault> {
+        let made = memory::allocate(size_of::<Snapshot>());
+        // SAFETY: the memory is large enough and aligned for any object, and zeros are a snapshot as they are a component.
+        unsafe { made.cast::<Snapshot>().as_mut() }.ok_or(Fault::NoMemory)?.mark = MARK;
+        Ok(made)
     }
 
     /// Frees the snapshot at `state`; null is nothing to free.
@@ -90,70 +89,76 @@ impl Snapshot {
 
     /// Writes the snapshot into `bytes`.
     pub fn serialize(&self, bytes: &mut [u8; SERIALIZED_SIZE]) {
-        let checked = bytes.first_chunk_mut::<CHECKSUM_AT>();
-        let Some(checked) = checked else { return };
-        let head = MAGIC.into_iter().chain(scene::GUID.bytes()).chain((WORDS as u64).to_le_bytes());
-        let words = self.instance.to_words();
-        let all = head.chain(words.into_iter().flat_map(u64::to_le_bytes));
-        for (slot, byte) in checked.iter_mut().zip(all) {
-            *slot = byte;
+        let (checked, end) = bytes.split_at_mut(CHECKSUM_AT);
+        let mut sum = CHECKSUM_START;
+        let mut slots = checked.iter_mut();
+        let mut store = |byte: u8| {
+            sum = checksum(sum, byte);
+            if let Some(slot) = slots.next() {
+                *slot = byte;
+            }
+        };
+        head().for_each(&mut store);
+        self.instance.to_words(|word| word.to_le_bytes().into_iter().for_each(&mut store));
+        end.copy_from_slice(&sum.to_le_bytes());
+    }
+
+    /// Makes the snapshot at `state`, which is made if there is none, from what [`Snapshot::serialize`] wrote.
+    ///
+    /// # Errors
+    /// [`Fault::BadState`] for another length, another unit or version, and damaged bytes; `state` is then as it was.
+    ///
+    /// # Safety
+    /// As for [`Snapshot::at`].
+    pub unsafe fn deserialize(state: &mut fmi2FMUstate, bytes: &[u8]) -> Result<(), Fault> {
+        check(bytes)?;
+        let made = if state.is_null() { Snapshot::allocate()? } else { *state };
+        // SAFETY: as the caller promises; what was made here is released here.
+        unsafe {
+            if !Snapshot::at(made)?.instance.restore(|index| word(bytes, WORDS_AT + 8 * index)) {
+                if state.is_null() {
+                    memory::release(made);
+                }
+                return Err(Fault::BadState { reason: "its values don't make a contact" });
+            }
         }
-        let sum = checksum(checked).to_le_bytes();
-        if let Some(end) = bytes.last_chunk_mut::<8>() {
-            *end = sum;
-        }
+        *state = made;
+        Ok(())
     }
 }
 
-/// Reads a state that [`Snapshot::serialize`] wrote.
-///
-/// # Errors
-/// [`Fault::BadState`] for another length, another unit or version, and damaged bytes.
-pub fn deserialize(bytes: &[u8]) -> Result<Instance, Fault> {
+/// What a serialized state begins with.
+fn head() -> impl Iterator<Item = u8> {
+    MAGIC.into_iter().chain(scene::GUID.bytes()).chain((WORDS as u64).to_le_bytes())
+}
+
+/// Whether `bytes` are whole, and of this unit.
+fn check(bytes: &[u8]) -> Result<(), Fault> {
     let bad = |reason| Err(Fault::BadState { reason });
     if bytes.len() != SERIALIZED_SIZE {
         return bad("it doesn't have the length of a state of this unit");
     }
-    let mut parts = Parts(bytes);
-    if parts.take(MAGIC.len()) != MAGIC {
-        return bad("it is not a serialized state of this version");
+    if !bytes.iter().copied().zip(head()).all(|(byte, own)| byte == own) {
+        return bad("it is of another unit or version");
     }
-    if parts.take(scene::GUID.len()) != scene::GUID.as_bytes() {
-        return bad("it is of another unit (its GUID is different)");
-    }
-    if parts.word() != WORDS as u64 {
-        return bad("its number of words is not that of this unit");
-    }
-    let mut words = [0; WORDS];
-    for word in &mut words {
-        *word = parts.word();
-    }
-    let checked = bytes.first_chunk::<CHECKSUM_AT>();
-    if checked.is_none_or(|checked| checksum(checked) != parts.word()) {
+    let sum = bytes.iter().take(CHECKSUM_AT).fold(CHECKSUM_START, |sum, &byte| checksum(sum, byte));
+    if sum != word(bytes, CHECKSUM_AT) {
         return bad("its checksum is wrong, it is damaged");
     }
-    Instance::from_words(&words).ok_or(Fault::BadState { reason: "its values don't make a contact" })
+    Ok(())
 }
 
-/// Bytes that are taken from the front.
-struct Parts<'a>(&'a [u8]);
-
-impl<'a> Parts<'a> {
-    /// The next `count` bytes, or what is left.
-    fn take(&mut self, count: usize) -> &'a [u8] {
-        let (taken, rest) = self.0.split_at_checked(count).unwrap_or((self.0, &[]));
-        self.0 = rest;
-        taken
-    }
-
-    fn word(&mut self) -> u64 {
-        self.take(8).iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte))
-    }
+/// The word that begins at `place`.
+fn word(bytes: &[u8], place: usize) -> u64 {
+    bytes.get(place..).and_then(|rest| rest.first_chunk()).map_or(0, |word| u64::from_le_bytes(*word))
 }
+
+/// What a checksum begins with.
+const CHECKSUM_START: u64 = 0xcbf2_9ce4_8422_2325;
 
 /// FNV-1a, 64 bits: any single changed byte changes it.
 ///
 /// Reference: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm".
-fn checksum(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, &byte| (sum ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+fn checksum(sum: u64, byte: u8) -> u64 {
+    (sum ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
 }

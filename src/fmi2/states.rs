@@ -3,7 +3,7 @@
 use super::abi::*;
 use super::component::{array, array_mut, call, object};
 use super::order;
-use super::state::{SERIALIZED_SIZE, Snapshot, deserialize};
+use super::state::{SERIALIZED_SIZE, Snapshot};
 use crate::fault::Fault;
 
 /// Copies the instance into a state; memory is allocated only if `FMUstate` points to null.
@@ -21,7 +21,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, FMUstate: fmi2FMUstat
     // SAFETY: the caller's component and state.
     unsafe {
         call(c, &order::SET_FMU_STATE, |component| {
-            component.instance = *Snapshot::at(FMUstate)?.instance();
+            component.instance.copy_from(&Snapshot::at(FMUstate)?.instance);
             Ok(())
         })
     }
@@ -82,8 +82,8 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     // SAFETY: the caller's component and state, and an array as long as announced.
     unsafe {
         call(c, &order::DESERIALIZE_FMU_STATE, |_| {
-            let instance = deserialize(array(serializedState.cast::<u8>(), size, "serializedState")?)?;
-            Snapshot::store(object(FMUstate, "FMUstate")?, &instance)
+            let bytes = array(serializedState.cast::<u8>(), size, "serializedState")?;
+            Snapshot::deserialize(object(FMUstate, "FMUstate")?, bytes)
         })
     }
 }

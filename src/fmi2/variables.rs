@@ -9,18 +9,40 @@ use crate::variable::Real;
 
 /// The Real variable with this reference.
 #[inline]
-fn real(reference: fmi2ValueReference) -> Result<Real, Fault> {
+fn real(reference: fmi2ValueReference) -> Result<(Real, usize), Fault> {
     scene::real(reference).ok_or(Fault::UnknownReference { kind: "Real", reference })
 }
 
-/// Whether a call is for the one variable `wanted`, with pointers that aren't null.
+/// The place of the inputs and of the forces among the kinds of variables that a contact has.
+const RATE: u32 = 0;
+const FORCE: u32 = 1;
+
+/// The contact whose variable of this `kind` has this reference.
+#[inline(always)]
+fn contact_of(kind: u32, reference: fmi2ValueReference) -> Option<usize> {
+    // of a smaller reference the difference is a very large number
+    let contact = reference.wrapping_sub(kind * scene::CONTACTS as u32) as usize;
+    (contact < scene::CONTACTS).then_some(contact)
+}
+
+/// The contact that a call for one variable of this `kind` is for, with pointers that aren't null.
 ///
 /// # Safety
 /// A pointer to references that isn't null points to as many as announced.
 #[inline(always)]
-unsafe fn is_for(wanted: Real, vr: *const fmi2ValueReference, nvr: usize) -> bool {
+unsafe fn only_one(kind: u32, vr: *const fmi2ValueReference, nvr: usize) -> Option<usize> {
     // SAFETY: as the caller promises.
-    unsafe { nvr == 1 && !vr.is_null() && scene::real(*vr) == Some(wanted) }
+    unsafe { if nvr == 1 && !vr.is_null() { contact_of(kind, *vr) } else { None } }
+}
+
+/// The first contact of those whose variables of this `kind` have these references, one after the other.
+fn run_of(kind: u32, references: &[fmi2ValueReference]) -> Option<usize> {
+    let &first = references.first().filter(|_| scene::CONTACTS > 1)?;
+    let mut other = false;
+    for (index, &reference) in references.iter().enumerate() {
+        other |= reference.wrapping_sub(first) != index as u32;
+    }
+    if other { None } else { contact_of(kind, first) }
 }
 
 /// Reads Real variables.
@@ -33,9 +55,9 @@ pub unsafe extern "C" fn fmi2GetReal(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        if is_for(Real::Force, vr, nvr)
+        if let Some(contact) = only_one(FORCE, vr, nvr)
             && let Some(component) = component(c)
-            && let Some(force) = component.instance.plain_force()
+            && let Some(force) = component.instance.plain_force(contact)
             && !value.is_null()
         {
             *value = force;
@@ -61,6 +83,11 @@ unsafe fn get_any_real(
         call(c, &order::GET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
             let values = array_mut(value, nvr, "value")?;
+            if let Some(first) = run_of(FORCE, references)
+                && component.instance.copy_plain_forces(first, values)
+            {
+                return Ok(());
+            }
             for (value, &reference) in values.iter_mut().zip(references) {
                 *value = component.instance.real(real(reference)?);
             }
@@ -101,10 +128,10 @@ pub unsafe extern "C" fn fmi2SetReal(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        if is_for(Real::IndentationRate, vr, nvr)
+        if let Some(contact) = only_one(RATE, vr, nvr)
             && let Some(component) = component(c)
             && !value.is_null()
-            && component.instance.set_plain_rate(*value)
+            && component.instance.set_plain_rate(contact, *value)
         {
             return fmi2OK;
         }
@@ -128,11 +155,20 @@ unsafe fn set_any_real(
         call(c, &order::SET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
             let values = array(value, nvr, "value")?;
+            if let Some(first) = run_of(RATE, references)
+                && component.instance.set_plain_rates(first, values)
+            {
+                return Ok(());
+            }
             for (&value, &reference) in values.iter().zip(references) {
                 component.instance.check_real(real(reference)?, value)?;
             }
+            let mut parameters = false;
             for (&value, &reference) in values.iter().zip(references) {
-                component.instance.set_real(real(reference)?, value);
+                parameters |= component.instance.set_real(real(reference)?, value);
+            }
+            if parameters {
+                component.instance.parameters_are_set();
             }
             Ok(())
         })

@@ -1,8 +1,8 @@
 //! The scene as Rust: the file `src/scene.rs` of the library.
 
 use crate::interface::Entry;
-use crate::scene::Scene;
-use crate::table::{Causality, Type};
+use crate::scene::{Group, Parameter, Scene};
+use crate::table::{self, Causality, Type, Variable};
 use brinell::contact::Surface;
 use brinell::contact::damped::AnyDamped;
 use std::fmt::Write;
@@ -22,20 +22,19 @@ const ABSENT: [(&str, f64); 6] = [
 pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
     let mut text = String::from(HEAD);
     let uses = if scene.damped.is_some() { "Pair, damped" } else { "self, Pair, Surface, loading, unloading" };
-    add(&mut text, &format!("use crate::contact::{{{uses}}};\n{USES}"));
+    let several = differing(scene).next().is_some();
+    let uses_variable = if several { USES.into() } else { USES.replace("Source, ", "") };
+    add(&mut text, &format!("use crate::contact::{{{uses}}};\n{uses_variable}"));
     let loading = value_of(&scene.loading.1);
     // an elastic contact never unloads by another law; the compiler leaves out whatever stands here
     let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.model().unloading));
-    let surface = match scene.contacts[0].surface {
-        Surface::Dented => "Dented",
-        Surface::Fresh => "Fresh",
-    };
     add(
         &mut text,
         &format!(
             "/// What the model description and the binary recognise each other by.\npub const GUID: &str = {guid:?};\n"
         ),
     );
+    add_groups(&mut text, scene);
     if let Some((_, law)) = &scene.damped {
         // an enum inside of a law is printed without its path
         let path = match law {
@@ -50,13 +49,13 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
         add_law(&mut text, "Loading", "LOADING", "loading", &loading);
         add_law(&mut text, "Unloading", "UNLOADING", "unloading", &unloading);
         add_guard(&mut text, scene);
-        add(&mut text, &format!("/// What a new contact meets.\npub const SURFACE: Surface = Surface::{surface};\n"));
+        add_surface(&mut text, scene);
         add(&mut text, MODEL);
     }
     add_settable(&mut text, entries);
     add_parameters(&mut text, scene);
-    add_references(&mut text, entries, Type::Real);
-    add_references(&mut text, entries, Type::Integer);
+    add_reals(&mut text, entries);
+    add_integers(&mut text, entries);
     text
 }
 
@@ -69,7 +68,7 @@ const HEAD: &str = "\
 
 const USES: &str = "\
 use crate::instance::Values;
-use crate::variable::{Integer, Parameter, Real, Settable};
+use crate::variable::{Integer, Parameter, Real, Settable, Source, kind_and_contact};
 ";
 
 const MODEL: &str = "\
@@ -79,8 +78,8 @@ pub type History = contact::History;
 pub type Model = contact::Model<Loading, Unloading>;
 
 /// These bodies with the laws of the scene.
-pub fn model(pair: Pair, _settable: &Values) -> Model {
-    Model { pair, loading: LOADING, unloading: UNLOADING, surface: SURFACE }
+pub fn model(pair: Pair, group: usize, _settable: &Values) -> Model {
+    Model { pair, loading: LOADING, unloading: UNLOADING, surface: surface(group) }
 }
 ";
 
@@ -91,8 +90,8 @@ pub type History = damped::History<Law>;
 pub type Model = damped::Model<Law>;
 
 /// These bodies with the law of the scene.
-pub fn model(pair: Pair, settable: &Values) -> Model {
-    let value = |which| parameter(which, settable);
+pub fn model(pair: Pair, group: usize, settable: &Values) -> Model {
+    let value = |which| parameter(which, group, settable);
     damped::Model { pair, law: LAW, restitution: value(Parameter::Restitution), mass: value(Parameter::EffectiveMass) }
 }
 ";
@@ -149,14 +148,15 @@ fn add_settable(text: &mut String, entries: &[Entry]) {
     let settable: Vec<_> = entries.iter().filter(|entry| entry.variable.causality == Causality::Parameter).collect();
     let mut table =
         format!("/// The parameters that can be set.\npub const SETTABLE: [Settable; {}] = [", settable.len());
-    for Entry { variable, start, .. } in &settable {
+    for entry in &settable {
+        let Entry { variable, start, .. } = entry;
         let unit = variable.unit.as_deref().unwrap_or("");
         let [start, minimum, maximum] = [*start, variable.minimum, variable.maximum]
             .map(|value| literal(value.expect("a parameter has a start value and limits")));
         write!(
             table,
             "\n    Settable {{ name: {:?}, unit: {unit:?}, start: {start}, minimum: {minimum}, maximum: {maximum} }},",
-            variable.name
+            entry.name(0)
         )
         .expect("a String takes everything");
     }
@@ -164,63 +164,203 @@ fn add_settable(text: &mut String, entries: &[Entry]) {
     add(text, &table);
 }
 
+/// How many contacts there are, in which groups.
+fn add_groups(text: &mut String, scene: &Scene) {
+    let (contacts, groups) = (scene.contact_count(), scene.contacts.len());
+    let names = scene.contacts.iter();
+    let names = names.map(|group| format!("({:?}, {})", group.name.as_deref().unwrap_or(""), group.count.is_some()));
+    let names = list("GROUP_NAMES", "(&str, bool)", "GROUPS", &names.collect::<Vec<_>>());
+    add(
+        text,
+        &format!(
+            "/// How many contacts there are.\npub const CONTACTS: usize = {contacts};\n\
+             /// How many groups of equal contacts they form.\npub const GROUPS: usize = {groups};\n\
+             /// The name of each group, and whether its contacts are counted.\npub {names}"
+        ),
+    );
+    let (group, end) = if groups == 1 {
+        ("pub fn group(_contact: usize) -> usize {\n    0\n", "pub fn end(_group: usize) -> usize {\n    CONTACTS\n")
+    } else if groups == contacts {
+        (
+            "pub fn group(contact: usize) -> usize {\n    contact\n",
+            "pub fn end(group: usize) -> usize {\n    group + 1\n",
+        )
+    } else {
+        let mut end = 0;
+        let ends = scene.contacts.iter().map(|group| {
+            end += group.len();
+            end.to_string()
+        });
+        let ends = list("ENDS", "usize", "GROUPS", &ends.collect::<Vec<_>>());
+        add(text, &format!("/// The contact behind the last one of each group.\n{ends}"));
+        (
+            "pub fn group(contact: usize) -> usize {\n    ENDS.partition_point(|&end| end <= contact)\n",
+            "pub fn end(group: usize) -> usize {\n    ENDS.get(group).copied().unwrap_or(CONTACTS)\n",
+        )
+    };
+    add(text, &format!("/// The group of a contact.\n{group}}}\n"));
+    add(text, &format!("/// The contact behind the last one of a group.\n{end}}}\n"));
+}
+
+/// A table as rustfmt has it: in one line, or one entry a line.
+fn list(name: &str, kind: &str, length: &str, values: &[String]) -> String {
+    let head = format!("static {name}: [{kind}; {length}] = [");
+    let line = format!("{head}{}];\n", values.join(", "));
+    if line.len() < 110 { line } else { format!("{head}\n    {},\n];\n", values.join(",\n    ")) }
+}
+
+fn add_surface(text: &mut String, scene: &Scene) {
+    let name = |group: &Group| match group.surface {
+        Surface::Dented => "Surface::Dented".to_string(),
+        Surface::Fresh => "Surface::Fresh".to_string(),
+    };
+    let names: Vec<_> = scene.contacts.iter().map(name).collect();
+    let (argument, body) = if names.iter().all(|name| *name == names[0]) {
+        ("_group", names[0].clone())
+    } else {
+        add(
+            text,
+            &format!("/// What a new contact meets, by group.\n{}", list("SURFACES", "Surface", "GROUPS", &names)),
+        );
+        ("group", "SURFACES.get(group).copied().unwrap_or_default()".into())
+    };
+    let head = "/// What a new contact of a group meets.\npub fn surface";
+    add(text, &format!("{head}({argument}: usize) -> Surface {{\n    {body}\n}}\n"));
+}
+
+/// The variables that a scene can have as parameters.
+fn parameters() -> impl Iterator<Item = &'static Variable> {
+    table::VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter)
+}
+
+/// Those of them that not all groups have from the same source.
+fn differing(scene: &Scene) -> impl Iterator<Item = &'static Variable> {
+    let own = |variable: &&Variable, group: &Group| group.own.iter().any(|own| own.name == variable.name);
+    parameters()
+        .filter(move |variable| scene.contacts.len() > 1 && scene.contacts.iter().any(|group| own(variable, group)))
+}
+
 fn add_parameters(text: &mut String, scene: &Scene) {
-    let mut arms = String::new();
-    let mut index = 0;
-    for variable in crate::table::VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter) {
-        let own = scene.parameters.iter().find(|parameter| parameter.name == variable.name);
-        let value = match own {
-            Some(parameter) if parameter.settable => {
-                index += 1;
-                format!("settable[{}]", index - 1)
-            }
-            Some(parameter) => literal(parameter.value),
+    // where each group has its own parameters among those that can be set
+    let mut first = scene.settable().count();
+    let firsts = scene.contacts.iter().map(|group| {
+        let own = group.own.iter().filter(|own| own.settable).count();
+        first += own;
+        first - own
+    });
+    let firsts: Vec<usize> = firsts.collect();
+    let place = |list: &[Parameter], name: &str| {
+        let parameter = list.iter().find(|parameter| parameter.name == name)?;
+        let place = list.iter().filter(|other| other.settable).position(|other| other.name == name);
+        Some((parameter.value, place))
+    };
+    let source = |group: usize, name: &str| match place(&scene.contacts[group].own, name) {
+        Some((_, Some(place))) => Value::Settable(firsts[group] + place),
+        Some((value, None)) => Value::Constant(value),
+        None => match place(&scene.parameters, name) {
+            Some((_, Some(place))) => Value::Settable(place),
+            Some((value, None)) => Value::Constant(value),
             None => {
-                let absent = ABSENT.iter().find(|(name, _)| *name == variable.name);
-                literal(absent.expect("only these can be absent").1)
+                let absent = ABSENT.iter().find(|(absent, _)| *absent == name);
+                Value::Constant(absent.map_or(f64::NAN, |(_, value)| *value))
+            }
+        },
+    };
+    let differing: Vec<_> = differing(scene).map(|variable| variable.rust.as_str()).collect();
+    let (mut arms, mut tables) = (String::new(), String::new());
+    let mut uses_settable = !differing.is_empty();
+    for variable in parameters() {
+        let value = if differing.contains(&variable.rust.as_str()) {
+            let constant = variable.name.replace('.', "_").to_uppercase();
+            let sources = (0..scene.contacts.len()).map(|group| match source(group, &variable.name) {
+                Value::Settable(place) => format!("Source::Settable({place})"),
+                Value::Constant(value) => format!("Source::Constant({})", literal(value)),
+            });
+            let sources = list(&constant, "Source", "GROUPS", &sources.collect::<Vec<_>>());
+            tables.push_str(&format!("\n/// `{}` by group.\n{sources}", variable.name));
+            format!("Source::value({constant}.get(group), settable)")
+        } else {
+            match source(0, &variable.name) {
+                Value::Settable(place) => {
+                    uses_settable = true;
+                    format!("settable[{place}]")
+                }
+                Value::Constant(value) => literal(value),
             }
         };
         writeln!(arms, "        Parameter::{} => {value},", variable.rust).expect("a String takes everything");
     }
-    let name = if index == 0 { "_settable" } else { "settable" };
+    text.push_str(&tables);
+    let group = if differing.is_empty() { "_group" } else { "group" };
+    let settable = if uses_settable { "settable" } else { "_settable" };
     add(
         text,
         &format!(
-            "/// The value of any parameter: set, or constant in this scene.\n\
-             pub fn parameter(parameter: Parameter, {name}: &Values) -> f64 {{\n    match parameter {{\n{arms}    }}\n}}\n"
+            "/// The value of any parameter for the contacts of a group: set, or constant in this scene.\n\
+             pub fn parameter(parameter: Parameter, {group}: usize, {settable}: &Values) -> f64 {{\n    match parameter {{\n{arms}    }}\n}}\n"
         ),
     );
 }
 
-fn add_references(text: &mut String, entries: &[Entry], kind: Type) {
-    let (name, function, inline) = match kind {
-        Type::Real => ("Real", "real", "#[inline]\n"),
-        Type::Integer => ("Integer", "integer", ""),
+/// Where a parameter has its value from.
+enum Value {
+    /// Place among those that can be set.
+    Settable(usize),
+    Constant(f64),
+}
+
+/// The kinds of variables that a contact has, those of type `kind` as arms of a match.
+fn arms(entries: &[Entry], kind: Type) -> (usize, String) {
+    let mut kinds: Vec<&Variable> = entries.iter().map(|entry| entry.variable).collect();
+    kinds.retain(|variable| variable.causality != Causality::Parameter);
+    kinds.dedup_by_key(|variable| variable.name.as_str());
+    let arm = |(place, variable): (usize, &&Variable)| {
+        (variable.r#type == kind).then(|| format!("        {place} => {kind:?}::{},\n", variable.rust))
     };
-    let mut arms = String::new();
-    let mut index = 0;
-    for (reference, Entry { variable, .. }) in entries.iter().enumerate() {
-        if variable.r#type != kind {
-            continue;
-        }
-        let value = if variable.causality == Causality::Parameter {
-            index += 1;
-            format!("Parameter({})", index - 1)
-        } else {
-            variable.rust.clone()
-        };
-        writeln!(arms, "        {reference} => {name}::{value},").expect("a String takes everything");
+    (kinds.len(), kinds.iter().enumerate().filter_map(arm).collect())
+}
+
+fn add_reals(text: &mut String, entries: &[Entry]) {
+    let (kinds, arms) = arms(entries, Type::Real);
+    let settable = entries.iter().any(|entry| entry.variable.causality == Causality::Parameter);
+    if settable {
+        let count =
+            format!("/// How many variables a contact has, beside the parameters.\nconst KINDS: u32 = {kinds};\n");
+        add(text, &count);
     }
+    let parameter = "        KINDS.. => {
+            let index = (kind - KINDS) as usize * CONTACTS + contact;
+            return (index < SETTABLE.len()).then_some((Real::Parameter(index), 0));
+        }
+";
+    let parameter = if settable { parameter } else { "" };
+    add(
+        text,
+        &format!(
+            "/// The Real variable with this value reference, and its contact.\n#[inline]\n\
+             pub fn real(value_reference: u32) -> Option<(Real, usize)> {{\n    \
+             let (kind, contact) = kind_and_contact(value_reference, CONTACTS);\n    \
+             let variable = match kind {{\n{arms}{parameter}        _ => return None,\n    }};\n    \
+             Some((variable, contact))\n}}\n"
+        ),
+    );
+}
+
+fn add_integers(text: &mut String, entries: &[Entry]) {
+    let (_, arms) = arms(entries, Type::Integer);
     let body = if arms.is_empty() {
         "    let _ = value_reference;\n    None\n".to_string()
     } else {
-        format!("    Some(match value_reference {{\n{arms}        _ => return None,\n    }})\n")
+        format!(
+            "    let (kind, contact) = kind_and_contact(value_reference, CONTACTS);\n    \
+             let variable = match kind {{\n{arms}        _ => return None,\n    }};\n    Some((variable, contact))\n"
+        )
     };
     add(
         text,
         &format!(
-            "/// The {name} variable with this value reference.\n{inline}\
-             pub fn {function}(value_reference: u32) -> Option<{name}> {{\n{body}}}\n"
+            "/// The Integer variable with this value reference, and its contact.\n\
+             pub fn integer(value_reference: u32) -> Option<(Integer, usize)> {{\n{body}}}\n"
         ),
     );
 }

@@ -146,7 +146,8 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
         page,
         "<table>\n<tr><th>Name</th><th></th><th>Start</th><th>Allowed</th><th>Unit</th><th>Meaning</th></tr>"
     )?;
-    for Entry { variable, start, .. } in entries {
+    for entry in entries {
+        let Entry { variable, start, .. } = entry;
         let causality = match variable.causality {
             Causality::Input => "input",
             Causality::Output => "output",
@@ -162,7 +163,7 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
             page,
             "<tr><td><code>{}</code></td><td>{causality}</td><td class=\"n\">{start}</td><td class=\"n\">{allowed}</td>\
              <td>{unit}</td><td>{}</td></tr>",
-            variable.name,
+            entry.label(),
             escape(&variable.description)
         )?;
     }

@@ -110,15 +110,17 @@ fn definition(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
 
 fn variables(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
     xml.create_element("ModelVariables").write_inner_content(|xml| {
-        for (reference, entry) in entries.iter().enumerate() {
-            scalar_variable(xml, reference, entry)?;
+        for entry in entries {
+            for index in 0..entry.count {
+                scalar_variable(xml, entry, index)?;
+            }
         }
         Ok(())
     })?;
     Ok(())
 }
 
-fn scalar_variable(xml: &mut Xml, reference: usize, entry: &Entry) -> io::Result<()> {
+fn scalar_variable(xml: &mut Xml, entry: &Entry, index: usize) -> io::Result<()> {
     let variable = entry.variable;
     let (causality, variability, initial) = match (variable.causality, variable.r#type) {
         (Causality::Input, _) => ("input", "continuous", ""),
@@ -126,9 +128,9 @@ fn scalar_variable(xml: &mut Xml, reference: usize, entry: &Entry) -> io::Result
         (Causality::Output, Type::Integer) => ("output", "discrete", "calculated"),
         (Causality::Parameter, _) => ("parameter", "fixed", "exact"),
     };
-    let reference = reference.to_string();
+    let (name, reference) = (entry.name(index), (entry.reference + index).to_string());
     let attributes = [
-        ("name", variable.name.as_str()),
+        ("name", name.as_str()),
         ("valueReference", &reference),
         ("description", &variable.description),
         ("causality", causality),
@@ -156,17 +158,21 @@ fn scalar_variable(xml: &mut Xml, reference: usize, entry: &Entry) -> io::Result
 
 /// Outputs depend on no input at the same instant, unless the law does; before the first step they follow the parameters.
 fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
-    let outputs = || entries.iter().enumerate().filter(|(_, entry)| entry.variable.causality == Causality::Output);
+    let outputs = || {
+        let outputs = entries.iter().filter(|entry| entry.variable.causality == Causality::Output);
+        outputs.flat_map(|entry| (0..entry.count).map(move |index| (entry, index)))
+    };
     xml.create_element("ModelStructure").write_inner_content(|xml| {
         xml.create_element("Outputs").write_inner_content(|xml| {
-            for (place, entry) in outputs() {
-                unknown(xml, place, entry.follows.as_slice())?;
+            for (entry, index) in outputs() {
+                unknown(xml, entry.reference + index, entry.follows.map(|first| first + index), &[])?;
             }
             Ok(())
         })?;
         xml.create_element("InitialUnknowns").write_inner_content(|xml| {
-            for (place, entry) in outputs() {
-                unknown(xml, place, &entry.dependencies)?;
+            for (entry, index) in outputs() {
+                let input = entry.follows.filter(|_| entry.follows_from_the_start).map(|first| first + index);
+                unknown(xml, entry.reference + index, input, &entry.dependencies)?;
             }
             Ok(())
         })?;
@@ -175,11 +181,11 @@ fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
     Ok(())
 }
 
-/// Indices count from 1.
-fn unknown(xml: &mut Xml, place: usize, dependencies: &[usize]) -> io::Result<()> {
+/// The places of an unknown, and of the input and the parameters that it depends on; the XML counts from 1.
+fn unknown(xml: &mut Xml, place: usize, input: Option<usize>, parameters: &[usize]) -> io::Result<()> {
     let index = (place + 1).to_string();
-    let dependencies: Vec<_> = dependencies.iter().map(|place| (place + 1).to_string()).collect();
-    let dependencies = dependencies.join(" ");
+    let dependencies = input.iter().chain(parameters).map(|place| (place + 1).to_string());
+    let dependencies = dependencies.collect::<Vec<_>>().join(" ");
     let element = xml.create_element("Unknown");
     element.with_attributes([("index", index.as_str()), ("dependencies", &dependencies)]).write_empty()?;
     Ok(())

@@ -1,6 +1,6 @@
 //! From a scene to an `.fmu`: cargo builds the library, its symbols are checked, everything is zipped.
 
-use crate::interface::entries;
+use crate::interface::{Entry, entries};
 use crate::scene::Scene;
 use crate::symbols::{self, SymbolError};
 use crate::{constants, documentation, model_description};
@@ -67,7 +67,7 @@ pub fn platform() -> Result<(&'static str, &'static str), ExportError> {
 pub fn export(scene: &Scene, path: &Path) -> Result<Exported, ExportError> {
     let (folder, extension) = platform()?;
     let entries = entries(scene);
-    let guid = identification(scene);
+    let guid = identification(scene, &entries);
     let library = build(scene, &constants::write(scene, &entries, &guid), &guid)?;
     let imports = symbols::check(&library)?;
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
@@ -87,11 +87,10 @@ pub fn export(scene: &Scene, path: &Path) -> Result<Exported, ExportError> {
 }
 
 /// Hash of all that the unit is made of: description, constants, source of the library.
-fn identification(scene: &Scene) -> String {
-    let entries = entries(scene);
+fn identification(scene: &Scene, entries: &[Entry]) -> String {
     let mut hash = Sha256::new();
-    hash.update(model_description::write(scene, &entries, ""));
-    hash.update(constants::write(scene, &entries, ""));
+    hash.update(model_description::write(scene, entries, ""));
+    hash.update(constants::write(scene, entries, ""));
     for (name, text) in LIBRARY_SOURCE {
         hash.update(name);
         hash.update(text);

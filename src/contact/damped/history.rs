@@ -28,6 +28,9 @@ impl<D: Damped + Copy> History<D> {
     /// Number of words that hold a history.
     pub const WORDS: usize = 8;
 
+    /// Whether the force depends on the rate at the same instant.
+    pub const FOLLOWS_RATE: bool = true;
+
     /// A contact at `gap` [m] before any motion. One that starts pressed in has not been touched at any speed: the first
     /// closing rate then counts as that speed.
     ///

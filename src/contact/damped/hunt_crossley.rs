@@ -7,6 +7,7 @@ use libm::{exp, log, log1p};
 /// How the damping factor `chi` is made from the wanted restitution `e`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
+#[repr(u8)]
 pub enum DampingFactor {
     /// The root of `(1 + chi)/(1 - chi e) = exp(chi (1 + e))`: the law then gives `e`, to rounding.
     Exact,

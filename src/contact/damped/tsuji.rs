@@ -8,6 +8,7 @@ use libm::{exp, log, sqrt};
 /// How the damping `alpha` is made from the wanted restitution `e`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
+#[repr(u8)]
 pub enum TsujiDamping {
     /// `-sqrt(5) ln e/sqrt(pi^2 + ln^2 e)`: exact if the surface could pull until `d = 0`. Asked for 0.5, the law gives 0.5503.
     Original,
