@@ -23,7 +23,7 @@ fn exported(scene: &Path) -> (Value, Value) {
 }
 
 fn scene(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes").join(name).with_extension("toml")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml")
 }
 
 #[test]
