@@ -15,8 +15,8 @@ pub struct Summary<'a> {
     scene: &'a Scene,
     /// Names of the variables, those of a counted group as one: `contact[1..1000].force`.
     variables: Vec<String>,
-    /// Names of the constants with their values.
-    constants: Vec<(String, f64)>,
+    /// Names of the constants.
+    constants: Vec<String>,
     /// Outputs that weren't chosen.
     outputs: Vec<&'static str>,
     /// Parameters that no contact has.
@@ -52,18 +52,25 @@ impl Summary<'_> {
         shown * self.scene.contact_count() + settable
     }
 
+    /// The variables, those of all contacts together.
+    fn variables_by_kind(&self) -> Vec<String> {
+        let kinds = VARIABLES.iter().filter(|variable| shows(self.scene, &variable.name));
+        let named = self.scene.contacts[0].name.is_some();
+        let kind = |variable: &Variable| format!("{}{}", if named { "*." } else { "" }, variable.name);
+        kinds.map(kind).chain(parameters(self.scene).0).collect()
+    }
+
     /// For programs.
     pub fn json(&self, exported: &Exported) -> Value {
         // every variable there can be that this unit doesn't show
         let settable = |name: &str| all_parameters(self.scene).any(|(_, p)| p.name == name && p.settable);
         let left_out = VARIABLES.iter().map(|variable| variable.name.as_str());
         let left_out: Vec<_> = left_out.filter(|name| !shows(self.scene, name) && !settable(name)).collect();
-        let constants: Vec<_> = self.constants.iter().map(|(name, _)| name).collect();
         let OtherLaws { loading, unloading, damped } = &self.laws;
         let mut object = json!({
             "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
             "imports": exported.imports, "passivity_guard": guard::ranges(self.scene),
-            "variables": self.variables, "variable_count": self.variable_count(), "constants": constants,
+            "variables": self.variables, "variable_count": self.variable_count(), "constants": self.constants,
             "left_out": left_out, "absent": self.absent, "left_out_features": self.features,
             "left_out_laws": { "loading": loading, "unloading": unloading, "damped": damped },
         });
@@ -94,11 +101,12 @@ impl Summary<'_> {
             println!("  guard      {words}");
         }
         if self.scene.contacts[0].name.is_some() {
-            println!("  contacts   {}, each with all inputs and outputs", self.scene.contact_count());
+            println!("  contacts   {}", self.scene.contact_count());
             self.scene.contacts.iter().for_each(|group| println!("    {}", group_line(group)));
         }
-        println!("  variables  {}: {}", self.variable_count(), self.variables.join(", "));
-        for (name, value) in &self.constants {
+        println!("  variables  {}: {}", self.variable_count(), self.variables_by_kind().join(", "));
+        // what a group has of its own stands in its line
+        for Parameter { name, value, .. } in self.scene.parameters.iter().filter(|parameter| !parameter.settable) {
             println!("  constant   {name} = {value:?}");
         }
         let OtherLaws { loading, unloading, damped } = &self.laws;
@@ -167,15 +175,15 @@ fn all_parameters(scene: &Scene) -> impl Iterator<Item = (Option<&Group>, &Param
     shared.chain(own)
 }
 
-/// The names of the parameters that can be set, and of the others with their values.
-fn parameters(scene: &Scene) -> (Vec<String>, Vec<(String, f64)>) {
+/// The names of the parameters that can be set, and of the others.
+fn parameters(scene: &Scene) -> (Vec<String>, Vec<String>) {
     let (mut settable, mut constants) = (Vec::new(), Vec::new());
     for (group, parameter) in all_parameters(scene) {
         let name = group.map_or(parameter.name.into(), |group| group.variable(parameter.name));
         if parameter.settable {
             settable.push(name);
         } else {
-            constants.push((name, parameter.value));
+            constants.push(name);
         }
     }
     (settable, constants)
