@@ -278,7 +278,7 @@ impl History {
         let indentation = self.indentation.total();
         match self.regime {
             Regime::Apart => 0.0,
-            Regime::Unloaded => {
+            Regime::Unloaded if model.loading.can_yield() => {
                 let path = model.unloading_path(self.max_indentation());
                 let peak = model.peak(self.max_indentation());
                 model.unloading.contact_radius(&model.pair, &peak, &path, indentation)

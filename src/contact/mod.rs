@@ -107,6 +107,6 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// Whether a contact that never was deeper than `max_indentation` [m] has not yielded.
     pub fn is_elastic_at(&self, max_indentation: f64) -> bool {
-        max_indentation <= self.loading.yield_point(&self.pair).indentation
+        !self.loading.can_yield() || max_indentation <= self.loading.yield_point(&self.pair).indentation
     }
 }
