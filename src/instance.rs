@@ -788,8 +788,9 @@ impl Instance {
                 let rate = f64::from_bits(word(words, place));
                 let stored = read(words, place + 1);
                 let curve = if CURVES > 0 { Curve::from_words(read(words, place + CURVE_AT)) } else { None };
-                let momentum = if MOMENTA > 0 { Momentum::from_words(read(words, place + MOMENTUM_AT)) } else { None };
-                if CURVES > 0 && curve.is_none() || MOMENTA > 0 && momentum.is_none() {
+                let momentum =
+                    if scene::MOMENTUM { Momentum::from_words(read(words, place + MOMENTUM_AT)) } else { None };
+                if CURVES > 0 && curve.is_none() || scene::MOMENTUM && momentum.is_none() {
                     return false;
                 }
                 let Some(history) = History::from_words(&stored, &model).filter(|_| rate.is_finite()) else {
