@@ -67,7 +67,7 @@ const CROWDS: [Crowd; 3] = [
     Crowd {
         instances: 10_000,
         impacts: 1,
-        rounds: 15,
+        rounds: 40,
         figures: &[Figure::Impact, Figure::StepsAlone],
         limits: [["2.3", "1.6"]; 2],
     },
