@@ -54,13 +54,14 @@ fn only_one_in(folder: &Path) -> PathBuf {
     fs::read_dir(folder).expect("a unit has a binary").next().expect("of one platform").expect("to be read").path()
 }
 
-/// Compiles `units/<name>.c` with the GUID of `exported`; the path of the library.
-pub fn compile(name: &str, exported: &Exported, folder: &Path) -> PathBuf {
+/// Compiles `units/<name>.c` for so many contacts with the GUID of `exported`; the path of the library.
+pub fn compile(name: &str, contacts: usize, exported: &Exported, folder: &Path) -> PathBuf {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/units").join(name).with_extension("c");
-    let library = folder.join(name).with_extension("so");
+    let library = folder.join(format!("{name}_{contacts}.so"));
     let mut cc = Command::new("cc");
     // square roots need no errno: without that option each carries a branch to the library's function
     cc.arg(format!("-DUNIT_GUID=\"{}\"", exported.guid.to_str().expect("a GUID is plain text")));
+    cc.arg(format!("-DCONTACTS={contacts}"));
     cc.args(["-O3", "-shared", "-fPIC", "-fno-math-errno", "-o"]).arg(&library).arg(source).arg("-lm");
     let output = cc.stderr(Stdio::inherit()).output().unwrap_or_else(|error| panic!("{cc:?}: {error}"));
     assert!(output.status.success(), "{cc:?} failed");

@@ -16,7 +16,7 @@ mod unit;
 use build::{Exported, compile, export, size, stripped_size};
 use criterion::{BenchmarkId, Criterion, SamplingMode};
 use figure::{FORCE, Figure, STEP, STEPS, rates};
-use many::{Many, export_many};
+use many::{Many, ManyUnits};
 use sampling::interleaved;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,6 +34,9 @@ const HEAP_INSTANCES: usize = 1000;
 
 /// Contacts in the one unit of the first table.
 const CONTACTS: usize = 10_000;
+
+/// Contacts in the unit in C whose contacts are checked first: whole blocks of its arrays, and a rest.
+const FEW: usize = 37;
 
 /// Contacts in the units of the second table.
 const GROWTH: [usize; 6] = [1, 10, 100, 1000, 10_000, 100_000];
@@ -221,30 +224,31 @@ fn print_sizes(libraries: &[PathBuf; 3], exported: &Exported, folder: &Path) {
 }
 
 fn print_many(one_contact: f64, alone: &Unit, rates: &[f64], folder: &Path) -> Result<(), String> {
-    let exported = export_many(CONTACTS, folder)?;
-    let unit = Unit::open(&exported.library, &exported.guid);
-    let mut many = Many::of(&unit, CONTACTS);
-    check_many(&mut many, alone, rates);
-    let time = Some(many.time(rates));
+    let ManyUnits { units, .. } = ManyUnits::build(CONTACTS, folder)?;
+    let mut many = units.each_ref().map(|unit| Many::of(unit, CONTACTS));
+    for unit in &mut many {
+        check_many(unit, alone, rates);
+    }
+    let [brinell, c] = many::times(&mut many, rates);
     let name = format!("one unit with {} contacts, per contact", number(CONTACTS as f64, 0));
     let [must, aim] = [1.0, 0.25].map(|part| format!("{:.2} ns", part * one_contact));
-    Row { name: &name, unit: "ns", decimals: 2, must: &must, aim: &aim }.print([time, None, None]);
+    Row { name: &name, unit: "ns", decimals: 2, must: &must, aim: &aim }.print([Some(brinell), Some(c), None]);
     Ok(())
 }
 
 fn print_growth(rates: &[f64], folder: &Path) -> Result<(), String> {
-    table::head(&["contacts", "step", "per contact", "heap per contact", "XML", "library", ".fmu", "export"]);
+    table::head(&["contacts", "step", "per contact", "in C", "heap per contact", "XML", "library", ".fmu", "export"]);
     for contacts in GROWTH {
-        let exported = export_many(contacts, folder)?;
-        let unit = Unit::open(&exported.library, &exported.guid);
-        let mut many = Many::of(&unit, contacts);
-        let time = many.time(rates);
+        let ManyUnits { exported, units } = ManyUnits::build(contacts, folder)?;
+        let mut many = units.each_ref().map(|unit| Many::of(unit, contacts));
+        let [time, c] = many::times(&mut many, rates);
         let bytes = |size: u64| format!("{} B", number(size as f64, 0));
         table::row(&[
             number(contacts as f64, 0),
             format!("{} us", number(time * contacts as f64 / 1e3, 3)),
             format!("{} ns", number(time, 2)),
-            many.heap.map_or(NOTHING.to_owned(), |heap| format!("{} B", number(heap as f64 / contacts as f64, 0))),
+            format!("{} ns", number(c, 2)),
+            many[0].heap.map_or(NOTHING.to_owned(), |heap| format!("{} B", number(heap as f64 / contacts as f64, 0))),
             bytes(exported.xml),
             bytes(size(&exported.library)),
             bytes(exported.archive),
@@ -276,10 +280,12 @@ fn main() {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/steel_ball.toml");
     let exported = export(&scene, folder).unwrap_or_else(|refusal| panic!("{refusal}"));
     let libraries =
-        [exported.library.clone(), compile("contact", &exported, folder), compile("empty", &exported, folder)];
+        [exported.library.clone(), compile("contact", 1, &exported, folder), compile("empty", 1, &exported, folder)];
     let units = libraries.each_ref().map(|library| Unit::open(library, &exported.guid));
     let rates = rates();
     check_agreement(&units, &rates);
+    let c = Unit::open(&compile("contacts", FEW, &exported, folder), &exported.guid);
+    check_many(&mut Many::of(&c, FEW), &units[0], &rates);
     criterion(&units, &rates);
     // `cargo test` runs this program without the argument, to see that it works
     if std::env::args().any(|argument| argument == "--bench") {

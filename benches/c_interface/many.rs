@@ -1,9 +1,9 @@
 //! One unit with many contacts.
 
-use super::build::{Exported, export};
+use super::build::{Exported, compile, export};
 use super::figure::{STEP, STEPS, share};
 use super::heap;
-use super::sampling::median;
+use super::sampling::interleaved;
 use super::unit::{Instance, State, Unit, ok};
 use std::fs;
 use std::hint::black_box;
@@ -11,26 +11,35 @@ use std::path::Path;
 use std::ptr::null_mut;
 use std::time::{Duration, Instant};
 
-/// Contact steps in all samples together.
+/// Contact steps in all samples of a unit together.
 const WORK: usize = 50_000_000;
 
 /// The fewest and the most samples.
 const ROUNDS: [usize; 2] = [5, 200];
 
 /// The scene of the other units, with `count` contacts.
-pub fn scene(count: usize) -> String {
+fn scene(count: usize) -> String {
     let one = include_str!("../../scenes/steel_ball.toml");
     format!("{one}\n[[contact]]\nname = \"contact\"\ncount = {count}\n")
 }
 
-/// Exports the unit with `count` contacts.
-///
-/// # Errors
-/// What the program says if it refuses the scene.
-pub fn export_many(count: usize, folder: &Path) -> Result<Exported, String> {
-    let path = folder.join(format!("contacts_{count}.toml"));
-    fs::write(&path, scene(count)).expect("the folder can be written to");
-    export(&path, folder)
+/// A unit with many contacts, and the one that is written by hand in C.
+pub struct ManyUnits {
+    pub exported: Exported,
+    pub units: [Unit; 2],
+}
+
+impl ManyUnits {
+    /// # Errors
+    /// What the program says if it refuses the scene.
+    pub fn build(count: usize, folder: &Path) -> Result<ManyUnits, String> {
+        let path = folder.join(format!("contacts_of_{count}.toml"));
+        fs::write(&path, scene(count)).expect("the folder can be written to");
+        let exported = export(&path, folder)?;
+        let c = compile("contacts", count, &exported, folder);
+        let units = [&exported.library, &c].map(|library| Unit::open(library, &exported.guid));
+        Ok(ManyUnits { exported, units })
+    }
 }
 
 /// An instance with what its importer keeps for it: references and values, side by side.
@@ -91,13 +100,13 @@ impl<'unit> Many<'unit> {
         ok(status);
         time
     }
+}
 
-    /// Time for each contact and step [ns].
-    pub fn time(&mut self, rates: &[f64]) -> f64 {
-        let steps = self.contacts() * STEPS;
-        let rounds = (WORK / steps).clamp(ROUNDS[0], ROUNDS[1]);
-        median((0..rounds).map(|_| self.impact(rates, |_| ()).as_nanos() as f64 / steps as f64).collect())
-    }
+/// Times for each contact and step [ns].
+pub fn times(units: &mut [Many; 2], rates: &[f64]) -> [f64; 2] {
+    let steps = units[0].contacts() * STEPS;
+    let rounds = (WORK / steps).clamp(ROUNDS[0], ROUNDS[1]);
+    interleaved(rounds, |number, _| units[number].impact(rates, |_| ()).as_nanos() as f64 / steps as f64)
 }
 
 impl Drop for Many<'_> {

@@ -7,40 +7,14 @@
  * is, one value and a step that follows the last one, is looked for first; all else is out of its way.
  */
 #include "fmi2.h"
+#include "law.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define LIKELY(condition) __builtin_expect(!!(condition), 1)
-#define COLD __attribute__((cold, noinline))
-
-static const double PI = 3.14159265358979323846;
-
-/* material */
-static const double RADIUS = 5e-3;          /* [m] */
-static const double YOUNGS_MODULUS = 206e9; /* [Pa] */
-static const double POISSONS_RATIO = 0.3;
-static const double YIELD_STRENGTH = 300e6; /* [Pa] */
-
-/* loading law, in yield indentations and yield strengths */
-static const double SECOND_REGION = 13.93;
-static const double FULLY_PLASTIC = 82.5;
-static const double YIELD_PRESSURE = 1.1;
-static const double PLASTIC_PRESSURE = 2.8;
-
-static const double LARGEST_INDENTATION = 1e100; /* [m] */
 
 enum { INDENTATION_RATE, FORCE };
 
 typedef enum { INSTANTIATED = 1, INITIALIZATION = 2, STEPPING = 4, TERMINATED = 8, FAILED = 16 } Phase;
-
-/* F = constant + z (linear + power sqrt(z)), z = indentation - origin >= 0, for lower <= indentation < upper */
-typedef struct {
-    double lower, upper, origin, constant, linear, power;
-} Branch;
 
 /* what a saved state holds */
 typedef struct {
@@ -49,20 +23,9 @@ typedef struct {
     double time;
     double limit; /* where plain steps end: at the stop time while stepping, and nowhere otherwise */
     double rate;
-    double sum, rest; /* the indentation, and what the roundings of the sum have lost (Neumaier) */
-    double least;     /* the smallest increment that stays on the branch: zero on the loading curve */
-    Branch branch;
-    double largest; /* not kept on the loading curve, where it is the present indentation */
+    Contact contact;
     double stop;
 } State;
-
-/* constants of the law, computed once for an instance */
-typedef struct {
-    double modulus;
-    double yield_indentation;
-    double residual_rounding;
-    Branch elastic, first, second, plastic;
-} Law;
 
 typedef struct {
     State state;
@@ -71,97 +34,13 @@ typedef struct {
     char name[];
 } Unit;
 
-static double force_on(const Branch *branch, double indentation)
-{
-    double z = indentation - branch->origin;
-    return branch->constant + z * (branch->linear + branch->power * sqrt(z));
-}
-
-static Law make_law(void)
-{
-    Law law;
-    law.modulus = YOUNGS_MODULUS / (1.0 - POISSONS_RATIO * POISSONS_RATIO);
-    double stiffness = 4.0 / 3.0 * law.modulus * sqrt(RADIUS);
-    double strain = 0.75 * PI * YIELD_PRESSURE * YIELD_STRENGTH / law.modulus;
-    double d_y = RADIUS * strain * strain, f_y = stiffness * (d_y * sqrt(d_y));
-    double from_yield = SECOND_REGION - 1.0;
-    double second_slope = 1.5 * sqrt(from_yield), second_force = from_yield * sqrt(from_yield) + 1.0;
-    double plastic_force = second_slope * (FULLY_PLASTIC - SECOND_REGION) + second_force;
-    double plastic_slope = 2.0 * PLASTIC_PRESSURE / YIELD_PRESSURE;
-    double second = SECOND_REGION * d_y, plastic = FULLY_PLASTIC * d_y, slope = f_y / d_y;
-    law.yield_indentation = d_y;
-    law.residual_rounding = 8.0 * DBL_EPSILON;
-    law.elastic = (Branch){DBL_TRUE_MIN, d_y, 0.0, 0.0, 0.0, stiffness};
-    law.first = (Branch){d_y, second, d_y, f_y, 0.0, stiffness};
-    law.second = (Branch){second, plastic, second, second_force * f_y, second_slope * slope, 0.0};
-    law.plastic = (Branch){plastic, LARGEST_INDENTATION, plastic, plastic_force * f_y, plastic_slope * slope, 0.0};
-    return law;
-}
-
-static const Branch *loading_branch(const Law *law, double indentation)
-{
-    if (indentation < law->first.lower)
-        return &law->elastic;
-    if (indentation < law->second.lower)
-        return &law->first;
-    return indentation < law->plastic.lower ? &law->second : &law->plastic;
-}
-
-/* from the largest indentation, beyond yield, down to the dent that remains */
-static Branch unloading_branch(const Law *law, double largest)
-{
-    double force = force_on(loading_branch(law, largest), largest);
-    double pressure = YIELD_PRESSURE + log(2.0 * (largest / law->yield_indentation) - 1.0) / 3.0;
-    double area = force / (PI * fmin(pressure, PLASTIC_PRESSURE) * YIELD_STRENGTH);
-    double radius = sqrt(fmax(area, RADIUS * law->yield_indentation));
-    double residual = largest - 0.75 * force / (law->modulus * radius);
-    if (fabs(residual) < law->residual_rounding * largest)
-        residual = 0.0;
-    double recovery = largest - residual;
-    return (Branch){residual, largest, residual, 0.0, 0.0, force / (recovery * sqrt(recovery))};
-}
-
-/* finds the branch at `indentation`; at a corner the one in the direction of motion */
-COLD static bool enter(State *state, const Law *law, double indentation, bool rising)
-{
-    if (!(indentation > -LARGEST_INDENTATION && indentation < LARGEST_INDENTATION))
-        return false;
-    double largest = fmax(fmax(state->largest, state->sum + state->rest), indentation);
-    Branch branch = {-LARGEST_INDENTATION, DBL_TRUE_MIN, -LARGEST_INDENTATION, 0.0, 0.0, 0.0};
-    double least = -DBL_MAX;
-    if (indentation > 0.0 && indentation >= largest) {
-        branch = *loading_branch(law, indentation);
-        branch.lower = indentation;
-        least = 0.0;
-    } else if (largest <= law->yield_indentation) {
-        if (indentation > 0.0) {
-            branch = law->elastic;
-            branch.upper = largest;
-        }
-    } else {
-        Branch unloading = unloading_branch(law, largest);
-        double residual = unloading.lower;
-        if (indentation > residual || (rising && indentation == residual)) {
-            branch = unloading;
-            branch.lower = nextafter(residual, INFINITY);
-        } else {
-            branch.upper = residual;
-        }
-    }
-    state->largest = largest;
-    state->branch = branch;
-    state->least = least;
-    return true;
-}
-
 static State initial_state(void)
 {
     return (State){
         .phase = INSTANTIATED,
         .limit = -DBL_MAX,
-        .least = -DBL_MAX,
+        .contact = UNTOUCHED,
         .stop = DBL_MAX,
-        .branch = {-LARGEST_INDENTATION, DBL_TRUE_MIN, -LARGEST_INDENTATION, 0.0, 0.0, 0.0},
     };
 }
 
@@ -300,7 +179,7 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference referen
 /* the force is evaluated here and not in the step, so that steps that nobody looks at don't pay for it */
 static double force(const State *state)
 {
-    return force_on(&state->branch, state->sum + state->rest);
+    return force_on(&state->contact.branch, state->contact.sum + state->contact.rest);
 }
 
 COLD static fmi2Status get_any(Unit *unit, const fmi2ValueReference references[], size_t count, fmi2Real values[])
@@ -353,14 +232,8 @@ COLD static fmi2Status do_any_step(Unit *unit, double time, double step)
     State *state = &unit->state;
     if (!times_are_close(state, time, step))
         return refuse(unit, "fmi2DoStep: the step doesn't fit to the last one, or isn't positive, or ends too late");
-    double increment = state->rate * step, sum = state->sum + increment;
-    double rest = state->rest + (increment - (sum - state->sum));
-    /* no motion, no other branch; what overflows has no rest */
-    double indentation = isfinite(sum) ? sum + rest : sum;
-    if (indentation != state->sum + state->rest && !enter(state, &unit->law, indentation, increment > 0.0))
+    if (!advance(&state->contact, &unit->law, state->rate * step))
         return refuse(unit, "fmi2DoStep: the indentation is out of range");
-    state->sum = sum;
-    state->rest = rest;
     state->time = time + step;
     return fmi2OK;
 }
@@ -371,15 +244,16 @@ fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time, fmi2Real step, fmi
     (void)no_state_is_set_before;
     if (LIKELY(unit)) {
         State *state = &unit->state;
+        Contact *contact = &state->contact;
         double end = time + step, increment = state->rate * step;
         /* no addition waits for the rest of the one before */
-        double sum = state->sum + increment, rest = state->rest + (increment - (sum - state->sum));
+        double sum = contact->sum + increment, rest = contact->rest + (increment - (sum - contact->sum));
         double indentation = sum + rest;
         /* a step that isn't positive is not larger than any distance; comparisons fail for NaN */
-        if (LIKELY(fabs(time - state->time) * 10.0 < step && end <= state->limit && indentation >= state->branch.lower
-                   && indentation < state->branch.upper && increment >= state->least)) {
-            state->sum = sum;
-            state->rest = rest;
+        if (LIKELY(fabs(time - state->time) * 10.0 < step && end <= state->limit && indentation >= contact->branch.lower
+                   && indentation < contact->branch.upper && increment >= contact->least)) {
+            contact->sum = sum;
+            contact->rest = rest;
             state->time = end;
             return fmi2OK;
         }
