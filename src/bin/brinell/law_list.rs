@@ -1,11 +1,14 @@
 //! `brinell laws`: what laws there are, and how good each is, measured when it is asked for.
 
 use crate::laws::unloading_of;
+use crate::model::Dampings;
 use crate::parameters::{self, Constant};
 use crate::scene::Scene;
 use crate::table;
 use crate::truth;
+use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::history::LARGEST_INDENTATION;
+use brinell::contact::impact::Impact;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model};
@@ -16,6 +19,7 @@ use serde::Serialize;
 pub struct List {
     pub loading: Vec<Measured>,
     pub unloading: Vec<Told>,
+    pub damped: Vec<Rated>,
 }
 
 /// What was measured of a loading law, and what is said of it.
@@ -53,11 +57,57 @@ pub struct Told {
     pub reference: &'static str,
 }
 
+/// What was measured of a rate-dependent law, in one of its dampings, and what is said of it.
+#[derive(Debug, Serialize)]
+pub struct Rated {
+    pub name: String,
+    pub title: &'static str,
+    /// Force right after the first touch over the largest one: above 0 it jumps.
+    pub force_at_touch: f64,
+    /// What an impact at 1 m/s gives when 0.5 is asked for; of laws with a damping of their own, what they give.
+    pub restitution: f64,
+    pub parameters: Vec<Constant>,
+    pub validity: &'static str,
+    pub notes: &'static str,
+    pub reference: &'static str,
+}
+
+/// The restitution that the rate-dependent laws are asked for.
+const ASKED: f64 = 0.5;
+
 /// Every law, the loading laws measured on the bodies of `scene`.
 pub fn all(scene: &Scene) -> List {
     let loading = AnyLoading::ALL.into_iter().map(|(name, loading)| measure(scene, name, loading)).collect();
     let unloading = AnyUnloading::ALL.into_iter().map(|(name, law)| tell(name, &law)).collect();
-    List { loading, unloading }
+    let damped = AnyDamped::ALL.into_iter().flat_map(|(name, law)| {
+        let dampings = law.dampings();
+        let named = |damping: &&str| (format!("{name}/{damping}"), law.with_damping(damping).expect("one of its own"));
+        let variants: Vec<_> = dampings.iter().map(named).collect();
+        let variants = if variants.is_empty() { vec![(name.to_string(), law)] } else { variants };
+        variants.into_iter().map(move |(variant, law)| rate(scene, name, variant, law))
+    });
+    List { loading, unloading, damped: damped.collect() }
+}
+
+/// What the law is, measured with the scene's bodies and mass.
+fn rate(scene: &Scene, name: &str, variant: String, law: AnyDamped) -> Rated {
+    let impact = Impact { mass: scene.impact.mass, speed: 1.0 };
+    let model = damped::Model { pair: scene.model().pair, law, restitution: ASKED, mass: impact.mass };
+    let prediction = damped::impact::predict(&model, &impact).expect("an impact within range");
+    let mut touched = damped::History::start(&model, 0.0).expect("zero is within range");
+    let hardly = 1e-12 * prediction.max_indentation;
+    touched.step(impact.speed, hardly / impact.speed, || model).expect("within range");
+    let told = table::damped_law(name);
+    Rated {
+        name: variant,
+        title: &told.title,
+        force_at_touch: touched.force_at_rate(impact.speed) / prediction.max_force,
+        restitution: prediction.restitution,
+        parameters: parameters::constants(&law, told),
+        validity: &told.validity,
+        notes: &told.notes,
+        reference: &told.reference,
+    }
 }
 
 fn tell(name: &'static str, law: &AnyUnloading) -> Told {
@@ -144,6 +194,32 @@ pub fn print(list: &List) {
     for law in &list.unloading {
         println!("\n{}: {}", law.name, law.title);
         entry("parameters", &values(&law.parameters));
+        entry("notes", law.notes);
+        entry("reference", law.reference);
+    }
+    print_damped(&list.damped);
+}
+
+fn print_damped(laws: &[Rated]) {
+    println!(
+        "\nrate-dependent laws, /DAMPING; all are passive, and leave no dent (law.loading, law.damping, law.restitution)\n"
+    );
+    println!("{:<36}{:<28}restitution at 1 m/s (asked: {ASKED})", "law", "force at first touch");
+    for law in laws {
+        // what the fourth root of the smallest depth leaves is no jump
+        let jump = match law.force_at_touch {
+            part if part < 0.01 => "none".into(),
+            part => format!("jumps to {:.0} % of largest", 100.0 * part),
+        };
+        println!("{:<36}{jump:<28}{:.4}", law.name, law.restitution);
+    }
+    for law in laws
+        .iter()
+        .filter(|law| !law.name.contains('/') || ["/exact", "/original"].iter().any(|first| law.name.ends_with(first)))
+    {
+        println!("\n{}: {}", law.name.split('/').next().unwrap_or_default(), law.title);
+        entry("parameters", &values(&law.parameters));
+        entry("validity", law.validity);
         entry("notes", law.notes);
         entry("reference", law.reference);
     }

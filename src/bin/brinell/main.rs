@@ -219,7 +219,11 @@ fn curve(arguments: &CurveArguments) -> Result<(), Box<dyn Error>> {
     let largest = predict::positive("to", arguments.to.unwrap_or_else(predicted))?;
     let output = arguments.output.as_deref();
     let picture = ending(output, &["csv", "svg"])? == "svg";
-    let drawn = if picture { curve::svg(&choices, largest, arguments.truth) } else { curve::csv(&choices, largest) };
+    let impact = &scene.impact;
+    let drawn = match picture {
+        true => curve::svg(&choices, largest, impact, arguments.truth),
+        false => curve::csv(&choices, largest, impact),
+    };
     let too_deep = |_: brinell::contact::TooDeep| format!("to = {largest:e} m is too deep for the law");
     deliver(&drawn.map_err(too_deep)?, output)
 }

@@ -6,7 +6,7 @@ use brinell::contact::damped::{self, AnyDamped, HuntCrossley, Tsuji};
 use brinell::contact::impact::{self, Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Loading, Model};
+use brinell::contact::{Loading, Model, Pair};
 
 /// Bodies with laws, of either kind.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +25,36 @@ impl AnyModel {
             AnyModel::Elastoplastic(model) => impact::predict(model, impact),
             AnyModel::Damped(model) => damped::impact::predict(model, impact),
         }
+    }
+
+    /// Rebound speed over incoming speed; `None` beyond what the law can be evaluated for.
+    pub fn restitution(&self, impact: &Impact) -> Option<f64> {
+        match self {
+            AnyModel::Elastoplastic(model) => impact::restitution(model, impact),
+            AnyModel::Damped(model) => damped::impact::predict(model, impact).map(|prediction| prediction.restitution),
+        }
+    }
+
+    /// The model if its force doesn't depend on the rate.
+    pub fn elastoplastic(&self) -> Option<&Model<AnyLoading, AnyUnloading>> {
+        match self {
+            AnyModel::Elastoplastic(model) => Some(model),
+            AnyModel::Damped(_) => None,
+        }
+    }
+
+    /// The bodies.
+    pub fn pair(&self) -> Pair {
+        match self {
+            AnyModel::Elastoplastic(model) => model.pair,
+            AnyModel::Damped(model) => model.pair,
+        }
+    }
+
+    /// The model with a target of this yield strength [Pa], if its law has one.
+    pub fn with_yield_strength(&self, yield_strength: f64) -> Option<AnyModel> {
+        let model = self.elastoplastic()?;
+        Some(AnyModel::Elastoplastic(Model { pair: Pair { yield_strength, ..model.pair }, ..*model }))
     }
 
     /// The stiffness of the way back from `indentation` [m]; of a rate-dependent law that of its elastic part [N/m].

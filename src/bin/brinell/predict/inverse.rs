@@ -2,11 +2,11 @@
 
 use super::{PredictError, one};
 use crate::laws::Choice;
-use brinell::contact::Pair;
 use brinell::contact::impact::Impact;
 
 /// The speed [m/s] at which `mass` [kg] leaves a dent of `dent` [m].
 pub fn speed_of_dent(choice: &Choice, mass: f64, dent: f64) -> Result<f64, PredictError> {
+    choice.model.elastoplastic().ok_or_else(|| PredictError::NoDent(choice.name.clone()))?;
     // a speed too high for the law makes a dent deeper than any
     let depth = |speed: f64| one(choice, &Impact { mass, speed }).map_or(f64::INFINITY, |p| p.residual_indentation);
     root("speed [m/s]", (1e-9, 1e6), ("dent", dent), depth)
@@ -15,12 +15,12 @@ pub fn speed_of_dent(choice: &Choice, mass: f64, dent: f64) -> Result<f64, Predi
 /// The yield strength [Pa] for which the impact leaves a dent of `dent` [m]: the Brinell test turned round.
 pub fn strength_of_dent(choice: &Choice, impact: &Impact, dent: f64) -> Result<f64, PredictError> {
     let depth = |yield_strength: f64| {
-        let pair = Pair { yield_strength, ..choice.model.pair };
-        let softer = Choice { name: choice.name.clone(), model: brinell::contact::Model { pair, ..choice.model } };
+        let softer = choice.model.with_yield_strength(yield_strength);
         // the dent falls with the strength; a target too soft for the law has the deepest
-        one(&softer, impact).map_or(f64::NEG_INFINITY, |prediction| -prediction.residual_indentation)
+        let prediction = softer.and_then(|softer| softer.predict(impact));
+        prediction.map_or(f64::NEG_INFINITY, |prediction| -prediction.residual_indentation)
     };
-    let modulus = choice.model.pair.modulus;
+    let modulus = choice.model.pair().modulus;
     root("yield strength [Pa]", (1e-7 * modulus, modulus), ("dent", -dent), depth)
 }
 

@@ -7,7 +7,7 @@ pub mod sweep;
 
 use crate::laws::Choice;
 use brinell::contact::Loading;
-use brinell::contact::impact::{Impact, Prediction, predict};
+use brinell::contact::impact::{Impact, Prediction};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -27,6 +27,8 @@ pub enum PredictError {
     Restitution(f64),
     #[error("nothing explains restitution = {goal}: {searched}")]
     NoRebound { goal: f64, searched: String },
+    #[error("the law {0} depends on the rate: it leaves no dent and has no yield strength that could explain one")]
+    NoDent(String),
     #[error("--sweep {0}: expected `speed FROM:TO`, in m/s, with 0 < FROM < TO")]
     Sweep(String),
 }
@@ -49,7 +51,7 @@ pub fn speed_of_height(height: f64) -> f64 {
 /// The prediction for `choice`.
 pub fn one(choice: &Choice, impact: &Impact) -> Result<Prediction, PredictError> {
     let beyond = || PredictError::Beyond { law: choice.name.clone(), mass: impact.mass, speed: impact.speed };
-    predict(&choice.model, impact).ok_or_else(beyond)
+    choice.model.predict(impact).ok_or_else(beyond)
 }
 
 /// The quantities of a prediction: name, value, unit.
@@ -72,9 +74,9 @@ fn quantities(prediction: &Prediction) -> [(&'static str, f64, &'static str); 9]
 
 /// The speeds [m/s] at which the contact first yields and becomes fully plastic on `choice`, where it does.
 fn onsets(choice: &Choice, mass: f64) -> Vec<(i32, f64)> {
-    let law = choice.model.loading;
-    let pair = choice.model.pair;
     let mut onsets = Vec::new();
+    let Some(model) = choice.model.elastoplastic() else { return onsets };
+    let (law, pair) = (model.loading, model.pair);
     let mut regime = law.regime(&pair, 0.0) as i32;
     let mut corner = law.next_corner(&pair, 0.0);
     while corner < brinell::contact::history::LARGEST_INDENTATION {
@@ -90,7 +92,15 @@ fn onsets(choice: &Choice, mass: f64) -> Vec<(i32, f64)> {
 
 /// The predictions as a table for people.
 pub fn text(choices: &[Choice], impact: &Impact) -> Result<String, PredictError> {
-    let mut text = format!("impact of {} kg at {} m/s, by energy balance\n\n", impact.mass, impact.speed);
+    let mut text = format!("impact of {} kg at {} m/s", impact.mass, impact.speed);
+    let mut methods: Vec<_> = choices.iter().map(|choice| choice.model.method()).collect();
+    methods.dedup();
+    // of two kinds of laws: which is which
+    match methods.as_slice() {
+        [method] => text.push_str(&format!(", {method}")),
+        _ => text.push_str(", by energy balance; of rate-dependent laws by integrating the motion"),
+    }
+    text.push_str("\n\n");
     let predictions = choices.iter().map(|choice| one(choice, impact)).collect::<Result<Vec<_>, _>>()?;
     let add = |text: &mut String, line: std::fmt::Arguments| text.write_fmt(line).expect("a String takes everything");
     add(&mut text, format_args!("{:<24}", ""));

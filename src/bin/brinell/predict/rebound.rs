@@ -3,8 +3,7 @@
 
 use super::PredictError;
 use crate::laws::Choice;
-use brinell::contact::impact::{Impact, restitution};
-use brinell::contact::{Model, Pair};
+use brinell::contact::impact::Impact;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -61,6 +60,9 @@ pub fn measured(value: f64) -> Result<f64, PredictError> {
 /// # Errors
 /// [`PredictError::NoRebound`] if no law explains it in either way.
 pub fn explain(choices: &[Choice], impact: &Impact, goal: f64) -> Result<Vec<Rebound>, PredictError> {
+    if let Some(damped) = choices.iter().find(|choice| choice.model.elastoplastic().is_none()) {
+        return Err(PredictError::NoDent(damped.name.clone()));
+    }
     let rebounds: Vec<_> = choices.iter().map(|choice| explain_by(choice, impact, goal)).collect();
     if rebounds.iter().all(|rebound| rebound.speeds.is_empty() && rebound.strengths.is_empty()) {
         let searched = rebounds.iter().map(|rebound| {
@@ -77,12 +79,11 @@ const STRENGTH: &str = "yield strength";
 
 fn explain_by(choice: &Choice, impact: &Impact, goal: f64) -> Rebound {
     let model = choice.model;
-    let pair = model.pair;
-    let speeds = search(SPEEDS, goal, |speed| restitution(&model, &Impact { speed, ..*impact }));
-    let range = (STRENGTHS.0 * pair.modulus, STRENGTHS.1 * pair.modulus);
-    let strengths = search(range, goal, |yield_strength| {
-        restitution(&Model { pair: Pair { yield_strength, ..pair }, ..model }, impact)
-    });
+    let modulus = model.pair().modulus;
+    let speeds = search(SPEEDS, goal, |speed| model.restitution(&Impact { speed, ..*impact }));
+    let range = (STRENGTHS.0 * modulus, STRENGTHS.1 * modulus);
+    let strengths =
+        search(range, goal, |yield_strength| model.with_yield_strength(yield_strength)?.restitution(impact));
     Rebound { law: choice.name.clone(), speeds, strengths }
 }
 

@@ -28,6 +28,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     let unloading = laws::check_unloading(&file.law, loading.0, elastic)?;
     laws::check_parameters(&file.law, &loading, unloading.as_ref())?;
     let passivity_guard = laws::check_guard(file.law.passivity_guard.as_ref(), unloading)?;
+    let yield_strength = contacts.number(0, "target.yield_strength").map(|strength| *strength.get_ref());
     if elastic {
         contacts.forget_strength();
     }
@@ -52,6 +53,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         unloading,
         damped,
         passivity_guard,
+        yield_strength,
         impact,
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),

@@ -34,6 +34,8 @@ pub struct Scene {
     pub damped: Option<(&'static str, AnyDamped)>,
     /// Unloading gives back no more than loading took.
     pub passivity_guard: bool,
+    /// Yield strength of the first contact's target [Pa], if it has one, whether or not the scene's law asks for it.
+    pub yield_strength: Option<f64>,
     pub impact: Impact,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
     pub impact_is_assumed: bool,
