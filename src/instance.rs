@@ -26,6 +26,12 @@ pub enum Phase {
     Error = 16,
 }
 
+impl Phase {
+    /// Every phase that an instance can be in.
+    const ALL: [Phase; 5] =
+        [Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
+}
+
 /// The settable parameters of the scene, in the order of [`scene::SETTABLE`].
 pub type Values = [f64; scene::SETTABLE.len()];
 
@@ -231,7 +237,7 @@ impl Instance {
     /// Writes down the forces, where they are kept.
     fn note_forces(&mut self) {
         for ((force, history), &rate) in self.forces.iter_mut().zip(&self.histories).zip(&self.rates) {
-            *force = history.force_at_rate(rate);
+            *force = history.plain_force(rate, Model::SQUARES);
         }
     }
 
@@ -366,14 +372,15 @@ impl Instance {
         for (contact, (history, &rate)) in self.histories.iter_mut().zip(&self.rates).enumerate() {
             let from = if scene::MOMENTUM { history.indentation() } else { 0.0 };
             let before = *history;
-            let plain = history.plain_step(rate, step);
+            // one contact has been tried before
+            let plain = scene::CONTACTS > 1 && history.plain_step(rate, step);
             let group = scene::group(contact);
             let model = || model_of(group, pairs.get(group).copied().unwrap_or(NO_BODIES), values);
             if !plain {
                 history.step(rate, step, model).map_err(|deep| too_deep(contact, deep))?;
             }
             if let Some(force) = self.forces.get_mut(contact) {
-                *force = history.force_at_rate(rate);
+                *force = history.plain_force(rate, Model::SQUARES);
             }
             if let Some(momentum) = self.momenta.get_mut(contact) {
                 let mean = match plain {
@@ -562,7 +569,7 @@ impl Instance {
     pub fn plain_force(&self, contact: usize) -> Option<f64> {
         let force = match self.forces.get(contact) {
             Some(&force) => force,
-            None => self.histories.get(contact)?.force_at_rate(*self.rates.get(contact)?),
+            None => self.histories.get(contact)?.plain_force(*self.rates.get(contact)?, Model::SQUARES),
         };
         (self.phase == Phase::StepComplete).then_some(force)
     }
@@ -580,7 +587,7 @@ impl Instance {
             Some(known) => forces.iter_mut().zip(known).for_each(|(force, &known)| *force = known),
             None => {
                 for ((force, history), &rate) in forces.iter_mut().zip(histories).zip(rates) {
-                    *force = history.force_at_rate(rate);
+                    *force = history.plain_force(rate, Model::SQUARES);
                 }
             }
         }
@@ -686,7 +693,11 @@ impl Instance {
     #[inline(always)]
     pub fn copy_from(&mut self, other: &Instance) {
         self.rates.copy_from_slice(&other.rates);
-        self.histories.copy_from_slice(&other.histories);
+        if scene::CONTACTS == 1 {
+            self.histories.iter_mut().zip(&other.histories).for_each(|(own, history)| own.copy_from(history));
+        } else {
+            self.histories.copy_from_slice(&other.histories);
+        }
         self.forces.copy_from_slice(&other.forces);
         self.pairs.copy_from_slice(&other.pairs);
         self.values.copy_from_slice(&other.values);
@@ -699,6 +710,12 @@ impl Instance {
             self.curves.copy_from_slice(&other.curves);
         }
         self.curved = other.curved;
+    }
+
+    /// The same where it needn't be quick.
+    #[inline(never)]
+    pub fn copy(&mut self, other: &Instance) {
+        self.copy_from(other);
     }
 
     /// The instance as [`WORDS`] words, to be stored.
@@ -726,73 +743,90 @@ impl Instance {
         }
     }
 
-    /// Makes this the instance that [`Instance::to_words`] stored, of which `word` gives each word by its place, and reports
-    /// true. If the words don't make one nothing is done.
-    pub fn restore(&mut self, word: impl Fn(usize) -> u64) -> bool {
-        let number = |place| f64::from_bits(word(place));
-        // a word of something that there are this many of
-        let word_of = |many, place| if many > 0 { word(place) } else { 0 };
-        let (mut values, mut fast) = (START, false);
-        let mut bad = word(1) > 3 || [2, 3, 4].into_iter().any(|place| !number(place).is_finite());
+    /// Makes this the instance that [`Instance::to_words`] stored, each word as little-endian bytes, and reports true. If the words
+    /// don't make one nothing is done.
+    pub fn restore(&mut self, words: &[[u8; 8]]) -> bool {
+        let number = |place| f64::from_bits(word(words, place));
+        let mut values = START;
+        let mut bad = word(words, 1) > 3 || [2, 3, 4].into_iter().any(|place| !number(place).is_finite());
         for ((value, settable), place) in values.iter_mut().zip(&scene::SETTABLE).zip(OWN_WORDS..) {
             *value = number(place);
             bad |= !allows(settable, *value);
         }
-        let phases = [Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
-        let Some(phase) = phases.into_iter().find(|&phase| phase as u64 == word(0)) else { return false };
-        if bad {
+        let Some(phase) = Phase::ALL.into_iter().find(|&phase| phase as u64 == word(words, 0)) else { return false };
+        // first a look at all that there is, and then the same again in earnest
+        if bad || !self.restore_contacts(words, &values, false) {
             return false;
         }
-        // first a look at all that there is, and then the same again in earnest
-        for in_earnest in [false, true] {
-            if in_earnest {
-                self.values = values;
-            }
-            let mut contact = 0;
-            for group in 0..scene::GROUPS {
-                let Ok(pair) = pair_of(group, &values) else { return false };
-                let model = scene::model(pair, group, &values);
-                if in_earnest && let Some(bodies) = self.pairs.get_mut(group) {
-                    *bodies = Bodies { radius: pair.radius, modulus: pair.modulus };
-                }
-                while contact < scene::end(group) {
-                    let place = OWN_WORDS + scene::SETTABLE.len() + CONTACT_WORDS * contact;
-                    let rate = number(place);
-                    let words = core::array::from_fn(|index| word(place + 1 + index));
-                    let Some(history) = History::from_words(&words, &model).filter(|_| rate.is_finite()) else {
-                        return false;
-                    };
-                    let curve =
-                        Curve::from_words(core::array::from_fn(|index| word_of(CURVES, place + CURVE_AT + index)));
-                    let momentum = Momentum::from_words(core::array::from_fn(|index| {
-                        word_of(MOMENTA, place + MOMENTUM_AT + index)
-                    }));
-                    let (Some(curve), Some(momentum)) = (curve, momentum) else { return false };
-                    fast |= rate.abs() > FAST || history.indentation().abs() > FAR;
-                    if in_earnest
-                        && let (Some(own), Some(slot)) = (self.histories.get_mut(contact), self.rates.get_mut(contact))
-                    {
-                        (*own, *slot) = (history, rate);
-                        if let Some(slot) = self.curves.get_mut(contact) {
-                            *slot = curve;
-                        }
-                        if let Some(slot) = self.momenta.get_mut(contact) {
-                            *slot = momentum;
-                        }
-                    }
-                    contact += 1;
-                }
-            }
-        }
+        self.fast = false;
+        self.restore_contacts(words, &values, true);
+        self.values = values;
         (self.time, self.stop) = (number(2), number(3));
-        self.experiment_defined = word(1) & 1 != 0;
-        self.curved = word(1) & 2 != 0;
+        self.experiment_defined = word(words, 1) & 1 != 0;
+        self.curved = word(words, 1) & 2 != 0;
         self.last_step.fill(number(4));
-        self.fast = fast;
         self.set_phase(phase);
         self.note_forces();
         true
     }
+
+    /// Reads all contacts, and puts them in place if it is `in_earnest`; false if the words don't make contacts.
+    #[inline(never)]
+    fn restore_contacts(&mut self, words: &[[u8; 8]], values: &Values, in_earnest: bool) -> bool {
+        let mut place = OWN_WORDS + scene::SETTABLE.len();
+        let mut contacts = self.histories.iter_mut().zip(&mut self.rates);
+        let (mut curves, mut momenta) = (self.curves.iter_mut(), self.momenta.iter_mut());
+        let mut first = 0;
+        for (group, bodies) in self.pairs.iter_mut().enumerate() {
+            let Ok(pair) = pair_of(group, values) else { return false };
+            let model = scene::model(pair, group, values);
+            if in_earnest {
+                *bodies = Bodies { radius: pair.radius, modulus: pair.modulus };
+            }
+            let end = scene::end(group);
+            for (own, slot) in contacts.by_ref().take(end - first) {
+                let rate = f64::from_bits(word(words, place));
+                let stored = read(words, place + 1);
+                let curve = if CURVES > 0 { Curve::from_words(read(words, place + CURVE_AT)) } else { None };
+                let momentum =
+                    if scene::MOMENTUM { Momentum::from_words(read(words, place + MOMENTUM_AT)) } else { None };
+                if CURVES > 0 && curve.is_none() || scene::MOMENTUM && momentum.is_none() {
+                    return false;
+                }
+                let Some(history) = History::from_words(&stored, &model).filter(|_| rate.is_finite()) else {
+                    return false;
+                };
+                if in_earnest {
+                    self.fast |= rate.abs() > FAST || history.indentation().abs() > FAR;
+                    (*own, *slot) = (history, rate);
+                    if let (Some(slot), Some(curve)) = (curves.next(), curve) {
+                        *slot = curve;
+                    }
+                    if let (Some(slot), Some(momentum)) = (momenta.next(), momentum) {
+                        *slot = momentum;
+                    }
+                }
+                place += CONTACT_WORDS;
+            }
+            first = end;
+        }
+        true
+    }
+}
+
+/// So many words from `place` on.
+fn read<const COUNT: usize>(words: &[[u8; 8]], place: usize) -> [u64; COUNT] {
+    let mut read = [0; COUNT];
+    for (index, slot) in read.iter_mut().enumerate() {
+        *slot = word(words, place + index);
+    }
+    read
+}
+
+/// A word of those that [`Instance::to_words`] stored.
+#[inline(never)]
+fn word(words: &[[u8; 8]], place: usize) -> u64 {
+    words.get(place).map_or(0, |word| u64::from_le_bytes(*word))
 }
 
 /// Up to which order the derivatives of inputs go.

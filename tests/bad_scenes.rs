@@ -1,11 +1,12 @@
 //! A scene that can't be used: the message says where, what and what would be allowed, and no file is touched.
-//!
-//! In the scenes below `§` marks the place that the message must name; it is taken out before the file is written.
 
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/refusal.rs"]
+mod refusal;
 
 use command::{contents, empty_folder, run};
+use refusal::{message_of, refused_text};
 use std::fs;
 
 /// A scene with nothing wrong in it, to be altered.
@@ -21,19 +22,6 @@ poissons_ratio = 0.3
 yield_strength = 300e6
 ";
 
-/// Exports `bytes` over an old unit; gives the message, after a look that the unit is as it was.
-#[track_caller]
-fn message_of(bytes: &[u8]) -> String {
-    let folder = empty_folder();
-    fs::write(folder.path().join("scene.toml"), bytes).unwrap();
-    fs::write(folder.path().join("unit.fmu"), "an older unit").unwrap();
-    let run = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(1);
-    assert_eq!(contents(folder.path()), ["scene.toml", "unit.fmu"], "files were left");
-    assert_eq!(fs::read(folder.path().join("unit.fmu")).unwrap(), b"an older unit");
-    assert_eq!(run.out, "", "results of a job that failed");
-    run.err
-}
-
 /// Exports the good scene with `from` replaced by `to`: the message must name the marked place and contain `parts`.
 #[track_caller]
 fn refused(from: &str, to: &str, parts: &[&str]) {
@@ -45,19 +33,6 @@ fn refused(from: &str, to: &str, parts: &[&str]) {
 #[track_caller]
 fn refused_with(more: &str, parts: &[&str]) {
     refused_text(&format!("{SCENE}\n{more}"), parts);
-}
-
-#[track_caller]
-fn refused_text(marked: &str, parts: &[&str]) {
-    let (before, after) = marked.split_once('§').expect("a marked place");
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-    let message = message_of(format!("{before}{after}").as_bytes());
-    let place = format!("brinell: scene.toml:{line}:{column}: ");
-    assert!(message.starts_with(&place), "not at {place}: {message}");
-    for part in parts {
-        assert!(message.contains(part), "nothing of {part:?} in: {message}");
-    }
 }
 
 #[test]
@@ -72,7 +47,7 @@ fn an_unknown_key_is_refused_in_each_table() {
     refused(
         "name",
         "§colour = 1\nname",
-        &["`colour`", "`name`", "`impactor`", "`target`", "`law`", "`fmu`", "`impact`"],
+        &["`colour`", "`name`", "`impactor`", "`target`", "`law`", "`fmu`", "`impact`", "`contact`"],
     );
     refused("[impactor]", "[impactor]\n§mass = 1", &["`mass`", "`radius`", "`youngs_modulus`", "`poissons_ratio`"]);
     refused("[target]", "[target]\n§density = 1", &["`density`", "`material`", "`yield_strength`", "`surface`"]);

@@ -162,9 +162,44 @@ fn every_scene_is_exported_and_agrees_with_its_prediction() {
         assert_eq!(check["passed"], true, "{check}");
         // a rate-dependent law leaves no dent to compare
         let rows = if unit == "damped.fmu" { 4 } else { 5 };
-        assert_eq!(check["rows"].as_array().expect("rows").len(), rows, "{check}");
-        assert_eq!(check["variables"].as_u64(), export["variables"].as_array().map(|list| list.len() as u64));
+        let contacts = check["contacts"].as_array().cloned().unwrap_or_else(|| vec![check.clone()]);
+        for contact in contacts {
+            assert_eq!(contact["rows"].as_array().expect("rows").len(), rows, "{check}");
+        }
+        assert_eq!(check["variables"], export["variable_count"]);
     }
+}
+
+/// Everything that there is stands on one side or the other.
+#[test]
+fn what_a_unit_has_and_what_was_left_out_of_it_is_everything_there_is() {
+    let folder = empty_folder();
+    let list =
+        |value: &serde_json::Value| -> BTreeSet<String> { serde_json::from_value(value.clone()).expect("names") };
+    let told = |name: &str| {
+        let scene = scene(name).display().to_string();
+        run(folder.path(), ["export", &scene, "--json"]).with_status(0).json()
+    };
+    let [default, everything, elastic] = ["steel_ball", "everything", "elastic"].map(told);
+    let all = |unit: &serde_json::Value| &list(&unit["variables"]) | &list(&unit["left_out"]);
+    assert_eq!(all(&default), all(&everything));
+    assert_eq!(all(&default), all(&elastic));
+    for unit in [&default, &everything, &elastic] {
+        assert!(list(&unit["variables"]).is_disjoint(&list(&unit["left_out"])), "{unit}");
+        assert!(list(&unit["constants"]).is_subset(&list(&unit["left_out"])), "{unit}");
+        assert!(list(&unit["absent"]).is_disjoint(&list(&unit["constants"])), "{unit}");
+    }
+    let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
+    let known = |kind: &str| -> BTreeSet<String> {
+        laws[kind].as_array().unwrap().iter().map(|law| law["name"].as_str().unwrap().to_string()).collect()
+    };
+    let but = |kind: &str, name: &str| &known(kind) - &BTreeSet::from([name.to_string()]);
+    let left_out = &default["left_out_laws"];
+    assert_eq!(list(&left_out["loading"]), but("loading", "big-alabo"));
+    assert_eq!(list(&left_out["unloading"]), but("unloading", "contact-radius"));
+    assert_eq!(list(&elastic["left_out_laws"]["unloading"]), known("unloading"), "an elastic contact has no unloading");
+    assert!(list(&elastic["absent"]).contains("target.yield_strength"), "{elastic}");
+    assert!(list(&elastic["constants"]).contains("impactor.radius"), "{elastic}");
 }
 
 #[test]
@@ -172,8 +207,10 @@ fn json_has_the_keys_that_programs_read() {
     let folder = empty_folder();
     let keys = |json: &serde_json::Value| json.as_object().expect("an object").keys().cloned().collect::<BTreeSet<_>>();
     let export = run(folder.path(), ["export", scene("steel_ball").to_str().unwrap(), "--json"]).with_status(0).json();
-    for key in ["fmu", "guid", "size", "library_size", "imports", "variables", "left_out", "constants"] {
-        assert!(keys(&export).contains(key), "no {key} in {export}");
+    let left_out = ["left_out", "left_out_laws", "left_out_features", "absent", "constants"];
+    for key in ["fmu", "guid", "size", "library_size", "imports", "variables", "variable_count"].iter().chain(&left_out)
+    {
+        assert!(keys(&export).contains(*key), "no {key} in {export}");
     }
     let check = run(folder.path(), ["check", "steel_ball.fmu", "--json"]).with_status(0).json();
     for key in ["fmu", "platforms", "variables", "impact", "step", "rows", "wrong_starts", "passed"] {

@@ -10,7 +10,7 @@ mod unit;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use unit::{export, scene, scenes, write_scene};
+use unit::{export, plain_scenes, scene, scenes, write_scene};
 
 /// Runs tests/fmpy/`file` with the units of `scenes`, whose paths it finds as JSON in the variable BRINELL_TEST_UNITS,
 /// by the name of the scene, and the program in BRINELL_TEST_PROGRAM.
@@ -58,12 +58,12 @@ fn the_model_description_is_valid() {
 
 #[test]
 fn values_before_the_first_step_are_those_of_the_model_description() {
-    pytest("test_initial_values.py", &scenes());
+    pytest("test_initial_values.py", &plain_scenes());
 }
 
 #[test]
 fn parameters_are_taken_within_their_limits_and_nowhere_else() {
-    pytest("test_parameter_limits.py", &scenes());
+    pytest("test_parameter_limits.py", &plain_scenes());
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn a_contact_that_has_opened_closes_again_where_its_surface_says() {
 
 #[test]
 fn a_restored_state_continues_with_the_same_bits() {
-    pytest("test_state_is_restored.py", &scenes());
+    pytest("test_state_is_restored.py", &plain_scenes());
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn steps_are_checked_without_pedantry() {
 
 #[test]
 fn inputs_are_finite_and_so_are_outputs() {
-    pytest("test_inputs.py", &scenes());
+    pytest("test_inputs.py", &plain_scenes());
 }
 
 #[test]
@@ -198,8 +198,32 @@ fn many_instances_and_threads_do_not_disturb_each_other() {
 }
 
 #[test]
+fn several_contacts_are_described_as_they_are() {
+    let scenes =
+        [("several", "law = { loading = \"big-alabo\" }"), ("several_damped", "law = { loading = \"adams-impact\" }")];
+    let scenes = scenes.map(|(name, law)| {
+        let text = format!(
+            r#"
+name = "{name}"
+{law}
+impactor = {{ radius = 5e-3 }}
+target = {{ material = "mild steel" }}
+fmu = {{ outputs = ["indentation"] }}
+contact = [
+    {{ name = "left" }},
+    {{ name = "row", count = 100 }},
+    {{ name = "right", target = {{ youngs_modulus = 70e9 }}, initial_gap = 1e-6 }},
+]
+"#
+        );
+        write_scene(name, &text)
+    });
+    pytest("test_several_contacts.py", &scenes);
+}
+
+#[test]
 fn simulate_fmu_runs_with_its_defaults() {
-    pytest("test_simulate_fmu.py", &scenes());
+    pytest("test_simulate_fmu.py", &plain_scenes());
 }
 
 #[test]

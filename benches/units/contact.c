@@ -2,64 +2,30 @@
  * The contact of Brinell's first scene as an expert would write it by hand in C: the measure for the generated unit.
  *
  * Loading after Big-Alabo, Harrison and Cartmell (2015), unloading by contact radius, and the dent stays. The parameters
- * are fixed. What is kept between steps is the branch of the law, so that a step that stays on it is one comparison.
- * Checks are those of a careful unit: null pointers, call order, references, finite input, times.
+ * are fixed. What is kept between steps is the branch of the law, so that a step that stays on it is a few comparisons.
+ * Checks are those of a careful unit: null pointers, call order, references, finite input, times. What nearly every call
+ * is, one value and a step that follows the last one, is looked for first; all else is out of its way.
  */
 #include "fmi2.h"
+#include "law.h"
 
-#include <float.h>
-#include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define LIKELY(condition) __builtin_expect(!!(condition), 1)
-#define COLD __attribute__((cold, noinline))
-
-static const double PI = 3.14159265358979323846;
-
-/* material */
-static const double RADIUS = 5e-3;          /* [m] */
-static const double YOUNGS_MODULUS = 206e9; /* [Pa] */
-static const double POISSONS_RATIO = 0.3;
-static const double YIELD_STRENGTH = 300e6; /* [Pa] */
-
-/* loading law, in yield indentations and yield strengths */
-static const double SECOND_REGION = 13.93;
-static const double FULLY_PLASTIC = 82.5;
-static const double YIELD_PRESSURE = 1.1;
-static const double PLASTIC_PRESSURE = 2.8;
-
-static const double LARGEST_INDENTATION = 1e100; /* [m] */
 
 enum { INDENTATION_RATE, FORCE };
 
 typedef enum { INSTANTIATED = 1, INITIALIZATION = 2, STEPPING = 4, TERMINATED = 8, FAILED = 16 } Phase;
 
-/* F = constant + z (linear + power sqrt(z)), z = indentation - origin, for lower <= indentation < upper */
-typedef struct {
-    double lower, upper, origin, constant, linear, power;
-} Branch;
-
 /* what a saved state holds */
 typedef struct {
     Phase phase;
     bool experiment_defined;
-    bool yielding;
-    double time, stop;
+    double time;
+    double limit; /* where plain steps end: at the stop time while stepping, and nowhere otherwise */
     double rate;
-    double indentation, rest; /* a sum and what its rounding left (Knuth) */
-    double largest;
-    Branch branch;
+    Contact contact;
+    double stop;
 } State;
-
-/* constants of the law, computed once for an instance */
-typedef struct {
-    double modulus;
-    double yield_indentation, yield_force;
-    double residual_rounding;
-    Branch elastic, first, second, plastic;
-} Law;
 
 typedef struct {
     State state;
@@ -68,101 +34,25 @@ typedef struct {
     char name[];
 } Unit;
 
-static double force_on(const Branch *branch, double indentation)
-{
-    double z = indentation - branch->origin;
-    z = z > 0.0 ? z : 0.0;
-    return branch->constant + z * (branch->linear + branch->power * sqrt(z));
-}
-
-static Law make_law(void)
-{
-    Law law;
-    law.modulus = YOUNGS_MODULUS / (1.0 - POISSONS_RATIO * POISSONS_RATIO);
-    double stiffness = 4.0 / 3.0 * law.modulus * sqrt(RADIUS);
-    double strain = 0.75 * PI * YIELD_PRESSURE * YIELD_STRENGTH / law.modulus;
-    double d_y = RADIUS * strain * strain, f_y = stiffness * (d_y * sqrt(d_y));
-    double from_yield = SECOND_REGION - 1.0;
-    double second_slope = 1.5 * sqrt(from_yield), second_force = from_yield * sqrt(from_yield) + 1.0;
-    double plastic_force = second_slope * (FULLY_PLASTIC - SECOND_REGION) + second_force;
-    double plastic_slope = 2.0 * PLASTIC_PRESSURE / YIELD_PRESSURE;
-    double second = SECOND_REGION * d_y, plastic = FULLY_PLASTIC * d_y, slope = f_y / d_y;
-    law.yield_indentation = d_y;
-    law.yield_force = f_y;
-    law.residual_rounding = 8.0 * DBL_EPSILON;
-    law.elastic = (Branch){DBL_TRUE_MIN, d_y, 0.0, 0.0, 0.0, stiffness};
-    law.first = (Branch){d_y, second, d_y, f_y, 0.0, stiffness};
-    law.second = (Branch){second, plastic, second, second_force * f_y, second_slope * slope, 0.0};
-    law.plastic = (Branch){plastic, LARGEST_INDENTATION, plastic, plastic_force * f_y, plastic_slope * slope, 0.0};
-    return law;
-}
-
-static const Branch *loading_branch(const Law *law, double indentation)
-{
-    if (indentation < law->first.lower)
-        return &law->elastic;
-    if (indentation < law->second.lower)
-        return &law->first;
-    return indentation < law->plastic.lower ? &law->second : &law->plastic;
-}
-
-/* from the largest indentation, beyond yield, down to the dent that remains */
-static Branch unloading_branch(const Law *law, double largest)
-{
-    double force = force_on(loading_branch(law, largest), largest);
-    double pressure = YIELD_PRESSURE + log(2.0 * (largest / law->yield_indentation) - 1.0) / 3.0;
-    double area = force / (PI * fmin(pressure, PLASTIC_PRESSURE) * YIELD_STRENGTH);
-    double radius = sqrt(fmax(area, RADIUS * law->yield_indentation));
-    double residual = largest - 0.75 * force / (law->modulus * radius);
-    if (fabs(residual) < law->residual_rounding * largest)
-        residual = 0.0;
-    double recovery = largest - residual;
-    return (Branch){residual, largest, residual, 0.0, 0.0, force / (recovery * sqrt(recovery))};
-}
-
-/* finds the branch at `indentation`; at a corner the one in the direction of motion */
-COLD static bool enter(State *state, const Law *law, double indentation, bool rising)
-{
-    if (!(indentation > -LARGEST_INDENTATION && indentation < LARGEST_INDENTATION))
-        return false;
-    double largest = fmax(state->largest, indentation);
-    Branch branch = {-LARGEST_INDENTATION, DBL_TRUE_MIN, 0.0, 0.0, 0.0, 0.0};
-    bool yielding = false;
-    if (indentation > 0.0 && indentation >= largest) {
-        branch = *loading_branch(law, indentation);
-        yielding = indentation >= law->yield_indentation;
-        branch.lower = yielding ? indentation : DBL_TRUE_MIN;
-    } else if (largest <= law->yield_indentation) {
-        if (indentation > 0.0)
-            branch = law->elastic;
-    } else {
-        Branch unloading = unloading_branch(law, largest);
-        double residual = unloading.lower;
-        if (indentation > residual || (rising && indentation == residual)) {
-            branch = unloading;
-            branch.lower = nextafter(residual, INFINITY);
-        } else {
-            branch.upper = residual;
-        }
-    }
-    state->largest = largest;
-    state->branch = branch;
-    state->yielding = yielding;
-    return true;
-}
-
 static State initial_state(void)
 {
     return (State){
         .phase = INSTANTIATED,
+        .limit = -DBL_MAX,
+        .contact = UNTOUCHED,
         .stop = DBL_MAX,
-        .branch = {-LARGEST_INDENTATION, DBL_TRUE_MIN, 0.0, 0.0, 0.0, 0.0},
     };
+}
+
+static void set_phase(State *state, Phase phase)
+{
+    state->phase = phase;
+    state->limit = phase == STEPPING ? state->stop : -DBL_MAX;
 }
 
 COLD static fmi2Status refuse(Unit *unit, fmi2String message)
 {
-    unit->state.phase = FAILED;
+    set_phase(&unit->state, FAILED);
     if (unit->callbacks.logger)
         unit->callbacks.logger(unit->callbacks.componentEnvironment, unit->name, fmi2Error, "logStatusError", "%s", message);
     return fmi2Error;
@@ -219,7 +109,7 @@ fmi2Status fmi2EnterInitializationMode(fmi2Component component)
         return fmi2Error;
     if (!is_in(unit, INSTANTIATED) || !unit->state.experiment_defined)
         return refuse(unit, "fmi2EnterInitializationMode: out of order");
-    unit->state.phase = INITIALIZATION;
+    set_phase(&unit->state, INITIALIZATION);
     return fmi2OK;
 }
 
@@ -230,7 +120,7 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component component)
         return fmi2Error;
     if (!is_in(unit, INITIALIZATION))
         return refuse(unit, "fmi2ExitInitializationMode: out of order");
-    unit->state.phase = STEPPING;
+    set_phase(&unit->state, STEPPING);
     return fmi2OK;
 }
 
@@ -241,7 +131,7 @@ fmi2Status fmi2Terminate(fmi2Component component)
         return fmi2Error;
     if (!is_in(unit, STEPPING))
         return refuse(unit, "fmi2Terminate: out of order");
-    unit->state.phase = TERMINATED;
+    set_phase(&unit->state, TERMINATED);
     return fmi2OK;
 }
 
@@ -254,10 +144,8 @@ fmi2Status fmi2Reset(fmi2Component component)
     return fmi2OK;
 }
 
-fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference references[], size_t count,
-                       const fmi2Real values[])
+COLD static fmi2Status set_any(Unit *unit, const fmi2ValueReference references[], size_t count, const fmi2Real values[])
 {
-    Unit *unit = component;
     if (!unit)
         return fmi2Error;
     if (!is_in(unit, INSTANTIATED | INITIALIZATION | STEPPING))
@@ -276,10 +164,26 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference referen
     return fmi2OK;
 }
 
-/* the force is evaluated here and not in the step, so that steps that nobody looks at don't pay for it */
-fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference references[], size_t count, fmi2Real values[])
+fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference references[], size_t count,
+                       const fmi2Real values[])
 {
     Unit *unit = component;
+    if (LIKELY(unit && count == 1 && references && *references == INDENTATION_RATE && values
+               && unit->state.phase == STEPPING && isfinite(*values))) {
+        unit->state.rate = *values;
+        return fmi2OK;
+    }
+    return set_any(unit, references, count, values);
+}
+
+/* the force is evaluated here and not in the step, so that steps that nobody looks at don't pay for it */
+static double force(const State *state)
+{
+    return force_on(&state->contact.branch, state->contact.sum + state->contact.rest);
+}
+
+COLD static fmi2Status get_any(Unit *unit, const fmi2ValueReference references[], size_t count, fmi2Real values[])
+{
     if (!unit)
         return fmi2Error;
     if (!is_in(unit, INITIALIZATION | STEPPING | TERMINATED | FAILED))
@@ -292,7 +196,7 @@ fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference referen
             values[i] = unit->state.rate;
             break;
         case FORCE:
-            values[i] = force_on(&unit->state.branch, unit->state.indentation);
+            values[i] = force(&unit->state);
             break;
         default:
             return refuse(unit, "fmi2GetReal: no such variable");
@@ -301,44 +205,60 @@ fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference referen
     return fmi2OK;
 }
 
+fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference references[], size_t count, fmi2Real values[])
+{
+    Unit *unit = component;
+    if (LIKELY(unit && count == 1 && references && *references == FORCE && values && unit->state.phase == STEPPING)) {
+        *values = force(&unit->state);
+        return fmi2OK;
+    }
+    return get_any(unit, references, count, values);
+}
+
 /* the second look at times that aren't plainly right: room for rounding far from zero */
-COLD static bool times_are_close(const State *state, double time, double step)
+static bool times_are_close(const State *state, double time, double step)
 {
     double rounding = 32.0 * DBL_EPSILON * (fabs(time) + fabs(state->time));
     return step > 0.0 && step < INFINITY && fabs(time - state->time) <= 0.1 * step + rounding
         && time + step - state->stop <= 1e-3 * step + rounding;
 }
 
-fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time, fmi2Real step, fmi2Boolean no_state_is_set_before)
+COLD static fmi2Status do_any_step(Unit *unit, double time, double step)
 {
-    Unit *unit = component;
-    (void)no_state_is_set_before;
     if (!unit)
         return fmi2Error;
     if (!is_in(unit, STEPPING))
         return refuse(unit, "fmi2DoStep: out of order");
     State *state = &unit->state;
-    double end = time + step;
-    bool plain = step > 0.0 && step < INFINITY && fabs(time - state->time) <= 0.1 * step && end <= state->stop;
-    if (!LIKELY(plain) && !times_are_close(state, time, step))
+    if (!times_are_close(state, time, step))
         return refuse(unit, "fmi2DoStep: the step doesn't fit to the last one, or isn't positive, or ends too late");
-
-    double increment = state->rate * step;
-    double sum = state->indentation, addend = increment + state->rest;
-    double indentation = sum + addend, added = indentation - sum;
-    if (LIKELY(indentation >= state->branch.lower && indentation < state->branch.upper)) {
-        if (indentation > state->largest) {
-            state->largest = indentation;
-            if (state->yielding)
-                state->branch.lower = indentation;
-        }
-    } else if (!enter(state, &unit->law, indentation, increment > 0.0)) {
+    if (!advance(&state->contact, &unit->law, state->rate * step))
         return refuse(unit, "fmi2DoStep: the indentation is out of range");
-    }
-    state->rest = (sum - (indentation - added)) + (addend - added);
-    state->indentation = indentation;
-    state->time = end;
+    state->time = time + step;
     return fmi2OK;
+}
+
+fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time, fmi2Real step, fmi2Boolean no_state_is_set_before)
+{
+    Unit *unit = component;
+    (void)no_state_is_set_before;
+    if (LIKELY(unit)) {
+        State *state = &unit->state;
+        Contact *contact = &state->contact;
+        double end = time + step, increment = state->rate * step;
+        /* no addition waits for the rest of the one before */
+        double sum = contact->sum + increment, rest = contact->rest + (increment - (sum - contact->sum));
+        double indentation = sum + rest;
+        /* a step that isn't positive is not larger than any distance; comparisons fail for NaN */
+        if (LIKELY(fabs(time - state->time) * 10.0 < step && end <= state->limit && indentation >= contact->branch.lower
+                   && indentation < contact->branch.upper && increment >= contact->least)) {
+            contact->sum = sum;
+            contact->rest = rest;
+            state->time = end;
+            return fmi2OK;
+        }
+    }
+    return do_any_step(unit, time, step);
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate *saved)

@@ -218,9 +218,10 @@ impl History {
     pub fn advance_on_branch(&mut self, increment: f64) -> bool {
         let sum = self.indentation.plus(increment);
         let indentation = sum.total();
-        // a NaN is not above the lower end
-        let leaves = indentation >= self.segment.upper || increment < self.least_increment;
-        let stays = indentation >= self.segment.lower && !leaves;
+        // a NaN is not above the lower end; each comparison has its second number in memory
+        let goes_on = increment >= self.least_increment;
+        let ends = indentation >= self.segment.upper;
+        let stays = indentation >= self.segment.lower && goes_on && !ends;
         if stays {
             self.indentation = sum;
         }
@@ -325,6 +326,12 @@ impl History {
         self.segment.force_inside(self.indentation.total())
     }
 
+    /// The force [N] by laws whose branches have a quadratic term only if `squares` says so.
+    #[inline(always)]
+    pub fn plain_force(&self, _rate: f64, squares: bool) -> f64 {
+        if squares { self.force() } else { self.segment.force_without_square(self.indentation.total()) }
+    }
+
     /// The force, which doesn't depend on the rate [N].
     #[inline]
     pub fn force_at_rate(&self, _rate: f64) -> f64 {
@@ -362,7 +369,7 @@ impl History {
         let indentation = self.indentation.total();
         match self.regime {
             Regime::Apart => 0.0,
-            Regime::Unloaded => {
+            Regime::Unloaded if model.loading.can_yield() => {
                 let path = model.unloading_path(self.max_indentation());
                 let peak = model.peak(self.max_indentation());
                 model.unloading.contact_radius(&model.pair, &peak, &path, indentation)
@@ -409,6 +416,20 @@ impl History {
     /// of the state, not of the steps that led there. A contact that starts pressed in counts the way there as done.
     pub fn work<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         self.elastic_energy(model) + self.dissipated_energy(model)
+    }
+
+    /// Makes this history the same as `other`, number by number: a compiler that looks for the smallest code would otherwise
+    /// take the slowest instruction for it.
+    #[inline(always)]
+    pub fn copy_from(&mut self, other: &History) {
+        let Sum { value, rest } = other.indentation;
+        let Segment { lower, upper, origin, constant, linear, power, square } = other.segment;
+        let (max_indentation, least_increment) = (other.max_indentation, other.least_increment);
+        let (regime, left_behind) = (other.regime, other.left_behind);
+        self.indentation = Sum { value, rest };
+        self.segment = Segment { lower, upper, origin, constant, linear, power, square };
+        (self.max_indentation, self.least_increment) = (max_indentation, least_increment);
+        (self.regime, self.left_behind) = (regime, left_behind);
     }
 
     /// The history as words, to be stored.

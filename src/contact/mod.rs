@@ -64,6 +64,9 @@ pub struct Model<L, U> {
 }
 
 impl<L: Loading, U: Unloading> Model<L, U> {
+    /// Whether a branch can have a quadratic term.
+    pub const SQUARES: bool = U::SQUARES;
+
     /// The point of the loading curve at `indentation` [m], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {
         Peak {
@@ -110,6 +113,6 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// Whether a contact that never was deeper than `max_indentation` [m] has not yielded.
     pub fn is_elastic_at(&self, max_indentation: f64) -> bool {
-        max_indentation <= self.loading.yield_point(&self.pair).indentation
+        !self.loading.can_yield() || max_indentation <= self.loading.yield_point(&self.pair).indentation
     }
 }

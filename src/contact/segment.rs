@@ -93,6 +93,13 @@ impl Segment {
         rise + 2.0 * self.square
     }
 
+    /// The same for a branch without `c3`, which most laws never have [N].
+    #[inline(always)]
+    pub fn force_without_square(&self, indentation: f64) -> f64 {
+        let z = indentation - self.origin;
+        self.constant + z * (self.linear + self.power * sqrt(z))
+    }
+
     /// dF/d(indentation) [N/m].
     #[inline]
     pub fn stiffness(&self, indentation: f64) -> f64 {

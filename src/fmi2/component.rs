@@ -64,12 +64,12 @@ impl Component {
     }
 
     /// Says once that the passivity guard acts: then its category is switched off, until the importer switches it on again.
-    pub fn warn_of_guard(&mut self, function: &Function) {
+    pub fn warn_of_guard(&mut self, function: Function) {
         let Some(guard) = scene::GUARD else { return };
         if self.categories & WARNING != 0 && self.instance.is_held_back() {
             self.categories &= !WARNING;
             let mut text = Text::new();
-            text.string(function.name).string(": ").string(guard);
+            text.string(function.name()).string(": ").string(guard);
             // SAFETY: the name ends with 0.
             unsafe { self.logger.hand_over(self.name(), fmi2OK, WARNING_NAME, &text) };
         }
@@ -78,8 +78,8 @@ impl Component {
     /// Logs `fault` of `function` and gives the status to return; an error ends the simulation.
     #[cold]
     #[inline(never)]
-    fn refuse(&mut self, function: &Function, fault: &Fault) -> fmi2Status {
-        let report = Report::new(function.name, fault);
+    fn refuse(&mut self, function: Function, fault: &Fault) -> fmi2Status {
+        let report = Report::new(function.name(), fault);
         if report.status == fmi2Error {
             self.instance.fail();
         }
@@ -110,17 +110,31 @@ pub unsafe fn component<'a>(component: fmi2Component) -> Option<&'a mut Componen
 /// anything else is repeated here with every check and its message.
 pub unsafe fn call(
     c: fmi2Component,
-    function: &'static Function,
+    function: Function,
     body: impl FnOnce(&mut Component) -> Result<(), Fault>,
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
-    let Some(component) = (unsafe { component(c) }) else { return fmi2Error };
-    let phase = component.instance.phase();
-    let result = if function.is_allowed_in(phase) { body(component) } else { Err(Fault::OutOfOrder { phase }) };
-    match result {
+    let Some(component) = (unsafe { opened(c, function) }) else { return fmi2Error };
+    match body(component) {
         Ok(()) => fmi2OK,
         Err(fault) => component.refuse(function, &fault),
     }
+}
+
+/// The component, if it is there and the call is in order; otherwise that is logged.
+///
+/// # Safety
+/// As for [`call`].
+#[inline(never)]
+unsafe fn opened<'a>(c: fmi2Component, function: Function) -> Option<&'a mut Component> {
+    // SAFETY: as the caller promises.
+    let component = unsafe { component(c) }?;
+    let phase = component.instance.phase();
+    if function.is_allowed_in(phase) {
+        return Some(component);
+    }
+    component.refuse(function, &Fault::OutOfOrder { phase });
+    None
 }
 
 /// The array of `length` elements at `pointer`.

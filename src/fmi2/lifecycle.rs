@@ -116,7 +116,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and as many categories as announced.
     unsafe {
-        call(c, &order::SET_DEBUG_LOGGING, |component| {
+        call(c, order::SET_DEBUG_LOGGING, |component| {
             let mut bits = if nCategories == 0 { ALL_CATEGORIES } else { 0 };
             for &name in array(categories, nCategories, "categories")? {
                 if name.is_null() {
@@ -147,21 +147,21 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     let _ = (toleranceDefined, tolerance);
     let stop = (stopTimeDefined != fmi2False).then_some(stopTime);
     // SAFETY: the caller's component.
-    unsafe { call(c, &order::SETUP_EXPERIMENT, |component| component.instance.set_experiment(startTime, stop)) }
+    unsafe { call(c, order::SETUP_EXPERIMENT, |component| component.instance.set_experiment(startTime, stop)) }
 }
 
 /// Begins initialization; fmi2SetupExperiment must have been called.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterInitializationMode(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { call(c, &order::ENTER_INITIALIZATION_MODE, |component| component.instance.enter_initialization()) }
+    unsafe { call(c, order::ENTER_INITIALIZATION_MODE, |component| component.instance.enter_initialization()) }
 }
 
 /// Ends initialization; refused if the parameters don't fit together.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { call(c, &order::EXIT_INITIALIZATION_MODE, |component| component.instance.exit_initialization()) }
+    unsafe { call(c, order::EXIT_INITIALIZATION_MODE, |component| component.instance.exit_initialization()) }
 }
 
 /// Ends the simulation.
@@ -169,7 +169,7 @@ pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Sta
 pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
     unsafe {
-        call(c, &order::TERMINATE, |component| {
+        call(c, order::TERMINATE, |component| {
             component.instance.terminate();
             Ok(())
         })
@@ -180,5 +180,5 @@ pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { call(c, &order::RESET, |component| component.instance.reset()) }
+    unsafe { call(c, order::RESET, |component| component.instance.reset()) }
 }

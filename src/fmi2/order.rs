@@ -5,11 +5,17 @@
 use crate::instance::Phase;
 
 /// A function with its place in the order of calls.
+///
+/// Its name is a piece of [`NAMES`]: a pointer to it would be an address that the loader has to write, in each of them.
+#[derive(Clone, Copy)]
 pub struct Function {
-    /// Its name, for messages.
-    pub name: &'static str,
+    begin: u16,
+    length: u8,
     phases: u8,
 }
+
+/// The names of the functions, one after the other, as far as they pass the guard.
+const NAMES: &str = "fmi2SetDebugLogging fmi2SetupExperiment fmi2EnterInitializationMode fmi2ExitInitializationMode fmi2Terminate fmi2Reset fmi2GetReal fmi2GetInteger fmi2GetBoolean fmi2GetString fmi2SetReal fmi2SetInteger fmi2SetBoolean fmi2SetString fmi2GetFMUstate fmi2SetFMUstate fmi2FreeFMUstate fmi2SerializedFMUstateSize fmi2SerializeFMUstate fmi2DeSerializeFMUstate fmi2GetDirectionalDerivative fmi2SetRealInputDerivatives fmi2GetRealOutputDerivatives fmi2DoStep fmi2CancelStep fmi2GetStatus fmi2GetRealStatus fmi2GetIntegerStatus fmi2GetBooleanStatus fmi2GetStringStatus";
 
 const INSTANTIATED: u8 = Phase::Instantiated as u8;
 const INITIALIZATION: u8 = Phase::Initialization as u8;
@@ -22,47 +28,66 @@ const READING: u8 = INITIALIZATION | STEP | TERMINATED | ERROR;
 const WRITING: u8 = INSTANTIATED | INITIALIZATION | STEP;
 
 impl Function {
-    const fn new(name: &'static str, phases: u8) -> Function {
-        Function { name, phases }
+    const fn new(name: &str, phases: u8) -> Function {
+        let (name, names) = (name.as_bytes(), NAMES.as_bytes());
+        let mut begin = 0;
+        loop {
+            let mut length = 0;
+            while length < name.len() && names[begin + length] == name[length] {
+                length += 1;
+            }
+            // fmi2GetReal isn't fmi2GetRealStatus
+            let whole = begin + length == names.len() || names[begin + length] == b' ';
+            if length == name.len() && whole {
+                return Function { begin: begin as u16, length: length as u8, phases };
+            }
+            begin += 1;
+        }
+    }
+
+    /// Its name, for messages.
+    pub fn name(self) -> &'static str {
+        let begin = usize::from(self.begin);
+        NAMES.get(begin..begin + usize::from(self.length)).unwrap_or("")
     }
 
     /// Whether it may be called in `phase`.
     #[inline]
-    pub fn is_allowed_in(&self, phase: Phase) -> bool {
+    pub fn is_allowed_in(self, phase: Phase) -> bool {
         self.phases & phase as u8 != 0
     }
 }
 
-pub(super) static SET_DEBUG_LOGGING: Function = Function::new("fmi2SetDebugLogging", ANY);
-pub(super) static SETUP_EXPERIMENT: Function = Function::new("fmi2SetupExperiment", INSTANTIATED);
-pub(super) static ENTER_INITIALIZATION_MODE: Function = Function::new("fmi2EnterInitializationMode", INSTANTIATED);
-pub(super) static EXIT_INITIALIZATION_MODE: Function = Function::new("fmi2ExitInitializationMode", INITIALIZATION);
+pub(super) const SET_DEBUG_LOGGING: Function = Function::new("fmi2SetDebugLogging", ANY);
+pub(super) const SETUP_EXPERIMENT: Function = Function::new("fmi2SetupExperiment", INSTANTIATED);
+pub(super) const ENTER_INITIALIZATION_MODE: Function = Function::new("fmi2EnterInitializationMode", INSTANTIATED);
+pub(super) const EXIT_INITIALIZATION_MODE: Function = Function::new("fmi2ExitInitializationMode", INITIALIZATION);
 // wider than the table: importers terminate twice, or without having initialized, and nothing is lost by it
-pub(super) static TERMINATE: Function = Function::new("fmi2Terminate", INSTANTIATED | STEP | TERMINATED);
-pub(super) static RESET: Function = Function::new("fmi2Reset", ANY);
-pub(super) static GET_REAL: Function = Function::new("fmi2GetReal", READING);
-pub(super) static GET_INTEGER: Function = Function::new("fmi2GetInteger", READING);
-pub(super) static GET_BOOLEAN: Function = Function::new("fmi2GetBoolean", READING);
-pub(super) static GET_STRING: Function = Function::new("fmi2GetString", READING);
-pub(super) static SET_REAL: Function = Function::new("fmi2SetReal", WRITING);
-pub(super) static SET_INTEGER: Function = Function::new("fmi2SetInteger", WRITING);
-pub(super) static SET_BOOLEAN: Function = Function::new("fmi2SetBoolean", WRITING);
-pub(super) static SET_STRING: Function = Function::new("fmi2SetString", WRITING);
-pub(super) static GET_FMU_STATE: Function = Function::new("fmi2GetFMUstate", ANY);
-pub(super) static SET_FMU_STATE: Function = Function::new("fmi2SetFMUstate", ANY);
-pub(super) static FREE_FMU_STATE: Function = Function::new("fmi2FreeFMUstate", ANY);
-pub(super) static SERIALIZED_FMU_STATE_SIZE: Function = Function::new("fmi2SerializedFMUstateSize", ANY);
-pub(super) static SERIALIZE_FMU_STATE: Function = Function::new("fmi2SerializeFMUstate", ANY);
-pub(super) static DESERIALIZE_FMU_STATE: Function = Function::new("fmi2DeSerializeFMUstate", ANY);
-pub(super) static GET_DIRECTIONAL_DERIVATIVE: Function = Function::new("fmi2GetDirectionalDerivative", READING);
-pub(super) static SET_REAL_INPUT_DERIVATIVES: Function = Function::new("fmi2SetRealInputDerivatives", WRITING);
-pub(super) static GET_REAL_OUTPUT_DERIVATIVES: Function =
+pub(super) const TERMINATE: Function = Function::new("fmi2Terminate", INSTANTIATED | STEP | TERMINATED);
+pub(super) const RESET: Function = Function::new("fmi2Reset", ANY);
+pub(super) const GET_REAL: Function = Function::new("fmi2GetReal", READING);
+pub(super) const GET_INTEGER: Function = Function::new("fmi2GetInteger", READING);
+pub(super) const GET_BOOLEAN: Function = Function::new("fmi2GetBoolean", READING);
+pub(super) const GET_STRING: Function = Function::new("fmi2GetString", READING);
+pub(super) const SET_REAL: Function = Function::new("fmi2SetReal", WRITING);
+pub(super) const SET_INTEGER: Function = Function::new("fmi2SetInteger", WRITING);
+pub(super) const SET_BOOLEAN: Function = Function::new("fmi2SetBoolean", WRITING);
+pub(super) const SET_STRING: Function = Function::new("fmi2SetString", WRITING);
+pub(super) const GET_FMU_STATE: Function = Function::new("fmi2GetFMUstate", ANY);
+pub(super) const SET_FMU_STATE: Function = Function::new("fmi2SetFMUstate", ANY);
+pub(super) const FREE_FMU_STATE: Function = Function::new("fmi2FreeFMUstate", ANY);
+pub(super) const SERIALIZED_FMU_STATE_SIZE: Function = Function::new("fmi2SerializedFMUstateSize", ANY);
+pub(super) const SERIALIZE_FMU_STATE: Function = Function::new("fmi2SerializeFMUstate", ANY);
+pub(super) const DESERIALIZE_FMU_STATE: Function = Function::new("fmi2DeSerializeFMUstate", ANY);
+pub(super) const GET_DIRECTIONAL_DERIVATIVE: Function = Function::new("fmi2GetDirectionalDerivative", READING);
+pub(super) const SET_REAL_INPUT_DERIVATIVES: Function = Function::new("fmi2SetRealInputDerivatives", WRITING);
+pub(super) const GET_REAL_OUTPUT_DERIVATIVES: Function =
     Function::new("fmi2GetRealOutputDerivatives", STEP | TERMINATED | ERROR);
-pub(super) static DO_STEP: Function = Function::new("fmi2DoStep", STEP);
+pub(super) const DO_STEP: Function = Function::new("fmi2DoStep", STEP);
 // no step is ever in progress
-pub(super) static CANCEL_STEP: Function = Function::new("fmi2CancelStep", 0);
-pub(super) static GET_STATUS: Function = Function::new("fmi2GetStatus", STEP | TERMINATED | ERROR);
-pub(super) static GET_REAL_STATUS: Function = Function::new("fmi2GetRealStatus", STEP | TERMINATED | ERROR);
-pub(super) static GET_INTEGER_STATUS: Function = Function::new("fmi2GetIntegerStatus", STEP | TERMINATED | ERROR);
-pub(super) static GET_BOOLEAN_STATUS: Function = Function::new("fmi2GetBooleanStatus", STEP | TERMINATED | ERROR);
-pub(super) static GET_STRING_STATUS: Function = Function::new("fmi2GetStringStatus", STEP | TERMINATED | ERROR);
+pub(super) const CANCEL_STEP: Function = Function::new("fmi2CancelStep", 0);
+pub(super) const GET_STATUS: Function = Function::new("fmi2GetStatus", STEP | TERMINATED | ERROR);
+pub(super) const GET_REAL_STATUS: Function = Function::new("fmi2GetRealStatus", STEP | TERMINATED | ERROR);
+pub(super) const GET_INTEGER_STATUS: Function = Function::new("fmi2GetIntegerStatus", STEP | TERMINATED | ERROR);
+pub(super) const GET_BOOLEAN_STATUS: Function = Function::new("fmi2GetBooleanStatus", STEP | TERMINATED | ERROR);
+pub(super) const GET_STRING_STATUS: Function = Function::new("fmi2GetStringStatus", STEP | TERMINATED | ERROR);

@@ -5,6 +5,7 @@ use super::text::Text;
 use crate::fault::Fault;
 use crate::instance::Phase;
 use crate::scene;
+use crate::variable::Settable;
 use core::ffi::CStr;
 
 /// A category of log messages, as declared in the model description.
@@ -28,13 +29,14 @@ impl Category {
 
     /// The bits that the declared category `name` stands for.
     pub fn bits(name: &CStr) -> Option<u8> {
-        match name.to_bytes() {
-            b"logStatusDiscard" => Some(Category::Discard as u8),
-            b"logStatusError" => Some(Category::Error as u8),
-            b"logStatusWarning" if scene::GUARD.is_some() => Some(WARNING),
-            b"logAll" => Some(ALL_CATEGORIES),
-            _ => None,
-        }
+        let name = name.to_bytes();
+        let known = [
+            (Category::Discard.name(), Category::Discard as u8),
+            (Category::Error.name(), Category::Error as u8),
+            (c"logAll", ALL_CATEGORIES),
+            (if scene::GUARD.is_some() { WARNING_NAME } else { c"logAll" }, WARNING),
+        ];
+        known.into_iter().find(|(own, _)| own.to_bytes() == name).map(|(_, bits)| bits)
     }
 }
 
@@ -97,83 +99,118 @@ fn contact_name(text: &mut Text, contact: usize) -> &mut Text {
     text.string(": ")
 }
 
+/// Writes `template` with the next of `words` in place of each `@`, and the next of `numbers` in place of each `~`.
+#[inline(never)]
+fn fill(text: &mut Text, template: &str, words: [&str; 2], numbers: [f64; 3]) {
+    let (mut words, mut numbers) = (words.iter(), numbers.iter());
+    for &byte in template.as_bytes() {
+        match byte {
+            b'@' => text.string(words.next().copied().unwrap_or("")),
+            b'~' => text.number(numbers.next().copied().unwrap_or(f64::NAN)),
+            plain => text.byte(plain),
+        };
+    }
+}
+
 fn describe(text: &mut Text, fault: &Fault) {
-    match *fault {
-        Fault::BadInstance { reason } => text.string(reason),
-        Fault::OutOfOrder { phase } => text.string("not allowed ").string(phase_name(phase)),
-        Fault::NullPointer { argument } => text.string("the argument ").string(argument).string(" is null"),
-        Fault::UnknownReference { kind, reference } => text
-            .string("there is no variable of type ")
-            .string(kind)
-            .string(" with value reference ")
-            .integer(reference),
-        Fault::NotSettable => text.string("an output can't be set"),
+    let (mut words, mut numbers) = ([""; 2], [0.0; 3]);
+    let template = match *fault {
+        Fault::BadInstance { reason } => {
+            words[0] = reason;
+            "@"
+        }
+        Fault::OutOfOrder { phase } => {
+            words[0] = phase_name(phase);
+            "not allowed @"
+        }
+        Fault::NullPointer { argument } => {
+            words[0] = argument;
+            "the argument @ is null"
+        }
+        Fault::UnknownReference { kind, reference } => {
+            // a number is written with nine digits, and this may have ten
+            text.string("there is no variable of type ")
+                .string(kind)
+                .string(" with value reference ")
+                .integer(reference);
+            return;
+        }
+        Fault::NotSettable => "an output can't be set",
         Fault::FixedParameter { name } => {
-            text.string("the parameter ").string(name).string(" can't be set after initialization")
+            words[0] = name;
+            "the parameter @ can't be set after initialization"
         }
-        Fault::NotFinite { name, value } => text.string(name).string(" = ").number(value).string(" is not finite"),
+        Fault::NotFinite { name, value } => {
+            (words[0], numbers[0]) = (name, value);
+            "@ = ~ is not finite"
+        }
         Fault::TooFast { rate } => {
-            text.string("indentation_rate = ").number(rate).string(" is too fast: the force would not be finite")
+            numbers[0] = rate;
+            "indentation_rate = ~ is too fast: the force would not be finite"
         }
-        Fault::OutOfRange { settable, value } => text
-            .string(settable.name)
-            .string(" = ")
-            .number(value)
-            .string(" is out of range: allowed is ")
-            .number(settable.minimum)
-            .string(" to ")
-            .number(settable.maximum)
-            .string(if settable.unit.is_empty() { "" } else { " " })
-            .string(settable.unit),
-        Fault::NoPointContact { impactor, target } => text
-            .string("impactor.radius = ")
-            .number(impactor)
-            .string(" m does not fit target.radius = ")
-            .number(target)
-            .string(" m: a socket (negative) must be wider than the impactor, and no radius is below 1e-12 m"),
-        Fault::Experiment { start, stop } => text
-            .string("startTime = ")
-            .number(start)
-            .string(" s, stopTime = ")
-            .number(stop)
-            .string(" s: allowed are finite times with stopTime not before startTime"),
-        Fault::NoExperiment => text.string("fmi2SetupExperiment must be called before"),
-        Fault::StepSize { step } => text
-            .string("communicationStepSize = ")
-            .number(step)
-            .string(" s is not allowed: it must be positive and finite"),
-        Fault::CommunicationPoint { given, expected } => text
-            .string("currentCommunicationPoint = ")
-            .number(given)
-            .string(" s, but the last step ended at ")
-            .number(expected)
-            .string(" s"),
-        Fault::BeyondStopTime { end, stop } => text
-            .string("the step would end at ")
-            .number(end)
-            .string(" s, beyond the stop time ")
-            .number(stop)
-            .string(" s"),
-        Fault::TooDeep { contact, indentation } => contact_name(text, contact)
-            .string("the indentation would become ")
-            .number(indentation)
-            .string(" m, for which the law can't be evaluated; is indentation_rate in m/s?"),
+        Fault::OutOfRange { settable, value } => {
+            let Settable { name, unit, minimum, maximum, .. } = *settable;
+            (words, numbers) = ([name, unit], [value, minimum, maximum]);
+            if unit.is_empty() {
+                "@ = ~ is out of range: allowed is ~ to ~"
+            } else {
+                "@ = ~ is out of range: allowed is ~ to ~ @"
+            }
+        }
+        Fault::NoPointContact { impactor, target } => {
+            (numbers[0], numbers[1]) = (impactor, target);
+            "impactor.radius = ~ m does not fit target.radius = ~ m: a socket (negative) must be wider than the impactor, \
+             and no radius is below 1e-12 m"
+        }
+        Fault::Experiment { start, stop } => {
+            (numbers[0], numbers[1]) = (start, stop);
+            "startTime = ~ s, stopTime = ~ s: allowed are finite times with stopTime not before startTime"
+        }
+        Fault::NoExperiment => "fmi2SetupExperiment must be called before",
+        Fault::StepSize { step } => {
+            numbers[0] = step;
+            "communicationStepSize = ~ s is not allowed: it must be positive and finite"
+        }
+        Fault::CommunicationPoint { given, expected } => {
+            (numbers[0], numbers[1]) = (given, expected);
+            "currentCommunicationPoint = ~ s, but the last step ended at ~ s"
+        }
+        Fault::BeyondStopTime { end, stop } => {
+            (numbers[0], numbers[1]) = (end, stop);
+            "the step would end at ~ s, beyond the stop time ~ s"
+        }
+        Fault::TooDeep { contact, indentation } => {
+            contact_name(text, contact);
+            numbers[0] = indentation;
+            "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
+        }
         Fault::DerivativeOrder { order, largest } => {
-            text.string("there is no derivative of order ").number(f64::from(order));
-            text.string(": allowed is 1").string(if largest > 1 { " or 2" } else { "" })
+            numbers[0] = f64::from(order);
+            if largest > 1 {
+                "there is no derivative of order ~: allowed is 1 or 2"
+            } else {
+                "there is no derivative of order ~: allowed is 1"
+            }
         }
-        Fault::NoDerivative { of } => text.string("there are derivatives of ").string(of).string(" only"),
-        Fault::TooLong { step } => text
-            .string("the bodies rebound too often to be followed within communicationStepSize = ")
-            .number(step)
-            .string(" s"),
-        Fault::Unsupported => text.string("this unit doesn't have this capability (see its model description)"),
-        Fault::Unavailable => text.string("not available: every step is complete when its call returns"),
-        Fault::UnknownCategory => text.string(match scene::GUARD {
+        Fault::NoDerivative { of } => {
+            words[0] = of;
+            "there are derivatives of @ only"
+        }
+        Fault::TooLong { step } => {
+            numbers[0] = step;
+            "the bodies rebound too often to be followed within communicationStepSize = ~ s"
+        }
+        Fault::Unsupported => "this unit doesn't have this capability (see its model description)",
+        Fault::Unavailable => "not available: every step is complete when its call returns",
+        Fault::UnknownCategory => match scene::GUARD {
             None => "unknown log category: there are logStatusDiscard, logStatusError, logAll",
             Some(_) => "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll",
-        }),
-        Fault::BadState { reason } => text.string("the FMU state can't be used: ").string(reason),
-        Fault::NoMemory => text.string("out of memory"),
+        },
+        Fault::BadState { reason } => {
+            words[0] = reason;
+            "the FMU state can't be used: @"
+        }
+        Fault::NoMemory => "out of memory",
     };
+    fill(text, template, words, numbers);
 }

@@ -58,7 +58,7 @@ impl Snapshot {
             if state.is_null() {
                 *state = Snapshot::allocate()?;
             }
-            Snapshot::at(*state)?.instance.copy_from(instance);
+            Snapshot::at(*state)?.instance.copy(instance);
         }
         Ok(())
     }
@@ -89,18 +89,13 @@ impl Snapshot {
 
     /// Writes the snapshot into `bytes`.
     pub fn serialize(&self, bytes: &mut [u8; SERIALIZED_SIZE]) {
-        let (checked, end) = bytes.split_at_mut(CHECKSUM_AT);
-        let mut sum = CHECKSUM_START;
-        let mut slots = checked.iter_mut();
-        let mut store = |byte: u8| {
-            sum = checksum(sum, byte);
-            if let Some(slot) = slots.next() {
-                *slot = byte;
-            }
-        };
-        head().for_each(&mut store);
-        self.instance.to_words(|word| word.to_le_bytes().into_iter().for_each(&mut store));
-        end.copy_from_slice(&sum.to_le_bytes());
+        let mut writer = Writer { slots: bytes.iter_mut(), sum: CHECKSUM_START };
+        writer.put(&MAGIC);
+        writer.put(scene::GUID.as_bytes());
+        writer.word(WORDS as u64);
+        self.instance.to_words(|word| writer.word(word));
+        let sum = writer.sum;
+        writer.word(sum);
     }
 
     /// Makes the snapshot at `state`, which is made if there is none, from what [`Snapshot::serialize`] wrote.
@@ -112,10 +107,11 @@ impl Snapshot {
     /// As for [`Snapshot::at`].
     pub unsafe fn deserialize(state: &mut fmi2FMUstate, bytes: &[u8]) -> Result<(), Fault> {
         check(bytes)?;
+        let (words, _) = bytes.get(WORDS_AT..).unwrap_or(&[]).as_chunks();
         let made = if state.is_null() { Snapshot::allocate()? } else { *state };
         // SAFETY: as the caller promises; what was made here is released here.
         unsafe {
-            if !Snapshot::at(made)?.instance.restore(|index| word(bytes, WORDS_AT + 8 * index)) {
+            if !Snapshot::at(made)?.instance.restore(words) {
                 if state.is_null() {
                     memory::release(made);
                 }
@@ -127,9 +123,25 @@ impl Snapshot {
     }
 }
 
-/// What a serialized state begins with.
-fn head() -> impl Iterator<Item = u8> {
-    MAGIC.into_iter().chain(scene::GUID.bytes()).chain((WORDS as u64).to_le_bytes())
+/// Bytes that are written one after the other, and the checksum of those written so far.
+struct Writer<'a> {
+    slots: core::slice::IterMut<'a, u8>,
+    sum: u64,
+}
+
+impl Writer<'_> {
+    #[inline(never)]
+    fn put(&mut self, bytes: &[u8]) {
+        for (&byte, slot) in bytes.iter().zip(&mut self.slots) {
+            self.sum = checksum(self.sum, byte);
+            *slot = byte;
+        }
+    }
+
+    #[inline(never)]
+    fn word(&mut self, word: u64) {
+        self.put(&word.to_le_bytes());
+    }
 }
 
 /// Whether `bytes` are whole, and of this unit.
@@ -138,7 +150,9 @@ fn check(bytes: &[u8]) -> Result<(), Fault> {
     if bytes.len() != SERIALIZED_SIZE {
         return bad("it doesn't have the length of a state of this unit");
     }
-    if !bytes.iter().copied().zip(head()).all(|(byte, own)| byte == own) {
+    let head = [u64::from_le_bytes(MAGIC), WORDS as u64];
+    let guid = bytes.iter().skip(GUID_AT).zip(scene::GUID.as_bytes()).all(|(one, other)| one == other);
+    if [word(bytes, 0), word(bytes, COUNT_AT)] != head || !guid {
         return bad("it is of another unit or version");
     }
     let sum = bytes.iter().take(CHECKSUM_AT).fold(CHECKSUM_START, |sum, &byte| checksum(sum, byte));
@@ -149,6 +163,7 @@ fn check(bytes: &[u8]) -> Result<(), Fault> {
 }
 
 /// The word that begins at `place`.
+#[inline(never)]
 fn word(bytes: &[u8], place: usize) -> u64 {
     bytes.get(place..).and_then(|rest| rest.first_chunk()).map_or(0, |word| u64::from_le_bytes(*word))
 }

@@ -1,7 +1,7 @@
 //! Saving, restoring and serializing the state of an instance.
 
 use super::abi::*;
-use super::component::{array, array_mut, call, object};
+use super::component::{array, array_mut, call, component, object};
 use super::order;
 use super::state::{SERIALIZED_SIZE, Snapshot};
 use crate::fault::Fault;
@@ -11,7 +11,26 @@ use crate::fault::Fault;
 pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
     // SAFETY: the caller's component and state.
     unsafe {
-        call(c, &order::GET_FMU_STATE, |component| Snapshot::store(object(FMUstate, "FMUstate")?, &component.instance))
+        if let (Some(component), Some(state)) = (component(c), FMUstate.as_ref())
+            && let Ok(snapshot) = Snapshot::at(*state)
+        {
+            // in order in every phase
+            snapshot.instance.copy_from(&component.instance);
+            return fmi2OK;
+        }
+        get_any_state(c, FMUstate)
+    }
+}
+
+/// Every saving that isn't plain, with all checks.
+///
+/// # Safety
+/// The caller's component and state.
+#[inline(never)]
+unsafe fn get_any_state(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe {
+        call(c, order::GET_FMU_STATE, |component| Snapshot::store(object(FMUstate, "FMUstate")?, &component.instance))
     }
 }
 
@@ -20,10 +39,13 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, FMUstate: *mut fmi2FM
 pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, FMUstate: fmi2FMUstate) -> fmi2Status {
     // SAFETY: the caller's component and state.
     unsafe {
-        call(c, &order::SET_FMU_STATE, |component| {
-            component.instance.copy_from(&Snapshot::at(FMUstate)?.instance);
-            Ok(())
-        })
+        if let (Some(component), Ok(snapshot)) = (component(c), Snapshot::at(FMUstate)) {
+            // in order in every phase
+            component.instance.copy_from(&snapshot.instance);
+            return fmi2OK;
+        }
+        // what is left is to say why not
+        call(c, order::SET_FMU_STATE, |_| Snapshot::at(FMUstate).map(|_| ()))
     }
 }
 
@@ -31,7 +53,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, FMUstate: fmi2FMUstat
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
     // SAFETY: the caller's component and state.
-    unsafe { call(c, &order::FREE_FMU_STATE, |_| FMUstate.as_mut().map_or(Ok(()), |state| Snapshot::free(state))) }
+    unsafe { call(c, order::FREE_FMU_STATE, |_| FMUstate.as_mut().map_or(Ok(()), |state| Snapshot::free(state))) }
 }
 
 /// The length of a serialized state [bytes]; the same for every state of this unit.
@@ -43,7 +65,7 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 ) -> fmi2Status {
     // SAFETY: the caller's component, state and pointer.
     unsafe {
-        call(c, &order::SERIALIZED_FMU_STATE_SIZE, |_| {
+        call(c, order::SERIALIZED_FMU_STATE_SIZE, |_| {
             Snapshot::at(FMUstate)?;
             *object(size, "size")? = SERIALIZED_SIZE;
             Ok(())
@@ -61,7 +83,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 ) -> fmi2Status {
     // SAFETY: the caller's component and state, and an array as long as announced.
     unsafe {
-        call(c, &order::SERIALIZE_FMU_STATE, |_| {
+        call(c, order::SERIALIZE_FMU_STATE, |_| {
             let snapshot = Snapshot::at(FMUstate)?;
             let bytes = array_mut(serializedState.cast::<u8>(), size, "serializedState")?;
             let room = bytes.first_chunk_mut().ok_or(Fault::BadState { reason: "the buffer is too short" })?;
@@ -81,7 +103,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
 ) -> fmi2Status {
     // SAFETY: the caller's component and state, and an array as long as announced.
     unsafe {
-        call(c, &order::DESERIALIZE_FMU_STATE, |_| {
+        call(c, order::DESERIALIZE_FMU_STATE, |_| {
             let bytes = array(serializedState.cast::<u8>(), size, "serializedState")?;
             Snapshot::deserialize(object(FMUstate, "FMUstate")?, bytes)
         })

@@ -3,7 +3,7 @@
 use super::abi::*;
 use super::component::{array, array_mut, call, component, object};
 use super::order::{self, Function};
-use super::variables::real;
+use super::variables::any_real;
 use crate::fault::Fault;
 
 /// Moves the contact over a step with the indentation rate held; complete when it returns.
@@ -35,9 +35,9 @@ pub unsafe extern "C" fn fmi2DoStep(
 unsafe fn do_any_step(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        call(c, &order::DO_STEP, |component| {
+        call(c, order::DO_STEP, |component| {
             component.instance.do_step(time, step)?;
-            component.warn_of_guard(&order::DO_STEP);
+            component.warn_of_guard(order::DO_STEP);
             Ok(())
         })
     }
@@ -47,7 +47,7 @@ unsafe fn do_any_step(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
 ///
 /// # Safety
 /// The caller's component.
-unsafe fn unsupported(c: fmi2Component, function: &'static Function) -> fmi2Status {
+unsafe fn unsupported(c: fmi2Component, function: Function) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe { call(c, function, |_| Err(Fault::Unsupported)) }
 }
@@ -56,7 +56,7 @@ unsafe fn unsupported(c: fmi2Component, function: &'static Function) -> fmi2Stat
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { unsupported(c, &order::CANCEL_STEP) }
+    unsafe { unsupported(c, order::CANCEL_STEP) }
 }
 
 /// Sets derivatives of inputs for the next step, after the inputs themselves. If one is refused none is set.
@@ -70,16 +70,16 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        call(c, &order::SET_REAL_INPUT_DERIVATIVES, |component| {
+        call(c, order::SET_REAL_INPUT_DERIVATIVES, |component| {
             let references = array(vr, nvr, "vr")?;
             let orders = array(order, nvr, "order")?;
             let values = array(value, nvr, "value")?;
             let all = || references.iter().zip(orders).zip(values);
             for ((&reference, &order), &value) in all() {
-                component.instance.check_input_derivative(real(reference)?, order, value)?;
+                component.instance.check_input_derivative(any_real(reference)?, order, value)?;
             }
             for ((&reference, &order), &value) in all() {
-                component.instance.set_input_derivative(real(reference)?.1, order, value);
+                component.instance.set_input_derivative(any_real(reference)?.1, order, value);
             }
             Ok(())
         })
@@ -97,12 +97,12 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        call(c, &order::GET_REAL_OUTPUT_DERIVATIVES, |component| {
+        call(c, order::GET_REAL_OUTPUT_DERIVATIVES, |component| {
             let references = array(vr, nvr, "vr")?;
             let orders = array(order, nvr, "order")?;
             let values = array_mut(value, nvr, "value")?;
             for ((value, &reference), &order) in values.iter_mut().zip(references).zip(orders) {
-                *value = component.instance.output_derivative(real(reference)?, order)?;
+                *value = component.instance.output_derivative(any_real(reference)?, order)?;
             }
             Ok(())
         })
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 ) -> fmi2Status {
     let _ = (vUnknown_ref, nUnknown, vKnown_ref, nKnown, dvKnown, dvUnknown);
     // SAFETY: the caller's component.
-    unsafe { unsupported(c, &order::GET_DIRECTIONAL_DERIVATIVE) }
+    unsafe { unsupported(c, order::GET_DIRECTIONAL_DERIVATIVE) }
 }
 
 /// Writes `answer` for the status `kind`, if `kind` is the one that there is an answer to.
@@ -131,7 +131,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 /// The caller's component and pointer.
 unsafe fn status<T: Copy>(
     c: fmi2Component,
-    function: &'static Function,
+    function: Function,
     value: *mut T,
     answer: impl FnOnce(&crate::instance::Instance) -> Option<T>,
 ) -> fmi2Status {
@@ -149,7 +149,7 @@ unsafe fn status<T: Copy>(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, &order::GET_STATUS, value, |_| (s == fmi2DoStepStatus).then_some(fmi2OK)) }
+    unsafe { status(c, order::GET_STATUS, value, |_| (s == fmi2DoStepStatus).then_some(fmi2OK)) }
 }
 
 /// For fmi2LastSuccessfulTime: the end of the last step.
@@ -157,7 +157,7 @@ pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, valu
 pub unsafe extern "C" fn fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
     unsafe {
-        status(c, &order::GET_REAL_STATUS, value, |instance| (s == fmi2LastSuccessfulTime).then_some(instance.time()))
+        status(c, order::GET_REAL_STATUS, value, |instance| (s == fmi2LastSuccessfulTime).then_some(instance.time()))
     }
 }
 
@@ -170,7 +170,7 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(
 ) -> fmi2Status {
     let _ = s;
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, &order::GET_INTEGER_STATUS, value, |_| None) }
+    unsafe { status(c, order::GET_INTEGER_STATUS, value, |_| None) }
 }
 
 /// For fmi2Terminated: false, since the unit never wants to end by itself.
@@ -181,7 +181,7 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(
     value: *mut fmi2Boolean,
 ) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, &order::GET_BOOLEAN_STATUS, value, |_| (s == fmi2Terminated).then_some(fmi2False)) }
+    unsafe { status(c, order::GET_BOOLEAN_STATUS, value, |_| (s == fmi2Terminated).then_some(fmi2False)) }
 }
 
 /// There is no status of this type: no step is ever pending.
@@ -193,5 +193,5 @@ pub unsafe extern "C" fn fmi2GetStringStatus(
 ) -> fmi2Status {
     let _ = s;
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, &order::GET_STRING_STATUS, value, |_| None) }
+    unsafe { status(c, order::GET_STRING_STATUS, value, |_| None) }
 }

@@ -35,8 +35,9 @@ impl Text {
         self
     }
 
+    /// Appends `byte`, if it fits.
     #[inline(never)]
-    fn byte(&mut self, byte: u8) {
+    pub(super) fn byte(&mut self, byte: u8) -> &mut Text {
         // the last byte stays 0
         if self.length < CAPACITY - 1
             && let Some(slot) = self.bytes.get_mut(self.length)
@@ -44,6 +45,7 @@ impl Text {
             *slot = byte;
             self.length += 1;
         }
+        self
     }
 
     /// Appends `value` in decimal.

@@ -7,9 +7,15 @@ use crate::fault::Fault;
 use crate::scene;
 use crate::variable::Real;
 
-/// The Real variable with this reference.
-#[inline]
-pub(super) fn real(reference: fmi2ValueReference) -> Result<(Real, usize), Fault> {
+/// [`real`] where it needn't be quick.
+#[inline(never)]
+pub(super) fn any_real(reference: fmi2ValueReference) -> Result<(Real, usize), Fault> {
+    real(reference)
+}
+
+/// The Real variable with this reference. Inlined, so that what isn't among them is left out of what follows.
+#[inline(always)]
+fn real(reference: fmi2ValueReference) -> Result<(Real, usize), Fault> {
     scene::real(reference).ok_or(Fault::UnknownReference { kind: "Real", reference })
 }
 
@@ -31,8 +37,13 @@ fn contact_of(kind: u32, reference: fmi2ValueReference) -> Option<usize> {
 /// A pointer to references that isn't null points to as many as announced.
 #[inline(always)]
 unsafe fn only_one(kind: u32, vr: *const fmi2ValueReference, nvr: usize) -> Option<usize> {
+    if nvr != 1 {
+        return None;
+    }
+    // SAFETY: nothing is done; but the compiler can't make one test of the two, which would take two instructions more.
+    unsafe { core::arch::asm!("", options(nomem, nostack, preserves_flags)) };
     // SAFETY: as the caller promises.
-    unsafe { if nvr == 1 && !vr.is_null() { contact_of(kind, *vr) } else { None } }
+    contact_of(kind, *unsafe { vr.as_ref() }?)
 }
 
 /// The first contact of those whose variables of this `kind` have these references, one after the other.
@@ -80,7 +91,7 @@ unsafe fn get_any_real(
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        call(c, &order::GET_REAL, |component| {
+        call(c, order::GET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
             let values = array_mut(value, nvr, "value")?;
             if let Some(first) = run_of(FORCE, references)
@@ -106,7 +117,7 @@ pub unsafe extern "C" fn fmi2GetInteger(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        call(c, &order::GET_INTEGER, |component| {
+        call(c, order::GET_INTEGER, |component| {
             let references = array(vr, nvr, "vr")?;
             let values = array_mut(value, nvr, "value")?;
             for (value, &reference) in values.iter_mut().zip(references) {
@@ -152,7 +163,7 @@ unsafe fn set_any_real(
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        call(c, &order::SET_REAL, |component| {
+        call(c, order::SET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
             let values = array(value, nvr, "value")?;
             if let Some(first) = run_of(RATE, references)
@@ -181,7 +192,7 @@ unsafe fn set_any_real(
 /// The caller's component, and an array of `length` references.
 unsafe fn none_of_type(
     c: fmi2Component,
-    function: &'static Function,
+    function: Function,
     kind: &'static str,
     references: *const fmi2ValueReference,
     length: usize,
@@ -208,7 +219,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, &order::GET_BOOLEAN, "Boolean", vr, nvr) }
+    unsafe { none_of_type(c, order::GET_BOOLEAN, "Boolean", vr, nvr) }
 }
 
 /// There are no String variables.
@@ -221,7 +232,7 @@ pub unsafe extern "C" fn fmi2GetString(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, &order::GET_STRING, "String", vr, nvr) }
+    unsafe { none_of_type(c, order::GET_STRING, "String", vr, nvr) }
 }
 
 /// No Integer variable can be set: they are outputs.
@@ -234,7 +245,7 @@ pub unsafe extern "C" fn fmi2SetInteger(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, &order::SET_INTEGER, "Integer", vr, nvr) }
+    unsafe { none_of_type(c, order::SET_INTEGER, "Integer", vr, nvr) }
 }
 
 /// There are no Boolean variables.
@@ -247,7 +258,7 @@ pub unsafe extern "C" fn fmi2SetBoolean(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, &order::SET_BOOLEAN, "Boolean", vr, nvr) }
+    unsafe { none_of_type(c, order::SET_BOOLEAN, "Boolean", vr, nvr) }
 }
 
 /// There are no String variables.
@@ -260,5 +271,5 @@ pub unsafe extern "C" fn fmi2SetString(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, &order::SET_STRING, "String", vr, nvr) }
+    unsafe { none_of_type(c, order::SET_STRING, "String", vr, nvr) }
 }

@@ -9,9 +9,15 @@ import sys
 
 from unit import Unit
 
-instance = Unit(sys.argv[1]).ready()
+unit = Unit(sys.argv[1])
+# of the first contact, if there are several
+rate_name, force_name = (
+    next(name for name in unit.variables if name.split(".")[-1] == wanted) for wanted in ("indentation_rate", "force")
+)
+instance = unit.ready()
 with open(sys.argv[2]) as history:
     for line in history:
         rate, step = map(float, line.split())
-        instance.step(step, rate)
-        print(struct.pack(">d", instance.get("force")).hex())
+        instance.set(**{rate_name: rate})
+        instance.step(step)
+        print(struct.pack(">d", instance.get(force_name)).hex())

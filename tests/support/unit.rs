@@ -48,6 +48,12 @@ pub fn scenes() -> Vec<PathBuf> {
     scenes
 }
 
+/// Those with one contact, whose variables have plain names.
+pub fn plain_scenes() -> Vec<PathBuf> {
+    let is_plain = |path: &PathBuf| !fs::read_to_string(path).expect("a scene file").contains("[[contact]]");
+    scenes().into_iter().filter(is_plain).collect()
+}
+
 /// A scene file that a test writes itself.
 pub fn write_scene(name: &str, text: &str) -> PathBuf {
     let folder = folder().join("scenes");

@@ -355,13 +355,15 @@ fn add_reals(text: &mut String, entries: &[Entry]) {
         }
 ";
     let parameter = if settable { parameter } else { "" };
+    // if all kinds are Real and whatever comes behind them is a parameter nothing is left
+    let nothing = if settable && arms.lines().count() == kinds { "" } else { "        _ => return None,\n" };
     add(
         text,
         &format!(
             "/// The Real variable with this value reference, and its contact.\n#[inline]\n\
              pub fn real(value_reference: u32) -> Option<(Real, usize)> {{\n    \
              let (kind, contact) = kind_and_contact(value_reference, CONTACTS);\n    \
-             let variable = match kind {{\n{arms}{parameter}        _ => return None,\n    }};\n    \
+             let variable = match kind {{\n{arms}{parameter}{nothing}    }};\n    \
              Some((variable, contact))\n}}\n"
         ),
     );

@@ -9,13 +9,28 @@ const DEEPEST: f64 = 1e6;
 /// Depths that are looked at in each decade.
 const DEPTHS_PER_DECADE: u32 = 200;
 
-/// The ranges of the largest indentation in which the guard acts on the bodies of `scene`, in yield indentations of its law;
-/// none if the scene has no guard.
+/// The ranges of the largest indentation in which the guard acts on the bodies of any contact of `scene`, in yield
+/// indentations of its law; none if the scene has no guard.
 pub fn ranges(scene: &Scene) -> Option<Vec<(f64, f64)>> {
+    let groups = (0..scene.contacts.len()).map(|group| ranges_of(scene, group));
+    let mut all = groups.collect::<Option<Vec<_>>>()?.concat();
+    all.sort_by(|one, other| one.0.total_cmp(&other.0));
+    all.dedup_by(|next, last| {
+        let overlap = next.0 <= last.1;
+        if overlap {
+            last.1 = last.1.max(next.1);
+        }
+        overlap
+    });
+    Some(all)
+}
+
+/// The same for the contacts of `group` alone.
+pub fn ranges_of(scene: &Scene, group: usize) -> Option<Vec<(f64, f64)>> {
     if !scene.passivity_guard {
         return None;
     }
-    let model = scene.model();
+    let model = scene.model_of(group);
     let d_y = model.loading.yield_point(&model.pair).indentation;
     let acts = |x: f64| model.is_held_back_at(x * d_y);
     // between two depths of which the guard acts at the second: the border to some digits

@@ -18,6 +18,7 @@ mod parameters;
 mod plot;
 mod predict;
 mod scene;
+mod summary;
 mod symbols;
 mod table;
 mod truth;
@@ -29,6 +30,7 @@ use serde_json::json;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use summary::Summary;
 
 const DEFAULT_SCENE: &str = include_str!("../../../scenes/steel_ball.toml");
 
@@ -86,47 +88,13 @@ fn export(scene: &Scene, output: Option<&Path>, as_json: bool) -> Result<PathBuf
     let path = output.map_or_else(|| format!("{}.fmu", scene.name).into(), Path::to_path_buf);
     eprintln!("building {} ...", path.display());
     let exported = package::export(scene, &path)?;
-    let entries = interface::entries(scene);
-    let names: Vec<_> = entries.iter().map(|entry| entry.variable.name.as_str()).collect();
-    let left_out: Vec<_> =
-        table::VARIABLES.iter().map(|v| v.name.as_str()).filter(|name| !names.contains(name)).collect();
-    let constants: Vec<_> = scene.parameters.iter().filter(|parameter| !parameter.settable).collect();
+    let summary = Summary::of(scene);
     if as_json {
-        let constants: Vec<_> = constants.iter().map(|constant| constant.name).collect();
-        println!(
-            "{}",
-            json!({
-                "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
-                "imports": exported.imports, "passivity_guard": guard::ranges(scene), "variables": names, "left_out": left_out, "constants": constants,
-            })
-        );
-        return Ok(exported.path);
+        println!("{}", summary.json(&exported));
+    } else {
+        summary.print(&exported);
     }
-    println!("{}", exported.path.display());
-    println!(
-        "  {} bytes, library {} bytes; needs no library, takes {} from the process",
-        exported.size,
-        exported.library_size,
-        exported.imports.join(", ")
-    );
-    println!("  law        {}", law(scene));
-    if let Some(words) = guard::words(scene) {
-        println!("  guard      {words}");
-    }
-    println!("  variables  {}", names.join(", "));
-    for constant in constants {
-        println!("  constant   {} = {:?}", constant.name, constant.value);
-    }
-    println!("  left out   {}", left_out.join(", "));
     Ok(exported.path)
-}
-
-fn law(scene: &Scene) -> String {
-    match (scene.damped, scene.unloading) {
-        (Some((damped, _)), _) => format!("{damped} (the force depends on the rate)"),
-        (None, Some((unloading, _))) => format!("{}, unloading by {unloading}", scene.loading.0),
-        (None, None) => format!("{} (elastic)", scene.loading.0),
-    }
 }
 
 fn check(path: &Path, as_json: bool) -> Result<bool, Box<dyn Error>> {

@@ -127,11 +127,8 @@ libm = {{ version = "={}", default-features = false, features = ["arch"] }}
     )
 }
 
-/// How the library is compiled: as small as it can be, since the few lines of a plain step are the same in any case.
-///
-/// Given on the command line, where nothing in the user's configuration stands before it.
-const PROFILE: [&str; 7] = [
-    "profile.release.opt-level='s'",
+/// How the library is compiled, given on the command line, where nothing in the user's configuration stands before it.
+const PROFILE: [&str; 6] = [
     "profile.release.lto='fat'",
     "profile.release.codegen-units=1",
     "profile.release.panic='abort'",
@@ -139,6 +136,19 @@ const PROFILE: [&str; 7] = [
     "profile.release.debug=false",
     "profile.release.overflow-checks=false",
 ];
+
+/// Contacts from which on their loops are worth being fast instead of small.
+const MANY_CONTACTS: usize = 16;
+
+/// As small as it can be, since the few lines of a plain step are the same in any case; or, for many contacts, with loops that
+/// work on several at once.
+fn optimization(scene: &Scene) -> &'static str {
+    if scene.contact_count() < MANY_CONTACTS { "profile.release.opt-level='s'" } else { "profile.release.opt-level=3" }
+}
+
+/// Leaves out what unwinding would need, and the compiler's name. Nothing unwinds through a library that cannot panic.
+const LINKER_SCRIPT: (&str, &str) =
+    ("unit.ld", "SECTIONS { /DISCARD/ : { *(.eh_frame) *(.comment) } } INSERT AFTER .text;\n");
 
 #[derive(Deserialize)]
 struct LockFile {
@@ -176,7 +186,7 @@ fn link_arguments() -> &'static [&'static str] {
         "linux" => &[
             "-Clink-arg=-nostartfiles",
             "-Clink-arg=-nodefaultlibs",
-            "-Clink-arg=-Wl,-z,now,-Bsymbolic,--build-id=none,--hash-style=gnu",
+            "-Clink-arg=-Wl,-z,now,-Bsymbolic,--build-id=none,--hash-style=gnu,--no-eh-frame-hdr,-T,unit.ld",
         ],
         "windows" => &["-Clink-arg=/NOENTRY", "-Clink-arg=/DEBUG:NONE", "-Clink-arg=/Brepro"],
         _ => &[],
@@ -202,7 +212,8 @@ fn build(scene: &Scene, constants: &str, guid: &str) -> Result<Vec<u8>, ExportEr
     let folder = tempfile::Builder::new().prefix("brinell-").tempdir();
     let folder = folder.map_err(|source| ExportError::File { path: env::temp_dir(), source })?;
     let root = folder.path();
-    let own = [("src/scene.rs", constants), ("Cargo.toml", &manifest(guid)), ("Cargo.lock", &lock_file(guid))];
+    let (manifest, lock_file) = (manifest(guid), lock_file(guid));
+    let own = [("src/scene.rs", constants), ("Cargo.toml", &manifest), ("Cargo.lock", &lock_file), LINKER_SCRIPT];
     for (name, text) in LIBRARY_SOURCE.iter().copied().chain(own) {
         write_file(&root.join(name), text.as_bytes())?;
     }
@@ -210,7 +221,8 @@ fn build(scene: &Scene, constants: &str, guid: &str) -> Result<Vec<u8>, ExportEr
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
     command.current_dir(root).env("CARGO_TARGET_DIR", &cache.folder);
-    command.args(PROFILE.iter().flat_map(|setting| ["--config", setting]));
+    let settings = [optimization(scene)].into_iter().chain(PROFILE);
+    command.args(settings.flat_map(|setting| ["--config", setting]));
     command.args(["rustc", "--release", "--lib", "--locked", "--message-format=json", "--"]).args(link_arguments());
     isolate(&mut command);
     let output = command.output().map_err(ExportError::NoCargo)?;

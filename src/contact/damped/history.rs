@@ -173,6 +173,11 @@ impl<D: Damped + Copy> History<D> {
         if force > 0.0 { force } else { 0.0 }
     }
 
+    /// The force with `rate` [m/s], [N].
+    pub fn plain_force(&self, rate: f64, _squares: bool) -> f64 {
+        self.force_at_rate(rate)
+    }
+
     /// dF/d(indentation) with `rate` held [N/m]; zero where there is no force.
     pub fn stiffness_at_rate(&self, rate: f64) -> f64 {
         let indentation = self.indentation.total();
@@ -292,6 +297,12 @@ impl<D: Damped + Copy> History<D> {
     /// as done.
     pub fn work(&self, model: &Model<D>) -> f64 {
         self.elastic_energy(model) + self.dissipated_energy(model)
+    }
+
+    /// Makes this history the same as `other`.
+    #[inline(always)]
+    pub fn copy_from(&mut self, other: &History<D>) {
+        *self = *other;
     }
 
     /// The history as words, to be stored.

@@ -37,6 +37,9 @@ pub struct Model<D> {
 }
 
 impl<D> Model<D> {
+    /// There are no branches here that could be quadratic.
+    pub const SQUARES: bool = false;
+
     /// There is no passivity guard here: what these laws give back is less than what they took.
     pub fn is_held_back_at(&self, _max_indentation: f64) -> bool {
         false

@@ -21,6 +21,10 @@ pub(super) fn segment(pair: &Pair, upper: f64) -> Segment {
 }
 
 impl Loading for Hertz {
+    fn can_yield(&self) -> bool {
+        false
+    }
+
     fn yield_point(&self, _pair: &Pair) -> YieldPoint {
         YieldPoint { indentation: f64::INFINITY, force: f64::INFINITY }
     }

@@ -47,6 +47,12 @@ use super::segment::Segment;
 /// All indentations are in m and not negative. The curve begins at zero indentation with Hertz's law; only [`WaltonBraun`]
 /// and [`Luding`] yield there.
 pub trait Loading {
+    /// Whether the law yields at all. Of a unit whose law doesn't nothing plastic is compiled: the compiler can't see that
+    /// no indentation is above an infinite one.
+    fn can_yield(&self) -> bool {
+        true
+    }
+
     /// The end of the elastic part; infinite if the law never yields.
     fn yield_point(&self, pair: &Pair) -> YieldPoint;
 
@@ -191,6 +197,10 @@ impl AnyLoading {
 impl Loading for AnyLoading {
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         self.law().yield_point(pair)
+    }
+
+    fn can_yield(&self) -> bool {
+        self.law().can_yield()
     }
 
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {

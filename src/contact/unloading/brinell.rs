@@ -41,6 +41,8 @@ impl Brinell {
 }
 
 impl Unloading for Brinell {
+    const SQUARES: bool = true;
+
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         let shape = self.shape(pair, peak);
         let recovery = (3.0 - shape) * peak.force / (4.0 * pair.modulus * peak.contact_radius);

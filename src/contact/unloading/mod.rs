@@ -54,6 +54,9 @@ pub trait Unloading {
     /// [`Unloading::work`] say the rest.
     const SEGMENTED: bool = true;
 
+    /// Whether a segment can have a quadratic term.
+    const SQUARES: bool = false;
+
     /// Whether the law asks for the work of the loading, which may be an integral.
     fn needs_work(&self) -> bool {
         false
@@ -184,6 +187,7 @@ impl AnyUnloading {
 impl Unloading for AnyUnloading {
     // some are, some aren't; of those that are, the tangent and the work are the path's own
     const SEGMENTED: bool = false;
+    const SQUARES: bool = true;
 
     fn needs_work(&self) -> bool {
         match self {

@@ -16,7 +16,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let import: Fmi2Import = fmi::import::from_path(unit)?;
     let reference = |name: &str| {
         let variables = &import.model_description().model_variables.variables;
-        let found = variables.iter().find(|variable| variable.name == name);
+        // of the first contact, if there are several
+        let found = variables.iter().find(|variable| variable.name.rsplit('.').next() == Some(name));
         found.map(|variable| variable.value_reference).ok_or(format!("{unit} has no variable {name}"))
     };
     let (rate, force) = (reference("indentation_rate")?, reference("force")?);

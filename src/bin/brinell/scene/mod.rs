@@ -176,7 +176,6 @@ impl Scene {
 
 impl Group {
     /// How many contacts there are in the group.
-    #[expect(clippy::len_without_is_empty, reason = "no group is empty")]
     pub fn len(&self) -> usize {
         self.count.unwrap_or(1)
     }

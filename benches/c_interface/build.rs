@@ -1,0 +1,82 @@
+//! The units to compare: exported by the program, and compiled from C.
+
+use std::ffi::CString;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A unit that the program has exported.
+pub struct Exported {
+    pub library: PathBuf,
+    pub guid: CString,
+    /// Size of the archive [bytes].
+    pub archive: u64,
+    /// Size of the model description [bytes].
+    pub xml: u64,
+    /// From calling the program to its end, compiling included.
+    pub time: Duration,
+}
+
+/// Exports `scene` and unpacks it.
+///
+/// # Errors
+/// What the program says if it refuses the scene.
+pub fn export(scene: &Path, folder: &Path) -> Result<Exported, String> {
+    let name = scene.file_stem().expect("a scene has a name");
+    let folder = folder.join(name);
+    fs::create_dir_all(&folder).expect("the folder can be written to");
+    let unit = folder.join(name).with_extension("fmu");
+    let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    brinell.arg("export").arg(scene).arg("-o").arg(&unit).arg("--json");
+    brinell.env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"));
+    let start = Instant::now();
+    let output = brinell.output().unwrap_or_else(|error| panic!("{brinell:?}: {error}"));
+    let time = start.elapsed();
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+    }
+    let exported: serde_json::Value = serde_json::from_slice(&output.stdout).expect("the program prints JSON");
+    let guid = CString::new(exported["guid"].as_str().expect("a unit has a GUID")).expect("a GUID is plain text");
+    let archive = fs::File::open(&unit).expect("the unit was written");
+    zip::ZipArchive::new(archive).expect("it is a zip").extract(&folder).expect("it can be unpacked");
+    let platform = only_one_in(&folder.join("binaries"));
+    Ok(Exported {
+        library: only_one_in(&platform),
+        guid,
+        archive: size(&unit),
+        xml: size(&folder.join("modelDescription.xml")),
+        time,
+    })
+}
+
+fn only_one_in(folder: &Path) -> PathBuf {
+    fs::read_dir(folder).expect("a unit has a binary").next().expect("of one platform").expect("to be read").path()
+}
+
+/// Compiles `units/<name>.c` for so many contacts with the GUID of `exported`; the path of the library.
+pub fn compile(name: &str, contacts: usize, exported: &Exported, folder: &Path) -> PathBuf {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/units").join(name).with_extension("c");
+    let library = folder.join(format!("{name}_{contacts}.so"));
+    let mut cc = Command::new("cc");
+    // square roots need no errno: without that option each carries a branch to the library's function
+    cc.arg(format!("-DUNIT_GUID=\"{}\"", exported.guid.to_str().expect("a GUID is plain text")));
+    cc.arg(format!("-DCONTACTS={contacts}"));
+    cc.args(["-O3", "-shared", "-fPIC", "-fno-math-errno", "-o"]).arg(&library).arg(source).arg("-lm");
+    let output = cc.stderr(Stdio::inherit()).output().unwrap_or_else(|error| panic!("{cc:?}: {error}"));
+    assert!(output.status.success(), "{cc:?} failed");
+    library
+}
+
+/// Size of a file [bytes].
+pub fn size(file: &Path) -> u64 {
+    fs::metadata(file).expect("the file was written").len()
+}
+
+/// Size of a library without its symbol table [bytes]; `None` where there is no `strip`.
+pub fn stripped_size(library: &Path, folder: &Path) -> Option<u64> {
+    let stripped = folder.join("stripped");
+    let mut strip = Command::new("strip");
+    let done = strip.arg("-o").arg(&stripped).arg(library).status().is_ok_and(|status| status.success());
+    done.then(|| size(&stripped))
+}

@@ -1,0 +1,35 @@
+//! Memory in use, as the C library counts it.
+
+/// What glibc's `mallinfo2` gives [bytes], in the order of `malloc.h`.
+#[cfg(unix)]
+#[repr(C)]
+struct Info {
+    arena: usize,
+    free_chunks: usize,
+    free_fast_chunks: usize,
+    mapped_chunks: usize,
+    mapped: usize,
+    largest: usize,
+    free_fast: usize,
+    in_use: usize,
+    free: usize,
+    releasable: usize,
+}
+
+/// What malloc has given out [bytes], with its own part of every block; `None` without glibc 2.33 or newer.
+#[cfg(unix)]
+pub fn in_use() -> Option<usize> {
+    use libloading::os::unix::Library;
+    // SAFETY: the type is that of glibc's header.
+    let info = unsafe {
+        let mallinfo = Library::this().get::<unsafe extern "C" fn() -> Info>(c"mallinfo2").ok()?;
+        mallinfo()
+    };
+    Some(info.in_use + info.mapped)
+}
+
+/// There is no such count here.
+#[cfg(not(unix))]
+pub fn in_use() -> Option<usize> {
+    None
+}

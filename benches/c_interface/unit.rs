@@ -1,0 +1,203 @@
+//! A unit's library, loaded as an importer loads it.
+
+use libloading::Library;
+use std::ffi::{CStr, CString, c_char, c_int, c_uint, c_void};
+use std::path::Path;
+use std::ptr::{null, null_mut};
+
+/// Reference of the input of the first contact.
+pub const INPUT: c_uint = 0;
+
+pub type State = *mut c_void;
+pub type Status = c_int;
+type Component = *mut c_void;
+
+/// The importer's functions: none of the units needs any.
+#[repr(C)]
+struct Callbacks {
+    functions: [*const c_void; 4],
+    environment: *mut c_void,
+}
+
+/// Copied function pointers, as an importer has them in a table.
+struct Functions {
+    instantiate: unsafe extern "C" fn(
+        *const c_char,
+        c_int,
+        *const c_char,
+        *const c_char,
+        *const Callbacks,
+        c_int,
+        c_int,
+    ) -> Component,
+    free: unsafe extern "C" fn(Component),
+    setup_experiment: unsafe extern "C" fn(Component, c_int, f64, f64, c_int, f64) -> Status,
+    enter_initialization: unsafe extern "C" fn(Component) -> Status,
+    exit_initialization: unsafe extern "C" fn(Component) -> Status,
+    terminate: unsafe extern "C" fn(Component) -> Status,
+    set_real: unsafe extern "C" fn(Component, *const c_uint, usize, *const f64) -> Status,
+    get_real: unsafe extern "C" fn(Component, *const c_uint, usize, *mut f64) -> Status,
+    do_step: unsafe extern "C" fn(Component, f64, f64, c_int) -> Status,
+    get_state: unsafe extern "C" fn(Component, *mut State) -> Status,
+    set_state: unsafe extern "C" fn(Component, State) -> Status,
+    free_state: unsafe extern "C" fn(Component, *mut State) -> Status,
+}
+
+impl Functions {
+    fn of(library: &Library) -> Functions {
+        /// # Safety
+        /// `T` is the type of the function with this name.
+        unsafe fn get<T: Copy>(library: &Library, name: &CStr) -> T {
+            // SAFETY: as the caller promises.
+            unsafe { *library.get(name).unwrap_or_else(|error| panic!("{error}")) }
+        }
+        // SAFETY: the types are those of the standard.
+        unsafe {
+            Functions {
+                instantiate: get(library, c"fmi2Instantiate"),
+                free: get(library, c"fmi2FreeInstance"),
+                setup_experiment: get(library, c"fmi2SetupExperiment"),
+                enter_initialization: get(library, c"fmi2EnterInitializationMode"),
+                exit_initialization: get(library, c"fmi2ExitInitializationMode"),
+                terminate: get(library, c"fmi2Terminate"),
+                set_real: get(library, c"fmi2SetReal"),
+                get_real: get(library, c"fmi2GetReal"),
+                do_step: get(library, c"fmi2DoStep"),
+                get_state: get(library, c"fmi2GetFMUstate"),
+                set_state: get(library, c"fmi2SetFMUstate"),
+                free_state: get(library, c"fmi2FreeFMUstate"),
+            }
+        }
+    }
+}
+
+/// A unit whose library is open.
+pub struct Unit {
+    functions: Functions,
+    guid: CString,
+    _library: Library,
+}
+
+impl Unit {
+    pub fn open(library: &Path, guid: &CStr) -> Unit {
+        // SAFETY: the libraries built here run no code when they are loaded.
+        let open = unsafe { Library::new(library) }.unwrap_or_else(|error| panic!("{}: {error}", library.display()));
+        Unit { functions: Functions::of(&open), guid: guid.to_owned(), _library: open }
+    }
+
+    /// An instance that is ready for its first step.
+    pub fn instance(&self) -> Instance<'_> {
+        const CO_SIMULATION: c_int = 1;
+        let functions = &self.functions;
+        let (name, guid) = (c"bench".as_ptr(), self.guid.as_ptr());
+        let callbacks = Callbacks { functions: [null(); 4], environment: null_mut() };
+        // SAFETY: strings end with 0, and callbacks are copied by the unit.
+        let component = unsafe { (functions.instantiate)(name, CO_SIMULATION, guid, null(), &callbacks, 0, 0) };
+        assert!(!component.is_null(), "no instance");
+        // SAFETY: a component of this library, in the order of the standard.
+        unsafe {
+            ok((functions.setup_experiment)(component, 0, 0.0, 0.0, 0, 0.0));
+            ok((functions.enter_initialization)(component));
+            ok((functions.exit_initialization)(component));
+        }
+        Instance { functions, component }
+    }
+}
+
+/// An initialized instance of a unit.
+pub struct Instance<'unit> {
+    functions: &'unit Functions,
+    component: Component,
+}
+
+impl Instance<'_> {
+    /// Sets one variable.
+    pub fn set(&self, reference: c_uint, value: f64) -> Status {
+        // SAFETY: the unit's component, and arrays of one element.
+        unsafe { (self.functions.set_real)(self.component, &reference, 1, &value) }
+    }
+
+    /// Reads one variable.
+    pub fn get(&self, reference: c_uint, value: &mut f64) -> Status {
+        // SAFETY: the unit's component, and arrays of one element.
+        unsafe { (self.functions.get_real)(self.component, &reference, 1, value) }
+    }
+
+    /// Sets as many variables as there are.
+    pub fn set_all(&self, references: &[c_uint], values: &[f64]) -> Status {
+        assert_eq!(references.len(), values.len());
+        // SAFETY: the unit's component, and arrays of the same length.
+        unsafe { (self.functions.set_real)(self.component, references.as_ptr(), values.len(), values.as_ptr()) }
+    }
+
+    /// Reads as many variables as there are.
+    pub fn get_all(&self, references: &[c_uint], values: &mut [f64]) -> Status {
+        assert_eq!(references.len(), values.len());
+        // SAFETY: the unit's component, and arrays of the same length.
+        unsafe { (self.functions.get_real)(self.component, references.as_ptr(), values.len(), values.as_mut_ptr()) }
+    }
+
+    pub fn step(&self, time: f64, step: f64) -> Status {
+        // SAFETY: the unit's component.
+        unsafe { (self.functions.do_step)(self.component, time, step, 1) }
+    }
+
+    /// Saves the state over an older one, or into a new one if that is null.
+    pub fn save(&self, state: &mut State) -> Status {
+        // SAFETY: the unit's component, and one of its states or null.
+        unsafe { (self.functions.get_state)(self.component, state) }
+    }
+
+    /// Restores a state, which may be that of another instance of the unit.
+    pub fn restore(&self, state: State) -> Status {
+        // SAFETY: the unit's component and state.
+        unsafe { (self.functions.set_state)(self.component, state) }
+    }
+
+    pub fn free(&self, state: &mut State) {
+        // SAFETY: the unit's component and state, which nobody uses afterwards.
+        ok(unsafe { (self.functions.free_state)(self.component, state) });
+    }
+}
+
+impl Drop for Instance<'_> {
+    fn drop(&mut self) {
+        // SAFETY: the unit's component, which nobody uses afterwards.
+        unsafe {
+            ok((self.functions.terminate)(self.component));
+            (self.functions.free)(self.component);
+        }
+    }
+}
+
+/// Several instances of a unit, each with an untouched surface to begin with, to which all can be brought back.
+pub struct Fleet<'unit> {
+    pub instances: Vec<Instance<'unit>>,
+    untouched: State,
+}
+
+impl<'unit> Fleet<'unit> {
+    pub fn of(unit: &'unit Unit, size: usize) -> Fleet<'unit> {
+        let instances: Vec<_> = (0..size).map(|_| unit.instance()).collect();
+        let mut untouched = null_mut();
+        ok(instances[0].save(&mut untouched));
+        Fleet { instances, untouched }
+    }
+
+    pub fn restore(&self) {
+        for instance in &self.instances {
+            ok(instance.restore(self.untouched));
+        }
+    }
+}
+
+impl Drop for Fleet<'_> {
+    fn drop(&mut self) {
+        self.instances[0].free(&mut self.untouched);
+    }
+}
+
+#[track_caller]
+pub fn ok(status: Status) {
+    assert_eq!(status, 0, "a call was refused");
+}

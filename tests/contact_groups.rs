@@ -1,0 +1,129 @@
+//! Units with several contacts: what export says of them, and how they are checked.
+
+#[path = "support/command.rs"]
+mod command;
+
+use command::{empty_folder, run};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The beginning of a scene, and its impact.
+const STEEL: &str = "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
+const IMPACT: &str = "[impact]\nmass = 4e-3\nspeed = 1.0\n";
+
+/// What a scene exports and how its check went.
+#[track_caller]
+fn exported(scene: &Path) -> (Value, Value) {
+    let folder = empty_folder();
+    let scene = scene.to_str().unwrap();
+    let export = run(folder.path(), ["export", scene, "-o", "unit.fmu", "--json"]).with_status(0).json();
+    let check = run(folder.path(), ["check", "unit.fmu", "--json"]).with_status(0).json();
+    (export, check)
+}
+
+fn scene(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml")
+}
+
+#[test]
+fn every_group_is_told_with_what_it_has_of_its_own() {
+    let (export, _) = exported(&scene("many_contacts"));
+    let edge = json!({ "impactor.radius": 3e-3, "impactor.youngs_modulus": 4e11, "impactor.poissons_ratio": 0.29 });
+    assert_eq!(
+        export["contacts"],
+        json!([
+            { "name": "bead", "count": 1000, "own": {}, "passivity_guard": null },
+            { "name": "edge", "count": null, "own": edge, "passivity_guard": null },
+        ])
+    );
+    let variables = ["bead[1..1000].indentation_rate", "edge.indentation_rate", "bead[1..1000].force", "edge.force"];
+    assert_eq!(export["variables"], json!([&variables[..], &["target.yield_strength"]].concat()));
+    assert_eq!(export["variable_count"], 2 * 1001 + 1);
+    let constants = export["constants"].as_array().unwrap();
+    for name in ["impactor.radius", "edge.impactor.radius", "initial_gap"] {
+        assert!(constants.contains(&json!(name)), "no {name} in {constants:?}");
+    }
+}
+
+#[test]
+fn a_unit_with_many_contacts_is_told_in_few_lines() {
+    let folder = empty_folder();
+    let told = run(folder.path(), ["export", scene("many_contacts").to_str().unwrap()]).with_status(0).out;
+    assert!(told.lines().count() < 30 && told.len() < 3000, "{told}");
+    for part in ["bead[1..1000]", "1000  as the scene", "impactor.radius = 0.003", "2003: "] {
+        assert!(told.contains(part), "nothing of {part:?} in {told}");
+    }
+}
+
+#[test]
+fn the_impact_meets_the_first_contact_of_every_group() {
+    let (export, check) = exported(&scene("many_contacts"));
+    assert_eq!(check["passed"], true, "{check}");
+    assert_eq!(check["variables"], export["variable_count"]);
+    assert!(check.get("rows").is_none(), "the rows belong to the contacts: {check}");
+    let contacts = check["contacts"].as_array().unwrap();
+    let names: Vec<_> =
+        contacts.iter().map(|contact| (contact["contact"].as_str().unwrap(), &contact["count"])).collect();
+    assert_eq!(names, [("bead[1]", &json!(1000)), ("edge", &Value::Null)]);
+    assert!(contacts.iter().all(|contact| contact["rows"].as_array().unwrap().len() == 5), "{check}");
+}
+
+/// Each with its own bodies: the largest force is that of the plain scene with the numbers of the contact.
+#[test]
+fn the_contacts_of_a_unit_have_their_own_bodies() {
+    let (_, check) = exported(&scene("two_contacts"));
+    assert_eq!(check["passed"], true, "{check}");
+    let ball = "[impactor]\nradius = 5e-3\nyoungs_modulus = 210e9\npoissons_ratio = 0.3\n[target]\nmaterial = ";
+    let impact = "[impact]\nmass = 4.11e-3\nspeed = 1.0\n";
+    let folder = empty_folder();
+    for (index, material) in ["mild steel", "aluminium 6061-T6"].iter().enumerate() {
+        fs::write(folder.path().join("plain.toml"), format!("name = \"plain\"\n{ball}\"{material}\"\n{impact}"))
+            .unwrap();
+        let plain = run(folder.path(), ["predict", "plain.toml", "--json"]).with_status(0).json();
+        let row = &check["contacts"][index]["rows"][0];
+        assert_eq!(row["predicted"], plain["laws"][0]["largest_force"], "{material}");
+        let simulated = row["simulated"].as_f64().unwrap() / row["predicted"].as_f64().unwrap();
+        assert!((simulated - 1.0).abs() < 1e-6, "{check}");
+    }
+    assert_ne!(check["contacts"][0]["rows"], check["contacts"][1]["rows"]);
+}
+
+/// A gap that can't be set is crossed first; a contact that starts pressed in stays as it is.
+#[test]
+fn contacts_with_constant_gaps_are_checked_too() {
+    let folder = empty_folder();
+    let scene = format!(
+        "{STEEL}[fmu]\nparameters = []\n\
+         [[contact]]\nname = \"near\"\n[[contact]]\nname = \"far\"\ninitial_gap = 1e-3\n\
+         [[contact]]\nname = \"pressed\"\ninitial_gap = -1e-6\n{IMPACT}"
+    );
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let (_, check) = exported(&folder.path().join("scene.toml"));
+    assert_eq!(check["passed"], true, "{check}");
+    let rows = |index: usize| check["contacts"][index]["rows"].as_array().unwrap().len();
+    assert_eq!([rows(0), rows(1), rows(2)], [5, 5, 0], "{check}");
+    assert!(check["contacts"][2]["skipped"].as_str().unwrap().contains("pressed in"), "{check}");
+}
+
+/// The guard acts on each contact's bodies; what is told of the unit covers them all.
+#[test]
+fn a_guarded_unit_tells_where_the_guard_acts_on_each_contact() {
+    let folder = empty_folder();
+    let scene = format!(
+        "{STEEL}[law]\nloading = \"ghaednia\"\nunloading = \"contact-radius\"\n\
+         passivity_guard = true\n[[contact]]\nname = \"soft\"\n[[contact]]\nname = \"hard\"\n\
+         target = {{ yield_strength = 3e9 }}\n{IMPACT}"
+    );
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let (export, check) = exported(&folder.path().join("scene.toml"));
+    assert_eq!(check["passed"], true, "{check}");
+    let ranges =
+        |value: &Value| -> Vec<(f64, f64)> { serde_json::from_value(value["passivity_guard"].clone()).unwrap() };
+    let (all, own) = (ranges(&export), [&export["contacts"][0], &export["contacts"][1]].map(ranges));
+    assert_ne!(own[0], own[1], "the law depends on the bodies");
+    for (from, to) in own.concat() {
+        assert!(all.iter().any(|range| range.0 <= from && to <= range.1), "{from} to {to} is not in {all:?}");
+    }
+    assert!(all.is_sorted() && all.windows(2).all(|pair| pair[0].1 < pair[1].0), "{all:?}");
+}

@@ -1,0 +1,155 @@
+//! A scene without yield strength makes an elastic unit: nothing plastic is in its description, its code, its numbers.
+//!
+//! The same scene with a yield strength is looked at in the same way each time, so that a search that finds nothing at all
+//! is noticed.
+#![cfg(target_os = "linux")]
+
+#[path = "support/command.rs"]
+mod command;
+#[path = "support/unit.rs"]
+mod unit;
+
+use command::{empty_folder, run};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const OUTPUTS: &str = "outputs = [\"indentation\", \"max_indentation\", \"residual_indentation\", \"contact_radius\", \
+                       \"mean_pressure\", \"stiffness\", \"work\", \"elastic_energy\", \"dissipated_energy\", \"regime\"]";
+
+/// A scene with every output, elastic or not.
+fn scene(yields: bool) -> PathBuf {
+    let (name, strength) = if yields { ("plastic", "yield_strength = 3e8") } else { ("elastic", "") };
+    let text = format!(
+        "name = \"{name}\"\n[impactor]\nradius = 5e-3\n[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n\
+         {strength}\n[fmu]\n{OUTPUTS}\n[impact]\nmass = 4e-3\nspeed = 1.0\n"
+    );
+    unit::write_scene(name, &text)
+}
+
+/// The generated constants of the scene.
+fn constants(scene: &Path) -> String {
+    run(empty_folder().path(), ["constants", scene.to_str().unwrap()]).with_status(0).out
+}
+
+fn library(scene: &Path) -> Vec<u8> {
+    fs::read(unit::library(&unit::export(scene))).unwrap()
+}
+
+fn contains(bytes: &[u8], part: &[u8]) -> bool {
+    bytes.windows(part.len()).any(|window| window == part)
+}
+
+#[test]
+fn every_output_of_an_elastic_unit_is_right() {
+    let folder = empty_folder();
+    let elastic = unit::export(&scene(false));
+    let check = run(folder.path(), ["check", elastic.to_str().unwrap(), "--json"]).with_status(0).json();
+    assert_eq!(check["passed"], true, "{check}");
+    assert_eq!(check["rows"][2]["quantity"], "dent");
+    assert_eq!(check["rows"][2]["predicted"], 0.0);
+    assert_eq!(check["rows"][3]["predicted"], 1.0, "restitution");
+}
+
+#[test]
+fn an_elastic_unit_has_no_yield_strength_in_its_description() {
+    let description = |scene: &Path| {
+        let library = unit::library(&unit::export(scene));
+        let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY").to_path_buf();
+        fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library")
+    };
+    assert!(description(&scene(true)).contains("yield_strength"));
+    assert!(!description(&scene(false)).contains("yield"), "{}", description(&scene(false)));
+}
+
+/// A law is its constants: as eight bytes each they are in the library, or they aren't.
+#[test]
+fn an_elastic_unit_has_no_constant_of_a_plastic_law() {
+    let text = constants(&scene(true));
+    let law = text.split("pub const LOADING").nth(1).unwrap().split("};").next().unwrap();
+    let numbers = law.lines().filter_map(|line| line.trim().trim_end_matches(',').split(": ").nth(1)?.parse().ok());
+    let numbers: Vec<f64> = numbers.collect();
+    assert!(numbers.len() >= 5, "the constants of the law are in {law}");
+    let [plastic, elastic] = [true, false].map(|yields| library(&scene(yields)));
+    for number in numbers {
+        let bytes = number.to_le_bytes();
+        assert!(contains(&plastic, &bytes), "{number} is not to be found where it must be");
+        assert!(!contains(&elastic, &bytes), "{number} is in the elastic unit");
+    }
+}
+
+#[test]
+fn an_elastic_unit_is_smaller_by_what_it_leaves_out() {
+    let [plastic, elastic] = [true, false].map(|yields| library(&scene(yields)).len());
+    assert!(elastic + 3000 < plastic, "{elastic} against {plastic} bytes");
+}
+
+/// The library of a scene, compiled as the exporter does it, but with the names of its functions, and of the file that
+/// each piece of its code was written in, inlined or not.
+fn with_names(scene: &Path) -> Vec<u8> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = empty_folder();
+    for part in ["Cargo.toml", "Cargo.lock", "build.rs"] {
+        fs::copy(root.join(part), folder.path().join(part)).unwrap();
+    }
+    // named in the manifest, and not compiled
+    std::os::unix::fs::symlink(root.join("benches"), folder.path().join("benches")).unwrap();
+    copy(&root.join("src"), &folder.path().join("src"));
+    fs::write(folder.path().join("src/scene.rs"), constants(scene)).unwrap();
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("with_names");
+    let settings = ["opt-level='s'", "lto='fat'", "codegen-units=1", "panic='abort'", "debug='line-tables-only'"];
+    let settings = settings.iter().flat_map(|setting| ["--config".into(), format!("profile.release.{setting}")]);
+    let arguments = "rustc --release --lib --locked --no-default-features --features fmu --crate-type cdylib -- \
+                     -Clink-arg=-nostartfiles -Clink-arg=-nodefaultlibs";
+    let output = Command::new(env!("CARGO"))
+        .current_dir(folder.path())
+        .env("CARGO_TARGET_DIR", &target)
+        .env_remove("CARGO_ENCODED_RUSTFLAGS")
+        .env_remove("RUSTFLAGS")
+        .args(settings)
+        .args(arguments.split_whitespace())
+        .output()
+        .expect("cargo runs this test");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    fs::read(target.join("release/libbrinell.so")).expect("the library that was built")
+}
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let path = entry.unwrap().path();
+        let goal = to.join(path.file_name().unwrap());
+        if path.is_dir() { copy(&path, &goal) } else { fs::copy(&path, goal).map(drop).unwrap() }
+    }
+}
+
+/// The files of the laws of one kind, by name, without those that every law needs.
+fn law_files(kind: &str) -> BTreeSet<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/contact").join(kind);
+    let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    names.filter(|name| name.ends_with(".rs") && name != "mod.rs").collect()
+}
+
+/// No line of the program is in the unit that was written for a law that yields, or for the way back from a dent.
+#[test]
+fn an_elastic_unit_has_no_code_of_a_plastic_law() {
+    // one at a time: both are built in the same folder
+    let plastic = with_names(&scene(true));
+    let elastic = with_names(&scene(false));
+    let named = |library: &[u8], files: &BTreeSet<String>| -> BTreeSet<String> {
+        files.iter().filter(|file| contains(library, file.as_bytes())).cloned().collect()
+    };
+    let (loading, unloading) = (law_files("loading"), law_files("unloading"));
+    assert!(named(&plastic, &loading).contains("big_alabo.rs"), "{:?}", named(&plastic, &loading));
+    assert!(named(&plastic, &unloading).contains("contact_radius.rs"), "{:?}", named(&plastic, &unloading));
+    assert_eq!(named(&elastic, &loading), BTreeSet::from(["hertz.rs".to_string()]));
+    assert_eq!(named(&elastic, &unloading), BTreeSet::new());
+    // functions of their own, by their mangled names
+    let names = ["unloading_path", "unloading_segment", "recovered_work", "dissipated_in_dent"];
+    let functions = |library: &[u8]| -> Vec<&str> {
+        names.into_iter().filter(|name| contains(library, format!("{}{name}", name.len()).as_bytes())).collect()
+    };
+    assert_ne!(functions(&plastic), [""; 0], "a search that finds nothing");
+    assert_eq!(functions(&elastic), [""; 0]);
+}
