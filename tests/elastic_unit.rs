@@ -94,7 +94,9 @@ fn with_names(scene: &Path) -> Vec<u8> {
         fs::copy(root.join(part), folder.path().join(part)).unwrap();
     }
     // named in the manifest, and not compiled
-    std::os::unix::fs::symlink(root.join("benches"), folder.path().join("benches")).unwrap();
+    for named in ["benches", "examples"] {
+        std::os::unix::fs::symlink(root.join(named), folder.path().join(named)).unwrap();
+    }
     copy(&root.join("src"), &folder.path().join("src"));
     fs::write(folder.path().join("src/scene.rs"), constants(scene)).unwrap();
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("with_names");
