@@ -260,3 +260,16 @@ fn the_curve_of_a_rate_dependent_law_is_the_course_of_the_impact() {
     close(heat / impact, 1.0 - 0.9 * 0.9, 1e-3);
     close(deepest, 1.323_578e-5, 1e-4);
 }
+
+#[test]
+#[cfg(unix)]
+fn a_reader_that_leaves_early_is_no_fault() {
+    let folder = empty_folder();
+    let mut child = command::brinell(folder.path());
+    child.arg("laws").stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped());
+    let mut child = child.spawn().unwrap();
+    // closed before anything is printed
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(0), ""));
+}
