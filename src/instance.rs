@@ -72,6 +72,8 @@ pub struct Instance {
     limit: f64,
     pairs: [Bodies; scene::GROUPS],
     values: Values,
+    /// A hash of the last two: states with the same one have the same parameters, and needn't copy them.
+    stamp: u64,
     curves: [Curve; CURVES],
     momenta: [Momentum; MOMENTA],
     /// Length of the last step [s], where a force is predicted from it.
@@ -116,6 +118,9 @@ const STOP_TOLERANCE: f64 = 1e-3;
 
 /// A limit before every time [s].
 const NOWHERE: f64 = -f64::MAX;
+
+/// 2^64 over the golden ratio, odd: what hashes are mixed with.
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Room for rounding of a time far from zero, as a fraction of it.
 const TIME_ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -204,6 +209,24 @@ impl Instance {
 
     /// Puts all contacts where they are before any motion; if one can't be there nothing is done.
     fn start(&mut self) -> Result<(), Fault> {
+        let started = self.start_contacts();
+        self.stamp_parameters();
+        started
+    }
+
+    /// Makes the [`Instance::stamp`] that of the parameters and of the bodies that follow from them.
+    #[inline(never)]
+    fn stamp_parameters(&mut self) {
+        let bodies = self.pairs.iter().flat_map(|bodies| [bodies.radius, bodies.modulus]);
+        let mix = |sum: u64, value: f64| {
+            let mixed = (sum ^ value.to_bits()).wrapping_mul(GOLDEN);
+            mixed ^ mixed >> 32
+        };
+        // blank memory has the stamp zero
+        self.stamp = self.values.iter().copied().chain(bodies).fold(GOLDEN, mix) | 1;
+    }
+
+    fn start_contacts(&mut self) -> Result<(), Fault> {
         if scene::GROUPS > 1 {
             for group in 0..scene::GROUPS {
                 start_of(group, &self.values)?;
@@ -699,8 +722,11 @@ impl Instance {
             self.histories.copy_from_slice(&other.histories);
         }
         self.forces.copy_from_slice(&other.forces);
-        self.pairs.copy_from_slice(&other.pairs);
-        self.values.copy_from_slice(&other.values);
+        if self.stamp != other.stamp {
+            self.pairs.copy_from_slice(&other.pairs);
+            self.values.copy_from_slice(&other.values);
+            self.stamp = other.stamp;
+        }
         (self.time, self.stop, self.limit) = (other.time, other.stop, other.limit);
         (self.phase, self.experiment_defined, self.fast) = (other.phase, other.experiment_defined, other.fast);
         self.momenta.copy_from_slice(&other.momenta);
@@ -761,6 +787,7 @@ impl Instance {
         self.fast = false;
         self.restore_contacts(words, &values, true);
         self.values = values;
+        self.stamp_parameters();
         (self.time, self.stop) = (number(2), number(3));
         self.experiment_defined = word(words, 1) & 1 != 0;
         self.curved = word(words, 1) & 2 != 0;

@@ -44,9 +44,19 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, FMUstate: fmi2FMUstat
             component.instance.copy_from(&snapshot.instance);
             return fmi2OK;
         }
-        // what is left is to say why not
-        call(c, order::SET_FMU_STATE, |_| Snapshot::at(FMUstate).map(|_| ()))
+        refuse_state(c, FMUstate)
     }
+}
+
+/// Says why a state can't be restored.
+///
+/// # Safety
+/// The caller's component and state.
+#[cold]
+#[inline(never)]
+unsafe fn refuse_state(c: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { call(c, order::SET_FMU_STATE, |_| Snapshot::at(state).map(|_| ())) }
 }
 
 /// Frees a state and sets the pointer to null; null and a pointer to null are ignored.
