@@ -35,6 +35,17 @@ pub enum Command {
     Predict(PredictArguments),
     /// Draws or tabulates one cycle of loading, unloading and reloading
     Curve(CurveArguments),
+    /// Measures the unit of a scene: error against run time, stability, extreme cases, laws; on one page
+    Report {
+        /// The scene file
+        scene: PathBuf,
+        /// The folder that the page and its data go to [default: NAME_report in the current folder]
+        #[arg(short, long, value_name = "DIR")]
+        output: Option<PathBuf>,
+        /// Fewer steps, and shorter runs
+        #[arg(long)]
+        quick: bool,
+    },
     /// Lists the laws, and measures each: error against finite elements, jumps, energy
     Laws {
         /// Draws the loading curves of all laws over Hertz's force, with finite elements as dots

@@ -192,12 +192,17 @@ unsafe extern "C" fn keep_message(
     }
 }
 
+type SetDerivatives = unsafe extern "C" fn(Component, *const u32, usize, *const c_int, *const f64) -> c_int;
+type GetDerivatives = unsafe extern "C" fn(Component, *const u32, usize, *const c_int, *mut f64) -> c_int;
+
 /// The functions that stepping needs, looked up once.
 struct Functions<'a> {
     get_real: libloading::Symbol<'a, unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> c_int>,
     set_real: libloading::Symbol<'a, unsafe extern "C" fn(Component, *const u32, usize, *const f64) -> c_int>,
     do_step: libloading::Symbol<'a, unsafe extern "C" fn(Component, f64, f64, c_int) -> c_int>,
     simple: HashMap<&'static str, libloading::Symbol<'a, unsafe extern "C" fn(Component) -> c_int>>,
+    set_input_derivatives: libloading::Symbol<'a, SetDerivatives>,
+    output_derivatives: libloading::Symbol<'a, GetDerivatives>,
     setup: libloading::Symbol<'a, unsafe extern "C" fn(Component, c_int, f64, f64, c_int, f64) -> c_int>,
     free: libloading::Symbol<'a, unsafe extern "C" fn(Component)>,
 }
@@ -254,6 +259,8 @@ impl Unit {
                 set_real: self.get("fmi2SetReal")?,
                 do_step: self.get("fmi2DoStep")?,
                 simple: by_name,
+                set_input_derivatives: self.get("fmi2SetRealInputDerivatives")?,
+                output_derivatives: self.get("fmi2GetRealOutputDerivatives")?,
                 setup: self.get("fmi2SetupExperiment")?,
                 free: self.get("fmi2FreeInstance")?,
             };
@@ -323,5 +330,23 @@ impl Instance<'_> {
         // SAFETY: the component is live.
         let status = unsafe { (self.functions.do_step)(self.component, time, step, 1) };
         self.check("fmi2DoStep", status)
+    }
+
+    /// Sets the first and the second derivative of an input, for the next step.
+    pub fn set_input_derivatives(&mut self, reference: u32, values: [f64; 2]) -> Result<(), ImportError> {
+        let references = [reference; 2];
+        let set = &self.functions.set_input_derivatives;
+        // SAFETY: the component is live; two references, orders and values.
+        let status = unsafe { set(self.component, references.as_ptr(), 2, [1, 2].as_ptr(), values.as_ptr()) };
+        self.check("fmi2SetRealInputDerivatives", status)
+    }
+
+    /// Reads the first derivative of an output at the end of the last step.
+    pub fn output_derivative(&mut self, reference: u32) -> Result<f64, ImportError> {
+        let mut value = f64::NAN;
+        // SAFETY: the component is live; one reference, order and value.
+        let status = unsafe { (self.functions.output_derivatives)(self.component, &reference, 1, &1, &mut value) };
+        self.check("fmi2GetRealOutputDerivatives", status)?;
+        Ok(value)
     }
 }

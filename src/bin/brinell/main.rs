@@ -17,6 +17,7 @@ mod package;
 mod parameters;
 mod plot;
 mod predict;
+mod report;
 mod scene;
 mod summary;
 mod symbols;
@@ -81,6 +82,11 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             curve(arguments)?;
             Ok(true)
         }
+        Some(Command::Report { scene, output, quick }) => {
+            let scene = Scene::read(scene)?;
+            let folder = output.clone().unwrap_or_else(|| format!("{}_report", scene.name).into());
+            report(&scene, &folder, *quick, json)
+        }
         Some(Command::Laws { output }) => {
             list_laws(output.as_deref(), json)?;
             Ok(true)
@@ -118,6 +124,17 @@ fn check(path: &Path, as_json: bool) -> Result<bool, Box<dyn Error>> {
         print!("{outcome}");
     }
     Ok(outcome.passed)
+}
+
+fn report(scene: &Scene, folder: &Path, quick: bool, as_json: bool) -> Result<bool, Box<dyn Error>> {
+    let report = report::Report::of(scene, quick)?;
+    let page = report.write_into(folder)?;
+    if as_json {
+        println!("{}", report.json());
+    } else {
+        println!("{}\n{}", report.summary.join("\n"), page.display());
+    }
+    Ok(report.passed())
 }
 
 fn materials(as_json: bool) -> Result<(), Box<dyn Error>> {

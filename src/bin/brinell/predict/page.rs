@@ -37,11 +37,17 @@ pub fn write(scene: &Scene, sweep: &Sweep) -> String {
     page
 }
 
+/// What a page begins with, up to its heading.
+pub fn begin(page: &mut String, title: &str) -> std::fmt::Result {
+    writeln!(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">")?;
+    writeln!(page, "<title>{title}</title>\n<meta name=\"viewport\" content=\"width=device-width\">")?;
+    writeln!(page, "<style>\n{STYLE}\n</style>\n</head>\n<body>")
+}
+
 fn body(page: &mut String, scene: &Scene, sweep: &Sweep) -> std::fmt::Result {
     let name = escape(&scene.name);
-    writeln!(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">")?;
-    writeln!(page, "<title>{name}: impacts</title>\n<meta name=\"viewport\" content=\"width=device-width\">")?;
-    writeln!(page, "<style>\n{STYLE}\n</style>\n</head>\n<body>\n<h1>{name}: impacts over speed</h1>")?;
+    begin(page, &format!("{name}: impacts"))?;
+    writeln!(page, "<h1>{name}: impacts over speed</h1>")?;
     if !scene.description.is_empty() {
         writeln!(page, "<p>{}</p>", escape(&scene.description))?;
     }

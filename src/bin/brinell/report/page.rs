@@ -1,0 +1,34 @@
+//! The report as a page that needs nothing else.
+
+use super::Report;
+use crate::documentation::escape;
+use crate::predict::page::begin;
+use std::fmt::Write;
+
+/// The page of `report`.
+pub fn write(report: &Report) -> String {
+    let mut page = String::new();
+    body(&mut page, report).expect("a String takes everything");
+    page
+}
+
+fn body(page: &mut String, report: &Report) -> std::fmt::Result {
+    let name = escape(&report.name);
+    begin(page, &format!("{name}: report"))?;
+    writeln!(page, "<h1>{name}: step, coupling and law</h1>\n<ul>")?;
+    for sentence in &report.summary {
+        writeln!(page, "<li>{}</li>", escape(sentence))?;
+    }
+    writeln!(page, "</ul>\n<p>Numbers of this page for programs: <a href=\"report.json\">report.json</a></p>")?;
+    for part in &report.parts {
+        writeln!(page, "<h2>{}</h2>\n<p>{}</p>", part.title, part.words)?;
+        if !part.svg.is_empty() {
+            writeln!(page, "<div class=\"panels\">\n{}</div>", part.svg)?;
+        }
+        for table in &part.tables {
+            let file = format!("{}.csv", table.name);
+            writeln!(page, "{}<p class=\"csv\"><a href=\"{file}\">{file}</a>, with all digits</p>", table.html())?;
+        }
+    }
+    writeln!(page, "<p>Brinell {}</p>\n</body>\n</html>", env!("CARGO_PKG_VERSION"))
+}

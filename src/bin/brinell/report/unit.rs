@@ -1,0 +1,135 @@
+//! The unit that a report steps: the scene's first contact, with the outputs that the ways to couple need.
+
+use crate::importer::{Archive, Description, ImportError, Instance};
+use crate::scene::{Group, Parameter, Scene};
+use crate::table::VARIABLES;
+use brinell::contact::impact::Impact;
+
+/// Outputs that a report asks for, whatever the scene shows.
+const OUTPUTS: [&str; 5] =
+    ["indentation", "residual_indentation", "dissipated_energy", "mean_force", "predicted_force"];
+
+/// The first contact of `scene` alone, with every parameter settable; with `mass` [kg] the unit moves the bodies itself.
+pub fn first_contact(scene: &Scene, mass: Option<f64>) -> Scene {
+    let mut parameters: Vec<Parameter> = Vec::new();
+    // in the order of the table, as the parameters of every scene
+    for name in VARIABLES.iter().map(|variable| variable.name.as_str()) {
+        let shared = scene.parameters.iter().find(|parameter| parameter.name == name);
+        let Some(found) = scene.contacts[0].own.iter().find(|own| own.name == name).or(shared) else { continue };
+        parameters.push(Parameter { settable: true, ..found.clone() });
+    }
+    if let (Some(value), None) = (mass, scene.value("effective_mass")) {
+        // it stands before the gap, which every contact has
+        let gap = parameters.iter().position(|parameter| parameter.name == "initial_gap").unwrap_or(parameters.len());
+        parameters.insert(gap, Parameter { name: "effective_mass", value, settable: true });
+    }
+    Scene {
+        name: scene.name.clone(),
+        description: scene.description.clone(),
+        parameters,
+        contacts: vec![Group { name: None, count: None, own: Vec::new(), surface: scene.contacts[0].surface }],
+        outputs: OUTPUTS.map(String::from).to_vec(),
+        loading: scene.loading,
+        unloading: scene.unloading,
+        damped: scene.damped,
+        passivity_guard: scene.passivity_guard,
+        yield_strength: scene.yield_strength,
+        knows_mass: mass.is_some(),
+        impact: Impact { ..scene.impact },
+        impact_is_assumed: scene.impact_is_assumed,
+        text: scene.text.clone(),
+    }
+}
+
+/// A contact that a master steps, with its calls counted.
+pub struct Contact<'a> {
+    instance: Instance<'a>,
+    description: &'a Description,
+    rate: u32,
+    force: u32,
+    mean_force: u32,
+    predicted_force: u32,
+    /// Time of the co-simulation [s].
+    pub time: f64,
+    /// Calls since the start.
+    pub calls: u64,
+}
+
+impl<'a> Contact<'a> {
+    /// A contact of the unit.
+    pub fn new(archive: &'a Archive, unit: &'a crate::importer::Unit) -> Result<Contact<'a>, ImportError> {
+        let description = &archive.description;
+        Ok(Contact {
+            instance: unit.instantiate(&description.guid)?,
+            description,
+            rate: description.real("indentation_rate")?,
+            force: description.real("force")?,
+            mean_force: description.real("mean_force")?,
+            predicted_force: description.real("predicted_force")?,
+            time: 0.0,
+            calls: 0,
+        })
+    }
+
+    /// Back to the start, with these parameters; the others have the values of the scene.
+    pub fn start(&mut self, parameters: &[(&str, f64)]) -> Result<(), ImportError> {
+        self.instance.call("fmi2Reset")?;
+        self.instance.setup_experiment(0.0)?;
+        self.instance.call("fmi2EnterInitializationMode")?;
+        for (name, value) in parameters {
+            self.instance.set_real(self.description.real(name)?, *value)?;
+        }
+        self.instance.call("fmi2ExitInitializationMode")?;
+        (self.time, self.calls) = (0.0, 0);
+        Ok(())
+    }
+
+    /// Sets the closing speed [m/s].
+    pub fn set_rate(&mut self, rate: f64) -> Result<(), ImportError> {
+        self.calls += 1;
+        self.instance.set_real(self.rate, rate)
+    }
+
+    /// Sets how the closing speed changes within the next step [m/s^2], [m/s^3].
+    pub fn set_derivatives(&mut self, derivatives: [f64; 2]) -> Result<(), ImportError> {
+        self.calls += 1;
+        self.instance.set_input_derivatives(self.rate, derivatives)
+    }
+
+    /// Makes a step [s].
+    pub fn step(&mut self, step: f64) -> Result<(), ImportError> {
+        self.calls += 1;
+        self.instance.do_step(self.time, step)?;
+        self.time += step;
+        Ok(())
+    }
+
+    /// The force at the end of the step [N].
+    pub fn force(&mut self) -> Result<f64, ImportError> {
+        self.calls += 1;
+        self.instance.real(self.force)
+    }
+
+    /// How fast the force changes at the end of the step [N/s].
+    pub fn force_slope(&mut self) -> Result<f64, ImportError> {
+        self.calls += 1;
+        self.instance.output_derivative(self.force)
+    }
+
+    /// The mean force over the step [N].
+    pub fn mean_force(&mut self) -> Result<f64, ImportError> {
+        self.calls += 1;
+        self.instance.real(self.mean_force)
+    }
+
+    /// The force that the unit expects at the end of the next step [N].
+    pub fn predicted_force(&mut self) -> Result<f64, ImportError> {
+        self.calls += 1;
+        self.instance.real(self.predicted_force)
+    }
+
+    /// Another output of the unit.
+    pub fn output(&mut self, name: &str) -> Result<f64, ImportError> {
+        self.instance.real(self.description.real(name)?)
+    }
+}
