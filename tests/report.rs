@@ -87,14 +87,19 @@ fn the_page_needs_nothing_else_and_its_data_stand_beside_it() {
     let addresses = page.matches("http").count();
     assert_eq!(addresses, page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
     let expected = [
+        "error-against-calls.svg",
+        "error-against-time.svg",
         "extremes.csv",
+        "force-against-steps.svg",
         "index.html",
         "laws.csv",
+        "laws.svg",
         "limits.csv",
         "orders.csv",
         "precision.csv",
         "report.json",
         "stability.csv",
+        "stability.svg",
     ];
     assert_eq!(contents(&folder), expected);
     for file in expected {

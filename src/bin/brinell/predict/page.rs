@@ -16,15 +16,16 @@ const STYLE: &str = "\
 :root { color-scheme: light dark; }
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 76rem; margin: 0 auto; padding: 1rem; }
 .panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(20rem, 100%), 1fr)); gap: .5rem; }
-figure { margin: 0; } figure svg { width: 100%; height: auto; }
+.panels.wide { grid-template-columns: repeat(auto-fit, minmax(min(30rem, 100%), 1fr)); }
+figure { margin: 0; max-width: 46rem; } figure svg { width: 100%; height: auto; }
 .legend { display: flex; flex-wrap: wrap; gap: 0 1.5rem; list-style: none; padding: 0; }
 .legend i { display: inline-block; width: 1.25rem; margin-right: .4rem; vertical-align: middle; }
-.table { overflow-x: auto; font-size: .9rem; } table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
+.table { overflow: auto; max-height: 30rem; font-size: .9rem; } table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { text-align: right; padding: .2rem .6rem; border-bottom: 1px solid #8886; white-space: nowrap; }
 th { vertical-align: bottom; white-space: normal; } .scene th, .scene td { text-align: left; }
 @media screen and (prefers-color-scheme: dark) { figure svg, .legend i { filter: invert(1) hue-rotate(180deg); } }
 @media print {
-  body { max-width: none; padding: 0; font-size: 9pt; } .csv { display: none; } .table { overflow: visible; font-size: inherit; }
+  body { max-width: none; padding: 0; font-size: 9pt; } .csv { display: none; } .table { overflow: visible; max-height: none; font-size: inherit; }
   .panels { grid-template-columns: repeat(3, 1fr); } h2 { break-after: avoid; } tr, figure { break-inside: avoid; }
   .legend i { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   th, td { padding: .1rem .35rem; }

@@ -51,7 +51,8 @@ pub struct Report {
 pub struct Part {
     pub title: &'static str,
     pub words: String,
-    pub svg: String,
+    /// Pictures by the names of their files.
+    pub pictures: Vec<(&'static str, String)>,
     pub tables: Vec<Table>,
 }
 
@@ -140,6 +141,9 @@ impl Report {
         for table in self.parts.iter().flat_map(|part| &part.tables) {
             write_whole(&folder.join(table.name).with_extension("csv"), table.csv().as_bytes())?;
         }
+        for (name, svg) in self.parts.iter().flat_map(|part| &part.pictures) {
+            write_whole(&folder.join(name).with_extension("svg"), svg.as_bytes())?;
+        }
         write_whole(&folder.join("report.json"), format!("{:#}\n", self.json()).as_bytes())?;
         let page = folder.join("index.html");
         write_whole(&page, page::write(self).as_bytes())?;
@@ -215,10 +219,9 @@ fn two_digits(value: f64) -> String {
     digits(format!("{value:.1e}").parse().expect("a number"))
 }
 
-/// Pictures beside each other.
-fn figures(pictures: &[Picture]) -> String {
-    let figure = |picture: &Picture| format!("<figure>\n{}</figure>\n", picture.svg(520, 360));
-    pictures.iter().map(figure).collect()
+/// The pictures, drawn, by the names of their files.
+fn drawn<const COUNT: usize>(names: [&'static str; COUNT], pictures: [Picture; COUNT]) -> Vec<(&'static str, String)> {
+    names.into_iter().zip(pictures.map(|picture| picture.svg(520, 360))).collect()
 }
 
 fn precision_part(lines: &[precision::Line]) -> Part {
@@ -228,7 +231,7 @@ fn precision_part(lines: &[precision::Line]) -> Part {
                 meet. The largest force is that at the ends of steps, and the time per impact that of this machine. Late \
                 force: all units step at once; leap-frog: the contact first; input derivatives: with mean_force."
             .into(),
-        svg: figures(&precision::pictures(lines)),
+        pictures: drawn(["error-against-time", "error-against-calls", "force-against-steps"], precision::pictures(lines)),
         tables: vec![precision::orders(lines), precision::table(lines)],
     }
 }
@@ -243,7 +246,7 @@ fn stability_part(stability: &stability::Stability) -> Part {
              meet: above 1 it is made by the coupling.",
             digits(stability.stiffness)
         ),
-        svg: figures(&[stability.picture()]),
+        pictures: drawn(["stability"], [stability.picture()]),
         tables: vec![stability.limits(), stability.table()],
     }
 }
@@ -258,7 +261,7 @@ fn extremes_part(cases: &[extremes::Case]) -> Part {
             extremes::TOLERANCE,
             extremes::EXACT
         ),
-        svg: String::new(),
+        pictures: Vec::new(),
         tables: vec![extremes::table(cases)],
     }
 }

@@ -22,8 +22,13 @@ fn body(page: &mut String, report: &Report) -> std::fmt::Result {
     writeln!(page, "</ul>\n<p>Numbers of this page for programs: <a href=\"report.json\">report.json</a></p>")?;
     for part in &report.parts {
         writeln!(page, "<h2>{}</h2>\n<p>{}</p>", part.title, part.words)?;
-        if !part.svg.is_empty() {
-            writeln!(page, "<div class=\"panels\">\n{}</div>", part.svg)?;
+        if !part.pictures.is_empty() {
+            writeln!(page, "<div class=\"panels wide\">")?;
+            for (name, svg) in &part.pictures {
+                let link = format!("<a href=\"{name}.svg\">{name}.svg</a>");
+                writeln!(page, "<figure>\n{svg}<figcaption class=\"csv\">{link}</figcaption></figure>")?;
+            }
+            writeln!(page, "</div>")?;
         }
         for table in &part.tables {
             let file = format!("{}.csv", table.name);

@@ -56,12 +56,12 @@ pub fn part(scene: &Scene) -> Part {
     for reason in left_out {
         words.push_str(&format!(" Left out: {}.", escape(&reason)));
     }
-    let svg = match curve::svg(&choices, deepest, &scene.impact, true) {
-        Ok(svg) => format!("<figure>\n{svg}</figure>\n"),
+    let pictures = match curve::svg(&choices, deepest, &scene.impact, true) {
+        Ok(svg) => vec![("laws", svg)],
         Err(brinell::contact::TooDeep { .. }) => {
             words.push_str(" There is no picture: a law can't be evaluated as deep as that.");
-            String::new()
+            Vec::new()
         }
     };
-    Part { title: "Laws side by side", words, svg, tables: vec![table] }
+    Part { title: "Laws side by side", words, pictures, tables: vec![table] }
 }
