@@ -1,0 +1,371 @@
+//! Co-simulation as safe Rust: phase, time, variables, step, reset, save and load. Nothing here is particular to FMI 2.0.
+
+mod saved;
+mod stepping;
+mod variables;
+
+use crate::contact::motion::{Drive, NoMotion};
+use crate::contact::path::Course;
+use crate::contact::{Body, Pair, Regime, TooDeep};
+use crate::coupling::{CURVE_WORDS, Curve, MOMENTUM_WORDS, Momentum};
+use crate::fault::Fault;
+use crate::scene::{self, History, Model};
+use crate::variable::{Integer, Parameter, Real, Settable};
+
+/// The phases in which an instance can be, as bits: a set of phases is their sum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Phase {
+    /// Memory that isn't an instance yet.
+    Blank = 0,
+    /// Just made, or reset.
+    Instantiated = 1,
+    /// Between entering and leaving Initialization Mode.
+    Initialization = 2,
+    /// Ready for a step.
+    StepComplete = 4,
+    /// Ended by the importer.
+    Terminated = 8,
+    /// A call failed; only reading, resetting and restoring are left.
+    Error = 16,
+}
+
+impl Phase {
+    /// Every phase that an instance can be in.
+    const ALL: [Phase; 5] =
+        [Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
+}
+
+/// The settable parameters of the scene, in the order of [`scene::SETTABLE`].
+pub type Values = [f64; scene::SETTABLE.len()];
+
+/// The start values of the settable parameters.
+const START: Values = {
+    let mut values = [0.0; scene::SETTABLE.len()];
+    let mut index = 0;
+    while index < values.len() {
+        values[index] = scene::SETTABLE[index].start;
+        index += 1;
+    }
+    values
+};
+
+/// How many contacts have their force in memory. One contact computes it when it is asked for, and so do those whose
+/// force follows the rate; of many the step has it at hand.
+const FORCES: usize = if scene::CONTACTS == 1 || History::FOLLOWS_RATE { 0 } else { scene::CONTACTS };
+
+/// How many contacts have a course of their input: all whose history can follow one.
+const CURVES: usize = if History::FOLLOWS_RATE { 0 } else { scene::CONTACTS };
+
+/// How many contacts have a momentum: all, if an output tells it.
+const MOMENTA: usize = if scene::MOMENTUM { scene::CONTACTS } else { 0 };
+
+/// Whether every step is plain that keeps the contact on its branch.
+const PLAIN: bool = scene::FOLLOW.is_none();
+
+/// One instance of the unit: everything that a saved state holds. Memory full of zeros is one too, of no use before it is
+/// [reset](Instance::reset): an instance of many contacts is too large to be moved.
+#[derive(Debug)]
+pub struct Instance {
+    rates: [f64; scene::CONTACTS],
+    histories: [History; scene::CONTACTS],
+    forces: [f64; FORCES],
+    time: f64,
+    stop: f64,
+    /// Where plain steps end [s]: at the stop time while stepping, and nowhere otherwise.
+    limit: f64,
+    pairs: [Bodies; scene::GROUPS],
+    values: Values,
+    /// A hash of the last two: states with the same one have the same parameters, and needn't copy them.
+    stamp: u64,
+    curves: [Curve; CURVES],
+    momenta: [Momentum; MOMENTA],
+    /// Length of the last step [s], where a force is predicted from it.
+    last_step: [f64; scene::PREDICTS as usize],
+    phase: Phase,
+    experiment_defined: bool,
+    /// A derivative of an input is set, or was in the last step: no step is plain then.
+    curved: bool,
+    /// Many contacts move together or not at all. Unless this is set that needs no look ahead: see [`FAST`].
+    fast: bool,
+}
+
+/// What of a pair is worth keeping; the rest are parameters.
+#[derive(Clone, Copy, Debug)]
+struct Bodies {
+    /// Effective radius [m].
+    radius: f64,
+    /// Effective modulus [Pa].
+    modulus: f64,
+}
+
+/// The words of an instance that don't belong to a contact or a parameter.
+const OWN_WORDS: usize = 5;
+
+/// Where the words of a contact begin that are there in some scenes only: behind its rate and its history.
+const CURVE_AT: usize = 1 + History::WORDS;
+const MOMENTUM_AT: usize = CURVE_AT + if CURVES > 0 { CURVE_WORDS } else { 0 };
+
+/// The words of a contact.
+const CONTACT_WORDS: usize = MOMENTUM_AT + if scene::MOMENTUM { MOMENTUM_WORDS } else { 0 };
+
+/// Number of words that hold an instance.
+pub const WORDS: usize = OWN_WORDS + scene::SETTABLE.len() + CONTACT_WORDS * scene::CONTACTS;
+
+/// How far a communication point may be from the end of the last step, in steps. Masters count `t += h` or `start + i h`;
+/// either is within rounding of the last end, and half a step off is a mistake.
+const TIME_TOLERANCE: f64 = 0.1;
+
+/// How far a step may end behind the stop time, in steps: room for the rounding of some thousand sums, far below the
+/// hundredth of a step that would be a mistake.
+const STOP_TOLERANCE: f64 = 1e-3;
+
+/// A limit before every time [s].
+const NOWHERE: f64 = -f64::MAX;
+
+/// 2^64 over the golden ratio, odd: what hashes are mixed with.
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// Room for rounding of a time far from zero, as a fraction of it.
+const TIME_ROUNDING: f64 = 32.0 * f64::EPSILON;
+
+/// The rate up to which no contact can come near the end of its range [m/s] while times are below [`LATE`].
+const FAST: f64 = 1e40;
+
+/// See [`FAST`] [m].
+const FAR: f64 = 1e90;
+
+/// See [`FAST`] [s].
+const LATE: f64 = 1e50;
+
+/// The pair of bodies of `group` that `values` describe.
+fn pair_of(group: usize, values: &Values) -> Result<Pair, Fault> {
+    let value = |parameter| scene::parameter(parameter, group, values);
+    let impactor = Body {
+        radius: value(Parameter::ImpactorRadius),
+        youngs_modulus: value(Parameter::ImpactorYoungsModulus),
+        poissons_ratio: value(Parameter::ImpactorPoissonsRatio),
+    };
+    let target = Body {
+        radius: value(Parameter::TargetRadius),
+        youngs_modulus: value(Parameter::TargetYoungsModulus),
+        poissons_ratio: value(Parameter::TargetPoissonsRatio),
+    };
+    Pair::new(&impactor, &target, value(Parameter::TargetYieldStrength))
+        .ok_or(Fault::NoPointContact { impactor: impactor.radius, target: target.radius })
+}
+
+/// What is in contact in `group`, whose `bodies` are those of `values`.
+fn model_of(group: usize, bodies: Bodies, values: &Values) -> Model {
+    let value = |parameter| scene::parameter(parameter, group, values);
+    let pair = Pair {
+        radius: bodies.radius,
+        modulus: bodies.modulus,
+        yield_strength: value(Parameter::TargetYieldStrength),
+        youngs_modulus: value(Parameter::TargetYoungsModulus),
+        poissons_ratio: value(Parameter::TargetPoissonsRatio),
+    };
+    scene::model(pair, group, values)
+}
+
+/// A contact of `group` before any motion.
+#[inline(never)]
+fn start_of(group: usize, values: &Values) -> Result<(Bodies, History), Fault> {
+    let pair = pair_of(group, values)?;
+    let history =
+        History::start(&scene::model(pair, group, values), scene::parameter(Parameter::InitialGap, group, values));
+    Ok((Bodies { radius: pair.radius, modulus: pair.modulus }, history.map_err(|deep| too_deep(0, deep))?))
+}
+
+/// Whether `value` is neither infinite nor NaN, in the fewest instructions.
+#[inline(always)]
+fn is_finite(value: f64) -> bool {
+    // zero, or NaN for those two
+    !core::ops::Sub::sub(value, value).is_nan()
+}
+
+/// Where plain steps end in this phase [s].
+fn limit(phase: Phase, stop: f64) -> f64 {
+    if phase == Phase::StepComplete { stop } else { NOWHERE }
+}
+
+fn too_deep(contact: usize, TooDeep { indentation }: TooDeep) -> Fault {
+    Fault::TooDeep { contact, indentation }
+}
+
+impl Instance {
+    /// Makes the instance as it is before anything is set, the same bit for bit each time.
+    ///
+    /// # Errors
+    /// [`Fault::NoPointContact`] if the start values of the scene don't fit together.
+    pub fn reset(&mut self) -> Result<(), Fault> {
+        self.values = START;
+        self.rates.fill(0.0);
+        self.time = 0.0;
+        self.stop = f64::MAX;
+        self.experiment_defined = false;
+        self.fast = false;
+        self.last_step.fill(0.0);
+        self.straighten();
+        self.set_phase(Phase::Instantiated);
+        self.start()
+    }
+
+    /// Puts all contacts where they are before any motion; if one can't be there nothing is done.
+    fn start(&mut self) -> Result<(), Fault> {
+        let started = self.start_contacts();
+        self.stamp_parameters();
+        started
+    }
+
+    /// Makes the [`Instance::stamp`] that of the parameters and of the bodies that follow from them.
+    #[inline(never)]
+    fn stamp_parameters(&mut self) {
+        let bodies = self.pairs.iter().flat_map(|bodies| [bodies.radius, bodies.modulus]);
+        let mix = |sum: u64, value: f64| {
+            let mixed = (sum ^ value.to_bits()).wrapping_mul(GOLDEN);
+            mixed ^ mixed >> 32
+        };
+        // blank memory has the stamp zero
+        self.stamp = self.values.iter().copied().chain(bodies).fold(GOLDEN, mix) | 1;
+    }
+
+    fn start_contacts(&mut self) -> Result<(), Fault> {
+        if scene::GROUPS > 1 {
+            for group in 0..scene::GROUPS {
+                start_of(group, &self.values)?;
+            }
+        }
+        let mut histories = self.histories.iter_mut();
+        let mut first = 0;
+        for (group, bodies) in self.pairs.iter_mut().enumerate() {
+            let (own, history) = start_of(group, &self.values)?;
+            *bodies = own;
+            let end = scene::end(group);
+            for slot in histories.by_ref().take(end - first) {
+                *slot = history;
+            }
+            first = end;
+        }
+        for (momentum, history) in self.momenta.iter_mut().zip(&self.histories) {
+            *momentum = Momentum::start(history.force_at_rate(0.0));
+        }
+        self.note_forces();
+        Ok(())
+    }
+
+    /// Forgets the derivatives of inputs.
+    fn straighten(&mut self) {
+        self.curved = false;
+        self.curves.fill(Curve::default());
+        self.set_limit();
+    }
+
+    /// Writes down the forces, where they are kept.
+    fn note_forces(&mut self) {
+        for ((force, history), &rate) in self.forces.iter_mut().zip(&self.histories).zip(&self.rates) {
+            *force = history.plain_force(rate, Model::SQUARES);
+        }
+    }
+
+    /// The phase the instance is in.
+    #[inline]
+    pub fn phase(&self) -> Phase {
+        self.phase
+    }
+
+    fn set_phase(&mut self, phase: Phase) {
+        self.phase = phase;
+        self.set_limit();
+    }
+
+    fn set_limit(&mut self) {
+        self.limit = if self.curved { NOWHERE } else { limit(self.phase, self.stop) };
+    }
+
+    /// After a failed call: nothing but reading, resetting and restoring is left.
+    pub fn fail(&mut self) {
+        self.set_phase(Phase::Error);
+    }
+
+    /// End of the last step [s], or the start time.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Sets start and stop time [s]; the last call before initialization counts.
+    ///
+    /// # Errors
+    /// [`Fault::Experiment`] for a time that is not finite and for a stop before the start.
+    pub fn set_experiment(&mut self, start: f64, stop: Option<f64>) -> Result<(), Fault> {
+        let stop_is_fine = stop.is_none_or(|stop| stop.is_finite() && stop >= start);
+        if !start.is_finite() || !stop_is_fine {
+            return Err(Fault::Experiment { start, stop: stop.unwrap_or(f64::MAX) });
+        }
+        self.time = start;
+        self.stop = stop.unwrap_or(f64::MAX);
+        self.experiment_defined = true;
+        Ok(())
+    }
+
+    /// # Errors
+    /// [`Fault::NoExperiment`] without start time.
+    pub fn enter_initialization(&mut self) -> Result<(), Fault> {
+        if !self.experiment_defined {
+            return Err(Fault::NoExperiment);
+        }
+        self.set_phase(Phase::Initialization);
+        Ok(())
+    }
+
+    /// # Errors
+    /// [`Fault::NoPointContact`] if the parameters don't fit together, [`Fault::TooFast`] if they don't fit the input.
+    pub fn exit_initialization(&mut self) -> Result<(), Fault> {
+        self.start()?;
+        for (history, &rate) in self.histories.iter().zip(&self.rates) {
+            check_rate(history, rate)?;
+        }
+        self.set_phase(Phase::StepComplete);
+        Ok(())
+    }
+
+    /// Ends the simulation. An instance that was never initialized, or has ended already, stays as it is.
+    pub fn terminate(&mut self) {
+        if self.phase == Phase::StepComplete {
+            self.set_phase(Phase::Terminated);
+        }
+    }
+
+    /// Whether the passivity guard has shortened the path on which the load comes off, or came off.
+    pub fn is_held_back(&self) -> bool {
+        self.histories.iter().enumerate().any(|(contact, history)| {
+            matches!(history.regime(), Regime::Unloaded | Regime::Apart)
+                && self.model(contact).is_held_back_at(history.max_indentation())
+        })
+    }
+
+    /// What is in contact, and by which laws.
+    fn model(&self, contact: usize) -> Model {
+        let group = scene::group(contact);
+        model_of(group, self.pairs.get(group).copied().unwrap_or(NO_BODIES), &self.values)
+    }
+}
+
+/// What stands where there is no group.
+const NO_BODIES: Bodies = Bodies { radius: f64::NAN, modulus: f64::NAN };
+
+/// Whether an input needs no further look: finite, and of many contacts not [fast](FAST).
+#[inline(always)]
+fn is_plain(rate: f64) -> bool {
+    if scene::CONTACTS > 1 { rate.abs() <= FAST } else { is_finite(rate) }
+}
+
+/// Whether a parameter may have this `value`.
+fn allows(settable: &Settable, value: f64) -> bool {
+    // written positively, so that a NaN fails
+    value >= settable.minimum && value <= settable.maximum
+}
+
+fn check_rate(history: &History, rate: f64) -> Result<(), Fault> {
+    if history.is_finite_at_rate(rate) { Ok(()) } else { Err(Fault::TooFast { rate }) }
+}
