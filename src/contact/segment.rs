@@ -5,8 +5,8 @@ use libm::sqrt;
 
 /// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5 + c3 z^2`, `z = indentation - origin`.
 ///
-/// Every branch of the project's own laws has this form: Hertz and its shifted copies by `c2`, the linear ones by `c1`, the unloading of the law `brinell` by `c2` and `c3`. It holds for
-/// `lower <= indentation < upper`, never below `origin` unless all constants are zero.
+/// Every branch of the project's own laws has this form: Hertz and its shifted copies by `c2`, the linear ones by `c1`, the
+/// unloading of the law `brinell` by `c2` and `c3`. It holds for `lower <= indentation < upper`, never below `origin`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// Smallest indentation on the branch [m].
@@ -75,6 +75,13 @@ impl Segment {
         self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
     }
 
+    /// The same for a branch without `c3`, which most laws never have [N].
+    #[inline(always)]
+    pub fn force_without_square(&self, indentation: f64) -> f64 {
+        let z = indentation - self.origin;
+        self.constant + z * (self.linear + self.power * sqrt(z))
+    }
+
     /// Mean of the force over the way `from`..`to` [m], in either direction, in a form that doesn't cancel on a short one [N].
     pub fn mean_force(&self, from: f64, to: f64) -> f64 {
         let (y, z) = (self.above_origin(from), self.above_origin(to));
@@ -91,13 +98,6 @@ impl Segment {
     pub fn curvature(&self, indentation: f64) -> f64 {
         let rise = if self.power == 0.0 { 0.0 } else { 0.75 * self.power / sqrt(self.above_origin(indentation)) };
         rise + 2.0 * self.square
-    }
-
-    /// The same for a branch without `c3`, which most laws never have [N].
-    #[inline(always)]
-    pub fn force_without_square(&self, indentation: f64) -> f64 {
-        let z = indentation - self.origin;
-        self.constant + z * (self.linear + self.power * sqrt(z))
     }
 
     /// dF/d(indentation) [N/m].

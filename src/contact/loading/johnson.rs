@@ -1,6 +1,6 @@
 //! Johnson: a plastic zone that grows like an expanding cavity, from Hertz's law to full plasticity.
 
-use super::{Loading, first_above, hertz};
+use super::{Loading, constant_pressure, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
@@ -61,18 +61,6 @@ impl Johnson {
         let (second, plastic) = self.borders();
         (0.5 * (1.0 + second) * d_y, 0.5 * (1.0 + plastic) * d_y)
     }
-
-    /// The line `f = ratio u` from `lower` to `upper` [m].
-    fn line(point: &YieldPoint, ratio: f64, lower: f64, upper: f64) -> Segment {
-        Segment {
-            lower,
-            upper,
-            origin: lower,
-            constant: ratio * (2.0 * (lower / point.indentation) - 1.0) * point.force,
-            linear: 2.0 * ratio * (point.force / point.indentation),
-            ..Segment::NOTHING
-        }
-    }
 }
 
 impl Loading for Johnson {
@@ -93,11 +81,11 @@ impl Loading for Johnson {
         }
         let (second, plastic) = self.corners(d_y);
         if indentation < second {
-            return Johnson::line(&point, 1.0, d_y, second);
+            return constant_pressure(&point, 1.0, d_y, second);
         }
         if indentation >= plastic {
             let ratio = self.plastic_pressure_factor / self.yield_pressure_factor;
-            return Johnson::line(&point, ratio, plastic, LARGEST_INDENTATION);
+            return constant_pressure(&point, ratio, plastic, LARGEST_INDENTATION);
         }
         let u = 2.0 * (indentation / d_y) - 1.0;
         let rise = 1.0 / (3.0 * self.yield_pressure_factor);
@@ -121,7 +109,7 @@ impl Loading for Johnson {
             return elastic.work(indentation);
         }
         let (second, plastic) = self.corners(d_y);
-        let plateau = Johnson::line(&point, 1.0, d_y, second);
+        let plateau = constant_pressure(&point, 1.0, d_y, second);
         if indentation <= second {
             return elastic.work(d_y) + plateau.work(indentation);
         }

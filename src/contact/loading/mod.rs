@@ -86,6 +86,19 @@ pub trait Loading {
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime;
 }
 
+/// The line `f = ratio (2x - 1)` from `lower` to `upper` [m]: a constant pressure, `ratio` times that at the yield `point`, on
+/// the area `a^2 = R d_y (2x - 1)`.
+fn constant_pressure(point: &YieldPoint, ratio: f64, lower: f64, upper: f64) -> Segment {
+    Segment {
+        lower,
+        upper,
+        origin: lower,
+        constant: ratio * (2.0 * (lower / point.indentation) - 1.0) * point.force,
+        linear: 2.0 * ratio * (point.force / point.indentation),
+        ..Segment::NOTHING
+    }
+}
+
 /// The first of a law's rising `corners` above `indentation` [m].
 fn first_above<const CORNERS: usize>(indentation: f64, corners: [f64; CORNERS]) -> f64 {
     corners.into_iter().find(|&corner| indentation < corner).unwrap_or(LARGEST_INDENTATION)

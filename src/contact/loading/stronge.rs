@@ -1,6 +1,6 @@
 //! Stronge: a mean pressure that grows with the logarithm of the indentation until the contact is fully plastic.
 
-use super::{Loading, first_above, hertz};
+use super::{Loading, constant_pressure, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
@@ -50,14 +50,7 @@ impl Stronge {
     /// The line beyond `plastic` [m].
     fn line(&self, point: &YieldPoint, plastic: f64) -> Segment {
         let ratio = self.plastic_pressure_factor / self.yield_pressure_factor;
-        Segment {
-            lower: plastic,
-            upper: LARGEST_INDENTATION,
-            origin: plastic,
-            constant: ratio * (2.0 * (plastic / point.indentation) - 1.0) * point.force,
-            linear: 2.0 * ratio * (point.force / point.indentation),
-            ..Segment::NOTHING
-        }
+        constant_pressure(point, ratio, plastic, LARGEST_INDENTATION)
     }
 }
 

@@ -1,6 +1,6 @@
 //! A straight way back that is the stiffer the deeper it begins, up to a limit.
 
-use super::{Peak, Unloading};
+use super::{Peak, Unloading, straight};
 use crate::contact::loading::Luding as LoadingLaw;
 use crate::contact::material::Pair;
 use crate::contact::segment::Segment;
@@ -44,12 +44,6 @@ impl Unloading for Luding {
         } else {
             self.limit_depth * (2.0 * pair.radius)
         };
-        Segment {
-            lower: residual,
-            upper: peak.indentation,
-            origin: residual,
-            linear: peak.force / (peak.indentation - residual),
-            ..Segment::NOTHING
-        }
+        straight(peak, residual)
     }
 }

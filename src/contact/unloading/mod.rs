@@ -118,6 +118,18 @@ fn hertzian(peak: &Peak, recovery: f64) -> Segment {
     }
 }
 
+/// A straight line from the `residual` indentation [m] to the peak.
+fn straight(peak: &Peak, residual: f64) -> Segment {
+    let residual = if residual < peak.indentation { residual } else { peak.indentation.next_down() };
+    Segment {
+        lower: residual,
+        upper: peak.indentation,
+        origin: residual,
+        linear: peak.force / (peak.indentation - residual),
+        ..Segment::NOTHING
+    }
+}
+
 /// An unloading law chosen while the program runs. The FMU doesn't need it: a scene names its law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]

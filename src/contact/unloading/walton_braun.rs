@@ -1,6 +1,6 @@
 //! A straight way back, stiffer than the way there.
 
-use super::{Peak, Unloading};
+use super::{Peak, Unloading, straight};
 use crate::contact::material::Pair;
 use crate::contact::segment::Segment;
 
@@ -25,14 +25,6 @@ impl WaltonBraun {
 
 impl Unloading for WaltonBraun {
     fn path(&self, _pair: &Pair, peak: &Peak) -> Segment {
-        let residual = peak.indentation * (1.0 - 1.0 / self.stiffness_ratio);
-        let residual = if residual < peak.indentation { residual } else { peak.indentation.next_down() };
-        Segment {
-            lower: residual,
-            upper: peak.indentation,
-            origin: residual,
-            linear: peak.force / (peak.indentation - residual),
-            ..Segment::NOTHING
-        }
+        straight(peak, peak.indentation * (1.0 - 1.0 / self.stiffness_ratio))
     }
 }
