@@ -167,7 +167,8 @@ fmu = { outputs = [
         with_bodies_of_coupled("two_plain", &format!("{outputs}{two}")),
         with_bodies_of_coupled("two_known", &format!("{outputs}{two}{known}")),
     ];
-    pytest("test_derivatives_and_momentum.py", &scenes);
+    pytest("test_derivatives.py", &scenes);
+    pytest("test_momentum.py", &scenes);
 }
 
 #[test]
