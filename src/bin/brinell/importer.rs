@@ -332,12 +332,13 @@ impl Instance<'_> {
         self.check("fmi2DoStep", status)
     }
 
-    /// Sets the first and the second derivative of an input, for the next step.
-    pub fn set_input_derivatives(&mut self, reference: u32, values: [f64; 2]) -> Result<(), ImportError> {
-        let references = [reference; 2];
+    /// Sets derivatives of an input for the next step: the first, and the second if it is there.
+    pub fn set_input_derivatives(&mut self, reference: u32, values: &[f64]) -> Result<(), ImportError> {
+        let (references, orders) = ([reference; 2], [1, 2]);
+        let count = values.len().min(orders.len());
         let set = &self.functions.set_input_derivatives;
-        // SAFETY: the component is live; two references, orders and values.
-        let status = unsafe { set(self.component, references.as_ptr(), 2, [1, 2].as_ptr(), values.as_ptr()) };
+        // SAFETY: the component is live; as many references and orders as values, or more.
+        let status = unsafe { set(self.component, references.as_ptr(), count, orders.as_ptr(), values.as_ptr()) };
         self.check("fmi2SetRealInputDerivatives", status)
     }
 

@@ -6,24 +6,20 @@ mod page;
 mod precision;
 mod spread;
 mod stability;
+mod summary;
 mod unit;
 mod ways;
 
-use crate::documentation::digits;
 use crate::importer::{Archive, ImportError};
 use crate::package::{self, ExportError, write_whole};
 use crate::plot::Picture;
 use crate::scene::Scene;
-use brinell::contact::impact::Prediction;
 use data::Table;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use unit::Contact;
 use ways::WAYS;
-
-/// The error of restitution that a step is recommended for.
-const GOAL: f64 = 0.01;
 
 /// A report that couldn't be made.
 #[derive(Debug, thiserror::Error)]
@@ -110,11 +106,11 @@ impl Report {
         let laws = spread::part(&plain_scene);
         say("done");
         let failed = cases.iter().filter(|case| case.failure.is_some()).count();
-        let (mut summary, recommendations) = summarize(&lines, &stability, &prediction, (cases.len(), failed));
+        let (mut summary, recommendations) = summary::summarize(&lines, &stability, &prediction, (cases.len(), failed));
         if scene.contact_count() > 1 {
             summary.push("The scene has several contacts: all this is of its first contact.".into());
         }
-        let parts = vec![precision_part(&lines), stability_part(&stability), extremes_part(&cases), laws];
+        let parts = vec![precision::part(&lines), stability.part(), extremes::part(&cases), laws];
         Ok(Report { name: scene.name.clone(), summary, recommendations, parts, all_right: failed == 0 })
     }
 
@@ -151,117 +147,7 @@ impl Report {
     }
 }
 
-/// What to do: for every way the step that keeps the error below the goal, the fewest calls first.
-fn summarize(
-    lines: &[precision::Line],
-    stability: &stability::Stability,
-    prediction: &Prediction,
-    (cases, failed): (usize, usize),
-) -> (Vec<String>, Value) {
-    let mut good: Vec<_> = lines.iter().filter_map(|line| Some((line.way, line.step_for(GOAL)?))).collect();
-    good.sort_by(|one, other| one.1.calls.total_cmp(&other.1.calls));
-    let mut summary: Vec<String> = good
-        .iter()
-        .enumerate()
-        .map(|(place, (way, point))| {
-            let verb = if place == 0 { "Use" } else { "Or" };
-            format!(
-                "{verb} {way} with steps of {} s ({} per contact): expect an error of restitution of {} % with {:.0} calls \
-                 per impact.",
-                digits(point.step),
-                point.steps,
-                two_digits(100.0 * point.restitution),
-                point.calls
-            )
-        })
-        .collect();
-    for line in lines.iter().filter(|line| line.step_for(GOAL).is_none()) {
-        summary.push(format!("With {}, no step that was tried keeps the error of restitution below 1 %.", line.way));
-    }
-    let step = |limit: f64| digits(limit / stability.frequency);
-    summary.push(match stability.leap_frog {
-        Some(limit) => format!(
-            "Leap-frog is stable up to a step of {} s (h sqrt(K/m) = {limit:.3}; elastic theory: 2); for bigger steps choose a \
-             larger mass or a softer contact{}.",
-            step(limit),
-            // which a rate-dependent law can't have
-            if lines.iter().any(|line| line.way == ways::MASS_KNOWN.name) { ", or a unit that knows the mass" } else { "" }
-        ),
-        None => "Leap-frog is stable at no step that was tried: a pressed body never comes to rest.".into(),
-    });
-    summary.push(match stability.late {
-        Some(limit) => format!("A force one step late is stable up to a step of {} s.", step(limit)),
-        None => "A force one step late makes energy at every step that was tried: a pressed body never comes to rest."
-            .into(),
-    });
-    summary.push(format!("{} of {cases} stiff and extreme cases are right.", cases - failed));
-    let ways: Vec<_> = good
-        .iter()
-        .map(|(way, point)| {
-            json!({ "way": way, "step_s": point.step, "steps_per_contact": point.steps,
-                    "error_of_restitution": point.restitution, "calls_per_impact": point.calls })
-        })
-        .collect();
-    let used = json!({
-        "goal": GOAL,
-        "ways": ways,
-        "restitution": prediction.restitution,
-        "contact_time_s": prediction.contact_time(),
-        "largest_stiffness_N_per_m": stability.stiffness,
-        "stable_leap_frog": stability.leap_frog,
-        "stable_late": stability.late,
-    });
-    (summary, used)
-}
-
-/// Two significant digits.
-fn two_digits(value: f64) -> String {
-    digits(format!("{value:.1e}").parse().expect("a number"))
-}
-
 /// The pictures, drawn, by the names of their files.
 fn drawn<const COUNT: usize>(names: [&'static str; COUNT], pictures: [Picture; COUNT]) -> Vec<(&'static str, String)> {
     names.into_iter().zip(pictures.map(|picture| picture.svg(520, 360))).collect()
-}
-
-fn precision_part(lines: &[precision::Line]) -> Part {
-    Part {
-        title: "Error against run time",
-        words: "Errors are relative to the energy balance, root mean squares over the places within a step where the bodies \
-                meet. The largest force is that at the ends of steps, and the time per impact that of this machine. Late \
-                force: all units step at once; leap-frog: the contact first; input derivatives: with mean_force."
-            .into(),
-        pictures: drawn(["error-against-time", "error-against-calls", "force-against-steps"], precision::pictures(lines)),
-        tables: vec![precision::orders(lines), precision::table(lines)],
-    }
-}
-
-fn stability_part(stability: &stability::Stability) -> Part {
-    Part {
-        title: "Stability",
-        words: format!(
-            "h is the step, m the mass, and K = {} N/m the largest stiffness of the impact, on the way back from the largest \
-             indentation. The largest stable step is that at which a small motion about the deepest indentation, under a \
-             constant load, doesn't grow. The rebound energy is the largest over the places within a step where the bodies \
-             meet: above 1 it is made by the coupling.",
-            digits(stability.stiffness)
-        ),
-        pictures: drawn(["stability"], [stability.picture()]),
-        tables: vec![stability.limits(), stability.table()],
-    }
-}
-
-fn extremes_part(cases: &[extremes::Case]) -> Part {
-    Part {
-        title: "Stiff and extreme cases",
-        words: format!(
-            "Each is stepped through the unit. Impacts by leap-frog must agree with the energy balance to {}; their mass grows \
-             as the volume of the sphere, and with E the yield strength. Prescribed motions, in and out again, must dissipate \
-             what the law says to {:e} of the work, and leave no force.",
-            extremes::TOLERANCE,
-            extremes::EXACT
-        ),
-        pictures: Vec::new(),
-        tables: vec![extremes::table(cases)],
-    }
 }

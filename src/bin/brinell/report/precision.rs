@@ -3,6 +3,7 @@
 use super::data::{Table, number, text};
 use super::unit::Contact;
 use super::ways::Way;
+use super::{Part, drawn};
 use crate::importer::ImportError;
 use crate::plot::{Picture, Series};
 use brinell::contact::impact::{Impact, Prediction};
@@ -71,7 +72,7 @@ fn point(
         let gap = (1.0 + (f64::from(phase) + 0.5) / f64::from(phases)) * impact.speed * step;
         contact.start(&[("initial_gap", gap)])?;
         let began = Instant::now();
-        let rebound = (way.master)(contact, impact.mass, impact.speed, step)?;
+        let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
         run_time = run_time.min(began.elapsed().as_secs_f64());
         calls += contact.calls;
         // the bodies have parted within the last step, and fly on
@@ -110,7 +111,7 @@ impl Line {
 }
 
 /// All that was measured.
-pub fn table(lines: &[Line]) -> Table {
+fn table(lines: &[Line]) -> Table {
     let mut table = Table::new(
         "precision",
         [
@@ -142,14 +143,14 @@ pub fn table(lines: &[Line]) -> Table {
 }
 
 /// The fitted orders.
-pub fn orders(lines: &[Line]) -> Table {
+fn orders(lines: &[Line]) -> Table {
     let mut table = Table::new("orders", [("way", ""), ("order", "")]);
     table.rows = lines.iter().map(|line| vec![text(line.way), number(line.order.unwrap_or(f64::NAN))]).collect();
     table
 }
 
 /// Error of restitution against run time and against the number of calls, and error of force against steps.
-pub fn pictures(lines: &[Line]) -> [Picture; 3] {
+fn pictures(lines: &[Line]) -> [Picture; 3] {
     let picture = |x: &str, y: &str, at: &dyn Fn(&Point) -> (f64, f64)| Picture {
         x_title: x.into(),
         y_title: y.into(),
@@ -164,4 +165,17 @@ pub fn pictures(lines: &[Line]) -> [Picture; 3] {
         picture("calls per impact", "error of restitution", &|p| (p.calls, p.restitution)),
         picture("steps per contact", "error of largest force", &|p| (f64::from(p.steps), p.max_force)),
     ]
+}
+
+/// Error against run time.
+pub fn part(lines: &[Line]) -> Part {
+    Part {
+        title: "Error against run time",
+        words: "Errors are relative to the energy balance, root mean squares over the places within a step where the bodies \
+                meet. The largest force is that at the ends of steps, and the time per impact that of this machine. Late \
+                force: all units step at once; leap-frog: the contact first; input derivatives: with mean_force."
+            .into(),
+        pictures: drawn(["error-against-time", "error-against-calls", "force-against-steps"], pictures(lines)),
+        tables: vec![orders(lines), table(lines)],
+    }
 }

@@ -2,7 +2,9 @@
 
 use super::data::{Table, number, text};
 use super::unit::Contact;
-use super::ways::{LATE, LEAP_FROG, Way};
+use super::ways::{Body, LATE, LEAP_FROG, Way};
+use super::{Part, drawn};
+use crate::documentation::digits;
 use crate::importer::ImportError;
 use crate::plot::{Picture, Series};
 use brinell::contact::impact::{Impact, Prediction};
@@ -53,7 +55,7 @@ pub fn measure(
                 let step = relative / frequency;
                 let gap = (1.0 + (f64::from(phase) + 0.5) / f64::from(phases)) * impact.speed * step;
                 contact.start(&[("initial_gap", gap)])?;
-                let rebound = (way.master)(contact, impact.mass, impact.speed, step)?;
+                let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
                 worst = f64::max(worst, (rebound.speed / impact.speed).powi(2));
             }
             points.push((relative, worst));
@@ -99,17 +101,12 @@ fn stays(
     contact.set_rate(-0.01 * elastic / step)?;
     contact.step(step)?;
     contact.set_rate(0.0)?;
-    let load = contact.force()?;
+    let mut body = Body::pressed(impact.mass, contact.force()?);
     let disturbance = 1e-6 * elastic * frequency;
-    let (mut speed, mut force) = (disturbance, load);
+    body.speed = disturbance;
     for _ in 0..STEPS {
-        contact.set_rate(speed)?;
-        contact.step(step)?;
-        let old = force;
-        force = contact.force()?;
-        let felt = if way.name == LATE.name { old } else { force };
-        speed -= step * (felt - load) / impact.mass;
-        if speed.is_nan() || speed.abs() > GROWTH * disturbance {
+        (way.advance)(contact, &mut body, step)?;
+        if body.speed.is_nan() || body.speed.abs() > GROWTH * disturbance {
             return Ok(false);
         }
     }
@@ -118,7 +115,7 @@ fn stays(
 
 impl Stability {
     /// Rebound energies.
-    pub fn table(&self) -> Table {
+    fn table(&self) -> Table {
         let columns =
             [("way", ""), ("h sqrt(K/m)", ""), ("step", "s"), ("rebound over incoming energy", ""), ("verdict", "")];
         let mut table = Table::new("stability", columns);
@@ -132,7 +129,7 @@ impl Stability {
     }
 
     /// The largest stable steps.
-    pub fn limits(&self) -> Table {
+    fn limits(&self) -> Table {
         let columns =
             [("way", ""), ("largest stable h sqrt(K/m)", ""), ("elastic theory", ""), ("largest stable step", "s")];
         let mut table = Table::new("limits", columns);
@@ -144,7 +141,7 @@ impl Stability {
     }
 
     /// Rebound energy over incoming energy.
-    pub fn picture(&self) -> Picture {
+    fn picture(&self) -> Picture {
         let line = |(way, points): &(&str, Vec<(f64, f64)>)| Series {
             label: (*way).into(),
             points: points.clone(),
@@ -161,6 +158,22 @@ impl Stability {
             y_title: "rebound over incoming energy".into(),
             logarithmic: (true, true),
             series,
+        }
+    }
+
+    /// Stability.
+    pub fn part(&self) -> Part {
+        Part {
+            title: "Stability",
+            words: format!(
+                "h is the step, m the mass, and K = {} N/m the largest stiffness of the impact, on the way back from the largest \
+                 indentation. The largest stable step is that at which a small motion about the deepest indentation, under a \
+                 constant load, doesn't grow. The rebound energy is the largest over the places within a step where the bodies \
+                 meet: above 1 it is made by the coupling.",
+                digits(self.stiffness)
+            ),
+            pictures: drawn(["stability"], [self.picture()]),
+            tables: vec![self.limits(), self.table()],
         }
     }
 }

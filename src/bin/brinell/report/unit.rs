@@ -90,8 +90,8 @@ impl<'a> Contact<'a> {
         self.instance.set_real(self.rate, rate)
     }
 
-    /// Sets how the closing speed changes within the next step [m/s^2], [m/s^3].
-    pub fn set_derivatives(&mut self, derivatives: [f64; 2]) -> Result<(), ImportError> {
+    /// Sets how the closing speed changes within the next step: [m/s^2], [m/s^3].
+    pub fn set_derivatives(&mut self, derivatives: &[f64]) -> Result<(), ImportError> {
         self.calls += 1;
         self.instance.set_input_derivatives(self.rate, derivatives)
     }

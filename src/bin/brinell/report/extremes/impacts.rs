@@ -1,0 +1,136 @@
+//! Impacts far from the scene's: of harder, stronger, larger and faster bodies, and of softer, weaker, smaller and slower ones.
+
+use super::{Case, TOLERANCE};
+use crate::importer::ImportError;
+use crate::model::AnyModel;
+use crate::report::unit::{self, Contact};
+use crate::report::ways::LEAP_FROG;
+use crate::scene::Scene;
+use brinell::contact::impact::{Impact, Prediction};
+
+/// Bodies and impact that are not the scene's.
+pub struct Bodies {
+    parameters: Vec<(&'static str, f64)>,
+    pub model: AnyModel,
+    impact: Impact,
+    pub radius: f64,
+}
+
+/// Factors to the scene: target's Young's modulus [Pa], yield strain, radius [m], speed [m/s]; none: as in the scene.
+#[derive(Clone, Copy, Default)]
+pub struct Change {
+    modulus: Option<f64>,
+    strain: Option<f64>,
+    radius: Option<f64>,
+    speed: Option<f64>,
+}
+
+impl Bodies {
+    /// The bodies of `scene` with a `change`: the yield strain stays if it isn't changed, and the mass grows as the volume.
+    pub fn of(scene: &Scene, change: Change) -> Option<Bodies> {
+        let old = |name| scene.value(name).unwrap_or(f64::NAN);
+        let (old_modulus, old_radius) = (old("target.youngs_modulus"), old("impactor.radius"));
+        let modulus = change.modulus.unwrap_or(old_modulus);
+        let radius = change.radius.unwrap_or(old_radius);
+        let mass = scene.impact.mass * (radius / old_radius).powi(3);
+        let strain = change.strain.unwrap_or(old("target.yield_strength") / old_modulus);
+        let all = [
+            ("impactor.radius", radius),
+            // a target that is a sphere, or a socket, keeps its shape
+            ("target.radius", old("target.radius") * radius / old_radius),
+            ("target.youngs_modulus", modulus),
+            ("target.yield_strength", strain * modulus),
+            ("effective_mass", mass),
+        ];
+        let mut changed = unit::first_contact(scene, None);
+        let mut parameters = Vec::new();
+        for (name, value) in all {
+            if let Some(parameter) = changed.parameters.iter_mut().find(|parameter| parameter.name == name) {
+                parameter.value = value;
+                parameters.push((name, value));
+            }
+        }
+        let asked = change.strain.is_none() || scene.value("target.yield_strength").is_some();
+        let impact = Impact { mass, speed: change.speed.unwrap_or(scene.impact.speed) };
+        asked.then(|| Bodies { parameters, model: changed.any_model(), impact, radius })
+    }
+
+    pub fn predict(&self) -> Option<Prediction> {
+        self.model.predict(&self.impact)
+    }
+
+    pub fn start(&self, contact: &mut Contact) -> Result<(), ImportError> {
+        let mut parameters = self.parameters.clone();
+        parameters.push(("initial_gap", 0.0));
+        contact.start(&parameters)
+    }
+}
+
+/// The impacts: one quantity after the other, then the corners.
+fn changes() -> Vec<(String, Change)> {
+    let mut all = Vec::new();
+    let none = Change::default();
+    for modulus in [1e3, 1e6, 1e9, 1e12, 1e15] {
+        all.push((format!("E = {modulus:e} Pa"), Change { modulus: Some(modulus), ..none }));
+    }
+    for strain in [1e-9, 1e-7, 1e-5, 1e-3, 0.1, 1.0] {
+        all.push((format!("S/E = {strain:e}"), Change { strain: Some(strain), ..none }));
+    }
+    for radius in [1e-9, 1e-6, 1e-3, 1.0, 1e3] {
+        all.push((format!("R = {radius:e} m"), Change { radius: Some(radius), ..none }));
+    }
+    for speed in [1e-9, 1e-6, 1e-3, 10.0, 100.0, 1e4] {
+        all.push((format!("speed {speed:e} m/s"), Change { speed: Some(speed), ..none }));
+    }
+    for modulus in [1e3, 1e15] {
+        for strain in [1e-9, 1.0] {
+            for (radius, speed) in [(1e-9, 1e-9), (1e-9, 1e4), (1e3, 1e-9), (1e3, 1e4)] {
+                let name = format!("E = {modulus:e} Pa, S/E = {strain:e}, R = {radius:e} m, speed {speed:e} m/s");
+                let change =
+                    Change { modulus: Some(modulus), strain: Some(strain), radius: Some(radius), speed: Some(speed) };
+                all.push((name, change));
+            }
+        }
+    }
+    all
+}
+
+/// Runs all impacts.
+pub fn run(contact: &mut Contact, scene: &Scene, quick: bool) -> Vec<Case> {
+    let steps = if quick { 256.0 } else { 1024.0 };
+    // an elastic contact has no yield strain to change
+    let possible = changes().into_iter().filter_map(|(name, change)| Some((name, Bodies::of(scene, change)?)));
+    possible.map(|(name, bodies)| impact(contact, name, &bodies, steps)).collect()
+}
+
+/// Most steps of an impact.
+const MOST: f64 = 2e6;
+
+/// An impact by leap-frog with so many steps of its shorter half.
+fn impact(contact: &mut Contact, name: String, bodies: &Bodies, steps: f64) -> Case {
+    let mut case = Case::new(name, TOLERANCE);
+    let Some(prediction) = bodies.predict() else {
+        case.failure = Some("there is no prediction".into());
+        return case;
+    };
+    case.indentation = prediction.max_indentation;
+    case.width = prediction.max_contact_radius / bodies.radius;
+    let shorter = prediction.loading_time.min(prediction.unloading_time);
+    case.step = (shorter / steps).max(prediction.contact_time() / MOST);
+    let Impact { mass, speed } = bodies.impact;
+    let run = bodies.start(contact).and_then(|()| LEAP_FROG.impact(contact, mass, speed, case.step));
+    let rebound = match run {
+        Ok(rebound) => rebound,
+        Err(error) => {
+            case.failure = Some(error.to_string());
+            return case;
+        }
+    };
+    let energy = (rebound.speed / speed).powi(2);
+    case.errors = (
+        (rebound.max_force / prediction.max_force - 1.0).abs(),
+        (energy - prediction.rebound_energy / prediction.energy).abs(),
+    );
+    case.judge(energy <= 1.0 + TOLERANCE);
+    case
+}

@@ -1,0 +1,116 @@
+//! Stiff and extreme cases: impacts far from the scene's, and motions that no sane master would make, each judged.
+
+mod impacts;
+mod motions;
+
+use super::Part;
+use super::data::{Table, number, text};
+use super::unit::Contact;
+use crate::scene::Scene;
+use impacts::{Bodies, Change};
+
+/// Largest error of an impact by leap-frog: of the energy relative to the incoming one, of the force relative to itself.
+const TOLERANCE: f64 = 0.01;
+
+/// Largest error of the dissipated energy of a motion that is prescribed, relative to the work of its loading.
+const EXACT: f64 = 1e-9;
+
+/// Beyond this contact radius over the sphere's radius no law of small contacts holds.
+const WIDE: f64 = 0.3;
+
+/// What came out of a case.
+pub struct Case {
+    pub name: String,
+    /// Of the case [m], [s].
+    pub indentation: f64,
+    pub step: f64,
+    /// Contact radius over the sphere's.
+    pub width: f64,
+    /// Of force and energy.
+    pub errors: (f64, f64),
+    pub tolerance: f64,
+    /// Why it failed.
+    pub failure: Option<String>,
+}
+
+/// Runs all cases.
+pub fn measure(contact: &mut Contact, scene: &Scene, quick: bool) -> Vec<Case> {
+    let mut cases = impacts::run(contact, scene, quick);
+    if let (None, Some(bodies)) = (scene.damped, Bodies::of(scene, Change::default())) {
+        cases.extend(motions::run(contact, &bodies, quick));
+    }
+    cases
+}
+
+impl Case {
+    /// A case that is yet to be run.
+    fn new(name: String, tolerance: f64) -> Case {
+        let errors = (f64::NAN, f64::NAN);
+        Case { name, indentation: f64::NAN, step: f64::NAN, width: f64::NAN, errors, tolerance, failure: None }
+    }
+
+    /// Fails the case if it isn't right to its tolerance, or if `passive` is false.
+    fn judge(&mut self, passive: bool) {
+        let (force, energy) = self.errors;
+        // NaN is not right
+        let right = |error: f64| error <= self.tolerance;
+        self.failure = if !right(force) {
+            Some(format!("the force is off by {force:e}"))
+        } else if !right(energy) {
+            Some(format!("the energy is off by {energy:e}"))
+        } else if !passive {
+            Some("it makes energy".into())
+        } else {
+            None
+        };
+    }
+}
+
+/// The cases as a table.
+fn table(cases: &[Case]) -> Table {
+    let mut table = Table::new(
+        "extremes",
+        [
+            ("case", ""),
+            ("largest indentation", "m"),
+            ("step", "s"),
+            ("a/R", ""),
+            ("error of force", ""),
+            ("error of energy", ""),
+            ("tolerance", ""),
+            ("verdict", ""),
+            ("warning", ""),
+        ],
+    );
+    for case in cases {
+        let verdict = case.failure.as_ref().map_or("right".into(), |why| format!("FAILED: {why}"));
+        let warning = if case.width > WIDE { "a/R above 0.3: beyond the law's validity" } else { "" };
+        table.rows.push(vec![
+            text(&case.name),
+            number(case.indentation),
+            number(case.step),
+            number(case.width),
+            number(case.errors.0),
+            number(case.errors.1),
+            number(case.tolerance),
+            text(verdict),
+            text(warning),
+        ]);
+    }
+    table
+}
+
+/// Stiff and extreme cases.
+pub fn part(cases: &[Case]) -> Part {
+    Part {
+        title: "Stiff and extreme cases",
+        words: format!(
+            "Each is stepped through the unit. Impacts by leap-frog must agree with the energy balance to {}; their mass grows \
+             as the volume of the sphere, and with E the yield strength. Prescribed motions, in and out again, must dissipate \
+             what the law says to {:e} of the work, and leave no force.",
+            TOLERANCE, EXACT
+        ),
+        pictures: Vec::new(),
+        tables: vec![table(cases)],
+    }
+}
