@@ -5,7 +5,7 @@ mod physics;
 
 use brinell::contact::impact::{Impact, predict};
 use brinell::contact::motion::{Drive, NoMotion, Outcome, follow};
-use brinell::contact::{History, Surface};
+use brinell::contact::{History, Loading, Surface};
 use physics::{AnyModel, MASS, all_models, mild, model, unit};
 
 fn go(history: &mut History, model: &AnyModel, acceleration: f64, speed: f64, step: f64) -> Outcome {
@@ -28,10 +28,11 @@ fn one_step_over_a_whole_impact_gives_the_predicted_rebound() {
             assert_close(&format!("{name}: restitution"), -outcome.speed / speed, prediction.restitution, 1e-11);
             assert_close(&format!("{name}: depth"), history.max_indentation(), prediction.max_indentation, 1e-11);
             assert_eq!(history.force(), 0.0, "{name}");
-            // apart since the end of the contact; the quadrature of the prediction has the last digits of its energies only
+            // apart since the end of the contact; without segments the energies of the prediction are differences
+            let tolerance = if model.loading.is_segmented() { 1e-12 } else { 1e-10 };
             let flown = prediction.residual_indentation - history.indentation();
             let time = 2.0 * prediction.contact_time() + flown / outcome.speed;
-            assert_close(&format!("{name}: contact time"), time, prediction.contact_time(), 1e-7);
+            assert_close(&format!("{name}: contact time"), time, prediction.contact_time(), tolerance);
         }
     }
 }

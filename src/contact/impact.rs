@@ -2,7 +2,7 @@
 
 use super::history::LARGEST_INDENTATION;
 use super::loading::Loading;
-use super::quadrature::graded_integral;
+use super::quadrature::{gauss, graded_integral};
 use super::unloading::Unloading;
 use super::{Model, Regime};
 use core::cell::Cell;
@@ -59,8 +59,10 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
     let (energy, max_indentation) = turning_point(model, impact)?;
     let unloading = model.unloading_path(max_indentation);
     let peak = model.peak(max_indentation);
+    // a path that is no segment has a tangent for every point
+    let anywhere = 0.5 * (unloading.lower + max_indentation);
+    let follows_path = model.unloading_segment(max_indentation, anywhere).upper >= max_indentation;
     // `Model::recovered_work`, with path and peak found once
-    let follows_path = U::SEGMENTED || model.is_elastic_at(max_indentation);
     let recovered = |d: f64| {
         if follows_path { unloading.work(d) } else { model.unloading.work(&model.pair, &peak, &unloading, d) }
     };
@@ -71,14 +73,16 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
         impact.mass,
         0.0,
         max_indentation,
-        |end| falling_energy(model, end, work - model.loading.work(&model.pair, end), work),
+        |start, end| falling_energy(model, (start, end), work - model.loading.work(&model.pair, end), work),
         |d| model.loading.next_corner(&model.pair, d),
     );
     let unloading_time = travel_time(
         impact.mass,
         unloading.lower,
         max_indentation,
-        |_| |d| rebound_energy - recovered(d),
+        |_, end| {
+            move |d, way| if follows_path { unloading.mean_force(d, end) * way } else { rebound_energy - recovered(d) }
+        },
         |_| max_indentation,
     );
     Some(Prediction {
@@ -157,18 +161,31 @@ fn indentation_of_work<L: Loading, U: Unloading>(model: &Model<L, U>, energy: f6
     found.then(|| f64::from_bits(high))
 }
 
-/// The kinetic energy [J] on the way down a smooth piece of the loading curve that ends at `end` [m], with `energy` [J] left
-/// there. `whole` [J] is the work of the whole way.
+/// A way on which Gauss's rule integrates any law to rounding, as a fraction of the indentation.
+const SHORT: f64 = 1.0 / 64.0;
+
+/// The kinetic energy [J] on a smooth piece of the loading curve from `start` to `end` [m], with `energy` [J] left there, as a
+/// function of the indentation and of the way from there to the end [m]. `whole` [J] is the work of the whole way.
 ///
-/// Where the work is an integral, each energy is taken from the last one: the integral between neighbours is short.
+/// The difference of two works loses its digits near the turning point. The mean force over the rest of the way doesn't: that of
+/// a segment, and of any law on a short way. Where the work is an integral, each energy farther off is taken from the last
+/// one: the integral between neighbours is short.
 fn falling_energy<L: Loading, U: Unloading>(
     model: &Model<L, U>,
-    end: f64,
+    (start, end): (f64, f64),
     energy: f64,
     whole: f64,
-) -> impl Fn(f64) -> f64 {
+) -> impl Fn(f64, f64) -> f64 {
+    let segment = model.loading.segment(&model.pair, start);
+    let is_whole = segment.upper >= end;
     let last = Cell::new((end, energy));
-    move |d| {
+    move |d, way| {
+        if is_whole {
+            return energy + segment.mean_force(d, end) * way;
+        }
+        if way < SHORT * end {
+            return energy + gauss(d, end, &|at| model.loading.segment(&model.pair, at).force(at));
+        }
         let (at, energy) = last.get();
         let between = |low, high| model.loading.work_between(&model.pair, low, high);
         let step = if d < at { between(d, at) } else { between(at, d).map(|work| -work) };
@@ -179,16 +196,16 @@ fn falling_energy<L: Loading, U: Unloading>(
 }
 
 /// Time [s] between `from` and the turning point `to` [m] of a `mass` [kg] whose kinetic energy at `d`, on the smooth piece
-/// that ends at `end`, is `kinetic_energy(end)(d)` [J], zero at `to`.
+/// from `start` to `end`, is `kinetic_energy(start, end)(d, end - d)` [J], zero at `to`.
 ///
 /// `t = integral dd / sqrt(2 T(d)/m)`; with `d = to - (to - from) s^2` the end where the speed vanishes is regular. The
 /// integral is split where the law has a corner (`next_corner(d)`: the first corner above `d`), since Gauss's rule needs
 /// a smooth integrand.
-fn travel_time<E: Fn(f64) -> f64>(
+fn travel_time<E: Fn(f64, f64) -> f64>(
     mass: f64,
     from: f64,
     to: f64,
-    kinetic_energy: impl Fn(f64) -> E,
+    kinetic_energy: impl Fn(f64, f64) -> E,
     next_corner: impl Fn(f64) -> f64,
 ) -> f64 {
     let length = to - from;
@@ -197,9 +214,10 @@ fn travel_time<E: Fn(f64) -> f64>(
     while start < to {
         let corner = next_corner(start);
         let end = if corner < to { corner } else { to };
-        let kinetic_energy = kinetic_energy(end);
+        let kinetic_energy = kinetic_energy(start, end);
         let integrand = |s: f64| {
-            let energy = kinetic_energy(to - length * (s * s));
+            let way = length * (s * s);
+            let energy = kinetic_energy(to - way, way - (to - end));
             if energy > 0.0 { 2.0 * length * s / sqrt(2.0 * energy / mass) } else { 0.0 }
         };
         time += graded_integral(sqrt((to - end) / length), sqrt((to - start) / length), &integrand);
