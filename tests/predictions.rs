@@ -113,7 +113,7 @@ fn times_are_right_to_rounding_though_the_kinetic_energy_vanishes_at_the_turning
     let hertz = model("hertz", "contact-radius");
     for speed in logarithmic(1e-6, 1e2, 9) {
         let prediction = predict(&hertz, &Impact { mass: MASS, speed }).unwrap();
-        let half = 0.5 * 2.943_275_184_324_704_657 * prediction.max_indentation / speed;
+        let half = 0.5 * 2.943_275_184_324_704_7 * prediction.max_indentation / speed;
         for (name, time) in [("loading", prediction.loading_time), ("unloading", prediction.unloading_time)] {
             let error = time / half - 1.0;
             assert!(error.abs() < 1e-14, "{name} at {speed} m/s is off by {error:e}");

@@ -42,6 +42,9 @@ pub enum Command {
         /// The folder that the page and its data go to [default: NAME_report in the current folder]
         #[arg(short, long, value_name = "DIR")]
         output: Option<PathBuf>,
+        /// Another unit with the same variables, to be run in the same picture; may be given several times
+        #[arg(long, value_name = "FMU")]
+        peer: Vec<PathBuf>,
         /// Fewer steps, and shorter runs
         #[arg(long)]
         quick: bool,

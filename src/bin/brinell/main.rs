@@ -82,10 +82,10 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             curve(arguments)?;
             Ok(true)
         }
-        Some(Command::Report { scene, output, quick }) => {
+        Some(Command::Report { scene, output, peer, quick }) => {
             let scene = Scene::read(scene)?;
             let folder = output.clone().unwrap_or_else(|| format!("{}_report", scene.name).into());
-            report(&scene, &folder, *quick, json)
+            report(&scene, peer, &folder, *quick, json)
         }
         Some(Command::Laws { output }) => {
             list_laws(output.as_deref(), json)?;
@@ -126,8 +126,8 @@ fn check(path: &Path, as_json: bool) -> Result<bool, Box<dyn Error>> {
     Ok(outcome.passed)
 }
 
-fn report(scene: &Scene, folder: &Path, quick: bool, as_json: bool) -> Result<bool, Box<dyn Error>> {
-    let report = report::Report::of(scene, quick)?;
+fn report(scene: &Scene, peers: &[PathBuf], folder: &Path, quick: bool, as_json: bool) -> Result<bool, Box<dyn Error>> {
+    let report = report::Report::of(scene, peers, quick)?;
     let page = report.write_into(folder)?;
     if as_json {
         println!("{}", report.json());

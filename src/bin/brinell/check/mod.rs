@@ -70,10 +70,10 @@ pub fn check(path: &Path) -> Result<Outcome, CheckError> {
 fn run(archive: &Archive, scene: &Scene, path: &Path) -> Result<Outcome, ImportError> {
     let description = &archive.description;
     let unit = archive.load()?;
-    let trial = |group| Trial::run(&mut unit.instantiate(&description.guid)?, description, scene, group);
+    let trial = |group| Trial::run(&mut unit.instantiate()?, description, scene, group);
     let trials = (0..scene.contacts.len()).map(trial).collect::<Result<Vec<_>, ImportError>>()?;
     let (plain, contacts): (Vec<_>, Vec<_>) = trials.into_iter().partition(|trial| trial.contact.is_none());
-    let wrong_starts = wrong_starts(&mut unit.instantiate(&description.guid)?, description)?;
+    let wrong_starts = wrong_starts(&mut unit.instantiate()?, description)?;
     let all = || plain.iter().chain(&contacts);
     let agree = all().flat_map(|trial| &trial.rows).all(|row| row.difference.abs() < TOLERANCE);
     let passed = agree && wrong_starts.is_empty() && all().all(|trial| trial.disturbed.is_empty());

@@ -3,6 +3,7 @@
 mod data;
 mod extremes;
 mod page;
+mod peer;
 mod precision;
 mod spread;
 mod stability;
@@ -15,6 +16,8 @@ use crate::package::{self, ExportError, write_whole};
 use crate::plot::Picture;
 use crate::scene::Scene;
 use data::Table;
+use peer::Peer;
+use precision::{Line, Plan};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -28,6 +31,8 @@ pub enum ReportError {
     Export(#[from] ExportError),
     #[error("the unit of the report: {0}")]
     Import(#[from] ImportError),
+    #[error("the other unit {}: {reason}", path.display())]
+    Peer { path: PathBuf, reason: String },
     #[error("{}: {source}", path.display())]
     Folder { path: PathBuf, source: std::io::Error },
 }
@@ -53,11 +58,12 @@ pub struct Part {
 }
 
 impl Report {
-    /// Measures the first contact of `scene`.
+    /// Measures the first contact of `scene`, with the other units at `peers` beside it.
     ///
     /// # Errors
-    /// [`ReportError`] if the unit can't be built or loaded, or refuses an ordinary impact.
-    pub fn of(scene: &Scene, quick: bool) -> Result<Report, ReportError> {
+    /// [`ReportError`] if a unit can't be built or loaded, or refuses an ordinary impact.
+    pub fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<Report, ReportError> {
+        let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
         let began = Instant::now();
         let say = |what: &str| eprintln!("{:5.1} s  {what} ...", began.elapsed().as_secs_f64());
         let folder = tempfile::Builder::new().prefix("brinell-report-").tempdir();
@@ -84,18 +90,31 @@ impl Report {
             }
         };
         let knowing_unit = knowing.as_ref().map(Archive::load).transpose()?;
-        let mut contact = Contact::new(&plain, &plain_unit)?;
+        let mut contact = Contact::new(&plain, &plain_unit, &[])?;
         let mut knowing_contact = match (&knowing, &knowing_unit) {
-            (Some(archive), Some(unit)) => Some(Contact::new(archive, unit)?),
+            (Some(archive), Some(unit)) => Some(Contact::new(archive, unit, &[])?),
             _ => None,
         };
         let (most, phases) = if quick { (256, 8) } else { (4096, 16) };
+        let plan = Plan { impact: &impact, prediction: &prediction, most, phases, follows_rate };
         let mut lines = Vec::new();
         for way in WAYS.iter().filter(|way| way.by_rate || !follows_rate) {
             let contact = if way.knows_mass { knowing_contact.as_mut() } else { Some(&mut contact) };
             let Some(contact) = contact else { continue };
             say(&format!("error against run time: {}", way.name));
-            lines.push(precision::measure(contact, way, (&impact, &prediction), most, phases, follows_rate)?);
+            lines.push(plan.measure(contact, way)?);
+        }
+        if !follows_rate {
+            say("error against run time: the unit alone");
+            lines.push(plan.alone(&mut contact)?);
+        }
+        for peer in &peers {
+            let mut contact = peer.contact(&plain_scene)?;
+            for way in peer.ways() {
+                say(&format!("error against run time: {}, {}", peer.name, way.name));
+                let line = plan.measure(&mut contact, way).map_err(|error| peer.fault(&error))?;
+                lines.push(Line { peer: Some(peer.name.clone()), ..line });
+            }
         }
         say("stability");
         let stiffness = model.stiffness(prediction.max_indentation);
@@ -110,7 +129,7 @@ impl Report {
         if scene.contact_count() > 1 {
             summary.push("The scene has several contacts: all this is of its first contact.".into());
         }
-        let parts = vec![precision::part(&lines), stability.part(), extremes::part(&cases), laws];
+        let parts = vec![precision::part(&scene.name, &lines), stability.part(), extremes::part(&cases), laws];
         Ok(Report { name: scene.name.clone(), summary, recommendations, parts, all_right: failed == 0 })
     }
 

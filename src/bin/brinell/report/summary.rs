@@ -1,6 +1,6 @@
 //! The summary: what step and coupling to use, and what to expect of them.
 
-use super::precision::Line;
+use super::precision::{ALONE, Line};
 use super::stability::Stability;
 use super::ways;
 use crate::documentation::digits;
@@ -12,11 +12,12 @@ const GOAL: f64 = 0.01;
 
 /// What to do: for every way the step that keeps the error below the goal, the fewest calls first.
 pub fn summarize(
-    lines: &[Line],
+    all: &[Line],
     stability: &Stability,
     prediction: &Prediction,
     (cases, failed): (usize, usize),
 ) -> (Vec<String>, Value) {
+    let lines: Vec<_> = all.iter().filter(|line| line.peer.is_none() && line.way != ALONE).collect();
     let mut good: Vec<_> = lines.iter().filter_map(|line| Some((line.way, line.step_for(GOAL)?))).collect();
     good.sort_by(|one, other| one.1.calls.total_cmp(&other.1.calls));
     let mut summary: Vec<String> = good
@@ -25,12 +26,13 @@ pub fn summarize(
         .map(|(place, (way, point))| {
             let verb = if place == 0 { "Use" } else { "Or" };
             format!(
-                "{verb} {way} with steps of {} s ({} per contact): expect an error of restitution of {} % with {:.0} calls \
-                 per impact.",
+                "{verb} {way} with steps of {} s ({} per contact): expect an error of restitution of {} % with {:.0} calls, \
+                 which take {} us, per impact.",
                 digits(point.step),
                 point.steps,
                 two_digits(100.0 * point.restitution),
-                point.calls
+                point.calls,
+                two_digits(1e6 * point.run_time)
             )
         })
         .collect();

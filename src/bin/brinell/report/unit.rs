@@ -1,6 +1,6 @@
 //! The unit that a report steps: the scene's first contact, with the outputs that the ways to couple need.
 
-use crate::importer::{Archive, Description, ImportError, Instance};
+use crate::importer::{Archive, Description, ImportError, Instance, Unit};
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::VARIABLES;
 use brinell::contact::impact::Impact;
@@ -45,10 +45,13 @@ pub fn first_contact(scene: &Scene, mass: Option<f64>) -> Scene {
 pub struct Contact<'a> {
     instance: Instance<'a>,
     description: &'a Description,
+    /// Parameters that differ from the start values of the unit.
+    parameters: Vec<(u32, f64)>,
     rate: u32,
     force: u32,
-    mean_force: u32,
-    predicted_force: u32,
+    // what another unit may lack
+    mean_force: Option<u32>,
+    predicted_force: Option<u32>,
     /// Time of the co-simulation [s].
     pub time: f64,
     /// Calls since the start.
@@ -56,16 +59,18 @@ pub struct Contact<'a> {
 }
 
 impl<'a> Contact<'a> {
-    /// A contact of the unit.
-    pub fn new(archive: &'a Archive, unit: &'a crate::importer::Unit) -> Result<Contact<'a>, ImportError> {
+    /// A contact of the unit; of these `parameters` those that it has are set at every start.
+    pub fn new(archive: &'a Archive, unit: &'a Unit, parameters: &[(&str, f64)]) -> Result<Contact<'a>, ImportError> {
         let description = &archive.description;
+        let known = |(name, value): &(&str, f64)| Some((description.real(name).ok()?, *value));
         Ok(Contact {
-            instance: unit.instantiate(&description.guid)?,
+            instance: unit.instantiate()?,
             description,
+            parameters: parameters.iter().filter_map(known).collect(),
             rate: description.real("indentation_rate")?,
             force: description.real("force")?,
-            mean_force: description.real("mean_force")?,
-            predicted_force: description.real("predicted_force")?,
+            mean_force: description.real("mean_force").ok(),
+            predicted_force: description.real("predicted_force").ok(),
             time: 0.0,
             calls: 0,
         })
@@ -76,6 +81,9 @@ impl<'a> Contact<'a> {
         self.instance.call("fmi2Reset")?;
         self.instance.setup_experiment(0.0)?;
         self.instance.call("fmi2EnterInitializationMode")?;
+        for (reference, value) in &self.parameters {
+            self.instance.set_real(*reference, *value)?;
+        }
         for (name, value) in parameters {
             self.instance.set_real(self.description.real(name)?, *value)?;
         }
@@ -119,13 +127,13 @@ impl<'a> Contact<'a> {
     /// The mean force over the step [N].
     pub fn mean_force(&mut self) -> Result<f64, ImportError> {
         self.calls += 1;
-        self.instance.real(self.mean_force)
+        self.instance.real(self.mean_force.ok_or_else(|| ImportError::Variable("mean_force".into()))?)
     }
 
     /// The force that the unit expects at the end of the next step [N].
     pub fn predicted_force(&mut self) -> Result<f64, ImportError> {
         self.calls += 1;
-        self.instance.real(self.predicted_force)
+        self.instance.real(self.predicted_force.ok_or_else(|| ImportError::Variable("predicted_force".into()))?)
     }
 
     /// Another output of the unit.

@@ -1,0 +1,89 @@
+//! What a model description says.
+
+use super::ImportError;
+use quick_xml::events::{BytesStart, Event};
+use std::collections::HashMap;
+
+/// A variable as the model description has it.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    pub reference: u32,
+    pub is_real: bool,
+    /// Of a Real variable.
+    pub start: Option<f64>,
+}
+
+/// The model description.
+#[derive(Debug, Default)]
+pub struct Description {
+    pub fmi_version: String,
+    /// Of the co-simulation unit; empty if there is none.
+    pub identifier: String,
+    pub guid: String,
+    /// Whether inputs may have derivatives.
+    pub interpolates_inputs: bool,
+    /// Up to which order outputs have derivatives; 0 for none.
+    pub output_derivatives: u32,
+    /// Variables by name.
+    pub variables: HashMap<String, Variable>,
+}
+
+impl Description {
+    pub fn parse(text: &str) -> Result<Description, ImportError> {
+        let mut reader = quick_xml::Reader::from_str(text);
+        let mut description = Description::default();
+        let mut current = None;
+        let wrong = |error: &dyn std::fmt::Display| ImportError::Xml(error.to_string());
+        loop {
+            match reader.read_event().map_err(|error| wrong(&error))? {
+                Event::Eof => return Ok(description),
+                Event::Start(element) | Event::Empty(element) => {
+                    let attributes = attributes(&element)?;
+                    let get = |name: &str| attributes.get(name).cloned().unwrap_or_default();
+                    match element.name().as_ref() {
+                        "fmiModelDescription" => {
+                            (description.guid, description.fmi_version) = (get("guid"), get("fmiVersion"));
+                        }
+                        "CoSimulation" => {
+                            description.identifier = get("modelIdentifier");
+                            description.interpolates_inputs =
+                                matches!(get("canInterpolateInputs").as_str(), "true" | "1");
+                            description.output_derivatives = get("maxOutputDerivativeOrder").parse().unwrap_or(0);
+                        }
+                        "ScalarVariable" => {
+                            let reference = get("valueReference").parse().map_err(|error| wrong(&error))?;
+                            current = Some((get("name"), reference));
+                        }
+                        kind @ ("Real" | "Integer") => {
+                            if let Some((name, reference)) = current.take() {
+                                let start = attributes.get("start").map(|start| start.parse());
+                                let start = start.transpose().map_err(|error| wrong(&error))?;
+                                let variable = Variable { reference, is_real: kind == "Real", start };
+                                description.variables.insert(name, variable);
+                            }
+                        }
+                        _ => {}
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The value reference of the Real variable `name`.
+    pub fn real(&self, name: &str) -> Result<u32, ImportError> {
+        let variable = self.variables.get(name).filter(|variable| variable.is_real);
+        variable.map(|variable| variable.reference).ok_or_else(|| ImportError::Variable(name.into()))
+    }
+}
+
+fn attributes(element: &BytesStart) -> Result<HashMap<String, String>, ImportError> {
+    let mut map = HashMap::new();
+    for attribute in element.attributes() {
+        let attribute = attribute.map_err(|error| ImportError::Xml(error.to_string()))?;
+        let name = attribute.key.as_ref().to_string();
+        let value = attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0);
+        map.insert(name, value.map_err(|error| ImportError::Xml(error.to_string()))?.into_owned());
+    }
+    Ok(map)
+}

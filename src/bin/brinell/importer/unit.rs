@@ -1,0 +1,233 @@
+//! A library behind the C interface.
+//!
+//! `unsafe` as any importer needs it: the library is trusted to keep the standard's signatures, which `check` is there
+//! to try out.
+
+use super::ImportError;
+use std::collections::HashMap;
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::path::Path;
+
+/// A loaded library.
+pub struct Unit {
+    library: libloading::Library,
+    guid: CString,
+    /// Where its resources are.
+    resources: CString,
+}
+
+type Component = *mut c_void;
+type Logger = unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char);
+
+#[repr(C)]
+struct Callbacks {
+    logger: Logger,
+    allocate: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
+    free: Option<unsafe extern "C" fn(*mut c_void)>,
+    step_finished: *const c_void,
+    environment: *mut c_void,
+}
+
+// What a unit written in C may ask its importer for.
+unsafe extern "C" {
+    fn calloc(count: usize, size: usize) -> *mut c_void;
+    fn free(memory: *mut c_void);
+}
+
+/// A path as an address: `file:///tmp/a%20b`.
+fn address(path: &Path) -> String {
+    let path = path.to_string_lossy().replace('\\', "/");
+    let byte = |byte: u8| match byte {
+        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b':' | b'-' | b'.' | b'_' | b'~' => {
+            char::from(byte).to_string()
+        }
+        other => format!("%{other:02X}"),
+    };
+    format!("file:///{}", path.trim_start_matches('/').bytes().map(byte).collect::<String>())
+}
+
+/// Keeps the last message. The unit's messages are complete texts, so that the variable arguments aren't needed.
+unsafe extern "C" fn keep_message(
+    environment: *mut c_void,
+    _instance: *const c_char,
+    _status: c_int,
+    _category: *const c_char,
+    message: *const c_char,
+) {
+    // SAFETY: the environment is the String below, which outlives the instance; the message ends with 0.
+    unsafe {
+        if let Some(kept) = environment.cast::<String>().as_mut()
+            && !message.is_null()
+        {
+            *kept = CStr::from_ptr(message).to_string_lossy().replace("%%", "%").replace("##", "#");
+        }
+    }
+}
+
+type SetDerivatives = unsafe extern "C" fn(Component, *const u32, usize, *const c_int, *const f64) -> c_int;
+type GetDerivatives = unsafe extern "C" fn(Component, *const u32, usize, *const c_int, *mut f64) -> c_int;
+
+/// The functions that stepping needs, looked up once.
+struct Functions<'a> {
+    get_real: libloading::Symbol<'a, unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> c_int>,
+    set_real: libloading::Symbol<'a, unsafe extern "C" fn(Component, *const u32, usize, *const f64) -> c_int>,
+    do_step: libloading::Symbol<'a, unsafe extern "C" fn(Component, f64, f64, c_int) -> c_int>,
+    simple: HashMap<&'static str, libloading::Symbol<'a, unsafe extern "C" fn(Component) -> c_int>>,
+    set_input_derivatives: libloading::Symbol<'a, SetDerivatives>,
+    output_derivatives: libloading::Symbol<'a, GetDerivatives>,
+    setup: libloading::Symbol<'a, unsafe extern "C" fn(Component, c_int, f64, f64, c_int, f64) -> c_int>,
+    free: libloading::Symbol<'a, unsafe extern "C" fn(Component)>,
+}
+
+/// An instance of a unit.
+pub struct Instance<'a> {
+    functions: Functions<'a>,
+    component: Component,
+    message: *mut String,
+    // the unit may keep the pointer instead of a copy
+    _callbacks: Box<Callbacks>,
+}
+
+impl Unit {
+    /// The function `name`.
+    ///
+    /// # Safety
+    /// `T` is its type.
+    unsafe fn get<T>(&self, name: &'static str) -> Result<libloading::Symbol<'_, T>, ImportError> {
+        // SAFETY: as the caller promises.
+        unsafe { self.library.get(name.as_bytes()) }.map_err(|source| ImportError::Function { name, source })
+    }
+
+    /// Loads the library at `path` of the unit with this GUID, unpacked into `folder`.
+    pub fn load(path: &Path, folder: &Path, guid: &str) -> Result<Unit, ImportError> {
+        let text = |text: String| CString::new(text).map_err(|error| ImportError::Xml(error.to_string()));
+        let (guid, resources) = (text(guid.into())?, text(address(&folder.join("resources")))?);
+        // SAFETY: loading runs the library's initializers; a unit of FMI has none that could harm.
+        let library = unsafe { libloading::Library::new(path) }.map_err(ImportError::Library)?;
+        Ok(Unit { library, guid, resources })
+    }
+
+    /// Makes an instance.
+    pub fn instantiate(&self) -> Result<Instance<'_>, ImportError> {
+        type Instantiate = unsafe extern "C" fn(
+            *const c_char,
+            c_int,
+            *const c_char,
+            *const c_char,
+            *const Callbacks,
+            c_int,
+            c_int,
+        ) -> Component;
+        let simple = ["fmi2EnterInitializationMode", "fmi2ExitInitializationMode", "fmi2Terminate", "fmi2Reset"];
+        let message = Box::into_raw(Box::<String>::default());
+        let callbacks = Box::new(Callbacks {
+            logger: keep_message,
+            allocate: Some(calloc),
+            free: Some(free),
+            step_finished: std::ptr::null(),
+            environment: message.cast(),
+        });
+        // SAFETY: the functions have the standard's signatures; strings and callbacks live long enough.
+        unsafe {
+            let instantiate = self.get::<Instantiate>("fmi2Instantiate")?;
+            let mut by_name = HashMap::new();
+            for name in simple {
+                by_name.insert(name, self.get(name)?);
+            }
+            let functions = Functions {
+                get_real: self.get("fmi2GetReal")?,
+                set_real: self.get("fmi2SetReal")?,
+                do_step: self.get("fmi2DoStep")?,
+                simple: by_name,
+                set_input_derivatives: self.get("fmi2SetRealInputDerivatives")?,
+                output_derivatives: self.get("fmi2GetRealOutputDerivatives")?,
+                setup: self.get("fmi2SetupExperiment")?,
+                free: self.get("fmi2FreeInstance")?,
+            };
+            let (guid, resources) = (self.guid.as_ptr(), self.resources.as_ptr());
+            let component = instantiate(c"check".as_ptr(), 1, guid, resources, &raw const *callbacks, 0, 0);
+            let instance = Instance { functions, component, message, _callbacks: callbacks };
+            if component.is_null() { Err(ImportError::Instantiate((*message).clone())) } else { Ok(instance) }
+        }
+    }
+}
+
+impl Drop for Instance<'_> {
+    fn drop(&mut self) {
+        // SAFETY: both were made in `instantiate` and are not used afterwards; the standard allows freeing null.
+        unsafe {
+            if !self.component.is_null() {
+                (self.functions.free)(self.component);
+            }
+            drop(Box::from_raw(self.message));
+        }
+    }
+}
+
+impl Instance<'_> {
+    fn check(&self, function: &'static str, status: c_int) -> Result<(), ImportError> {
+        // fmi2OK, or fmi2Warning: the computation can go on
+        if matches!(status, 0 | 1) {
+            return Ok(());
+        }
+        // SAFETY: the String lives as long as the instance, and the unit writes to it during calls only.
+        let message = unsafe { (*self.message).clone() };
+        Err(ImportError::Call { function, status, message })
+    }
+
+    /// A call without arguments.
+    pub fn call(&mut self, function: &'static str) -> Result<(), ImportError> {
+        // SAFETY: the component is live.
+        let status = unsafe { (self.functions.simple[function])(self.component) };
+        self.check(function, status)
+    }
+
+    /// Sets the start time [s], without stop time.
+    pub fn setup_experiment(&mut self, start: f64) -> Result<(), ImportError> {
+        // SAFETY: the component is live.
+        let status = unsafe { (self.functions.setup)(self.component, 0, 0.0, start, 0, 0.0) };
+        self.check("fmi2SetupExperiment", status)
+    }
+
+    /// Reads one Real variable.
+    pub fn real(&mut self, reference: u32) -> Result<f64, ImportError> {
+        let mut value = f64::NAN;
+        // SAFETY: the component is live; one reference and one value.
+        let status = unsafe { (self.functions.get_real)(self.component, &reference, 1, &mut value) };
+        self.check("fmi2GetReal", status)?;
+        Ok(value)
+    }
+
+    /// Sets one Real variable.
+    pub fn set_real(&mut self, reference: u32, value: f64) -> Result<(), ImportError> {
+        // SAFETY: the component is live; one reference and one value.
+        let status = unsafe { (self.functions.set_real)(self.component, &reference, 1, &value) };
+        self.check("fmi2SetReal", status)
+    }
+
+    /// One step from `time` [s] over `step` [s].
+    pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), ImportError> {
+        // SAFETY: the component is live.
+        let status = unsafe { (self.functions.do_step)(self.component, time, step, 1) };
+        self.check("fmi2DoStep", status)
+    }
+
+    /// Sets derivatives of an input for the next step: the first, and the second if it is there.
+    pub fn set_input_derivatives(&mut self, reference: u32, values: &[f64]) -> Result<(), ImportError> {
+        let (references, orders) = ([reference; 2], [1, 2]);
+        let count = values.len().min(orders.len());
+        let set = &self.functions.set_input_derivatives;
+        // SAFETY: the component is live; as many references and orders as values, or more.
+        let status = unsafe { set(self.component, references.as_ptr(), count, orders.as_ptr(), values.as_ptr()) };
+        self.check("fmi2SetRealInputDerivatives", status)
+    }
+
+    /// Reads the first derivative of an output at the end of the last step.
+    pub fn output_derivative(&mut self, reference: u32) -> Result<f64, ImportError> {
+        let mut value = f64::NAN;
+        // SAFETY: the component is live; one reference, order and value.
+        let status = unsafe { (self.functions.output_derivatives)(self.component, &reference, 1, &1, &mut value) };
+        self.check("fmi2GetRealOutputDerivatives", status)?;
+        Ok(value)
+    }
+}

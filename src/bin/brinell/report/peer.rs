@@ -1,0 +1,79 @@
+//! Other units with the same variables, run in the same picture.
+
+use super::ways::{DERIVATIVES, MASS_KNOWN, PREDICTED, WAYS, Way};
+use super::{ReportError, unit::Contact};
+use crate::importer::{Archive, ImportError, Unit};
+use crate::scene::Scene;
+use std::path::{Path, PathBuf};
+
+/// What a unit must have to be run beside the scene's.
+const NEEDED: [&str; 3] = ["indentation_rate", "force", "initial_gap"];
+
+/// Another unit.
+pub struct Peer {
+    path: PathBuf,
+    /// The name of its file, without the ending.
+    pub name: String,
+    archive: Archive,
+    unit: Unit,
+}
+
+impl Peer {
+    /// Loads the unit at `path`.
+    ///
+    /// # Errors
+    /// [`ReportError::Peer`] if it can't be loaded or can't be run in place of the scene's.
+    pub fn open(path: &Path) -> Result<Peer, ReportError> {
+        let wrong = |reason: String| ReportError::Peer { path: path.into(), reason };
+        let archive = Archive::open(path).map_err(|error| wrong(error.to_string()))?;
+        let description = &archive.description;
+        if description.fmi_version != "2.0" {
+            return Err(wrong(format!("fmiVersion is {:?}, and only 2.0 can be run", description.fmi_version)));
+        }
+        if description.identifier.is_empty() {
+            return Err(wrong("it is no co-simulation unit".into()));
+        }
+        let missing: Vec<_> = NEEDED.into_iter().filter(|name| description.real(name).is_err()).collect();
+        if !missing.is_empty() {
+            let (missing, needed) = (missing.join(", "), NEEDED.join(", "));
+            return Err(wrong(format!("it has no Real variable {missing}; needed are {needed}")));
+        }
+        let unit = archive.load().map_err(|error| wrong(error.to_string()))?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Peer { path: path.into(), name, archive, unit })
+    }
+
+    /// Its contact, with the bodies of `scene`.
+    ///
+    /// # Errors
+    /// [`ReportError::Peer`] if it doesn't start with them.
+    pub fn contact(&self, scene: &Scene) -> Result<Contact<'_>, ReportError> {
+        let mut parameters: Vec<(&str, f64)> = scene.parameters.iter().map(|known| (known.name, known.value)).collect();
+        parameters.push(("effective_mass", scene.impact.mass));
+        let started = Contact::new(&self.archive, &self.unit, &parameters).and_then(|mut contact| {
+            contact.start(&[])?;
+            Ok(contact)
+        });
+        started.map_err(|error| self.fault(&error))
+    }
+
+    /// An error of this unit.
+    pub fn fault(&self, error: &ImportError) -> ReportError {
+        ReportError::Peer { path: self.path.clone(), reason: error.to_string() }
+    }
+
+    /// The ways to couple that it offers.
+    pub fn ways(&self) -> Vec<&'static Way> {
+        let description = &self.archive.description;
+        let has = |name| description.real(name).is_ok();
+        let derivatives = description.interpolates_inputs && description.output_derivatives > 0;
+        let offered = |way: &&Way| {
+            // a unit that moves the mass itself does nothing else
+            way.knows_mass == has("effective_mass")
+                && (way.name != PREDICTED.name || has("predicted_force"))
+                && (way.name != DERIVATIVES.name || derivatives && has("mean_force"))
+                && (way.name != MASS_KNOWN.name || has("mean_force"))
+        };
+        WAYS.iter().filter(offered).collect()
+    }
+}

@@ -1,0 +1,210 @@
+//! Error against run time: every way to couple, over the steps per contact.
+
+mod page;
+
+use super::unit::Contact;
+use super::ways::Way;
+use crate::importer::ImportError;
+use brinell::contact::impact::{Impact, Prediction};
+use std::time::Instant;
+
+pub use page::part;
+
+/// The steps per contact that the order is fitted to: neither big steps nor rounding speak there.
+const FITTED: std::ops::RangeInclusive<u32> = 16..=512;
+
+/// What half a step must make of an error that follows a power of the step: that of another unit may end at what its law
+/// differs by.
+const LEAST_FALL: f64 = 0.75;
+
+/// Errors below this are rounding.
+const ROUNDING: f64 = 1e-11;
+
+/// One way at one number of steps per contact. Errors are relative to the energy balance, root mean squares over the phases.
+pub struct Point {
+    pub steps: u32,
+    /// [s]
+    pub step: f64,
+    pub restitution: f64,
+    pub max_force: f64,
+    /// NaN where there is none: of an elastic contact, or of a unit that doesn't tell it.
+    pub dent: f64,
+    /// NaN where there is none.
+    pub contact_time: f64,
+    /// Of one impact.
+    pub calls: f64,
+    /// The shortest of the phases [s].
+    pub run_time: f64,
+}
+
+/// One way over the steps per contact, from few to many.
+pub struct Line {
+    pub way: &'static str,
+    /// The other unit that was run; none for that of the scene.
+    pub peer: Option<String>,
+    pub points: Vec<Point>,
+    /// Power of the step that the error of restitution follows; none if that is rounding.
+    pub order: Option<f64>,
+}
+
+/// What all lines of a report are measured by.
+#[derive(Clone, Copy)]
+pub struct Plan<'a> {
+    pub impact: &'a Impact,
+    pub prediction: &'a Prediction,
+    /// Most steps per contact.
+    pub most: u32,
+    /// Places within a step where the bodies meet.
+    pub phases: u32,
+    /// Whether the force follows the rate.
+    pub follows_rate: bool,
+}
+
+/// The name of the line that isn't a way to couple.
+pub const ALONE: &str = "unit alone";
+
+impl Plan<'_> {
+    /// The numbers of steps per contact, from `fewest` on.
+    fn steps(self, fewest: u32) -> impl Iterator<Item = u32> {
+        std::iter::successors(Some(fewest), |steps| Some(2 * steps)).take_while(move |steps| *steps <= self.most)
+    }
+
+    /// Runs `way` from 2 steps per contact on.
+    ///
+    /// # Errors
+    /// [`ImportError`] if the unit refuses a call.
+    pub fn measure(self, contact: &mut Contact, way: &Way) -> Result<Line, ImportError> {
+        let points = self.steps(2).map(|steps| self.point(contact, way, steps));
+        let points = points.collect::<Result<Vec<_>, _>>()?;
+        let order = order(&points);
+        Ok(Line { way: way.name, peer: None, points, order })
+    }
+
+    fn point(self, contact: &mut Contact, way: &Way, steps: u32) -> Result<Point, ImportError> {
+        let Plan { impact, prediction, .. } = self;
+        let step = prediction.contact_time() / f64::from(steps);
+        let mut sums = Sums::default();
+        for phase in 0..self.phases {
+            // in the second step: a prediction needs a step before
+            let gap = (1.0 + (f64::from(phase) + 0.5) / f64::from(self.phases)) * impact.speed * step;
+            contact.start(&[("initial_gap", gap)])?;
+            let began = Instant::now();
+            let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
+            sums.run_time(began);
+            let dent = contact.output("residual_indentation").unwrap_or(f64::NAN);
+            // the bodies have parted within the last step, and fly on
+            let past = dent - contact.output("indentation").unwrap_or(f64::NAN);
+            let contact_time = contact.time - past / rebound.speed - gap / impact.speed;
+            sums.add([
+                rebound.speed / impact.speed / prediction.restitution - 1.0,
+                rebound.max_force / prediction.max_force - 1.0,
+                dent / prediction.residual_indentation - 1.0,
+                // where a force that follows the rate ends says nothing of the surface
+                if self.follows_rate { f64::NAN } else { contact_time / prediction.contact_time() - 1.0 },
+            ]);
+            sums.calls += contact.calls;
+        }
+        Ok(sums.point(steps, step))
+    }
+
+    /// What the unit itself adds to any error: the way in and the way out, each split into steps of unequal length, beside
+    /// the same in one step each.
+    ///
+    /// # Errors
+    /// [`ImportError`] if the unit refuses a call.
+    pub fn alone(self, contact: &mut Contact) -> Result<Line, ImportError> {
+        let whole = self.there_and_back(contact, 2, 0.0)?;
+        let mut points = Vec::new();
+        for steps in self.steps(4) {
+            let mut sums = Sums::default();
+            for phase in 0..self.phases {
+                let uneven = f64::from(phase) / f64::from(self.phases);
+                let began = Instant::now();
+                let split = self.there_and_back(contact, steps, uneven)?;
+                sums.run_time(began);
+                let error = |index: usize| split[index] / whole[index] - 1.0;
+                sums.add([error(0), error(1), error(2), f64::NAN]);
+                sums.calls += contact.calls;
+            }
+            points.push(sums.point(steps, self.prediction.contact_time() / f64::from(steps)));
+        }
+        Ok(Line { way: ALONE, peer: None, points, order: None })
+    }
+
+    /// Restitution, largest force [N] and dent [m] of a contact that is pressed to the largest indentation and let go, each
+    /// in half of the `steps`; those are longer and shorter in turn by the fraction `uneven`.
+    fn there_and_back(self, contact: &mut Contact, steps: u32, uneven: f64) -> Result<[f64; 3], ImportError> {
+        let (depth, half) = (self.prediction.max_indentation, steps / 2);
+        // as fast as the impact, more or less
+        let step = self.prediction.contact_time() / f64::from(steps);
+        let long = half.div_ceil(2);
+        // not a sum of so many numbers, whose rounding would be the master's own
+        let rate = depth / step / (f64::from(half) + uneven * f64::from(2 * long - half));
+        let length = |index| step * if index % 2 == 0 { 1.0 + uneven } else { 1.0 - uneven };
+        contact.start(&[("initial_gap", 0.0)])?;
+        let mut max_force = 0.0;
+        for sign in [1.0, -1.0] {
+            for index in 0..half {
+                contact.set_rate(sign * rate)?;
+                contact.step(length(index))?;
+                max_force = f64::max(max_force, contact.force()?);
+            }
+        }
+        let (lost, dent) = (contact.output("dissipated_energy")?, contact.output("residual_indentation")?);
+        Ok([(1.0 - lost / self.prediction.energy).sqrt(), max_force, dent])
+    }
+}
+
+/// Errors and costs of the phases.
+struct Sums {
+    /// Squares of the errors of restitution, force, dent and contact time.
+    squares: [f64; 4],
+    calls: u64,
+    shortest: f64,
+    count: u32,
+}
+
+impl Default for Sums {
+    fn default() -> Sums {
+        Sums { squares: [0.0; 4], calls: 0, shortest: f64::INFINITY, count: 0 }
+    }
+}
+
+impl Sums {
+    fn add(&mut self, errors: [f64; 4]) {
+        self.count += 1;
+        self.squares.iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * error);
+    }
+
+    fn run_time(&mut self, began: Instant) {
+        self.shortest = self.shortest.min(began.elapsed().as_secs_f64());
+    }
+
+    fn point(self, steps: u32, step: f64) -> Point {
+        let [restitution, max_force, dent, contact_time] = self.squares.map(|sum| (sum / f64::from(self.count)).sqrt());
+        let calls = self.calls as f64 / f64::from(self.count);
+        Point { steps, step, restitution, max_force, dent, contact_time, calls, run_time: self.shortest }
+    }
+}
+
+/// The slope of the error over the step, both as logarithms, by least squares; none if the error doesn't fall with the step.
+fn order(points: &[Point]) -> Option<f64> {
+    let fitted = points.iter().filter(|point| FITTED.contains(&point.steps) && point.restitution > ROUNDING);
+    let logs: Vec<_> = fitted.map(|point| (point.step.ln(), point.restitution.ln())).collect();
+    if logs.len() < 3 || logs.windows(2).any(|pair| pair[1].1 > pair[0].1 + LEAST_FALL.ln()) {
+        return None;
+    }
+    let count = logs.len() as f64;
+    let (mean_x, mean_y) = logs.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
+    let covariance: f64 = logs.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    let variance: f64 = logs.iter().map(|(x, _)| (x - mean_x) * (x - mean_x)).sum();
+    Some(covariance / variance)
+}
+
+impl Line {
+    /// The biggest step from which on the error of restitution stays below `error`.
+    pub fn step_for(&self, error: f64) -> Option<&Point> {
+        let good = |point: &&Point| point.restitution < error;
+        self.points.iter().rev().take_while(good).last()
+    }
+}
