@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
 /// What a unit must have to be run beside the scene's.
-const NEEDED: [&str; 3] = ["indentation_rate", "force", "initial_gap"];
+const NEEDED: [&str; 2] = ["indentation_rate", "force"];
 
 /// Another unit.
 pub struct Peer {

@@ -52,8 +52,9 @@ pub struct Contact<'a> {
     // what another unit may lack
     mean_force: Option<u32>,
     predicted_force: Option<u32>,
-    /// Time of the co-simulation [s].
-    pub time: f64,
+    /// Time of the co-simulation, and that of the start [s].
+    time: f64,
+    start_time: f64,
     /// Calls since the start.
     pub calls: u64,
 }
@@ -72,6 +73,7 @@ impl<'a> Contact<'a> {
             mean_force: description.real("mean_force").ok(),
             predicted_force: description.real("predicted_force").ok(),
             time: 0.0,
+            start_time: 0.0,
             calls: 0,
         })
     }
@@ -88,8 +90,26 @@ impl<'a> Contact<'a> {
             self.instance.set_real(self.description.real(name)?, *value)?;
         }
         self.instance.call("fmi2ExitInitializationMode")?;
-        (self.time, self.calls) = (0.0, 0);
+        (self.time, self.start_time, self.calls) = (0.0, 0.0, 0);
         Ok(())
+    }
+
+    /// Back to the start, with the bodies `gap` [m] apart. Those of a unit that has no such parameter are drawn apart in one
+    /// `step` [s].
+    pub fn start_apart(&mut self, gap: f64, step: f64) -> Result<(), ImportError> {
+        if self.description.real("initial_gap").is_ok() {
+            return self.start(&[("initial_gap", gap)]);
+        }
+        self.start(&[])?;
+        self.set_rate(-gap / step)?;
+        self.step(step)?;
+        (self.start_time, self.calls) = (self.time, 0);
+        Ok(())
+    }
+
+    /// Time since the start [s].
+    pub fn elapsed(&self) -> f64 {
+        self.time - self.start_time
     }
 
     /// Sets the closing speed [m/s].

@@ -87,14 +87,14 @@ impl Plan<'_> {
         for phase in 0..self.phases {
             // in the second step: a prediction needs a step before
             let gap = (1.0 + (f64::from(phase) + 0.5) / f64::from(self.phases)) * impact.speed * step;
-            contact.start(&[("initial_gap", gap)])?;
+            contact.start_apart(gap, step)?;
             let began = Instant::now();
             let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
             sums.run_time(began);
             let dent = contact.output("residual_indentation").unwrap_or(f64::NAN);
             // the bodies have parted within the last step, and fly on
             let past = dent - contact.output("indentation").unwrap_or(f64::NAN);
-            let contact_time = contact.time - past / rebound.speed - gap / impact.speed;
+            let contact_time = contact.elapsed() - past / rebound.speed - gap / impact.speed;
             sums.add([
                 rebound.speed / impact.speed / prediction.restitution - 1.0,
                 rebound.max_force / prediction.max_force - 1.0,
