@@ -9,6 +9,9 @@ use super::unloading::Unloading;
 use super::{Model, Surface};
 use libm::fabs;
 
+/// What two ways to integrate a smooth force may differ by, as a fraction of the integral.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// Impulse [N.s] of a step on `course` over `step` [s] from where the contact is, which stays where it is.
 ///
 /// The way is cut where the direction changes and where the law has a corner. On each part the force is smooth in time and
@@ -81,13 +84,10 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
             return (end - start) * segment.mean_force(from, to);
         }
         let force = |time: f64| piece.force(self.at(time));
-        // where the force begins at the surface it is a fractional power
-        let nearest = if from < to { from } else { to };
-        if nearest - piece.lower > fabs(to - from) {
-            gauss(start, end, &force)
-        } else {
-            graded_integral(start, end, &force)
-        }
+        // where the force begins, at the surface or at a corner of the law, it may be a fractional power; mostly it is far off
+        let middle = 0.5 * (start + end);
+        let (whole, halves) = (gauss(start, end, &force), gauss(start, middle, &force) + gauss(middle, end, &force));
+        if fabs(whole - halves) <= ROUNDING * fabs(halves) { halves } else { graded_integral(start, end, &force) }
     }
 
     /// When, between now and `end` [s], the indentation is `border` [m]: Newton's method in a bracket.
