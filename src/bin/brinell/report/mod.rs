@@ -99,7 +99,9 @@ impl Report {
         }
         say("stability");
         let stiffness = model.stiffness(prediction.max_indentation);
-        let stability = stability::measure(&mut contact, &impact, &prediction, stiffness, phases)?;
+        let knowing = knowing_contact.as_mut();
+        let stability =
+            stability::measure(&mut contact, knowing, (&impact, &prediction), stiffness, phases, follows_rate)?;
         say("stiff and extreme cases");
         let cases = extremes::measure(&mut contact, &plain_scene, quick);
         say("laws side by side");
