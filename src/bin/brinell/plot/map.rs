@@ -39,11 +39,11 @@ pub struct Class {
 }
 
 /// Sizes [pixels].
-const WIDTH: i32 = 700;
-const LEFT: i32 = 140;
+const WIDTH: i32 = 570;
+const LEFT: i32 = 124;
 const MARGIN: i32 = 14;
 const ROW: i32 = 30;
-const CLASS: i32 = 62;
+const CLASS: i32 = 54;
 const STRIP: i32 = 18;
 /// Below the cells: numbers and title of the columns, the bar, and the classes.
 const BELOW: i32 = 172;

@@ -199,7 +199,7 @@ impl Laws<'_> {
         if !dots.is_empty() {
             picture.series.push(Series { label: "finite elements".into(), points: dots, dots: true });
         }
-        (picture.svg(860, 480), table)
+        (picture.svg(700, 440), table)
     }
 
     /// Speeds in `range` [m/s] whose restitution is known from finite elements.

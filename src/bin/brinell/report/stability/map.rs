@@ -26,7 +26,8 @@ pub fn of(stability: &Stability) -> Map {
     }
 }
 
-/// The classes about the `predicted` ratio: blue below it, yellow to orange above, and red where energy is made.
+/// The classes about the `predicted` ratio: blue below it, yellow to orange above, and red where energy is made. A page in the dark turns dark
+/// red into pink, so that no red is very dark.
 fn classes(predicted: f64) -> Vec<Class> {
     // rounding makes no energy
     let most = 1.0 + ROUNDING;
@@ -47,7 +48,7 @@ fn classes(predicted: f64) -> Vec<Class> {
     for (upto, colour) in [(more, (255, 243, 176)), (more.sqrt(), (254, 210, 90)), (most, (245, 155, 40))] {
         add(upto, colour, "too much");
     }
-    for (upto, colour) in [(MATTERS, (232, 86, 76)), (2.0, (200, 16, 32)), (f64::INFINITY, (115, 0, 20))] {
+    for (upto, colour) in [(MATTERS, (245, 120, 110)), (2.0, (228, 60, 55)), (f64::INFINITY, (185, 5, 30))] {
         add(upto, colour, "more than came in");
     }
     classes
