@@ -112,6 +112,25 @@ fn a_body_at_rest_on_the_surface_is_carried() {
 }
 
 #[test]
+fn a_small_motion_under_a_large_load_takes_no_more_evaluations_than_a_large_one() {
+    let model = model("hertz", "contact-radius");
+    let depth = unit(&mild()).indentation;
+    let frequency = (model.unloading_segment(depth, depth).stiffness(depth) / MASS).sqrt();
+    for amplitude in [1e-3, 1e-6, 1e-9] {
+        let mut history = History::start(&model, -depth).unwrap();
+        let acceleration = history.force() / MASS;
+        let first = amplitude * depth * frequency;
+        let mut speed = first;
+        for _ in 0..100 {
+            let outcome = go(&mut history, &model, acceleration, speed, 8.0 / frequency);
+            assert!(outcome.evaluations < 8000, "amplitude {amplitude:e}: {} evaluations", outcome.evaluations);
+            speed = outcome.speed;
+            assert!(speed.abs() < 1.01 * first, "amplitude {amplitude:e}: it grows to {speed:e} from {first:e} m/s");
+        }
+    }
+}
+
+#[test]
 fn bodies_that_part_fly_on() {
     let model = model("big-alabo", "contact-radius");
     let mut history = History::start(&model, 1e-3).unwrap();

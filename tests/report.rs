@@ -49,15 +49,126 @@ fn a_unit_that_knows_the_mass_is_right_to_rounding_at_every_step() {
     assert!(errors.iter().all(|error| *error < 1e-11), "{errors:?}");
 }
 
+/// The data of the elastic scene, made once.
+static ELASTIC: LazyLock<Value> = LazyLock::new(|| report("elastic").1);
+
 #[test]
-fn the_stable_limit_of_an_elastic_scene_is_that_of_theory() {
-    let (_folder, data) = report("elastic");
-    let limit = data["use"]["stable_leap_frog"].as_f64().expect("a limit");
-    assert!((limit / 2.0 - 1.0).abs() < 0.05, "h sqrt(K/m) = {limit} instead of 2");
-    assert!(data["use"]["stable_late"].is_null(), "a late force is stable at no step: {}", data["use"]);
-    let verdicts = rows(&data, "extremes").iter().map(|row| row["verdict"].as_str().expect("a verdict"));
+fn the_stable_limits_of_an_elastic_scene_are_those_of_theory() {
+    // the smallest root of the polynomial in (h omega)^2 at which input derivatives have the eigenvalue -1
+    let polynomial = |z: f64| ((z - 48.0) * z + 432.0) * z - 576.0;
+    let (mut low, mut high) = (0.0, 2.0f64);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if polynomial(middle) < 0.0 { low = middle } else { high = middle }
+    }
+    for (way, theory) in [("predicted_force", 2.0), ("leap-frog", 2.0), ("input derivatives", low.sqrt())] {
+        let row = row(&ELASTIC, "limits", way);
+        let told = row["elastic_theory"].as_f64().expect("a limit of theory");
+        assert!((told / theory - 1.0).abs() < 1e-12, "{way}: theory says {theory}, the report {told}");
+        let limit = row["largest_stable_h_sqrt(K/m)"].as_f64().expect("a limit");
+        assert!((limit / theory - 1.0).abs() < 0.05, "{way}: h sqrt(K/m) = {limit} instead of {theory}");
+    }
+    for (way, words) in [("late force", "at no step that was tried"), ("mass known", "at every step that was tried")] {
+        let row = row(&ELASTIC, "limits", way);
+        assert_eq!(row["stable"], words, "{way}");
+        assert!(row["largest_stable_h_sqrt(K/m)"].is_null(), "{way} has no limit: {row}");
+    }
+}
+
+#[test]
+fn programs_are_told_the_stable_limit_of_every_way() {
+    let used = &ELASTIC["use"];
+    let stable = used["stable"].as_array().expect("a list");
+    let limits = rows(&ELASTIC, "limits");
+    assert_eq!(stable.len(), limits.len());
+    for (told, limit) in stable.iter().zip(limits) {
+        assert_eq!((&told["way"], &told["stable"]), (&limit["way"], &limit["stable"]));
+        assert_eq!(told["h_sqrt(K/m)"], limit["largest_stable_h_sqrt(K/m)"]);
+        assert_eq!(told["step_s"], limit["largest_stable_step_s"]);
+    }
+    assert_eq!(used["stable_leap_frog"], row(&ELASTIC, "limits", "leap-frog")["largest_stable_h_sqrt(K/m)"]);
+    assert!(used["stable_late"].is_null(), "a late force is stable at no step: {used}");
+}
+
+#[test]
+fn all_cases_of_an_elastic_scene_are_right() {
+    let verdicts = rows(&ELASTIC, "extremes").iter().map(|row| row["verdict"].as_str().expect("a verdict"));
     let wrong: Vec<_> = verdicts.filter(|verdict| *verdict != "right").collect();
     assert!(wrong.is_empty(), "{wrong:?}");
+}
+
+/// Step and highest rebound energy of a way, over the steps of the map.
+fn energies(data: &Value, way: &str) -> Vec<(f64, f64)> {
+    let rows = rows(data, "stability").iter().filter(|row| row["way"] == way);
+    let number = |value: &Value| value.as_f64().expect("a number");
+    rows.map(|row| (number(&row["h_sqrt(K/m)"]), number(&row["highest_rebound_over_incoming_energy"]))).collect()
+}
+
+#[test]
+fn the_map_has_every_way_at_every_step() {
+    let steps = |way: &str| energies(&DEFAULT.1, way).into_iter().map(|(step, _)| step).collect::<Vec<_>>();
+    let first = steps("late force");
+    assert_eq!(first.len(), 41);
+    assert!((first[0] / 0.02 - 1.0).abs() < 1e-12 && (first[40] / 8.0 - 1.0).abs() < 1e-12, "{first:?}");
+    for way in ["predicted_force", "leap-frog", "input derivatives", "mass known"] {
+        assert_eq!(steps(way), first, "{way}");
+    }
+    let map = fs::read_to_string(DEFAULT.0.path().join("report/stability.svg")).expect("a map");
+    for way in ["late force", "predicted_force", "leap-frog", "input derivatives", "mass known"] {
+        assert!(map.contains(way), "the map has no row {way}");
+    }
+}
+
+#[test]
+fn a_unit_that_knows_the_mass_makes_energy_at_no_step() {
+    for data in [&DEFAULT.1, &*ELASTIC] {
+        for (step, energy) in energies(data, "mass known") {
+            assert!(energy <= 1.0 + 1e-9, "h sqrt(K/m) = {step}: {energy}");
+        }
+    }
+}
+
+#[test]
+fn a_late_force_makes_energy_at_a_big_step() {
+    let (step, energy) = *energies(&DEFAULT.1, "late force").last().expect("steps");
+    assert!(energy > 1.0, "h sqrt(K/m) = {step}: {energy}");
+}
+
+#[test]
+fn restitution_over_speed_has_every_law() {
+    for law in rows(&DEFAULT.1, "laws").iter().map(|row| &row["law"]).filter(|law| *law != "finite elements") {
+        let speeds = rows(&DEFAULT.1, "restitution").iter().filter(|row| row["law"] == *law);
+        assert_eq!(speeds.count(), 41, "{law}");
+    }
+    let truth = rows(&DEFAULT.1, "restitution").iter().filter(|row| row["law"] == "finite elements");
+    let truth: Vec<f64> = truth.map(|row| row["restitution"].as_f64().expect("a number")).collect();
+    // of truth/README.md; the slowest of its impacts is slower than a hundredth of the scene's speed
+    let printed = [0.777, 0.645, 0.536, 0.450];
+    assert_eq!(truth.len(), printed.len(), "{truth:?}");
+    assert!(truth.iter().zip(printed).all(|(one, other)| (one - other).abs() < 6e-4), "{truth:?}");
+}
+
+#[test]
+fn the_spread_has_the_extremes_of_the_laws() {
+    let laws = rows(&DEFAULT.1, "laws").iter();
+    let laws: Vec<_> = laws.filter(|row| row["law"] != "hertz" && row["law"] != "finite elements").collect();
+    for row in rows(&DEFAULT.1, "spread") {
+        let key = match row["quantity"].as_str().expect("a name") {
+            "restitution" => "restitution",
+            "largest force" => "largest_force_N",
+            "dent" => "dent_m",
+            "contact time" => "contact_time_s",
+            other => panic!("a quantity {other}"),
+        };
+        let values = || laws.iter().map(|law| law[key].as_f64().expect("a number"));
+        assert_eq!(row["lowest"].as_f64(), Some(values().fold(f64::INFINITY, f64::min)), "{row}");
+        assert_eq!(row["highest"].as_f64(), Some(values().fold(f64::NEG_INFINITY, f64::max)), "{row}");
+        for (by, value) in [("lowest_by", "lowest"), ("highest_by", "highest")] {
+            let law = laws.iter().find(|law| law["law"] == row[by]).expect("a law of the table");
+            assert_eq!(law[key], row[value], "{row}");
+        }
+    }
+    assert_eq!(rows(&DEFAULT.1, "spread").len(), 4);
 }
 
 #[test]
@@ -98,6 +209,10 @@ fn the_page_needs_nothing_else_and_its_data_stand_beside_it() {
         "orders.csv",
         "precision.csv",
         "report.json",
+        "restitution.csv",
+        "restitution.svg",
+        "spread.csv",
+        "stability-curves.svg",
         "stability.csv",
         "stability.svg",
     ];
@@ -110,7 +225,7 @@ fn the_page_needs_nothing_else_and_its_data_stand_beside_it() {
 #[test]
 fn csv_and_json_have_the_same_rows() {
     let (folder, data) = &*DEFAULT;
-    for table in ["precision", "orders", "limits", "stability", "extremes", "laws"] {
+    for table in ["precision", "orders", "limits", "stability", "extremes", "laws", "spread", "restitution"] {
         let path = Path::new("report").join(table).with_extension("csv");
         let csv = fs::read_to_string(folder.path().join(path)).expect("a table");
         assert_eq!(csv.lines().count(), rows(data, table).len() + 1, "{table}");

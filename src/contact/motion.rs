@@ -54,6 +54,9 @@ pub const MOST_EVALUATIONS: u32 = 4_000_000;
 /// Largest error of an inner step, relative to its change of speed and its way.
 const TOLERANCE: f64 = 2e-14;
 
+/// The rounding of a difference of forces that cancel, relative to the forces, in tolerances.
+const CANCELLED: f64 = 0.1;
+
 /// Columns of the extrapolation: its order is twice that.
 const COLUMNS: usize = 8;
 
@@ -119,6 +122,8 @@ impl<L: Loading, U: Unloading> Stepper<'_, '_, L, U> {
             }
             let (change, speed_change) = (fabs(entry.0 - trial.way), fabs(entry.1 - trial.speed));
             let speed_scale = largest(largest(fabs(self.speed), fabs(entry.1)), fabs(first) * time);
+            // a small motion under a large load: what rounding makes of the difference of two large forces is no error
+            let speed_scale = largest(speed_scale, CANCELLED * fabs(self.drive.acceleration) * time);
             let relative = largest(change / (speed_scale * time), speed_change / speed_scale);
             let error = if speed_scale > 0.0 { relative / TOLERANCE } else { 0.0 };
             trial = Trial { way: entry.0, speed: entry.1, error, columns: column + 1 };

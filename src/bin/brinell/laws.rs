@@ -9,6 +9,7 @@ use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Model, Pair};
 
 /// A model of the scene with laws that may be others than the scene's.
+#[derive(Clone)]
 pub struct Choice {
     /// The laws' names.
     pub name: String,

@@ -22,3 +22,91 @@ pub fn loading() -> Vec<Point> {
     };
     LOADING.lines().skip(1).map(point).collect()
 }
+
+const UNLOADING: [(f64, &str); 5] = [
+    (3.0, include_str!("../../../truth/unloading_from_3.csv")),
+    (10.0, include_str!("../../../truth/unloading_from_10.csv")),
+    (30.0, include_str!("../../../truth/unloading_from_30.csv")),
+    (82.5, include_str!("../../../truth/unloading_from_82.5.csv")),
+    (200.0, include_str!("../../../truth/unloading_from_200.csv")),
+];
+
+/// An impact, quasi-static, in yield indentations and yield forces.
+pub struct Impact {
+    /// Largest indentation and largest force.
+    pub largest: Point,
+    /// Kinetic energy, in yield forces times yield indentations.
+    pub energy: f64,
+    /// Rebound and dent, where unloading is known.
+    pub rebound: Option<Rebound>,
+}
+
+/// What unloading gives back and leaves.
+pub struct Rebound {
+    pub restitution: f64,
+    /// Depth of the dent.
+    pub dent: f64,
+}
+
+/// The impacts whose unloading was computed.
+pub fn impacts() -> Vec<Impact> {
+    let curve = loading();
+    UNLOADING.iter().map(|(x, rows)| computed(&curve, *x, rows)).collect()
+}
+
+/// The impact that unloads from `x` by `rows`.
+fn computed(curve: &[Point], x: f64, rows: &str) -> Impact {
+    let number = |text: &str| text.parse().expect("the truth is a table of numbers");
+    let points = rows.lines().filter_map(|line| line.strip_prefix("unload,")).map(|line| {
+        let mut columns = line.split(',');
+        [(); 2].map(|()| number(columns.next().unwrap_or_default()))
+    });
+    let points: Vec<[f64; 2]> = points.collect();
+    let back: f64 = points.windows(2).map(|pair| 0.5 * (pair[0][0] - pair[1][0]) * (pair[0][1] + pair[1][1])).sum();
+    let (largest, energy) = loaded(curve, x);
+    let dent = points.last().map_or(x, |point| point[0]);
+    Impact { largest, energy, rebound: Some(Rebound { restitution: (back / energy).sqrt(), dent }) }
+}
+
+/// Force and work at the indentation `x`: straight between the points, and Hertz's law before the first.
+fn loaded(curve: &[Point], x: f64) -> (Point, f64) {
+    let mut work = 0.4 * curve[0].x * curve[0].f;
+    for pair in curve.windows(2) {
+        let (from, to) = (&pair[0], &pair[1]);
+        let end = x.min(to.x);
+        let f = from.f + (to.f - from.f) * (end - from.x) / (to.x - from.x);
+        work += 0.5 * (end - from.x) * (from.f + f);
+        if x <= to.x {
+            return (Point { x, f }, work);
+        }
+    }
+    (Point { x, f: f64::NAN }, work)
+}
+
+/// The impact with an `energy` [yield forces times yield indentations]; none if it goes beyond the loading curve.
+pub fn impact(energy: f64) -> Option<Impact> {
+    let curve = loading();
+    let (mut low, mut high) = (curve.first()?.x, curve.last()?.x);
+    if !(loaded(&curve, low).1..loaded(&curve, high).1).contains(&energy) {
+        return None;
+    }
+    while high - low > 1e-12 * high {
+        let middle = 0.5 * (low + high);
+        if loaded(&curve, middle).1 > energy { high = middle } else { low = middle }
+    }
+    let largest = loaded(&curve, low).0;
+    let rebound = rebound(low);
+    Some(Impact { largest, energy, rebound })
+}
+
+/// The rebound from the indentation `x`, between two that were computed: restitution and recovery are near powers of it.
+fn rebound(x: f64) -> Option<Rebound> {
+    let known = impacts();
+    let pair = known.windows(2).find(|pair| (pair[0].largest.x..=pair[1].largest.x).contains(&x))?;
+    let (one, other) = (pair[0].rebound.as_ref()?, pair[1].rebound.as_ref()?);
+    let (from, to) = (pair[0].largest.x, pair[1].largest.x);
+    let part = (x / from).ln() / (to / from).ln();
+    let between = |one: f64, other: f64| one * (other / one).powf(part);
+    let recovery = between(from - one.dent, to - other.dent);
+    Some(Rebound { restitution: between(one.restitution, other.restitution), dent: x - recovery })
+}

@@ -40,18 +40,25 @@ fn speeds((from, to): (f64, f64)) -> impl Iterator<Item = f64> {
     std::iter::once(from).chain(within).chain([to])
 }
 
+/// The impacts of one law.
+fn points(choice: &Choice, mass: f64, range: (f64, f64)) -> impl Iterator<Item = Result<Point, PredictError>> {
+    speeds(range).map(move |speed| Ok((speed, one(choice, &Impact { mass, speed })?)))
+}
+
 impl Sweep {
     /// The impacts of `mass` [kg] at the speeds of `range` [m/s].
     ///
     /// # Errors
     /// [`PredictError::Beyond`] for a speed that a law can't be evaluated for.
     pub fn of(choices: &[Choice], mass: f64, range: (f64, f64)) -> Result<Sweep, PredictError> {
-        let mut laws = Vec::new();
-        for choice in choices {
-            let point = |speed| Ok((speed, one(choice, &Impact { mass, speed })?));
-            laws.push((choice.name.clone(), speeds(range).map(point).collect::<Result<Vec<_>, PredictError>>()?));
-        }
-        Ok(Sweep { mass, range, laws })
+        let law = |choice: &Choice| Ok((choice.name.clone(), points(choice, mass, range).collect::<Result<_, _>>()?));
+        Ok(Sweep { mass, range, laws: choices.iter().map(law).collect::<Result<_, PredictError>>()? })
+    }
+
+    /// The same without the impacts that a law can't be evaluated for.
+    pub fn where_possible(choices: &[Choice], mass: f64, range: (f64, f64)) -> Sweep {
+        let law = |choice: &Choice| (choice.name.clone(), points(choice, mass, range).flatten().collect());
+        Sweep { mass, range, laws: choices.iter().map(law).collect() }
     }
 
     /// The sweep as a table, one line for each law and speed.

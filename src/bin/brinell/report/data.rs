@@ -24,6 +24,8 @@ pub struct Table {
     pub name: &'static str,
     pub columns: Vec<Column>,
     pub rows: Vec<Vec<Cell>>,
+    /// Whether the page shows the rows; if not, it only names the file.
+    pub on_page: bool,
 }
 
 /// A number, or nothing if it is none.
@@ -48,7 +50,7 @@ impl Table {
     /// An empty table; columns as name and unit.
     pub fn new<const N: usize>(name: &'static str, columns: [(&'static str, &'static str); N]) -> Table {
         let columns = columns.into_iter().map(|(name, unit)| Column { name, unit }).collect();
-        Table { name, columns, rows: Vec::new() }
+        Table { name, columns, rows: Vec::new(), on_page: true }
     }
 
     /// All digits, words in quotes.

@@ -118,14 +118,17 @@ impl Report {
         }
         say("stability");
         let stiffness = model.stiffness(prediction.max_indentation);
-        let stability = stability::measure(&mut contact, &impact, &prediction, stiffness, phases)?;
+        let knowing = knowing_contact.as_mut();
+        let stability =
+            stability::measure(&mut contact, knowing, (&impact, &prediction), stiffness, phases, follows_rate)?;
         say("stiff and extreme cases");
         let cases = extremes::measure(&mut contact, &plain_scene, quick);
         say("laws side by side");
-        let laws = spread::part(&plain_scene);
+        let (laws, spread) = spread::part(&plain_scene);
         say("done");
         let failed = cases.iter().filter(|case| case.failure.is_some()).count();
         let (mut summary, recommendations) = summary::summarize(&lines, &stability, &prediction, (cases.len(), failed));
+        summary.extend(spread);
         if scene.contact_count() > 1 {
             summary.push("The scene has several contacts: all this is of its first contact.".into());
         }

@@ -32,7 +32,8 @@ fn body(page: &mut String, report: &Report) -> std::fmt::Result {
         }
         for table in &part.tables {
             let file = format!("{}.csv", table.name);
-            writeln!(page, "{}<p class=\"csv\"><a href=\"{file}\">{file}</a>, with all digits</p>", table.html())?;
+            let rows = if table.on_page { table.html() } else { String::new() };
+            writeln!(page, "{rows}<p class=\"csv\"><a href=\"{file}\">{file}</a>, with all digits</p>")?;
         }
     }
     writeln!(page, "<p>Brinell {}</p>\n</body>\n</html>", env!("CARGO_PKG_VERSION"))

@@ -2,7 +2,6 @@
 
 use super::precision::{ALONE, Line};
 use super::stability::Stability;
-use super::ways;
 use crate::documentation::digits;
 use brinell::contact::impact::Prediction;
 use serde_json::{Value, json};
@@ -39,22 +38,7 @@ pub fn summarize(
     for line in lines.iter().filter(|line| line.step_for(GOAL).is_none()) {
         summary.push(format!("With {}, no step that was tried keeps the error of restitution below 1 %.", line.way));
     }
-    let step = |limit: f64| digits(limit / stability.frequency);
-    summary.push(match stability.leap_frog {
-        Some(limit) => format!(
-            "Leap-frog is stable up to a step of {} s (h sqrt(K/m) = {limit:.3}; elastic theory: 2); for bigger steps choose a \
-             larger mass or a softer contact{}.",
-            step(limit),
-            // which a rate-dependent law can't have
-            if lines.iter().any(|line| line.way == ways::MASS_KNOWN.name) { ", or a unit that knows the mass" } else { "" }
-        ),
-        None => "Leap-frog is stable at no step that was tried: a pressed body never comes to rest.".into(),
-    });
-    summary.push(match stability.late {
-        Some(limit) => format!("A force one step late is stable up to a step of {} s.", step(limit)),
-        None => "A force one step late makes energy at every step that was tried: a pressed body never comes to rest."
-            .into(),
-    });
+    summary.extend(stability.sentences());
     summary.push(format!("{} of {cases} stiff and extreme cases are right.", cases - failed));
     let ways: Vec<_> = good
         .iter()
@@ -63,15 +47,15 @@ pub fn summarize(
                     "error_of_restitution": point.restitution, "calls_per_impact": point.calls })
         })
         .collect();
-    let used = json!({
+    let mut used = json!({
         "goal": GOAL,
         "ways": ways,
         "restitution": prediction.restitution,
         "contact_time_s": prediction.contact_time(),
-        "largest_stiffness_N_per_m": stability.stiffness,
-        "stable_leap_frog": stability.leap_frog,
-        "stable_late": stability.late,
     });
+    if let (Value::Object(used), Value::Object(stable)) = (&mut used, stability.json()) {
+        used.extend(stable);
+    }
     (summary, used)
 }
 

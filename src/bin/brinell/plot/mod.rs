@@ -1,4 +1,8 @@
-//! Pictures: lines and dots over two axes, as SVG.
+//! Pictures: lines and dots over two axes, and maps, as SVG.
+
+mod map;
+
+pub use map::{Class, Map, Row};
 
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;

@@ -1,0 +1,213 @@
+//! Stability: what a rebound gains by big steps, and the largest step that keeps a pressed body at rest.
+
+mod limit;
+mod map;
+mod words;
+
+use super::data::{Cell, Table, number, text};
+use super::unit::Contact;
+use super::ways::{WAYS, Way};
+use super::{Part, drawn};
+use crate::documentation::digits;
+use crate::importer::ImportError;
+use crate::plot::{Picture, Series};
+use brinell::contact::impact::{Impact, Prediction};
+use limit::Limit;
+
+/// What was found; steps are told as `h sqrt(K/m)`.
+pub struct Stability {
+    /// Largest stiffness of the impact: that of the way back from the largest indentation [N/m].
+    pub stiffness: f64,
+    /// `sqrt(K/m)` [1/s].
+    frequency: f64,
+    /// Rebound energy over the incoming one, as predicted.
+    predicted: f64,
+    lines: Vec<Line>,
+}
+
+/// One way over the steps.
+struct Line {
+    way: &'static str,
+    energies: Vec<Energy>,
+    limit: Limit,
+}
+
+/// Rebound energies over the incoming one at one step: the lowest and the highest of the phases.
+struct Energy {
+    relative: f64,
+    lowest: f64,
+    highest: f64,
+}
+
+/// The impact that is run.
+pub struct Setting<'a> {
+    pub impact: &'a Impact,
+    pub prediction: &'a Prediction,
+    /// As in [`Stability`] [1/s].
+    frequency: f64,
+    /// Places within a step where the bodies meet.
+    phases: u32,
+}
+
+/// Smallest and largest step that is tried.
+const RANGE: (f64, f64) = (0.02, 8.0);
+
+/// Steps of the map.
+const POINTS: u32 = 40;
+
+/// What rounding makes of a rebound that loses nothing.
+const ROUNDING: f64 = 1e-9;
+
+/// More than this, a rebound has energy that matters: the best ways make a little of it, and lose it at another place.
+const MATTERS: f64 = 1.01;
+
+/// Measures all ways with the impact of the scene; `stiffness` as in [`Stability`], `knowing` the contact that knows the mass.
+pub fn measure<'a>(
+    contact: &mut Contact<'a>,
+    mut knowing: Option<&mut Contact<'a>>,
+    (impact, prediction): (&Impact, &Prediction),
+    stiffness: f64,
+    phases: u32,
+    follows_rate: bool,
+) -> Result<Stability, ImportError> {
+    let frequency = (stiffness / impact.mass).sqrt();
+    let setting = Setting { impact, prediction, frequency, phases };
+    let mut lines = Vec::new();
+    for way in WAYS.iter().filter(|way| way.by_rate || !follows_rate) {
+        let contact = if way.knows_mass { knowing.as_deref_mut() } else { Some(&mut *contact) };
+        let Some(contact) = contact else { continue };
+        let energies = energies(contact, way, &setting)?;
+        lines.push(Line { way: way.name, energies, limit: limit::find(contact, way, &setting)? });
+    }
+    Ok(Stability { stiffness, frequency, predicted: prediction.rebound_energy / prediction.energy, lines })
+}
+
+/// Rebound energies of `way` over the steps.
+fn energies(contact: &mut Contact, way: &Way, setting: &Setting) -> Result<Vec<Energy>, ImportError> {
+    let Setting { impact, frequency, phases, .. } = *setting;
+    let energy = |point| {
+        let relative = RANGE.0 * (RANGE.1 / RANGE.0).powf(f64::from(point) / f64::from(POINTS));
+        let step = relative / frequency;
+        let mut energy = Energy { relative, lowest: f64::INFINITY, highest: 0.0 };
+        for phase in 0..phases {
+            let gap = (1.0 + (f64::from(phase) + 0.5) / f64::from(phases)) * impact.speed * step;
+            contact.start(&[("initial_gap", gap)])?;
+            let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
+            let ratio = (rebound.speed / impact.speed).powi(2);
+            energy.lowest = f64::min(energy.lowest, ratio);
+            // an impact that never ends is beyond any energy
+            energy.highest = if ratio.is_nan() { f64::INFINITY } else { f64::max(energy.highest, ratio) };
+        }
+        Ok(energy)
+    };
+    (0..=POINTS).map(energy).collect()
+}
+
+/// Whether a rebound has more energy than came in.
+fn makes_energy(ratio: f64) -> bool {
+    ratio > 1.0 + ROUNDING
+}
+
+impl Energy {
+    /// That which makes energy, or else that farther from the `predicted` one.
+    fn worst(&self, predicted: f64) -> f64 {
+        let below = predicted - self.lowest > self.highest - predicted;
+        if below && !makes_energy(self.highest) { self.lowest } else { self.highest }
+    }
+
+    fn verdict(&self) -> &'static str {
+        if makes_energy(self.highest) { "makes energy" } else { "makes none" }
+    }
+}
+
+impl Line {
+    /// The smallest step that was tried at which energy is made.
+    fn makes_energy_from(&self) -> Option<f64> {
+        self.energies.iter().find(|energy| makes_energy(energy.highest)).map(|energy| energy.relative)
+    }
+}
+
+impl Stability {
+    /// Rebound energies.
+    fn table(&self) -> Table {
+        let columns = [
+            ("way", ""),
+            ("h sqrt(K/m)", ""),
+            ("step", "s"),
+            ("lowest rebound over incoming energy", ""),
+            ("highest rebound over incoming energy", ""),
+            ("verdict", ""),
+        ];
+        let mut table = Table::new("stability", columns);
+        for line in &self.lines {
+            table.rows.extend(line.energies.iter().map(|energy| {
+                let step = number(energy.relative / self.frequency);
+                let (lowest, highest) = (number(energy.lowest), number(energy.highest));
+                vec![text(line.way), number(energy.relative), step, lowest, highest, text(energy.verdict())]
+            }));
+        }
+        table
+    }
+
+    /// The largest stable steps.
+    fn limits(&self) -> Table {
+        let columns = [
+            ("way", ""),
+            ("stable", ""),
+            ("largest stable h sqrt(K/m)", ""),
+            ("elastic theory", ""),
+            ("largest stable step", "s"),
+            ("makes energy from h sqrt(K/m)", ""),
+        ];
+        let mut table = Table::new("limits", columns);
+        for line in &self.lines {
+            let limit = if let Limit::Upto(limit) = line.limit { limit } else { f64::NAN };
+            table.rows.push(vec![
+                text(line.way),
+                text(line.limit.words()),
+                number(limit),
+                match limit::theory(line.way) {
+                    Some(f64::INFINITY) => text("every step"),
+                    Some(limit) => number(limit),
+                    None => Cell::Empty,
+                },
+                number(limit / self.frequency),
+                number(line.makes_energy_from().unwrap_or(f64::NAN)),
+            ]);
+        }
+        table
+    }
+
+    /// Rebound energies against steps.
+    fn curves(&self) -> Picture {
+        let line = |line: &Line| Series {
+            label: line.way.into(),
+            points: line.energies.iter().map(|energy| (energy.relative, energy.worst(self.predicted))).collect(),
+            dots: false,
+        };
+        let mut series: Vec<_> = self.lines.iter().map(line).collect();
+        let (label, points) = ("makes energy above".into(), vec![(RANGE.0, 1.0), (RANGE.1, 1.0)]);
+        series.push(Series { label, points, dots: false });
+        let y_title = "rebound over incoming energy".into();
+        Picture { x_title: "h sqrt(K/m)".into(), y_title, logarithmic: (true, true), series }
+    }
+
+    /// Stability.
+    pub fn part(&self) -> Part {
+        let mut pictures = vec![("stability", map::of(self).svg())];
+        pictures.extend(drawn(["stability-curves"], [self.curves()]));
+        Part {
+            title: "Stability",
+            words: format!(
+                "h is the step, m the mass, and K = {} N/m the largest stiffness of the impact, on the way back from the largest \
+                 indentation. The map shows the rebound energy over the incoming one, of the places within a step where the \
+                 bodies meet the worst: that which makes energy, or else that farthest from the prediction. Crosses on red: \
+                 the coupling makes energy. The largest stable step is that at which a small motion about the deepest \
+                 indentation, under a constant load, doesn't grow; elastic theory is that of a linear spring without damping.",
+                digits(self.stiffness)
+            ),
+            pictures,
+            tables: vec![self.limits(), self.table()],
+        }
+    }
+}
