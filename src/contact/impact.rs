@@ -51,7 +51,8 @@ impl Prediction {
 
 /// The impact of `impact` on an untouched contact: `W(d_m) = m v^2/2`, rebound energy the work given back on unloading.
 ///
-/// `None` if mass or speed aren't positive and finite, the energy is below the smallest normal number, or the indentation would leave [`LARGEST_INDENTATION`].
+/// `None` if mass or speed aren't positive and finite, the energy is below the smallest normal number, or the
+/// indentation would leave what the law can be evaluated for, at most [`LARGEST_INDENTATION`].
 ///
 /// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 11.5; the energy balance is that of section 4 of
 /// A. Big-Alabo et al., *Computers & Structures* 151 (2015) 20-29, with the root found to rounding.
@@ -116,7 +117,11 @@ fn turning_point<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact)
     if energy < f64::MIN_POSITIVE {
         return None;
     }
-    Some((energy, indentation_of_work(model, energy)?))
+    let indentation = indentation_of_work(model, energy)?;
+    // a fit may end before
+    let end = model.loading.segment(&model.pair, indentation);
+    let is_finite = end.force(indentation).is_finite() && end.stiffness(indentation).is_finite();
+    is_finite.then_some((energy, indentation))
 }
 
 /// Steps by Newton's method, after which the rest of the bracket is halved: a smooth law needs some five.

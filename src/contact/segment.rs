@@ -107,12 +107,9 @@ impl Segment {
         self.linear + 1.5 * self.power * sqrt(z) + 2.0 * self.square * z
     }
 
-    /// Integral of the force from the lower end of the branch to `indentation` [J].
+    /// Integral of the force from the lower end of the branch to `indentation` [J]: not a difference of two integrals, which
+    /// has no digits on a way that is short beside the distance from the origin.
     pub fn work(&self, indentation: f64) -> f64 {
-        self.antiderivative(self.above_origin(indentation)) - self.antiderivative(self.above_origin(self.lower))
-    }
-
-    fn antiderivative(&self, z: f64) -> f64 {
-        z * (self.constant + z * (0.5 * self.linear + 0.4 * self.power * sqrt(z) + self.square * z / 3.0))
+        self.mean_force(self.lower, indentation) * (indentation - self.lower)
     }
 }

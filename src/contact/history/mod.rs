@@ -226,6 +226,7 @@ impl History {
         if !within {
             return Err(TooDeep { indentation });
         }
+        let before = *self;
         // on the loading curve the largest indentation is the present one
         self.max_indentation = self.max_indentation();
         if model.surface == Surface::Fresh && indentation <= 0.0 && self.has_parted(model, indentation) {
@@ -241,6 +242,12 @@ impl History {
             self.regime = model.loading.regime(&model.pair, indentation);
             self.segment = Segment { lower: indentation, ..model.loading.segment(&model.pair, indentation) };
             self.least_increment = 0.0;
+            // a law without segments may be a fit that ends before
+            let Segment { constant: force, linear: stiffness, .. } = self.segment;
+            if !model.loading.is_segmented() && !(force.is_finite() && stiffness.is_finite()) {
+                *self = before;
+                return Err(TooDeep { indentation });
+            }
         } else if model.is_elastic_at(largest) {
             if indentation > 0.0 {
                 self.regime = Regime::Elastic;

@@ -60,6 +60,10 @@ impl Ghaednia {
         let relative = scale.unit.indentation / pair.radius;
         let elastic = sqrt(relative) * y.power(0.5);
         let plastic = scale.radius(y, pair, JacksonGreen::REFERENCE.transition);
+        // a target that is nearly as strong as stiff: the fit has ended, whatever comes beyond
+        if !plastic.value.is_finite() {
+            return plastic;
+        }
         let root = 2.0 * sqrt(pair.youngs_modulus / pair.yield_strength);
         let size = root / ((4.0 - 3.0 * exp(-root * self.hardening)) * (1.0 - self.hardening));
         let depth = log(self.hardening) * (Dual::constant(1.0 + relative) - relative * y);
@@ -73,7 +77,9 @@ impl Ghaednia {
     /// Force beyond the transition [N], with its slope by `y`.
     fn plastic_force(&self, scale: &Scale, pair: &Pair, y: f64) -> Dual {
         let radius = self.radius(scale, pair, y);
-        let cosine = if radius.value < 1.0 { (PI * radius).cos() } else { Dual::constant(-1.0) };
+        // where the radius overflows the force is no number either
+        let wide = radius.value >= 1.0 && radius.value.is_finite();
+        let cosine = if wide { Dual::constant(-1.0) } else { (PI * radius).cos() };
         let hardness = Dual::constant(self.hardness_factor - self.hardness_loss) + self.hardness_loss * cosine;
         let y = Dual::variable(y);
         let plastic = scale.force(y, hardness);

@@ -1,0 +1,100 @@
+//! Where laws end: a fit that is asked beyond what it can say must refuse, not give numbers that are none.
+
+#[path = "support/physics.rs"]
+mod physics;
+
+use brinell::contact::History;
+use brinell::contact::impact::{Impact, predict};
+use physics::{AnyModel, Random, all_models, model, pair_of};
+
+/// Any number over the decades from `10^low` to `10^high`.
+fn decades(random: &mut Random, low: f64, high: f64) -> f64 {
+    10f64.powf(low + (high - low) * random.next())
+}
+
+/// Force, stiffness, dent, contact radius and energies of the contact must be numbers.
+fn check(what: &str, history: &History, model: &AnyModel) {
+    let shown = [
+        ("force", history.force()),
+        ("stiffness", history.stiffness()),
+        ("dent", history.residual_indentation(model)),
+        ("contact radius", history.contact_radius(model)),
+        ("elastic energy", history.elastic_energy(model)),
+        ("dissipated energy", history.dissipated_energy(model)),
+    ];
+    for (quantity, value) in shown {
+        assert!(value.is_finite(), "{what}: {quantity} = {value}");
+    }
+}
+
+#[test]
+fn a_contact_shows_numbers_or_is_refused_for_any_bodies_and_depth() {
+    let mut random = Random(2015);
+    let (mut shown, mut refused) = (0, 0);
+    for _ in 0..400 {
+        let modulus = decades(&mut random, 3.0, 15.0);
+        let strength = modulus * decades(&mut random, -9.0, 0.0);
+        let radius = decades(&mut random, -9.0, 3.0);
+        for (name, model) in all_models(pair_of(radius, modulus, strength)) {
+            let depth = radius * decades(&mut random, -12.0, 6.0);
+            let mut history = History::start(&model, 0.0).unwrap();
+            let before = history;
+            let what = format!("{name}, R = {radius:e}, E* = {modulus:e}, S = {strength:e}, d = {depth:e}");
+            if history.advance(depth, || model).is_err() {
+                assert_eq!(history, before, "{what}: a refused step moves nothing");
+                refused += 1;
+                continue;
+            }
+            check(&what, &history, &model);
+            history.advance(-0.3 * depth, || model).unwrap();
+            check(&format!("{what}, on the way back"), &history, &model);
+            shown += 1;
+        }
+    }
+    assert!(shown > 100 * refused && refused > 0, "{shown} contacts and {refused} refused");
+}
+
+#[test]
+fn a_prediction_is_of_numbers_or_there_is_none() {
+    let mut random = Random(1985);
+    let (mut found, mut none) = (0, 0);
+    for _ in 0..40 {
+        let modulus = decades(&mut random, 3.0, 15.0);
+        let strength = modulus * decades(&mut random, -9.0, 0.0);
+        let radius = decades(&mut random, -9.0, 3.0);
+        let impact = Impact { mass: 1e4 * radius.powi(3), speed: decades(&mut random, -9.0, 4.0) };
+        for (name, model) in all_models(pair_of(radius, modulus, strength)) {
+            let Some(prediction) = predict(&model, &impact) else {
+                none += 1;
+                continue;
+            };
+            let numbers = [
+                prediction.max_indentation,
+                prediction.max_force,
+                prediction.max_contact_radius,
+                prediction.residual_indentation,
+                prediction.rebound_energy,
+                prediction.restitution,
+                prediction.contact_time(),
+            ];
+            let what = format!("{name}, R = {radius:e}, E* = {modulus:e}, S = {strength:e}, {impact:?}");
+            assert!(numbers.iter().all(|number| number.is_finite()), "{what}: {prediction:?}");
+            assert!(prediction.loading_time > 0.0 && prediction.unloading_time > 0.0, "{what}: {prediction:?}");
+            found += 1;
+        }
+    }
+    assert!(found > 10 * none, "{found} predictions and {none} refused");
+}
+
+#[test]
+fn jackson_and_green_end_where_their_fit_overflows() {
+    // B = 0.14 e^(23 S/E') is an exponent of 1e9 for a target as strong as it is stiff
+    let model = model("jackson-green", "jackson");
+    let strong = AnyModel { pair: pair_of(5e-3, 1e11, 1e11), ..model };
+    let mut history = History::start(&strong, 0.0).unwrap();
+    let refused = history.advance(1.0, || strong).unwrap_err();
+    assert_eq!(refused.indentation, 1.0);
+    assert_eq!(history.force(), 0.0);
+    history.advance(1e-4, || strong).unwrap();
+    assert!(history.force() > 0.0);
+}
