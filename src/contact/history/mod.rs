@@ -244,7 +244,8 @@ impl History {
             self.least_increment = 0.0;
             // a law without segments may be a fit that ends before
             let Segment { constant: force, linear: stiffness, .. } = self.segment;
-            if !model.loading.is_segmented() && !(force.is_finite() && stiffness.is_finite()) {
+            let shows_numbers = model.loading.is_segmented() || force.is_finite() && stiffness.is_finite();
+            if !shows_numbers {
                 *self = before;
                 return Err(TooDeep { indentation });
             }

@@ -5,24 +5,26 @@ mod extremes;
 mod page;
 mod peer;
 mod precision;
+mod progress;
 mod spread;
 mod stability;
 mod summary;
 mod unit;
+mod units;
 mod ways;
 
-use crate::importer::{Archive, ImportError};
-use crate::package::{self, ExportError, write_whole};
+use crate::importer::ImportError;
+use crate::package::{ExportError, write_whole};
 use crate::plot::Picture;
 use crate::scene::Scene;
 use data::Table;
 use peer::Peer;
-use precision::{Line, Plan};
+use precision::Plan;
+use progress::{Progress, Work};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
-use unit::Contact;
-use ways::WAYS;
+use units::Units;
+use ways::{Needs, WAYS};
 
 /// A report that couldn't be made.
 #[derive(Debug, thiserror::Error)]
@@ -64,68 +66,32 @@ impl Report {
     /// [`ReportError`] if a unit can't be built or loaded, or refuses an ordinary impact.
     pub fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<Report, ReportError> {
         let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
-        let began = Instant::now();
-        let say = |what: &str| eprintln!("{:5.1} s  {what} ...", began.elapsed().as_secs_f64());
-        let folder = tempfile::Builder::new().prefix("brinell-report-").tempdir();
-        let folder = folder.map_err(|source| ReportError::Folder { path: std::env::temp_dir(), source })?;
-        let open = |scene: &Scene, file: &str| -> Result<Archive, ReportError> {
-            let path = folder.path().join(file);
-            package::export(scene, &path)?;
-            Ok(Archive::open(&path)?)
-        };
-        let plain_scene = unit::first_contact(scene, None);
-        let model = plain_scene.any_model();
-        let impact = plain_scene.impact;
+        let alone = unit::first_contact(scene, Needs::Force);
+        let (model, impact) = (alone.any_model(), alone.impact);
         let prediction = model.predict(&impact).expect("a checked scene has a prediction");
-        say("building the unit");
-        let plain = open(&plain_scene, "plain.fmu")?;
-        let plain_unit = plain.load()?;
-        // a rate-dependent law can't know the mass
-        let follows_rate = scene.damped.is_some();
-        let knowing = match follows_rate {
-            true => None,
-            false => {
-                say("building the unit that knows the mass");
-                Some(open(&unit::first_contact(scene, Some(impact.mass)), "knowing.fmu")?)
-            }
-        };
-        let knowing_unit = knowing.as_ref().map(Archive::load).transpose()?;
-        let mut contact = Contact::new(&plain, &plain_unit, &[])?;
-        let mut knowing_contact = match (&knowing, &knowing_unit) {
-            (Some(archive), Some(unit)) => Some(Contact::new(archive, unit, &[])?),
-            _ => None,
-        };
         let (most, phases) = if quick { (256, 8) } else { (4096, 16) };
-        let plan = Plan { impact: &impact, prediction: &prediction, most, phases, follows_rate };
+        let progress = &Progress::new();
+        let follows_rate = scene.damped.is_some();
+        let plan = Plan { impact: &impact, prediction: &prediction, most, phases, follows_rate, progress };
+        progress.expect(work(scene, &plan, &peers, quick));
+        let units = Units::build(scene, progress)?;
+        let mut contacts = units.contacts()?;
         let mut lines = Vec::new();
-        for way in WAYS.iter().filter(|way| way.by_rate || !follows_rate) {
-            let contact = if way.knows_mass { knowing_contact.as_mut() } else { Some(&mut contact) };
-            let Some(contact) = contact else { continue };
-            say(&format!("error against run time: {}", way.name));
-            lines.push(plan.measure(contact, way)?);
+        for way in contacts.ways() {
+            lines.push(plan.measure(contacts.of(way), way)?);
         }
         if !follows_rate {
-            say("error against run time: the unit alone");
-            lines.push(plan.alone(&mut contact)?);
+            lines.push(plan.alone(contacts.plain())?);
         }
         for peer in &peers {
-            let mut contact = peer.contact(&plain_scene)?;
-            for way in peer.ways() {
-                say(&format!("error against run time: {}, {}", peer.name, way.name));
-                let line = plan.measure(&mut contact, way).map_err(|error| peer.fault(&error))?;
-                lines.push(Line { peer: Some(peer.name.clone()), ..line });
-            }
+            lines.extend(peer.measure(&alone, &plan)?);
         }
-        say("stability");
         let stiffness = model.stiffness(prediction.max_indentation);
-        let knowing = knowing_contact.as_mut();
-        let stability =
-            stability::measure(&mut contact, knowing, (&impact, &prediction), stiffness, phases, follows_rate)?;
-        say("stiff and extreme cases");
-        let cases = extremes::measure(&mut contact, &plain_scene, quick);
-        say("laws side by side");
-        let (laws, spread) = spread::part(&plain_scene);
-        say("done");
+        let stability = stability::measure(&mut contacts, (&impact, &prediction), stiffness, phases, progress)?;
+        progress.say("stiff and extreme cases");
+        let cases = extremes::measure(contacts.plain(), &alone, quick, progress);
+        progress.say("laws side by side");
+        let (laws, spread) = spread::part(&alone);
         let failed = cases.iter().filter(|case| case.failure.is_some()).count();
         let (mut summary, recommendations) = summary::summarize(&lines, &stability, &prediction, (cases.len(), failed));
         summary.extend(spread);
@@ -167,6 +133,17 @@ impl Report {
         write_whole(&page, page::write(self).as_bytes())?;
         Ok(page)
     }
+}
+
+/// All that a report has to do.
+fn work(scene: &Scene, plan: &Plan, peers: &[Peer], quick: bool) -> Vec<Work> {
+    let ways = if plan.follows_rate { WAYS.iter().filter(|way| way.needs == Needs::Force).count() } else { WAYS.len() };
+    let lines = ways + usize::from(!plan.follows_rate) + peers.iter().map(|peer| peer.ways().len()).sum::<usize>();
+    let mut all: Vec<Work> = Units::work(scene).collect();
+    all.extend((0..lines).flat_map(|_| plan.work()));
+    all.extend((0..ways).map(|_| Work::Way));
+    all.extend((0..extremes::count(scene, quick)).map(|_| Work::Case));
+    all
 }
 
 /// The pictures, drawn, by the names of their files.

@@ -1,6 +1,7 @@
 //! Other units with the same variables, run in the same picture.
 
-use super::ways::{DERIVATIVES, MASS_KNOWN, PREDICTED, WAYS, Way};
+use super::precision::{Line, Plan};
+use super::ways::{Needs, PREDICTED, WAYS, Way};
 use super::{ReportError, unit::Contact};
 use crate::importer::{Archive, ImportError, Unit};
 use crate::scene::Scene;
@@ -13,7 +14,7 @@ const NEEDED: [&str; 2] = ["indentation_rate", "force"];
 pub struct Peer {
     path: PathBuf,
     /// The name of its file, without the ending.
-    pub name: String,
+    name: String,
     archive: Archive,
     unit: Unit,
 }
@@ -43,11 +44,21 @@ impl Peer {
         Ok(Peer { path: path.into(), name, archive, unit })
     }
 
-    /// Its contact, with the bodies of `scene`.
+    /// Runs it by every way that it offers, with the bodies of `scene`.
     ///
     /// # Errors
-    /// [`ReportError::Peer`] if it doesn't start with them.
-    pub fn contact(&self, scene: &Scene) -> Result<Contact<'_>, ReportError> {
+    /// [`ReportError::Peer`] if it refuses a call.
+    pub fn measure(&self, scene: &Scene, plan: &Plan) -> Result<Vec<Line>, ReportError> {
+        let mut contact = self.contact(scene)?;
+        let line = |way: &'static Way| {
+            let line = plan.measure(&mut contact, way).map_err(|error| self.fault(&error))?;
+            Ok(Line { peer: Some(self.name.clone()), ..line })
+        };
+        self.ways().into_iter().map(line).collect()
+    }
+
+    /// Its contact, with those bodies.
+    fn contact(&self, scene: &Scene) -> Result<Contact<'_>, ReportError> {
         let mut parameters: Vec<(&str, f64)> = scene.parameters.iter().map(|known| (known.name, known.value)).collect();
         parameters.push(("effective_mass", scene.impact.mass));
         let started = Contact::new(&self.archive, &self.unit, &parameters).and_then(|mut contact| {
@@ -58,7 +69,7 @@ impl Peer {
     }
 
     /// An error of this unit.
-    pub fn fault(&self, error: &ImportError) -> ReportError {
+    fn fault(&self, error: &ImportError) -> ReportError {
         ReportError::Peer { path: self.path.clone(), reason: error.to_string() }
     }
 
@@ -69,10 +80,10 @@ impl Peer {
         let derivatives = description.interpolates_inputs && description.output_derivatives > 0;
         let offered = |way: &&Way| {
             // a unit that moves the mass itself does nothing else
-            way.knows_mass == has("effective_mass")
+            (way.needs == Needs::Mass) == has("effective_mass")
                 && (way.name != PREDICTED.name || has("predicted_force"))
-                && (way.name != DERIVATIVES.name || derivatives && has("mean_force"))
-                && (way.name != MASS_KNOWN.name || has("mean_force"))
+                && (way.needs != Needs::MeanForce || derivatives)
+                && (way.needs == Needs::Force || has("mean_force"))
         };
         WAYS.iter().filter(offered).collect()
     }

@@ -1,16 +1,19 @@
 //! The unit that a report steps: the scene's first contact, with the outputs that the ways to couple need.
 
+use super::ways::Needs;
 use crate::importer::{Archive, Description, ImportError, Instance, Unit};
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::VARIABLES;
 use brinell::contact::impact::Impact;
 
-/// Outputs that a report asks for, whatever the scene shows.
+/// Outputs that a report asks for, whatever the scene shows; the last is left out where it isn't needed.
 const OUTPUTS: [&str; 5] =
-    ["indentation", "residual_indentation", "dissipated_energy", "mean_force", "predicted_force"];
+    ["indentation", "residual_indentation", "dissipated_energy", "predicted_force", "mean_force"];
 
-/// The first contact of `scene` alone, with every parameter settable; with `mass` [kg] the unit moves the bodies itself.
-pub fn first_contact(scene: &Scene, mass: Option<f64>) -> Scene {
+/// The first contact of `scene` alone, with every parameter settable, for a kind of coupling.
+pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
+    let mass = (needs == Needs::Mass).then_some(scene.impact.mass);
+    let outputs = &OUTPUTS[..OUTPUTS.len() - usize::from(needs == Needs::Force)];
     let mut parameters: Vec<Parameter> = Vec::new();
     // in the order of the table, as the parameters of every scene
     for name in VARIABLES.iter().map(|variable| variable.name.as_str()) {
@@ -28,7 +31,7 @@ pub fn first_contact(scene: &Scene, mass: Option<f64>) -> Scene {
         description: scene.description.clone(),
         parameters,
         contacts: vec![Group { name: None, count: None, own: Vec::new(), surface: scene.contacts[0].surface }],
-        outputs: OUTPUTS.map(String::from).to_vec(),
+        outputs: outputs.iter().map(|name| (*name).into()).collect(),
         loading: scene.loading,
         unloading: scene.unloading,
         damped: scene.damped,

@@ -29,21 +29,29 @@ pub struct Body {
 /// Makes one step [s] of contact and body.
 pub type Advance = fn(&mut Contact, &mut Body, f64) -> Result<(), ImportError>;
 
+/// What a way to couple needs of the unit.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Needs {
+    /// The force, now or at the end of the next step.
+    Force,
+    /// Input derivatives, and the mean force over the step.
+    MeanForce,
+    /// To know the mass.
+    Mass,
+}
+
 /// A way to couple.
 pub struct Way {
     pub name: &'static str,
     pub advance: Advance,
-    /// Whether the unit must know the mass.
-    pub knows_mass: bool,
-    /// Whether a unit whose force follows the rate can do it; it has no input derivatives and can't know the mass.
-    pub by_rate: bool,
+    pub needs: Needs,
 }
 
-pub const LATE: Way = Way { name: "late force", advance: late, knows_mass: false, by_rate: true };
-pub const LEAP_FROG: Way = Way { name: "leap-frog", advance: leap_frog, knows_mass: false, by_rate: true };
-pub const PREDICTED: Way = Way { name: "predicted_force", advance: predicted, knows_mass: false, by_rate: true };
-pub const DERIVATIVES: Way = Way { name: "input derivatives", advance: derivatives, knows_mass: false, by_rate: false };
-pub const MASS_KNOWN: Way = Way { name: "mass known", advance: mass_known, knows_mass: true, by_rate: false };
+pub const LATE: Way = Way { name: "late force", advance: late, needs: Needs::Force };
+pub const PREDICTED: Way = Way { name: "predicted_force", advance: predicted, needs: Needs::Force };
+pub const LEAP_FROG: Way = Way { name: "leap-frog", advance: leap_frog, needs: Needs::Force };
+pub const DERIVATIVES: Way = Way { name: "input derivatives", advance: derivatives, needs: Needs::MeanForce };
+pub const MASS_KNOWN: Way = Way { name: "mass known", advance: mass_known, needs: Needs::Mass };
 
 /// All ways that a report runs.
 pub static WAYS: [Way; 5] = [LATE, PREDICTED, LEAP_FROG, DERIVATIVES, MASS_KNOWN];

@@ -3,8 +3,9 @@
 use super::{Case, TOLERANCE};
 use crate::importer::ImportError;
 use crate::model::AnyModel;
+use crate::report::progress::{Progress, Work};
 use crate::report::unit::{self, Contact};
-use crate::report::ways::LEAP_FROG;
+use crate::report::ways::{LEAP_FROG, Needs};
 use crate::scene::Scene;
 use brinell::contact::impact::{Impact, Prediction};
 
@@ -42,7 +43,7 @@ impl Bodies {
             ("target.yield_strength", strain * modulus),
             ("effective_mass", mass),
         ];
-        let mut changed = unit::first_contact(scene, None);
+        let mut changed = unit::first_contact(scene, Needs::Force);
         let mut parameters = Vec::new();
         for (name, value) in all {
             if let Some(parameter) = changed.parameters.iter_mut().find(|parameter| parameter.name == name) {
@@ -95,28 +96,38 @@ fn changes() -> Vec<(String, Change)> {
     all
 }
 
-/// Runs all impacts.
-pub fn run(contact: &mut Contact, scene: &Scene, quick: bool) -> Vec<Case> {
-    let steps = if quick { 256.0 } else { 1024.0 };
-    // an elastic contact has no yield strain to change
-    let possible = changes().into_iter().filter_map(|(name, change)| Some((name, Bodies::of(scene, change)?)));
-    possible.map(|(name, bodies)| impact(contact, name, &bodies, steps)).collect()
+/// The impacts that `scene` can have: an elastic contact has no yield strain to change.
+fn possible(scene: &Scene) -> impl Iterator<Item = (String, Bodies)> {
+    changes().into_iter().filter_map(|(name, change)| Some((name, Bodies::of(scene, change)?)))
 }
 
-/// Most steps of an impact.
-const MOST: f64 = 2e6;
+/// How many impacts there are.
+pub fn count(scene: &Scene) -> usize {
+    possible(scene).count()
+}
 
-/// An impact by leap-frog with so many steps of its shorter half.
-fn impact(contact: &mut Contact, name: String, bodies: &Bodies, steps: f64) -> Case {
+/// Runs all impacts.
+pub fn run(contact: &mut Contact, scene: &Scene, quick: bool, progress: &Progress) -> Vec<Case> {
+    let limits = if quick { (256.0, 2e5) } else { (1024.0, 2e6) };
+    let run = |(name, bodies): (String, Bodies)| {
+        progress.detail(&name);
+        let case = impact(contact, name, &bodies, limits);
+        progress.done(Work::Case);
+        case
+    };
+    possible(scene).map(run).collect()
+}
+
+/// An impact by leap-frog with so many `steps` of its shorter half, at `most` so many of the whole.
+fn impact(contact: &mut Contact, name: String, bodies: &Bodies, (steps, most): (f64, f64)) -> Case {
     let mut case = Case::new(name, TOLERANCE);
     let Some(prediction) = bodies.predict() else {
-        case.failure = Some("there is no prediction".into());
-        return case;
+        return must_be_refused(contact, case, bodies, steps);
     };
     case.indentation = prediction.max_indentation;
     case.width = prediction.max_contact_radius / bodies.radius;
     let shorter = prediction.loading_time.min(prediction.unloading_time);
-    case.step = (shorter / steps).max(prediction.contact_time() / MOST);
+    case.step = (shorter / steps).max(prediction.contact_time() / most);
     let Impact { mass, speed } = bodies.impact;
     let run = bodies.start(contact).and_then(|()| LEAP_FROG.impact(contact, mass, speed, case.step));
     let rebound = match run {
@@ -132,5 +143,18 @@ fn impact(contact: &mut Contact, name: String, bodies: &Bodies, steps: f64) -> C
         (energy - prediction.rebound_energy / prediction.energy).abs(),
     );
     case.judge(energy <= 1.0 + TOLERANCE);
+    case
+}
+
+/// An impact that goes deeper than the law can be evaluated: the unit must say so.
+fn must_be_refused(contact: &mut Contact, mut case: Case, bodies: &Bodies, steps: f64) -> Case {
+    let Impact { mass, speed } = bodies.impact;
+    // as deep as Hertz's law would be; a law that yields is softer
+    let depth = (0.5 * mass * speed * speed / (0.4 * bodies.model.pair().hertz_stiffness())).powf(0.4);
+    case.step = depth / speed / steps;
+    match bodies.start(contact).and_then(|()| LEAP_FROG.impact(contact, mass, speed, case.step)) {
+        Ok(_) => case.failure = Some("there is no prediction, and the unit goes on".into()),
+        Err(error) => case.refusal = Some(error.to_string()),
+    }
     case
 }

@@ -5,6 +5,7 @@ mod motions;
 
 use super::Part;
 use super::data::{Table, number, text};
+use super::progress::Progress;
 use super::unit::Contact;
 use crate::scene::Scene;
 use impacts::{Bodies, Change};
@@ -29,15 +30,23 @@ pub struct Case {
     /// Of force and energy.
     pub errors: (f64, f64),
     pub tolerance: f64,
+    /// What the unit said that rightly refused it.
+    pub refusal: Option<String>,
     /// Why it failed.
     pub failure: Option<String>,
 }
 
+/// How many cases there are, to a few that a law may leave out.
+pub fn count(scene: &Scene, quick: bool) -> usize {
+    let motions = if scene.damped.is_some() { 0 } else { motions::count(quick) };
+    impacts::count(scene) + motions
+}
+
 /// Runs all cases.
-pub fn measure(contact: &mut Contact, scene: &Scene, quick: bool) -> Vec<Case> {
-    let mut cases = impacts::run(contact, scene, quick);
+pub fn measure(contact: &mut Contact, scene: &Scene, quick: bool, progress: &Progress) -> Vec<Case> {
+    let mut cases = impacts::run(contact, scene, quick, progress);
     if let (None, Some(bodies)) = (scene.damped, Bodies::of(scene, Change::default())) {
-        cases.extend(motions::run(contact, &bodies, quick));
+        cases.extend(motions::run(contact, &bodies, quick, progress));
     }
     cases
 }
@@ -46,7 +55,16 @@ impl Case {
     /// A case that is yet to be run.
     fn new(name: String, tolerance: f64) -> Case {
         let errors = (f64::NAN, f64::NAN);
-        Case { name, indentation: f64::NAN, step: f64::NAN, width: f64::NAN, errors, tolerance, failure: None }
+        Case {
+            name,
+            indentation: f64::NAN,
+            step: f64::NAN,
+            width: f64::NAN,
+            errors,
+            tolerance,
+            refusal: None,
+            failure: None,
+        }
     }
 
     /// Fails the case if it isn't right to its tolerance, or if `passive` is false.
@@ -83,7 +101,11 @@ fn table(cases: &[Case]) -> Table {
         ],
     );
     for case in cases {
-        let verdict = case.failure.as_ref().map_or("right".into(), |why| format!("FAILED: {why}"));
+        let verdict = match (&case.failure, &case.refusal) {
+            (Some(why), _) => format!("FAILED: {why}"),
+            (None, Some(why)) => format!("right to refuse it: {why}"),
+            (None, None) => "right".into(),
+        };
         let warning = if case.width > WIDE { "a/R above 0.3: beyond the law's validity" } else { "" };
         table.rows.push(vec![
             text(&case.name),

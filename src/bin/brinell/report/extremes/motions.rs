@@ -3,36 +3,54 @@
 use super::impacts::Bodies;
 use super::{Case, EXACT};
 use crate::importer::ImportError;
+use crate::report::progress::{Progress, Work};
 use crate::report::unit::Contact;
-use brinell::contact::{Loading, Surface};
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Loading, Model, Surface};
 
-/// Motions that are prescribed on the bodies of the scene, in and out again; what they dissipate is known.
-pub fn run(contact: &mut Contact, bodies: &Bodies, quick: bool) -> Vec<Case> {
-    let Some(prediction) = bodies.predict() else { return Vec::new() };
-    let depth = prediction.max_indentation;
-    let mut cases = Vec::new();
-    let mut add =
-        |name: String, depth: f64, step: f64, motion: &mut dyn FnMut(&mut Contact) -> Result<(), ImportError>| {
-            cases.push(prescribed(contact, bodies, name, (depth, step, 1), motion));
-        };
+/// What moves a contact.
+type Run = Box<dyn Fn(&mut Contact) -> Result<(), ImportError>>;
+
+/// A motion of the bodies, in and out again.
+struct Motion {
+    name: String,
+    /// [m]
+    depth: f64,
+    /// The longest [s].
+    step: f64,
+    /// How often it yields at that depth.
+    yields: u32,
+    run: Run,
+}
+
+/// All motions; those of the size of the scene's impact go to `depth` [m].
+fn motions(depth: f64, quick: bool, surface: Surface) -> Vec<Motion> {
+    let mut all = Vec::new();
+    let mut add = |name: String, depth: f64, step: f64, run: Run| {
+        all.push(Motion { name, depth, step, yields: 1, run });
+    };
     for step in [1e-15, 1e-9, 1e-3, 1.0, 1e6] {
-        add(format!("{step:e} s steps"), depth, step, &mut |contact| in_and_out(contact, depth, &[step; 32]));
+        add(format!("{step:e} s steps"), depth, step, Box::new(move |contact| in_and_out(contact, depth, &[step; 32])));
     }
     let alternating: Vec<f64> = (0..32).map(|index| if index % 2 == 0 { 1e-12 } else { 1.0 }).collect();
-    add("steps of 1e-12 s and 1 s in turn".into(), depth, 1.0, &mut |contact| in_and_out(contact, depth, &alternating));
-    add("in and out within one step".into(), depth, 1.0, &mut |contact| {
+    let run = Box::new(move |contact: &mut Contact| in_and_out(contact, depth, &alternating));
+    add("steps of 1e-12 s and 1 s in turn".into(), depth, 1.0, run);
+    let run = Box::new(move |contact: &mut Contact| {
         // 4 d t (1 - t): the largest indentation in the middle of a step of one second
         contact.set_rate(4.0 * depth)?;
         contact.set_derivatives(&[-8.0 * depth, 0.0])?;
         contact.step(1.0)
     });
+    add("in and out within one step".into(), depth, 1.0, run);
     let cycles = if quick { 10_000 } else { 100_000 };
-    add("chatter at the surface after the impact".into(), depth, 1.0, &mut |contact| {
+    let run = Box::new(move |contact: &mut Contact| {
         in_and_out(contact, depth, &[1.0, 1.0])?;
         (0..cycles).try_for_each(|_| in_and_out(contact, 1e-12 * depth, &[1e-6, 1e-6]))
     });
+    add("chatter at the surface after the impact".into(), depth, 1.0, run);
     let still = if quick { 1_000_000 } else { 100_000_000 };
-    add(format!("{still} steps at rest in the dent"), depth, 1.0, &mut |contact| {
+    let run = Box::new(move |contact: &mut Contact| {
         contact.set_rate(depth)?;
         contact.step(1.0)?;
         contact.set_rate(0.0)?;
@@ -40,17 +58,35 @@ pub fn run(contact: &mut Contact, bodies: &Bodies, quick: bool) -> Vec<Case> {
         contact.set_rate(-depth)?;
         contact.step(1.0)
     });
+    add(format!("{still} steps at rest in the dent"), depth, 1.0, run);
     for depth in [5e-324, 1e-300, 1e-30, 1e30, 1e99] {
-        let name = format!("indentation of {depth:e} m");
-        add(name, depth, 1.0, &mut |contact| in_and_out(contact, depth, &[1.0, 1.0]));
+        let run = Box::new(move |contact: &mut Contact| in_and_out(contact, depth, &[1.0, 1.0]));
+        add(format!("indentation of {depth:e} m"), depth, 1.0, run);
     }
     // a surface that is fresh each time yields each time
-    let fresh = bodies.model.elastoplastic().is_some_and(|model| model.surface == Surface::Fresh);
-    let (name, yields) = (format!("{cycles} load cycles at one dent"), if fresh { cycles } else { 1 });
-    cases.push(prescribed(contact, bodies, name, (depth, 1.0, yields), &mut |contact| {
-        (0..cycles).try_for_each(|_| in_and_out(contact, depth, &[1.0, 1.0]))
-    }));
-    cases
+    let yields = if surface == Surface::Fresh { cycles } else { 1 };
+    let run =
+        Box::new(move |contact: &mut Contact| (0..cycles).try_for_each(|_| in_and_out(contact, depth, &[1.0, 1.0])));
+    all.push(Motion { name: format!("{cycles} load cycles at one dent"), depth, step: 1.0, yields, run });
+    all
+}
+
+/// How many motions there are.
+pub fn count(quick: bool) -> usize {
+    motions(0.0, quick, Surface::Dented).len()
+}
+
+/// Runs all motions on the bodies of the scene; what they dissipate is known.
+pub fn run(contact: &mut Contact, bodies: &Bodies, quick: bool, progress: &Progress) -> Vec<Case> {
+    let (Some(prediction), Some(model)) = (bodies.predict(), bodies.model.elastoplastic()) else { return Vec::new() };
+    let motions = motions(prediction.max_indentation, quick, model.surface);
+    let run = |motion: Motion| {
+        progress.detail(&motion.name);
+        let case = judge(contact, bodies, model, motion);
+        progress.done(Work::Case);
+        case
+    };
+    motions.into_iter().map(run).collect()
 }
 
 /// To `depth` [m] in the first half of the `steps` [s], and back in the second.
@@ -66,23 +102,17 @@ fn in_and_out(contact: &mut Contact, depth: f64, steps: &[f64]) -> Result<(), Im
     Ok(())
 }
 
-/// Runs `motion`, which loads to `depth` [m] and yields there so many times, and compares what it has dissipated.
-fn prescribed(
-    contact: &mut Contact,
-    bodies: &Bodies,
-    name: String,
-    (depth, step, yields): (f64, f64, u32),
-    motion: &mut dyn FnMut(&mut Contact) -> Result<(), ImportError>,
-) -> Case {
+/// Runs `motion`, and compares what it has dissipated.
+fn judge(contact: &mut Contact, bodies: &Bodies, model: &Model<AnyLoading, AnyUnloading>, motion: Motion) -> Case {
+    let Motion { name, depth, step, yields, run } = motion;
     let mut case = Case::new(name, EXACT);
     (case.indentation, case.step) = (depth, step);
-    let Some(model) = bodies.model.elastoplastic() else { return case };
     let once = model.loading.work(&model.pair, depth);
     let (work, recovered) = (f64::from(yields) * once, f64::from(yields) * model.recovered_work(depth, depth));
     let segment = model.loading.segment(&model.pair, depth);
     case.width = model.loading.contact_radius(&model.pair, depth) / bodies.radius;
-    let run = bodies.start(contact).and_then(|()| motion(contact));
-    let ended = run.and_then(|()| Ok((contact.force()?, contact.output("dissipated_energy")?)));
+    let ran = bodies.start(contact).and_then(|()| run(contact));
+    let ended = ran.and_then(|()| Ok((contact.force()?, contact.output("dissipated_energy")?)));
     match ended {
         Err(error) => case.failure = Some(error.to_string()),
         Ok((force, dissipated)) => {

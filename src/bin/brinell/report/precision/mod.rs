@@ -2,6 +2,7 @@
 
 mod page;
 
+use super::progress::{Progress, Work};
 use super::unit::Contact;
 use super::ways::Way;
 use crate::importer::ImportError;
@@ -58,6 +59,7 @@ pub struct Plan<'a> {
     pub phases: u32,
     /// Whether the force follows the rate.
     pub follows_rate: bool,
+    pub progress: &'a Progress,
 }
 
 /// The name of the line that isn't a way to couple.
@@ -69,11 +71,22 @@ impl Plan<'_> {
         std::iter::successors(Some(fewest), |steps| Some(2 * steps)).take_while(move |steps| *steps <= self.most)
     }
 
+    /// The work of a line.
+    pub fn work(self) -> impl Iterator<Item = Work> {
+        self.steps(2).map(move |steps| self.work_of(steps))
+    }
+
+    /// The work of a point.
+    fn work_of(self, steps: u32) -> Work {
+        Work::Steps(u64::from(self.phases * steps))
+    }
+
     /// Runs `way` from 2 steps per contact on.
     ///
     /// # Errors
     /// [`ImportError`] if the unit refuses a call.
     pub fn measure(self, contact: &mut Contact, way: &Way) -> Result<Line, ImportError> {
+        self.progress.say(&format!("error against run time: {}", way.name));
         let points = self.steps(2).map(|steps| self.point(contact, way, steps));
         let points = points.collect::<Result<Vec<_>, _>>()?;
         let order = order(&points);
@@ -104,6 +117,7 @@ impl Plan<'_> {
             ]);
             sums.calls += contact.calls;
         }
+        self.progress.done(self.work_of(steps));
         Ok(sums.point(steps, step))
     }
 
@@ -113,6 +127,7 @@ impl Plan<'_> {
     /// # Errors
     /// [`ImportError`] if the unit refuses a call.
     pub fn alone(self, contact: &mut Contact) -> Result<Line, ImportError> {
+        self.progress.say("error against run time: the unit alone");
         let whole = self.there_and_back(contact, 2, 0.0)?;
         let mut points = Vec::new();
         for steps in self.steps(4) {
@@ -126,6 +141,7 @@ impl Plan<'_> {
                 sums.add([error(0), error(1), error(2), f64::NAN]);
                 sums.calls += contact.calls;
             }
+            self.progress.done(self.work_of(steps));
             points.push(sums.point(steps, self.prediction.contact_time() / f64::from(steps)));
         }
         Ok(Line { way: ALONE, peer: None, points, order: None })

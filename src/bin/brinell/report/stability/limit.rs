@@ -3,7 +3,7 @@
 use super::{RANGE, Setting};
 use crate::importer::ImportError;
 use crate::report::unit::Contact;
-use crate::report::ways::{Body, Way};
+use crate::report::ways::{Body, Needs, Way};
 
 /// Up to which step a way is stable, as `h sqrt(K/m)`.
 #[derive(Clone, Copy)]
@@ -77,7 +77,7 @@ fn stays(contact: &mut Contact, way: &Way, setting: &Setting, relative: f64) -> 
     let step = relative / frequency;
     let elastic = prediction.max_indentation - prediction.residual_indentation;
     // a unit that moves the mass itself is taken where it must be before any force can change that
-    let moment = if way.knows_mass { 1e-6 / frequency } else { step };
+    let moment = if way.needs == Needs::Mass { 1e-6 / frequency } else { step };
     contact.start(&[("initial_gap", 0.0)])?;
     contact.set_rate(prediction.max_indentation / moment)?;
     contact.step(moment)?;

@@ -5,8 +5,10 @@ mod map;
 mod words;
 
 use super::data::{Cell, Table, number, text};
+use super::progress::{Progress, Work};
 use super::unit::Contact;
-use super::ways::{WAYS, Way};
+use super::units::Contacts;
+use super::ways::Way;
 use super::{Part, drawn};
 use crate::documentation::digits;
 use crate::importer::ImportError;
@@ -61,23 +63,23 @@ const ROUNDING: f64 = 1e-9;
 /// More than this, a rebound has energy that matters: the best ways make a little of it, and lose it at another place.
 const MATTERS: f64 = 1.01;
 
-/// Measures all ways with the impact of the scene; `stiffness` as in [`Stability`], `knowing` the contact that knows the mass.
-pub fn measure<'a>(
-    contact: &mut Contact<'a>,
-    mut knowing: Option<&mut Contact<'a>>,
+/// Measures all ways with the impact of the scene; `stiffness` as in [`Stability`].
+pub fn measure(
+    contacts: &mut Contacts,
     (impact, prediction): (&Impact, &Prediction),
     stiffness: f64,
     phases: u32,
-    follows_rate: bool,
+    progress: &Progress,
 ) -> Result<Stability, ImportError> {
     let frequency = (stiffness / impact.mass).sqrt();
     let setting = Setting { impact, prediction, frequency, phases };
     let mut lines = Vec::new();
-    for way in WAYS.iter().filter(|way| way.by_rate || !follows_rate) {
-        let contact = if way.knows_mass { knowing.as_deref_mut() } else { Some(&mut *contact) };
-        let Some(contact) = contact else { continue };
+    for way in contacts.ways() {
+        progress.say(&format!("stability: {}", way.name));
+        let contact = contacts.of(way);
         let energies = energies(contact, way, &setting)?;
         lines.push(Line { way: way.name, energies, limit: limit::find(contact, way, &setting)? });
+        progress.done(Work::Way);
     }
     Ok(Stability { stiffness, frequency, predicted: prediction.rebound_energy / prediction.energy, lines })
 }

@@ -1,0 +1,89 @@
+//! The units that a report builds of its scene, one for each kind of coupling: none pays for what its ways don't need.
+
+use super::ReportError;
+use super::progress::{Progress, Work};
+use super::unit::{self, Contact};
+use super::ways::{Needs, WAYS, Way};
+use crate::importer::{Archive, ImportError, Unit};
+use crate::package;
+use crate::scene::Scene;
+
+/// The units, loaded.
+pub struct Units(Vec<Loaded>);
+
+struct Loaded {
+    needs: Needs,
+    unit: Unit,
+    // what the unit was unpacked to stays as long as it
+    archive: Archive,
+}
+
+/// What there is to build for `scene`: a unit whose force follows the rate has no input derivatives and can't know the mass.
+fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
+    let all = [
+        (Needs::Force, "the unit"),
+        (Needs::MeanForce, "the unit with mean_force"),
+        (Needs::Mass, "the unit that knows the mass"),
+    ];
+    all.into_iter().take(if scene.damped.is_some() { 1 } else { all.len() })
+}
+
+impl Units {
+    /// The work of [`Units::build`].
+    pub fn work(scene: &Scene) -> impl Iterator<Item = Work> {
+        kinds(scene).map(|_| Work::Building)
+    }
+
+    /// Builds and loads the units of `scene`.
+    ///
+    /// # Errors
+    /// [`ReportError`] if one can't be built or loaded.
+    pub fn build(scene: &Scene, progress: &Progress) -> Result<Units, ReportError> {
+        let folder = tempfile::Builder::new().prefix("brinell-report-").tempdir();
+        let folder = folder.map_err(|source| ReportError::Folder { path: std::env::temp_dir(), source })?;
+        let mut loaded = Vec::new();
+        for (needs, name) in kinds(scene) {
+            progress.say(&format!("building {name}"));
+            let path = folder.path().join("unit.fmu");
+            package::export(&unit::first_contact(scene, needs), &path)?;
+            let archive = Archive::open(&path)?;
+            loaded.push(Loaded { needs, unit: archive.load()?, archive });
+            progress.done(Work::Building);
+        }
+        Ok(Units(loaded))
+    }
+
+    /// A contact of each.
+    ///
+    /// # Errors
+    /// [`ImportError`] if a unit can't be instantiated.
+    pub fn contacts(&self) -> Result<Contacts<'_>, ImportError> {
+        let mut contacts = Vec::new();
+        for Loaded { needs, unit, archive } in &self.0 {
+            contacts.push((*needs, Contact::new(archive, unit, &[])?));
+        }
+        Ok(Contacts(contacts))
+    }
+}
+
+/// A contact for each kind of coupling that there is a unit for.
+pub struct Contacts<'a>(Vec<(Needs, Contact<'a>)>);
+
+impl<'a> Contacts<'a> {
+    /// The ways to couple that can be run.
+    pub fn ways(&self) -> impl Iterator<Item = &'static Way> + use<> {
+        let kinds: Vec<_> = self.0.iter().map(|(needs, _)| *needs).collect();
+        WAYS.iter().filter(move |way| kinds.contains(&way.needs))
+    }
+
+    /// The contact for a way that [can be run](Contacts::ways).
+    pub fn of(&mut self, way: &Way) -> &mut Contact<'a> {
+        let contact = self.0.iter_mut().find(|(needs, _)| *needs == way.needs);
+        &mut contact.expect("a way that can be run has a contact").1
+    }
+
+    /// The contact that has no more than every unit.
+    pub fn plain(&mut self) -> &mut Contact<'a> {
+        &mut self.0[0].1
+    }
+}
