@@ -27,7 +27,7 @@ pub fn first_contact(scene: &Scene, mass: Option<f64>) -> Scene {
         name: scene.name.clone(),
         description: scene.description.clone(),
         parameters,
-        contacts: vec![Group { name: None, count: None, own: Vec::new(), surface: scene.contacts[0].surface }],
+        contacts: vec![Group { name: None, count: None, own: Vec::new(), ..scene.contacts[0].clone() }],
         outputs: OUTPUTS.map(String::from).to_vec(),
         loading: scene.loading,
         unloading: scene.unloading,
