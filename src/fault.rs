@@ -1,9 +1,9 @@
-//! What can go wrong in an instance, with the data that a message needs.
+//! What can go wrong in an instance, and what its user should know, with the data that a message needs.
 
 use crate::instance::Phase;
 use crate::variable::Settable;
 
-/// A refused call.
+/// A refused call; the last three are warnings, and nothing is refused.
 #[derive(Clone, Copy, Debug)]
 pub enum Fault {
     /// An instance can't be made.
@@ -126,4 +126,24 @@ pub enum Fault {
     },
     /// The host gave no memory.
     NoMemory,
+    /// The passivity guard acts.
+    Guarded,
+    /// A contact is too wide for its law.
+    Deep {
+        /// Which contact, counted from 0.
+        contact: u32,
+        /// Its largest indentation [m].
+        indentation: f64,
+        /// Up to which the law is valid [m].
+        allowed: f64,
+    },
+    /// A contact closes so fast that waves take more energy than can be left out.
+    Fast {
+        /// Which contact, counted from 0.
+        contact: u32,
+        /// Its rate [m/s].
+        rate: f64,
+        /// Up to which the law is valid [m/s].
+        allowed: f64,
+    },
 }

@@ -14,7 +14,8 @@
 //!
 //! # Validity
 //! Quasi-static, frictionless normal contact of a paraboloid: `a/R` up to about 0.3, contact long against the travel of
-//! waves, no hardening, no dependence on the rate of strain.
+//! waves, no hardening, no dependence on the rate of strain. [`contact::validity`] has the borders in numbers; a unit tells when it
+//! leaves them.
 //!
 //! # Units
 //! SI throughout: m, kg, s, N, Pa, J. Each public item says its unit.

@@ -64,6 +64,11 @@ pub fn model(pair: Pair, group: usize, _settable: &Values) -> Model {
     Model { pair, loading: LOADING, unloading: UNLOADING, surface: surface(group) }
 }
 
+/// Density of the target of a group [kg/m^3], if it is known.
+pub fn density(_group: usize) -> Option<f64> {
+    Some(7850.0)
+}
+
 /// Whether an output tells the momentum of a step.
 pub const MOMENTUM: bool = false;
 /// Whether an output predicts the force of the next step.

@@ -52,7 +52,7 @@ fn an_unknown_key_of_a_contact_is_refused_with_those_there_are() {
     let keys = ["`colour`", "`name`", "`count`", "`impactor`", "`target`", "`initial_gap`"];
     refused_in_left("§colour = 1", &keys);
     refused_in_left("impactor = { §mass = 1 }", &["`mass`", "`radius`", "`youngs_modulus`", "`poissons_ratio`"]);
-    refused_in_left("target = { §density = 1 }", &["`density`", "`material`", "`yield_strength`", "`surface`"]);
+    refused_in_left("target = { §hardness = 1 }", &["`hardness`", "`material`", "`yield_strength`", "`surface`"]);
     refused_in_left("target = { surface = §\"old\" }", &["`old`", "`dented`", "`fresh`"]);
     refused_in_left("target = { material = §\"cheese\" }", &["material", "`cheese`", "`mild steel`"]);
     refused_in_left("[contact.§law]\nloading = \"hertz\"", &["`law`", "`target`"]);
@@ -116,6 +116,7 @@ fn a_number_of_a_contact_out_of_range_is_refused_with_its_variable_and_the_range
         ("impactor = { radius = §-5e-3 }", "left.impactor.radius = -0.005 "),
         ("impactor = { radius = §nan }", "left.impactor.radius = NaN "),
         ("target = { yield_strength = §0 }", "left.target.yield_strength = 0.0 "),
+        ("target = { density = §0 }", "left.target.density = 0.0 "),
         ("target = { poissons_ratio = §0.75 }", "left.target.poissons_ratio = 0.75 "),
         ("target = { youngs_modulus = §inf }", "left.target.youngs_modulus = inf "),
         ("initial_gap = §1e7", "left.initial_gap = 10000000.0 "),

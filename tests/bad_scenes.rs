@@ -50,7 +50,7 @@ fn an_unknown_key_is_refused_in_each_table() {
         &["`colour`", "`name`", "`impactor`", "`target`", "`law`", "`fmu`", "`impact`", "`contact`"],
     );
     refused("[impactor]", "[impactor]\n§mass = 1", &["`mass`", "`radius`", "`youngs_modulus`", "`poissons_ratio`"]);
-    refused("[target]", "[target]\n§density = 1", &["`density`", "`material`", "`yield_strength`", "`surface`"]);
+    refused("[target]", "[target]\n§hardness = 1", &["`hardness`", "`material`", "`density`", "`surface`"]);
     refused_with("[law]\n§laoding = \"hertz\"", &["`laoding`", "`loading`", "`unloading`", "`passivity_guard`"]);
     refused_with("[fmu]\n§inputs = []", &["`inputs`", "`outputs`", "`parameters`", "`initial_gap`"]);
     refused_with("[impact]\nmass = 1\nspeed = 1\n§angle = 1", &["`angle`", "`mass`", "`speed`"]);
@@ -135,6 +135,13 @@ fn a_number_out_of_range_is_refused_with_the_range() {
     ] {
         let said = format!("{key} = {value} ");
         refused(from, &format!("§{to}"), &[&said, "out of range", "allowed is", " to "]);
+    }
+    for (value, said) in
+        [("0", "0.0"), ("-0.0", "-0.0"), ("-7850", "-7850.0"), ("nan", "NaN"), ("inf", "inf"), ("1e10", "1e10")]
+    {
+        let parts = ["allowed is 0.001 to 1000000000.0 kg/m^3"];
+        let key = format!("target.density = {} ", said.replace("1e10", "10000000000.0"));
+        refused("[target]", &format!("[target]\ndensity = §{value}"), &[&key, parts[0]]);
     }
     refused_with("[fmu]\ninitial_gap = §nan", &["initial_gap = NaN", "allowed is", "to"]);
     refused_with("[fmu]\ninitial_gap = §1e7", &["initial_gap = 10000000.0", "allowed is", "to"]);

@@ -193,6 +193,48 @@ fmu = { outputs = ["work", "dissipated_energy"] }
     pytest("test_passivity_guard.py", &[write_scene("guarded", text)]);
 }
 
+/// A scene of a rigid sphere of 5 mm on a target of unknown density.
+fn with_unknown_density(name: &str, law: &str, more: &str) -> PathBuf {
+    let text = format!(
+        "name = \"{name}\"\nimpactor = {{ radius = 5e-3 }}\nlaw = {{ {law} }}\n\
+         impact = {{ mass = 4e-3, speed = 1.0 }}\n{more}\n"
+    );
+    write_scene(name, &text)
+}
+
+#[test]
+fn what_leaves_the_validity_of_the_law_is_told_once() {
+    let target = |surface: &str| {
+        let numbers = "youngs_modulus = 206e9, poissons_ratio = 0.3, yield_strength = 300e6";
+        format!("target = {{ {numbers}, surface = \"{surface}\" }}\n")
+    };
+    let with = |surface: &str, outputs: &str| format!("{}fmu = {{ outputs = [{outputs}] }}\n", target(surface));
+    let shown = r#""indentation", "max_indentation", "contact_radius""#;
+    let momentum = format!(r#"{shown}, "impulse", "mean_force""#);
+    let known = "coupling = { effective_mass = 4e-3 }\n";
+    let law = "loading = \"big-alabo\"";
+    let groups = r#"
+contact = [
+    { name = "left", target = { youngs_modulus = 206e9, poissons_ratio = 0.3, yield_strength = 300e6, density = 5e3 } },
+    { name = "row", count = 20, target = { material = "aluminium 6061-T6" } },
+    { name = "right", target = { youngs_modulus = 70e9, poissons_ratio = 0.3, yield_strength = 300e6 } },
+]
+fmu = { outputs = ["indentation", "max_indentation"] }
+"#;
+    let scenes = [
+        scene("steel_ball"),
+        with_unknown_density("plain", law, &with("dented", shown)),
+        with_unknown_density("fresh_and_deep", law, &with("fresh", shown)),
+        with_unknown_density("tangents", "loading = \"jackson-green\"", &with("dented", shown)),
+        with_unknown_density("damped_and_deep", "loading = \"adams-impact\"", &with("dented", shown)),
+        with_unknown_density("momentum", law, &with("dented", &momentum)),
+        with_unknown_density("known_dented", law, &(with("dented", shown) + known)),
+        with_unknown_density("known_fresh", law, &(with("fresh", shown) + known)),
+        with_unknown_density("own_densities", law, groups),
+    ];
+    pytest("test_validity_warnings.py", &scenes);
+}
+
 #[test]
 fn many_instances_and_threads_do_not_disturb_each_other() {
     pytest("test_many_instances.py", &steel_ball());

@@ -19,6 +19,7 @@
 //! | [`momentum`] | the integral of force over time |
 //! | [`motion`] | a contact that knows the mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
+//! | [`validity`] | up to where the laws hold |
 
 pub mod damped;
 pub mod dual;
@@ -33,6 +34,7 @@ pub mod piece;
 pub mod quadrature;
 pub mod segment;
 pub mod unloading;
+pub mod validity;
 
 pub use history::{History, Regime, TooDeep};
 pub use loading::Loading;
@@ -104,6 +106,11 @@ impl<L: Loading, U: Unloading> Model<L, U> {
             return path.work(indentation);
         }
         self.unloading.work(&self.pair, &self.peak(max_indentation), &path, indentation)
+    }
+
+    /// The indentation up to which the loading law is valid [m].
+    pub fn valid_depth(&self) -> f64 {
+        validity::largest_indentation(self.pair.radius, |depth| self.loading.contact_radius(&self.pair, depth))
     }
 
     /// Whether the passivity guard shortens the path from `max_indentation` [m].

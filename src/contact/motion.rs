@@ -28,6 +28,8 @@ pub struct Outcome {
     pub taken: f64,
     /// Evaluations of the force that it took.
     pub evaluations: u32,
+    /// The largest indentation on the way [m], which a fresh surface forgets.
+    pub deepest: f64,
 }
 
 /// [`follow`], for the history and the model of a scene.
@@ -176,7 +178,8 @@ pub fn follow<L: Loading, U: Unloading>(
     speed: f64,
     step: f64,
 ) -> Result<Outcome, NoMotion> {
-    let mut motion = Motion { history, model, drive, speed, taken: 0.0, left: step, inner: step, evaluations: 0 };
+    let mut motion =
+        Motion { history, model, drive, speed, taken: 0.0, left: step, inner: step, evaluations: 0, deepest: 0.0 };
     while motion.left > 0.0 {
         if motion.is_apart() {
             motion.fly()?;
@@ -189,7 +192,7 @@ pub fn follow<L: Loading, U: Unloading>(
     }
     // the contact only pushes: less than nothing is rounding
     let taken = largest(motion.taken, 0.0);
-    Ok(Outcome { speed: motion.speed, taken, evaluations: motion.evaluations })
+    Ok(Outcome { speed: motion.speed, taken, evaluations: motion.evaluations, deepest: motion.deepest })
 }
 
 /// The motion as far as it has come.
@@ -205,6 +208,8 @@ struct Motion<'a, L, U> {
     /// Length of the next inner step [s].
     inner: f64,
     evaluations: u32,
+    /// The largest indentation so far [m].
+    deepest: f64,
 }
 
 impl<L: Loading, U: Unloading> Motion<'_, L, U> {
@@ -246,7 +251,14 @@ impl<L: Loading, U: Unloading> Motion<'_, L, U> {
         // what rounding makes of a graze is no motion away from the surface
         self.speed = if rising && speed < 0.0 { 0.0 } else { speed };
         self.left -= time;
-        Ok(self.history.go_to(self.model, goal, rising)?)
+        self.go_to(goal, rising)
+    }
+
+    /// Puts the contact at `goal` [m].
+    fn go_to(&mut self, goal: f64, rising: bool) -> Result<(), NoMotion> {
+        self.history.go_to(self.model, goal, rising)?;
+        self.deepest = largest(self.deepest, self.history.max_indentation());
+        Ok(())
     }
 
     /// The direction of the motion under force; at rest that of the acceleration.
@@ -270,7 +282,7 @@ impl<L: Loading, U: Unloading> Motion<'_, L, U> {
             let speed = -sqrt(self.speed * self.speed + 2.0 * energy / self.drive.mass);
             self.taken += self.speed - speed;
             self.speed = speed;
-            return Ok(self.history.go_to(self.model, piece.lower, false)?);
+            return self.go_to(piece.lower, false);
         }
         let mut inner = if self.inner < self.left { self.inner } else { self.left };
         let mut stepper =
@@ -307,7 +319,7 @@ impl<L: Loading, U: Unloading> Motion<'_, L, U> {
             }
             goal = end;
         }
-        self.history.go_to(self.model, goal, rising)?;
+        self.go_to(goal, rising)?;
         self.taken += self.drive.acceleration * time - (trial.speed - self.speed);
         self.speed = trial.speed;
         self.left -= time;

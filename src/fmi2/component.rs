@@ -3,12 +3,12 @@
 use super::abi::fmi2ComponentEnvironment;
 use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2Error, fmi2OK, fmi2Status, fmi2String};
 use super::order::Function;
-use super::report::{Category, Report, WARNING, WARNING_NAME};
+use super::report::{Category, DEEP, DISCARD, FAST, GUARD, describe};
 use super::text::Text;
 use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::scene;
-use core::ffi::{CStr, c_char};
+use core::ffi::c_char;
 
 /// An instance with what its importer gave it. The name of the instance follows it in memory.
 #[repr(C)]
@@ -34,25 +34,20 @@ impl Logger {
         Logger { function: callbacks.logger, environment: callbacks.componentEnvironment }
     }
 
-    /// Hands `report` to the importer; without logger it is lost.
+    /// Hands the message about `fault` in the function `name` to the importer; without logger it is lost.
     ///
     /// # Safety
     /// `instance_name` is a string that ends with 0.
     #[cold]
-    pub unsafe fn log(&self, instance_name: fmi2String, report: &Report) {
-        // SAFETY: as the caller promises.
-        unsafe { self.hand_over(instance_name, report.status, report.category.name(), &report.text) };
-    }
-
-    /// Hands `text` to the importer.
-    ///
-    /// # Safety
-    /// As for [`Logger::log`].
-    #[inline(always)]
-    unsafe fn hand_over(&self, instance_name: fmi2String, status: fmi2Status, category: &CStr, text: &Text) {
+    #[inline(never)]
+    pub unsafe fn log(&self, instance_name: fmi2String, name: &str, fault: &Fault, category: Category) {
         let Some(function) = self.function else { return };
+        let mut text = Text::new();
+        describe(text.string(name).string(": "), fault);
         // SAFETY: the importer's function, with strings that end with 0 and a format without commands.
-        unsafe { function(self.environment, instance_name, status, category.as_ptr(), text.as_ptr()) };
+        unsafe {
+            function(self.environment, instance_name, category.status(), category.name().as_ptr(), text.as_ptr())
+        };
     }
 }
 
@@ -63,31 +58,48 @@ impl Component {
         unsafe { core::ptr::from_ref(self).add(1).cast::<c_char>() }
     }
 
-    /// Says once that the passivity guard acts: then its category is switched off, until the importer switches it on again.
+    /// Tells that a contact is deeper or closes faster than its law is valid for, if one does.
+    #[cold]
+    #[inline(never)]
+    pub fn warn_of_limits(&mut self, function: Function) {
+        if let Some(warning) = self.instance.take_deep() {
+            self.warn(function, DEEP, &warning);
+        }
+        if let Some(warning) = self.instance.find_fast() {
+            self.warn(function, FAST, &warning);
+        }
+    }
+
+    /// Tells that the passivity guard acts, if there is one and it does.
     pub fn warn_of_guard(&mut self, function: Function) {
-        let Some(guard) = scene::GUARD else { return };
-        if self.categories & WARNING != 0 && self.instance.is_held_back() {
-            self.categories &= !WARNING;
-            let mut text = Text::new();
-            text.string(function.name()).string(": ").string(guard);
-            // SAFETY: the name ends with 0.
-            unsafe { self.logger.hand_over(self.name(), fmi2OK, WARNING_NAME, &text) };
+        // a look at every contact, for nothing if it has been told
+        if scene::GUARD.is_some() && self.categories & GUARD != 0 && self.instance.is_held_back() {
+            self.warn(function, GUARD, &Fault::Guarded);
+        }
+    }
+
+    /// Tells a warning once.
+    #[inline(never)]
+    fn warn(&mut self, function: Function, bit: u8, warning: &Fault) {
+        if self.categories & bit != 0 {
+            self.categories &= !bit;
+            self.tell(function, warning);
         }
     }
 
     /// Logs `fault` of `function` and gives the status to return; an error ends the simulation.
     #[cold]
     #[inline(never)]
-    fn refuse(&mut self, function: Function, fault: &Fault) -> fmi2Status {
-        let report = Report::new(function.name(), fault);
-        if report.status == fmi2Error {
+    fn tell(&mut self, function: Function, fault: &Fault) -> fmi2Status {
+        let category = Category::of(fault);
+        if category == Category::Error {
             self.instance.fail();
         }
-        if report.category == Category::Error || self.categories & report.category as u8 != 0 {
+        if category != Category::Discard || self.categories & DISCARD != 0 {
             // SAFETY: the name ends with 0.
-            unsafe { self.logger.log(self.name(), &report) };
+            unsafe { self.logger.log(self.name(), function.name(), fault, category) };
         }
-        report.status
+        category.status()
     }
 }
 
@@ -117,7 +129,7 @@ pub unsafe fn call(
     let Some(component) = (unsafe { opened(c, function) }) else { return fmi2Error };
     match body(component) {
         Ok(()) => fmi2OK,
-        Err(fault) => component.refuse(function, &fault),
+        Err(fault) => component.tell(function, &fault),
     }
 }
 
@@ -133,7 +145,7 @@ unsafe fn opened<'a>(c: fmi2Component, function: Function) -> Option<&'a mut Com
     if function.is_allowed_in(phase) {
         return Some(component);
     }
-    component.refuse(function, &Fault::OutOfOrder { phase });
+    component.tell(function, &Fault::OutOfOrder { phase });
     None
 }
 

@@ -4,7 +4,7 @@ use super::abi::*;
 use super::component::{Component, Logger, array, call};
 use super::memory;
 use super::order;
-use super::report::{ALL_CATEGORIES, Category, Report};
+use super::report::{ALL_CATEGORIES, Category};
 use crate::fault::Fault;
 use crate::scene;
 use core::ffi::CStr;
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
         Err(fault) => {
             let name = if instanceName.is_null() { c"".as_ptr() } else { instanceName };
             // SAFETY: the name ends with 0.
-            unsafe { logger.log(name, &Report::new("fmi2Instantiate", &fault)) };
+            unsafe { logger.log(name, "fmi2Instantiate", &fault, Category::Error) };
             core::ptr::null_mut()
         }
     }
@@ -126,6 +126,8 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
             }
             if loggingOn != fmi2False {
                 component.categories |= bits;
+                // what is so already is told, too
+                component.instance.look();
             } else {
                 component.categories &= !bits;
             }

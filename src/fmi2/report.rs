@@ -1,7 +1,8 @@
 //! A fault as status, log category and text: the one place where it becomes words.
 
-use super::abi::{fmi2Discard, fmi2Error, fmi2Status};
+use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status};
 use super::text::Text;
+use crate::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use crate::fault::Fault;
 use crate::instance::Phase;
 use crate::scene;
@@ -10,13 +11,30 @@ use core::ffi::CStr;
 
 /// A category of log messages, as declared in the model description.
 #[derive(Clone, Copy, PartialEq, Eq)]
-#[repr(u8)]
 pub enum Category {
     /// `logStatusDiscard`
-    Discard = 1,
+    Discard,
     /// `logStatusError`
-    Error = 2,
+    Error,
+    /// `logStatusWarning`: what a user should know of a simulation that goes on all the same.
+    Warning,
 }
+
+/// The bit of [`Category::Discard`] among those that are logged.
+pub const DISCARD: u8 = 1;
+
+/// That of [`Category::Error`], which has no effect.
+const ERROR: u8 = 2;
+
+/// The bit of [`Fault::Guarded`]. Each warning is told once: then its bit is off, until the importer switches its category on again.
+pub const GUARD: u8 = 4;
+/// The bit of [`Fault::Deep`].
+pub const DEEP: u8 = 8;
+/// The bit of [`Fault::Fast`].
+pub const FAST: u8 = 16;
+
+/// Those of [`Category::Warning`].
+const WARNINGS: u8 = GUARD | DEEP | FAST;
 
 impl Category {
     /// The name of the category in the model description.
@@ -24,6 +42,26 @@ impl Category {
         match self {
             Category::Discard => c"logStatusDiscard",
             Category::Error => c"logStatusError",
+            Category::Warning => c"logStatusWarning",
+        }
+    }
+
+    /// Where the message about `fault` belongs.
+    pub fn of(fault: &Fault) -> Category {
+        match fault {
+            Fault::Unavailable => Category::Discard,
+            Fault::Guarded | Fault::Deep { .. } | Fault::Fast { .. } => Category::Warning,
+            _ => Category::Error,
+        }
+    }
+
+    /// What a call returns with such a message.
+    pub fn status(self) -> fmi2Status {
+        match self {
+            Category::Discard => fmi2Discard,
+            Category::Error => fmi2Error,
+            // many an importer stops at any other status
+            Category::Warning => fmi2OK,
         }
     }
 
@@ -31,47 +69,17 @@ impl Category {
     pub fn bits(name: &CStr) -> Option<u8> {
         let name = name.to_bytes();
         let known = [
-            (Category::Discard.name(), Category::Discard as u8),
-            (Category::Error.name(), Category::Error as u8),
+            (Category::Discard.name(), DISCARD),
+            (Category::Error.name(), ERROR),
+            (Category::Warning.name(), WARNINGS),
             (c"logAll", ALL_CATEGORIES),
-            (if scene::GUARD.is_some() { WARNING_NAME } else { c"logAll" }, WARNING),
         ];
         known.into_iter().find(|(own, _)| own.to_bytes() == name).map(|(_, bits)| bits)
     }
 }
 
-/// `logStatusWarning`: what a unit with a passivity guard tells. It belongs to no fault, and units without guard haven't got it.
-pub const WARNING: u8 = 4;
-
-/// Its name in the model description.
-pub const WARNING_NAME: &CStr = c"logStatusWarning";
-
 /// `logAll`
-pub const ALL_CATEGORIES: u8 =
-    Category::Discard as u8 | Category::Error as u8 | if scene::GUARD.is_some() { WARNING } else { 0 };
-
-/// How a fault is reported.
-pub struct Report {
-    /// What the call returns.
-    pub status: fmi2Status,
-    /// Where the message belongs.
-    pub category: Category,
-    /// The message.
-    pub text: Text,
-}
-
-impl Report {
-    /// The report of `fault` in the function `name`.
-    pub fn new(name: &str, fault: &Fault) -> Report {
-        let (status, category) = match fault {
-            Fault::Unavailable => (fmi2Discard, Category::Discard),
-            _ => (fmi2Error, Category::Error),
-        };
-        let mut text = Text::new();
-        describe(text.string(name).string(": "), fault);
-        Report { status, category, text }
-    }
-}
+pub const ALL_CATEGORIES: u8 = DISCARD | ERROR | WARNINGS;
 
 fn phase_name(phase: Phase) -> &'static str {
     match phase {
@@ -112,8 +120,13 @@ fn fill(text: &mut Text, template: &str, words: [&str; 2], numbers: [f64; 3]) {
     }
 }
 
-fn describe(text: &mut Text, fault: &Fault) {
+/// The text below says them.
+const _: () = assert!(LARGEST_RADIUS_RATIO == 0.3 && LARGEST_SPEED_RATIO == 0.01);
+
+/// Writes what `fault` is.
+pub fn describe(text: &mut Text, fault: &Fault) {
     let (mut words, mut numbers) = ([""; 2], [0.0; 3]);
+    let mut of = None;
     let template = match *fault {
         Fault::BadInstance { reason } => {
             words[0] = reason;
@@ -180,7 +193,7 @@ fn describe(text: &mut Text, fault: &Fault) {
             "the step would end at ~ s, beyond the stop time ~ s"
         }
         Fault::TooDeep { contact, indentation } => {
-            contact_name(text, contact);
+            of = Some(contact);
             numbers[0] = indentation;
             "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
         }
@@ -202,15 +215,31 @@ fn describe(text: &mut Text, fault: &Fault) {
         }
         Fault::Unsupported => "this unit doesn't have this capability (see its model description)",
         Fault::Unavailable => "not available: every step is complete when its call returns",
-        Fault::UnknownCategory => match scene::GUARD {
-            None => "unknown log category: there are logStatusDiscard, logStatusError, logAll",
-            Some(_) => "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll",
-        },
+        Fault::UnknownCategory => {
+            "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll"
+        }
         Fault::BadState { reason } => {
             words[0] = reason;
             "the FMU state can't be used: @"
         }
         Fault::NoMemory => "out of memory",
+        Fault::Guarded => {
+            words[0] = scene::GUARD.unwrap_or("");
+            "@"
+        }
+        Fault::Deep { contact, indentation, allowed } => {
+            of = Some(contact as usize);
+            (numbers[0], numbers[1]) = (indentation, allowed);
+            "at an indentation of ~ m the contact radius is above 0.3 effective radii: the law is valid up to ~ m"
+        }
+        Fault::Fast { contact, rate, allowed } => {
+            of = Some(contact as usize);
+            (numbers[0], numbers[1]) = (rate, allowed);
+            "indentation_rate = ~ m/s is above 0.01 of the wave speed: the law is valid up to ~ m/s"
+        }
     };
+    if let Some(contact) = of {
+        contact_name(text, contact);
+    }
     fill(text, template, words, numbers);
 }

@@ -13,9 +13,9 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, FMUstate: *mut fmi2FM
     unsafe {
         if let (Some(component), Some(state)) = (component(c), FMUstate.as_ref())
             && let Ok(snapshot) = Snapshot::at(*state)
-        {
             // in order in every phase
-            snapshot.instance.copy_from(&component.instance);
+            && snapshot.instance.copy_alike(&component.instance)
+        {
             return fmi2OK;
         }
         get_any_state(c, FMUstate)
@@ -39,24 +39,30 @@ unsafe fn get_any_state(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2St
 pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, FMUstate: fmi2FMUstate) -> fmi2Status {
     // SAFETY: the caller's component and state.
     unsafe {
-        if let (Some(component), Ok(snapshot)) = (component(c), Snapshot::at(FMUstate)) {
+        if let (Some(component), Ok(snapshot)) = (component(c), Snapshot::at(FMUstate))
             // in order in every phase
-            component.instance.copy_from(&snapshot.instance);
+            && component.instance.copy_alike(&snapshot.instance)
+        {
             return fmi2OK;
         }
-        refuse_state(c, FMUstate)
+        set_any_state(c, FMUstate)
     }
 }
 
-/// Says why a state can't be restored.
+/// Every restoring that isn't plain, with all checks.
 ///
 /// # Safety
 /// The caller's component and state.
 #[cold]
 #[inline(never)]
-unsafe fn refuse_state(c: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
+unsafe fn set_any_state(c: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
     // SAFETY: as the caller promises.
-    unsafe { call(c, order::SET_FMU_STATE, |_| Snapshot::at(state).map(|_| ())) }
+    unsafe {
+        call(c, order::SET_FMU_STATE, |component| {
+            component.instance.copy(&Snapshot::at(state)?.instance);
+            Ok(())
+        })
+    }
 }
 
 /// Frees a state and sets the pointer to null; null and a pointer to null are ignored.

@@ -5,6 +5,7 @@ use super::component::{array, array_mut, call, component, object};
 use super::order::{self, Function};
 use super::variables::any_real;
 use crate::fault::Fault;
+use crate::scene;
 
 /// Moves the contact over a step with the indentation rate held; complete when it returns.
 #[unsafe(no_mangle)]
@@ -20,6 +21,10 @@ pub unsafe extern "C" fn fmi2DoStep(
         if let Some(component) = component(c)
             && component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize)
         {
+            // one contact that goes too deep leaves its branch
+            if scene::CONTACTS > 1 && component.instance.is_deep() {
+                component.warn_of_limits(order::DO_STEP);
+            }
             return fmi2OK;
         }
         do_any_step(c, currentCommunicationPoint, communicationStepSize)
@@ -38,6 +43,7 @@ unsafe fn do_any_step(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
         call(c, order::DO_STEP, |component| {
             component.instance.do_step(time, step)?;
             component.warn_of_guard(order::DO_STEP);
+            component.warn_of_limits(order::DO_STEP);
             Ok(())
         })
     }

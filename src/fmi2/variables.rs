@@ -181,6 +181,10 @@ unsafe fn set_any_real(
             if parameters {
                 component.instance.parameters_are_set();
             }
+            // among many a look at each would take long
+            if scene::CONTACTS == 1 || values.iter().any(|&value| component.instance.may_be_fast(value)) {
+                component.warn_of_limits(order::SET_REAL);
+            }
             Ok(())
         })
     }

@@ -2,6 +2,7 @@
 
 mod saved;
 mod stepping;
+mod validity;
 mod variables;
 
 use crate::contact::motion::{Drive, NoMotion};
@@ -76,12 +77,20 @@ pub struct Instance {
     limit: f64,
     pairs: [Bodies; scene::GROUPS],
     values: Values,
-    /// A hash of the last two: states with the same one have the same parameters, and needn't copy them.
+    /// From here to its opposite [m/s] an input needs no further look. Negative, so that the comparison has its second number in
+    /// memory; it follows from the parameters.
+    lowest_rate: f64,
+    /// A hash of all that: states with the same one have the same parameters, and needn't copy them.
     stamp: u64,
     curves: [Curve; CURVES],
     momenta: [Momentum; MOMENTA],
     /// Length of the last step [s], where a force is predicted from it.
     last_step: [f64; scene::PREDICTS as usize],
+    /// The contact that a step has left deeper than its law is valid for, or had there on the way, until it is told; counted
+    /// from 1, and 0 is none.
+    deep: u32,
+    /// Its largest indentation [m].
+    deepest: f64,
     phase: Phase,
     experiment_defined: bool,
     /// A derivative of an input is set, or was in the last step: no step is plain then.
@@ -97,6 +106,15 @@ struct Bodies {
     radius: f64,
     /// Effective modulus [Pa].
     modulus: f64,
+    /// Indentation up to which the law is valid [m].
+    depth: f64,
+}
+
+impl Bodies {
+    /// Takes what is kept of `pair`; the depth is found when all parameters are known.
+    fn take(&mut self, pair: &Pair) {
+        (self.radius, self.modulus) = (pair.radius, pair.modulus);
+    }
 }
 
 /// The words of an instance that don't belong to a contact or a parameter.
@@ -170,18 +188,10 @@ fn model_of(group: usize, bodies: Bodies, values: &Values) -> Model {
 
 /// A contact of `group` before any motion.
 #[inline(never)]
-fn start_of(group: usize, values: &Values) -> Result<(Bodies, History), Fault> {
-    let pair = pair_of(group, values)?;
-    let history =
-        History::start(&scene::model(pair, group, values), scene::parameter(Parameter::InitialGap, group, values));
-    Ok((Bodies { radius: pair.radius, modulus: pair.modulus }, history.map_err(|deep| too_deep(0, deep))?))
-}
-
-/// Whether `value` is neither infinite nor NaN, in the fewest instructions.
-#[inline(always)]
-fn is_finite(value: f64) -> bool {
-    // zero, or NaN for those two
-    !core::ops::Sub::sub(value, value).is_nan()
+fn start_of(group: usize, values: &Values) -> Result<(Pair, History), Fault> {
+    let model = scene::model(pair_of(group, values)?, group, values);
+    let history = History::start(&model, scene::parameter(Parameter::InitialGap, group, values));
+    Ok((model.pair, history.map_err(|deep| too_deep(0, deep))?))
 }
 
 /// Where plain steps end in this phase [s].
@@ -206,6 +216,7 @@ impl Instance {
         self.experiment_defined = false;
         self.fast = false;
         self.last_step.fill(0.0);
+        self.deep = 0;
         self.straighten();
         self.set_phase(Phase::Instantiated);
         self.start()
@@ -218,7 +229,8 @@ impl Instance {
         started
     }
 
-    /// Makes the [`Instance::stamp`] that of the parameters and of the bodies that follow from them.
+    /// Makes the [`Instance::stamp`] that of the parameters and of the bodies that follow from them, and finds what else does.
+    #[cold]
     #[inline(never)]
     fn stamp_parameters(&mut self) {
         let bodies = self.pairs.iter().flat_map(|bodies| [bodies.radius, bodies.modulus]);
@@ -227,7 +239,14 @@ impl Instance {
             mixed ^ mixed >> 32
         };
         // blank memory has the stamp zero
-        self.stamp = self.values.iter().copied().chain(bodies).fold(GOLDEN, mix) | 1;
+        let stamp = self.values.iter().copied().chain(bodies).fold(GOLDEN, mix) | 1;
+        if stamp != self.stamp {
+            self.stamp = stamp;
+            self.lowest_rate = validity::lowest_rate(&self.values);
+            for (group, bodies) in self.pairs.iter_mut().enumerate() {
+                bodies.depth = model_of(group, *bodies, &self.values).valid_depth();
+            }
+        }
     }
 
     fn start_contacts(&mut self) -> Result<(), Fault> {
@@ -239,8 +258,8 @@ impl Instance {
         let mut histories = self.histories.iter_mut();
         let mut first = 0;
         for (group, bodies) in self.pairs.iter_mut().enumerate() {
-            let (own, history) = start_of(group, &self.values)?;
-            *bodies = own;
+            let (pair, history) = start_of(group, &self.values)?;
+            bodies.take(&pair);
             let end = scene::end(group);
             for slot in histories.by_ref().take(end - first) {
                 *slot = history;
@@ -326,6 +345,8 @@ impl Instance {
             check_rate(history, rate)?;
         }
         self.set_phase(Phase::StepComplete);
+        // a contact may begin anywhere
+        self.look();
         Ok(())
     }
 
@@ -352,13 +373,7 @@ impl Instance {
 }
 
 /// What stands where there is no group.
-const NO_BODIES: Bodies = Bodies { radius: f64::NAN, modulus: f64::NAN };
-
-/// Whether an input needs no further look: finite, and of many contacts not [fast](FAST).
-#[inline(always)]
-fn is_plain(rate: f64) -> bool {
-    if scene::CONTACTS > 1 { rate.abs() <= FAST } else { is_finite(rate) }
-}
+const NO_BODIES: Bodies = Bodies { radius: f64::NAN, modulus: f64::NAN, depth: f64::NAN };
 
 /// Whether a parameter may have this `value`.
 fn allows(settable: &Settable, value: f64) -> bool {

@@ -3,9 +3,12 @@
 use super::*;
 
 impl Instance {
-    /// Makes this instance the same as `other`.
+    /// Makes this instance the same as `other` and reports true; if their parameters differ nothing is done, and false.
     #[inline(always)]
-    pub fn copy_from(&mut self, other: &Instance) {
+    pub fn copy_alike(&mut self, other: &Instance) -> bool {
+        if self.stamp != other.stamp {
+            return false;
+        }
         self.rates.copy_from_slice(&other.rates);
         if scene::CONTACTS == 1 {
             self.histories.iter_mut().zip(&other.histories).for_each(|(own, history)| own.copy_from(history));
@@ -13,11 +16,6 @@ impl Instance {
             self.histories.copy_from_slice(&other.histories);
         }
         self.forces.copy_from_slice(&other.forces);
-        if self.stamp != other.stamp {
-            self.pairs.copy_from_slice(&other.pairs);
-            self.values.copy_from_slice(&other.values);
-            self.stamp = other.stamp;
-        }
         (self.time, self.stop, self.limit) = (other.time, other.stop, other.limit);
         (self.phase, self.experiment_defined, self.fast) = (other.phase, other.experiment_defined, other.fast);
         self.momenta.copy_from_slice(&other.momenta);
@@ -27,12 +25,16 @@ impl Instance {
             self.curves.copy_from_slice(&other.curves);
         }
         self.curved = other.curved;
+        true
     }
 
-    /// The same where it needn't be quick.
+    /// Makes this instance the same as `other`, whatever its parameters are.
     #[inline(never)]
     pub fn copy(&mut self, other: &Instance) {
-        self.copy_from(other);
+        self.pairs.copy_from_slice(&other.pairs);
+        self.values.copy_from_slice(&other.values);
+        (self.lowest_rate, self.stamp) = (other.lowest_rate, other.stamp);
+        self.copy_alike(other);
     }
 
     /// The instance as [`WORDS`] words, to be stored.
@@ -84,6 +86,8 @@ impl Instance {
         self.curved = word(words, 1) & 2 != 0;
         self.last_step.fill(number(4));
         self.set_phase(phase);
+        // what came before is not known here
+        self.look();
         self.note_forces();
         true
     }
@@ -99,7 +103,7 @@ impl Instance {
             let Ok(pair) = pair_of(group, values) else { return false };
             let model = scene::model(pair, group, values);
             if in_earnest {
-                *bodies = Bodies { radius: pair.radius, modulus: pair.modulus };
+                bodies.take(&pair);
             }
             let end = scene::end(group);
             for (own, slot) in contacts.by_ref().take(end - first) {

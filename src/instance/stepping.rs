@@ -1,16 +1,26 @@
 //! Steps: the plain one, and any other.
 
+use super::validity::stays_within;
 use super::*;
 
 impl Instance {
-    /// Moves the contacts from `time` over `step` [s] with the rates held.
+    /// Moves the contacts from `time` over `step` [s] with the rates held. Then [`Instance::take_deep`] has something to tell, or
+    /// not.
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooDeep`]; every contact
     /// is then where it was.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.check_step(time, step)?;
-        self.advance(time + step, step)
+        self.advance(time + step, step)?;
+        // it may have been asked to look
+        if !self.curved {
+            self.limit = self.stop;
+        }
+        if scene::CONTACTS > 1 && !self.is_deep() {
+            self.find_deep();
+        }
+        Ok(())
     }
 
     /// The step that nearly every step is: plainly in order, and of one contact on the branch that it is on. It does what
@@ -25,7 +35,8 @@ impl Instance {
         let in_order = follows && !beyond;
         if scene::CONTACTS > 1 {
             // what the passivity guard does must be told
-            return in_order && scene::GUARD.is_none() && self.advance(end, step).is_ok();
+            let plain = in_order && PLAIN && scene::GUARD.is_none();
+            return plain && self.advance(end, step).is_ok();
         }
         let (Some(history), Some(&rate)) = (self.histories.first_mut(), self.rates.first()) else { return false };
         let from = if scene::MOMENTUM { history.indentation() } else { 0.0 };
@@ -66,12 +77,17 @@ impl Instance {
         for (contact, (history, &rate)) in self.histories.iter_mut().zip(&self.rates).enumerate() {
             let from = if scene::MOMENTUM { history.indentation() } else { 0.0 };
             let before = *history;
-            // one contact has been tried before
-            let plain = scene::CONTACTS > 1 && history.plain_step(rate, step);
+            // one contact has been tried before, or is only looked at: its momentum is then that of a plain step, too
+            let plain = (scene::CONTACTS > 1 || scene::MOMENTUM) && history.plain_step(rate, step);
             let group = scene::group(contact);
-            let model = || model_of(group, pairs.get(group).copied().unwrap_or(NO_BODIES), values);
+            let bodies = || pairs.get(group).copied().unwrap_or(NO_BODIES);
+            let model = || model_of(group, bodies(), values);
             if !plain {
                 history.step(rate, step, model).map_err(|deep| too_deep(contact, deep))?;
+            }
+            let allowed = bodies().depth;
+            if (scene::CONTACTS == 1 || !plain) && !stays_within(allowed, history) {
+                (self.deep, self.deepest) = (contact as u32 + 1, history.max_indentation());
             }
             if let Some(force) = self.forces.get_mut(contact) {
                 *force = history.plain_force(rate, Model::SQUARES);
@@ -95,7 +111,12 @@ impl Instance {
         let curved = !PLAIN || self.curves.iter().any(|curve| curve.slope != 0.0 || curve.bend != 0.0);
         self.curved |= !PLAIN;
         for contact in 0..scene::CONTACTS {
-            let Moved { history, course, mean_force } = self.moved(contact, step)?;
+            let Moved { mut history, course, mean_force, deepest } = self.moved(contact, step)?;
+            let allowed = self.valid_depth(contact);
+            stays_within(allowed, &mut history);
+            if deepest >= allowed {
+                (self.deep, self.deepest) = (contact as u32 + 1, deepest);
+            }
             if let Some(momentum) = self.momenta.get_mut(contact) {
                 momentum.add(mean_force, step);
             }
@@ -136,14 +157,14 @@ impl Instance {
             // as if the rate had gone there in a straight line
             let slope = course.slope - history.force_at_rate(outcome.speed) / mass;
             course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
-            return Ok(Moved { history, course, mean_force });
+            return Ok(Moved { history, course, mean_force, deepest: outcome.deepest });
         }
         let mean_force = match scene::MOMENTUM {
             true => history.mean_force_along(&course, step, &model).map_err(failed)?,
             false => 0.0,
         };
-        history.step_along(&course, step, || model).map_err(failed)?;
-        Ok(Moved { history, course, mean_force })
+        let deepest = history.step_along(&course, step, || model).map_err(failed)?;
+        Ok(Moved { history, course, mean_force, deepest })
     }
 
     fn check_step(&self, time: f64, step: f64) -> Result<(), Fault> {
@@ -170,4 +191,6 @@ struct Moved {
     /// The course that ends as the step did.
     course: Course,
     mean_force: f64,
+    /// The largest indentation on the way [m].
+    deepest: f64,
 }

@@ -59,7 +59,9 @@ impl Instance {
         let (Some(history), Some(slot)) = (self.histories.get(contact), self.rates.get_mut(contact)) else {
             return false;
         };
-        let plain = self.phase == Phase::StepComplete && is_plain(rate) && history.is_finite_at_rate(rate);
+        // a NaN is not
+        let slow = -rate.abs() >= self.lowest_rate;
+        let plain = self.phase == Phase::StepComplete && slow && history.is_finite_at_rate(rate);
         if plain {
             *slot = rate;
         }
@@ -74,7 +76,7 @@ impl Instance {
         };
         let mut plain = self.phase == Phase::StepComplete;
         for (history, &rate) in histories.iter().zip(rates) {
-            plain &= is_plain(rate) && (!History::FOLLOWS_RATE || history.is_finite_at_rate(rate));
+            plain &= -rate.abs() >= self.lowest_rate && (!History::FOLLOWS_RATE || history.is_finite_at_rate(rate));
         }
         if plain {
             for (slot, &rate) in slots.iter_mut().zip(rates) {

@@ -59,7 +59,10 @@ pub fn write_scene(name: &str, text: &str) -> PathBuf {
     let folder = folder().join("scenes");
     fs::create_dir_all(&folder).expect("the target folder can be written to");
     let path = folder.join(name).with_extension("toml");
-    fs::write(&path, text).expect("the target folder can be written to");
+    // another test may be reading the same scene: it is never half written
+    let draft = path.with_extension(format!("{:?}", std::thread::current().id()));
+    fs::write(&draft, text).expect("the target folder can be written to");
+    fs::rename(&draft, &path).expect("the target folder can be written to");
     path
 }
 

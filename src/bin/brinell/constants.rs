@@ -52,6 +52,7 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
         add_surface(&mut text, scene);
         add(&mut text, MODEL);
     }
+    add_density(&mut text, scene);
     add_coupling(&mut text, scene);
     add_settable(&mut text, entries);
     add_parameters(&mut text, scene);
@@ -235,18 +236,27 @@ fn add_surface(text: &mut String, scene: &Scene) {
         Surface::Dented => "Surface::Dented".to_string(),
         Surface::Fresh => "Surface::Fresh".to_string(),
     };
-    let names: Vec<_> = scene.contacts.iter().map(name).collect();
-    let (argument, body) = if names.iter().all(|name| *name == names[0]) {
-        ("_group", names[0].clone())
-    } else {
-        add(
-            text,
-            &format!("/// What a new contact meets, by group.\n{}", list("SURFACES", "Surface", "GROUPS", &names)),
-        );
-        ("group", "SURFACES.get(group).copied().unwrap_or_default()".into())
-    };
     let head = "/// What a new contact of a group meets.\npub fn surface";
-    add(text, &format!("{head}({argument}: usize) -> Surface {{\n    {body}\n}}\n"));
+    let names: Vec<_> = scene.contacts.iter().map(name).collect();
+    add_by_group(text, head, "Surface", ("SURFACES", "What a new contact meets, by group."), &names);
+}
+
+fn add_density(text: &mut String, scene: &Scene) {
+    let value = |group: &Group| group.density.map_or("None".into(), |density| format!("Some({})", literal(density)));
+    let head = "/// Density of the target of a group [kg/m^3], if it is known.\npub fn density";
+    let values: Vec<_> = scene.contacts.iter().map(value).collect();
+    add_by_group(text, head, "Option<f64>", ("DENSITIES", "Density of the target [kg/m^3], by group."), &values);
+}
+
+/// A function of the group that begins with `head`: one value for all, or a table with its name and what it says.
+fn add_by_group(text: &mut String, head: &str, kind: &str, (name, says): (&str, &str), values: &[String]) {
+    let (argument, body) = if values.iter().all(|value| *value == values[0]) {
+        ("_group", values[0].clone())
+    } else {
+        add(text, &format!("/// {says}\n{}", list(name, kind, "GROUPS", values)));
+        ("group", format!("{name}.get(group).copied().unwrap_or_default()"))
+    };
+    add(text, &format!("{head}({argument}: usize) -> {kind} {{\n    {body}\n}}\n"));
 }
 
 /// The variables that a scene can have as parameters.

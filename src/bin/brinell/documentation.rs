@@ -6,6 +6,7 @@ use crate::parameters::{self, Constant};
 use crate::plot::{Picture, Series};
 use crate::scene::Scene;
 use crate::table::{self, Causality};
+use crate::validity;
 use std::fmt::Write;
 
 const STYLE: &str = "\
@@ -102,19 +103,16 @@ fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
         writeln!(page, "<tr><td>{quantity}</td><td class=\"n\">{}</td><td>{unit}</td></tr>", digits(value))?;
     }
     writeln!(page, "</table>")?;
-    let ratio = prediction.max_contact_radius / scene.model().pair.radius;
-    if ratio > LARGEST_RADIUS_RATIO {
-        writeln!(
-            page,
-            "<p><strong>Beyond the validity of the law:</strong> the contact radius reaches {ratio:.2} effective radii; \
-             above {LARGEST_RADIUS_RATIO} the sphere is no paraboloid any more.</p>"
-        )?;
+    let (model, density) = (scene.any_model(), scene.contacts[0].density);
+    for warning in validity::warnings(&model.pair(), density, &prediction, scene.impact.speed) {
+        writeln!(page, "<p><strong>Beyond the validity of the law:</strong> {warning}.</p>")?;
     }
-    Ok(())
+    writeln!(
+        page,
+        "<p>The law is valid {}. A simulation that leaves this goes on, and it is logged once (category logStatusWarning).</p>",
+        validity::limits(&model.pair(), density, model.valid_depth())
+    )
 }
-
-/// Contact radius over effective radius above which small-strain laws of a paraboloid don't hold.
-const LARGEST_RADIUS_RATIO: f64 = 0.3;
 
 fn law(page: &mut String, heading: &str, law: &table::Law) -> std::fmt::Result {
     writeln!(page, "<h3>{heading}: {}</h3>\n<ul>", escape(&law.title))?;

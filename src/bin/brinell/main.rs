@@ -23,6 +23,7 @@ mod summary;
 mod symbols;
 mod table;
 mod truth;
+mod validity;
 
 use arguments::{Arguments, Command, CurveArguments, PredictArguments};
 use clap::Parser;
@@ -142,12 +143,12 @@ fn materials(as_json: bool) -> Result<(), Box<dyn Error>> {
         println!("{}", serde_json::to_string(&*table::MATERIALS)?);
         return Ok(());
     }
-    println!("{:<22} {:>10} {:>8} {:>10}   source", "material", "E [GPa]", "nu", "S [MPa]");
+    println!("{:<22} {:>10} {:>8} {:>10} {:>13}   source", "material", "E [GPa]", "nu", "S [MPa]", "rho [kg/m^3]");
     for material in table::MATERIALS.iter() {
         let (modulus, strength) = (1e-9 * material.youngs_modulus, 1e-6 * material.yield_strength);
         println!(
-            "{:<22} {modulus:>10.1} {:>8} {strength:>10.0}   {}",
-            material.name, material.poissons_ratio, material.source
+            "{:<22} {modulus:>10.1} {:>8} {strength:>10.0} {:>13}   {}",
+            material.name, material.poissons_ratio, material.density, material.source
         );
     }
     Ok(())
@@ -209,10 +210,11 @@ fn predict(arguments: &PredictArguments, as_json: bool) -> Result<(), Box<dyn Er
         }
         return Ok(());
     }
+    let density = scene.contacts[0].density;
     if as_json {
-        println!("{}", predict::as_json(&choices, &impact)?);
+        println!("{}", predict::as_json(&choices, &impact, density)?);
     } else {
-        print!("{}", predict::text(&choices, &impact)?);
+        print!("{}", predict::text(&choices, &impact, density)?);
     }
     Ok(())
 }

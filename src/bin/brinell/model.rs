@@ -51,6 +51,14 @@ impl AnyModel {
         }
     }
 
+    /// Up to which indentation the law is valid [m].
+    pub fn valid_depth(&self) -> f64 {
+        match self {
+            AnyModel::Elastoplastic(model) => model.valid_depth(),
+            AnyModel::Damped(model) => model.valid_depth(),
+        }
+    }
+
     /// The model with a target of this yield strength [Pa], if its law has one.
     pub fn with_yield_strength(&self, yield_strength: f64) -> Option<AnyModel> {
         let model = self.elastoplastic()?;

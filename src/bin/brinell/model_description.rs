@@ -12,7 +12,7 @@ type Xml = Writer<Cursor<Vec<u8>>>;
 
 /// The log categories of `src/fmi2/report.rs`.
 const LOG_CATEGORIES: [(&str, &str); 4] = [
-    ("logStatusWarning", "the passivity guard has changed an unloading; told once"),
+    ("logStatusWarning", "the law is not valid there, or the passivity guard acts; each told once"),
     ("logStatusDiscard", "information that is not available"),
     ("logStatusError", "refused calls; logged in any case"),
     ("logAll", "all of them"),
@@ -43,9 +43,7 @@ fn document(xml: &mut Xml, scene: &Scene, entries: &[Entry], guid: &str) -> io::
         co_simulation(xml, scene)?;
         units(xml, entries)?;
         xml.create_element("LogCategories").write_inner_content(|xml| {
-            // without guard there is nothing to warn of
-            let first = usize::from(!scene.passivity_guard);
-            for &(name, description) in &LOG_CATEGORIES[first..] {
+            for (name, description) in LOG_CATEGORIES {
                 let category = xml.create_element("Category");
                 category.with_attributes([("name", name), ("description", description)]).write_empty()?;
             }

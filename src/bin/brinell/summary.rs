@@ -1,9 +1,11 @@
 //! What `brinell export` says: what the unit has, and what was left out of it.
 
 use crate::guard;
+use crate::interface::prediction;
 use crate::package::Exported;
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{Causality, VARIABLES, Variable};
+use crate::validity;
 use brinell::contact::Surface;
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
@@ -69,7 +71,7 @@ impl Summary<'_> {
         let OtherLaws { loading, unloading, damped } = &self.laws;
         let mut object = json!({
             "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
-            "imports": exported.imports, "passivity_guard": guard::ranges(self.scene),
+            "imports": exported.imports, "warnings": warnings(self.scene), "passivity_guard": guard::ranges(self.scene),
             "variables": self.variables, "variable_count": self.variable_count(), "constants": self.constants,
             "left_out": left_out, "absent": self.absent, "left_out_features": self.features,
             "left_out_laws": { "loading": loading, "unloading": unloading, "damped": damped },
@@ -100,6 +102,9 @@ impl Summary<'_> {
         if let Some(words) = guard::words(self.scene) {
             println!("  guard      {words}");
         }
+        for warning in warnings(self.scene) {
+            println!("  warning    {warning}");
+        }
         if self.scene.contacts[0].name.is_some() {
             println!("  contacts   {}", self.scene.contact_count());
             self.scene.contacts.iter().for_each(|group| println!("    {}", group_line(group)));
@@ -123,6 +128,11 @@ impl Summary<'_> {
             println!("    {heading:<12}{}", names.join(", "));
         }
     }
+}
+
+/// Where the scene's impact leaves the validity of its law, on the first contact.
+fn warnings(scene: &Scene) -> Vec<String> {
+    validity::warnings(&scene.any_model().pair(), scene.contacts[0].density, &prediction(scene), scene.impact.speed)
 }
 
 impl OtherLaws {

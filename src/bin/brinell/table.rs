@@ -83,6 +83,8 @@ pub struct Material {
     pub poissons_ratio: f64,
     /// [Pa]
     pub yield_strength: f64,
+    /// [kg/m^3]
+    pub density: f64,
     pub source: String,
 }
 

@@ -79,13 +79,15 @@ impl<D: Damped + Copy> History<D> {
         Ok(())
     }
 
-    /// Moves the contact on `course` over `step` [s]. The rate must be held: inputs of these laws have no derivatives.
+    /// Moves the contact on `course` over `step` [s]; the largest indentation on the way [m]. The rate must be held: inputs of
+    /// these laws have no derivatives.
     ///
     /// # Errors
     /// As for [`History::step`].
-    pub fn step_along(&mut self, course: &Course, step: f64, model: impl Fn() -> Model<D>) -> Result<(), TooDeep> {
+    pub fn step_along(&mut self, course: &Course, step: f64, model: impl Fn() -> Model<D>) -> Result<f64, TooDeep> {
         debug_assert!(course.is_held());
-        self.step(course.rate, step, model)
+        self.step(course.rate, step, model)?;
+        Ok(self.max_indentation)
     }
 
     /// Mean force over a step on `course` over `step` [s] that is yet to be made [N]; the rate must be held.
@@ -134,6 +136,9 @@ impl<D: Damped + Copy> History<D> {
     pub fn plain_step(&mut self, _rate: f64, _step: f64) -> bool {
         false
     }
+
+    /// Every step is looked at already.
+    pub fn notice_at(&mut self, _indentation: f64) {}
 
     /// Notes the speed of a first touch on the way to `to` [m].
     fn touch(&mut self, to: f64, rate: f64) {

@@ -137,7 +137,7 @@ impl History {
         self.advance(rate * step, model)
     }
 
-    /// Moves the contact on `course` over `step` [s].
+    /// Moves the contact on `course` over `step` [s]; the largest indentation on the way [m], which a fresh surface forgets.
     ///
     /// # Errors
     /// As for [`History::advance`].
@@ -146,16 +146,18 @@ impl History {
         course: &Course,
         step: f64,
         model: impl Fn() -> Model<L, U>,
-    ) -> Result<(), TooDeep> {
+    ) -> Result<f64, TooDeep> {
         let mut moved = *self;
-        let mut from = 0.0;
+        let (mut from, mut deepest) = (0.0, 0.0);
         for end in course.monotone_ends(step) {
             let to = course.way(end);
             moved.advance(to - from, &model)?;
             from = to;
+            let reached = moved.max_indentation();
+            deepest = if reached > deepest { reached } else { deepest };
         }
         *self = moved;
-        Ok(())
+        Ok(deepest)
     }
 
     /// Mean force over a step on `course` over `step` [s] that is yet to be made [N].
@@ -196,6 +198,14 @@ impl History {
             self.indentation = sum;
         }
         stays
+    }
+
+    /// Ends the present branch at `indentation` [m], if it goes beyond: the step that comes there then asks for its branch, so
+    /// that it can be noticed. It finds the same one, and nothing else changes.
+    pub fn notice_at(&mut self, indentation: f64) {
+        if indentation < self.segment.upper {
+            self.segment.upper = indentation;
+        }
     }
 
     /// Puts the contact at `indentation` [m] exactly; at a corner on the branch that lies in the direction of motion.

@@ -6,6 +6,7 @@ pub mod rebound;
 pub mod sweep;
 
 use crate::laws::Choice;
+use crate::validity;
 use brinell::contact::Loading;
 use brinell::contact::impact::{Impact, Prediction};
 use serde_json::{Value, json};
@@ -90,8 +91,8 @@ fn onsets(choice: &Choice, mass: f64) -> Vec<(i32, f64)> {
     onsets
 }
 
-/// The predictions as a table for people.
-pub fn text(choices: &[Choice], impact: &Impact) -> Result<String, PredictError> {
+/// The predictions as a table for people, with warnings; `density` is that of the target [kg/m^3], if it is known.
+pub fn text(choices: &[Choice], impact: &Impact, density: Option<f64>) -> Result<String, PredictError> {
     let mut text = format!("impact of {} kg at {} m/s", impact.mass, impact.speed);
     let mut methods: Vec<_> = choices.iter().map(|choice| choice.model.method()).collect();
     methods.dedup();
@@ -124,12 +125,17 @@ pub fn text(choices: &[Choice], impact: &Impact) -> Result<String, PredictError>
             add(&mut text, format_args!("\n{}: regime {regime} begins at {speed:.6e} m/s", choice.name));
         }
     }
+    for (choice, prediction) in choices.iter().zip(&predictions) {
+        for warning in validity::warnings(&choice.model.pair(), density, prediction, impact.speed) {
+            add(&mut text, format_args!("\nwarning: {}: {warning}", choice.name));
+        }
+    }
     text.push_str("\n\nregimes: 1 elastic, 2 and 3 elastoplastic, 4 fully plastic\n");
     Ok(text)
 }
 
-/// The predictions for a program.
-pub fn as_json(choices: &[Choice], impact: &Impact) -> Result<Value, PredictError> {
+/// The same for a program.
+pub fn as_json(choices: &[Choice], impact: &Impact, density: Option<f64>) -> Result<Value, PredictError> {
     let mut laws = Vec::new();
     for choice in choices {
         let prediction = one(choice, impact)?;
@@ -141,6 +147,7 @@ pub fn as_json(choices: &[Choice], impact: &Impact) -> Result<Value, PredictErro
             .into_iter()
             .map(|(regime, speed)| json!({ "regime": regime, "speed": speed }))
             .collect();
+        law["warnings"] = json!(validity::warnings(&choice.model.pair(), density, &prediction, impact.speed));
         laws.push(law);
     }
     Ok(json!({ "mass": impact.mass, "speed": impact.speed, "laws": laws }))

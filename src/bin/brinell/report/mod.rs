@@ -73,7 +73,7 @@ impl Report {
         let progress = &Progress::new();
         let follows_rate = scene.damped.is_some();
         let plan = Plan { impact: &impact, prediction: &prediction, most, phases, follows_rate, progress };
-        progress.expect(work(scene, &plan, &peers, quick));
+        progress.expect(work(&alone, &plan, &peers, quick));
         let units = Units::build(scene, progress)?;
         let mut contacts = units.contacts()?;
         let mut lines = Vec::new();

@@ -30,7 +30,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         name: scene.name.clone(),
         description: scene.description.clone(),
         parameters,
-        contacts: vec![Group { name: None, count: None, own: Vec::new(), surface: scene.contacts[0].surface }],
+        contacts: vec![Group { name: None, count: None, own: Vec::new(), ..scene.contacts[0].clone() }],
         outputs: outputs.iter().map(|name| (*name).into()).collect(),
         loading: scene.loading,
         unloading: scene.unloading,

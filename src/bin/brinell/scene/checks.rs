@@ -9,7 +9,7 @@ use brinell::contact::impact::Impact;
 use brinell::contact::loading::{AnyLoading, Hertz};
 use std::collections::HashSet;
 use std::f64::consts::PI;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
 /// The scene of `file`, without its text.
@@ -168,13 +168,22 @@ pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>
 /// Refuses a value of the parameter `name` out of its range; `owner` stands before the name in the message.
 pub fn check_limits(name: &str, owner: &str, value: &Spanned<f64>) -> Result<(), Mistake> {
     let variable = table::variable(name);
-    let (minimum, maximum) = (variable.minimum.unwrap_or(f64::MIN), variable.maximum.unwrap_or(f64::MAX));
-    if (minimum..=maximum).contains(value.get_ref()) {
+    let allowed = variable.minimum.unwrap_or(f64::MIN)..=variable.maximum.unwrap_or(f64::MAX);
+    check_range((name, variable.unit.as_deref().unwrap_or("")), owner, value, allowed)
+}
+
+/// Refuses a value of what has this name and unit, unless it is `allowed`; `owner` stands before the name in the message.
+pub fn check_range(
+    (name, unit): (&str, &str),
+    owner: &str,
+    value: &Spanned<f64>,
+    allowed: RangeInclusive<f64>,
+) -> Result<(), Mistake> {
+    if allowed.contains(value.get_ref()) {
         return Ok(());
     }
-    let unit = variable.unit.as_deref().unwrap_or("");
-    let message =
-        format!("{owner}{name} = {:?} is out of range: allowed is {minimum:?} to {maximum:?} {unit}", value.get_ref());
+    let (given, minimum, maximum) = (value.get_ref(), allowed.start(), allowed.end());
+    let message = format!("{owner}{name} = {given:?} is out of range: allowed is {minimum:?} to {maximum:?} {unit}");
     Err(Mistake(value.span(), message.trim_end().into()))
 }
 

@@ -1,19 +1,19 @@
 //! What is in contact: the numbers that a scene gives for all contacts, and those that a contact has instead.
 
-use super::checks::{check_identifier, check_limits, unknown};
+use super::checks::{check_identifier, check_limits, check_range, unknown};
 use super::file::{Contact, File, Impactor, SurfaceName, Target};
 use super::{Group, Mistake, Parameter};
 use crate::table::{self, MATERIALS, VARIABLES};
 use brinell::contact::Surface;
 use std::collections::HashSet;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
 /// Most contacts of a unit: the model description then has some hundred megabytes.
 const MOST_CONTACTS: i64 = 100_000;
 
 /// What the contacts of a scene may give themselves, in the order of the table.
-const PROPERTIES: [&str; 8] = [
+const PROPERTIES: [&str; 9] = [
     "impactor.radius",
     "impactor.youngs_modulus",
     "impactor.poissons_ratio",
@@ -21,8 +21,15 @@ const PROPERTIES: [&str; 8] = [
     "target.youngs_modulus",
     "target.poissons_ratio",
     "target.yield_strength",
+    DENSITY,
     "initial_gap",
 ];
+
+/// What is no variable of the unit.
+const DENSITY: &str = "target.density";
+
+/// Allowed densities [kg/m^3]: from thin gases to what no solid is.
+const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
 
 /// The numbers that one level of the scene gives, the whole scene or one contact, each where it stands in the file.
 struct Numbers(Vec<(&'static str, Spanned<f64>)>);
@@ -46,6 +53,7 @@ impl Numbers {
             target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus)),
             target.poissons_ratio.clone().or_else(|| of_material(|material| material.poissons_ratio)),
             target.yield_strength.clone().or_else(|| of_material(|material| material.yield_strength)),
+            target.density.clone().or_else(|| of_material(|material| material.density)),
             initial_gap.cloned(),
         ];
         let numbers = PROPERTIES.into_iter().zip(given);
@@ -62,7 +70,7 @@ impl Numbers {
 
     /// As parameters that can be set, where `wanted` says so.
     fn parameters(&self, wanted: impl Fn(&str) -> bool) -> Vec<Parameter> {
-        let wanted = self.0.iter().filter(|(name, _)| wanted(name));
+        let wanted = self.0.iter().filter(|(name, _)| *name != DENSITY && wanted(name));
         wanted.map(|(name, value)| Parameter { name, value: *value.get_ref(), settable: true }).collect()
     }
 }
@@ -139,11 +147,12 @@ impl Contacts {
     /// The parameters of all contacts, those that no contact takes left out, and the groups with their own.
     pub fn parameters(&self) -> (Vec<Parameter>, Vec<Group>) {
         let taken = |name: &str| self.given.iter().any(|given| given.own.get(name).is_none());
-        let group = |given: &Given| {
+        let group = |(index, given): (usize, &Given)| {
             let own = given.own.parameters(|_| true);
-            Group { name: given.name.clone(), count: given.count, own, surface: given.surface }
+            let density = self.number(index, DENSITY).map(|density| *density.get_ref());
+            Group { name: given.name.clone(), count: given.count, own, surface: given.surface, density }
         };
-        (self.shared.parameters(taken), self.given.iter().map(group).collect())
+        (self.shared.parameters(taken), self.given.iter().enumerate().map(group).collect())
     }
 
     /// Refuses a contact that has not all that a contact needs.
@@ -201,7 +210,10 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
 
 /// Refuses a number out of range; `owner` stands before its name.
 fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
-    numbers.0.iter().try_for_each(|(name, value)| check_limits(name, owner, value))
+    numbers.0.iter().try_for_each(|(name, value)| match *name {
+        DENSITY => check_range((name, "kg/m^3"), owner, value, DENSITIES),
+        _ => check_limits(name, owner, value),
+    })
 }
 
 /// What each contact gives, where the others have `surface`.

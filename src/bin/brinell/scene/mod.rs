@@ -64,6 +64,8 @@ pub struct Group {
     /// The parameters that this group has instead of those of all contacts, in the order of the table.
     pub own: Vec<Parameter>,
     pub surface: Surface,
+    /// Density of the target [kg/m^3], if it is known. It is no variable: what leaves the validity of the law is told by it.
+    pub density: Option<f64>,
 }
 
 /// A scene that can't be used: where, and why.

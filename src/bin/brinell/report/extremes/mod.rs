@@ -8,6 +8,7 @@ use super::data::{Table, number, text};
 use super::progress::Progress;
 use super::unit::Contact;
 use crate::scene::Scene;
+use brinell::contact::validity::LARGEST_RADIUS_RATIO;
 use impacts::{Bodies, Change};
 
 /// Largest error of an impact by leap-frog: of the energy relative to the incoming one, of the force relative to itself.
@@ -15,9 +16,6 @@ const TOLERANCE: f64 = 0.01;
 
 /// Largest error of the dissipated energy of a motion that is prescribed, relative to the work of its loading.
 const EXACT: f64 = 1e-9;
-
-/// Beyond this contact radius over the sphere's radius no law of small contacts holds.
-const WIDE: f64 = 0.3;
 
 /// What came out of a case.
 pub struct Case {
@@ -106,7 +104,7 @@ fn table(cases: &[Case]) -> Table {
             (None, Some(why)) => format!("right to refuse it: {why}"),
             (None, None) => "right".into(),
         };
-        let warning = if case.width > WIDE { "a/R above 0.3: beyond the law's validity" } else { "" };
+        let warning = if case.width > LARGEST_RADIUS_RATIO { "a/R above 0.3: beyond the law's validity" } else { "" };
         table.rows.push(vec![
             text(&case.name),
             number(case.indentation),
