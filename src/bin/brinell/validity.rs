@@ -11,28 +11,41 @@ fn wave_energy(speed_ratio: f64) -> f64 {
     1.04 * speed_ratio.powf(0.6)
 }
 
+/// A limit of validity that is left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Beyond {
+    /// The contact radius over the effective radius.
+    Width(f64),
+    /// The speed over that of the waves.
+    Speed { ratio: f64, waves: f64 },
+}
+
+/// What a contact of the bodies `pair` leaves that reaches this contact `radius` [m] and this closing `speed` [m/s]; the target
+/// may have a known `density` [kg/m^3].
+pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec<Beyond> {
+    let width = radius / pair.radius;
+    let waves = density.map_or(f64::INFINITY, |density| wave_speed(pair.youngs_modulus, density));
+    let ratio = speed / waves;
+    let width = (width > LARGEST_RADIUS_RATIO).then_some(Beyond::Width(width));
+    let speed = (ratio > LARGEST_SPEED_RATIO).then_some(Beyond::Speed { ratio, waves });
+    width.into_iter().chain(speed).collect()
+}
+
 /// What is to be said against a `prediction` for an impact at `speed` [m/s] of the bodies `pair`, whose target may have a known
 /// `density` [kg/m^3]; nothing, if the laws are valid.
 pub fn warnings(pair: &Pair, density: Option<f64>, prediction: &Prediction, speed: f64) -> Vec<String> {
-    let mut warnings = Vec::new();
-    let ratio = prediction.max_contact_radius / pair.radius;
-    if ratio > LARGEST_RADIUS_RATIO {
-        warnings.push(format!(
+    let words = |beyond| match beyond {
+        Beyond::Width(ratio) => format!(
             "the contact radius reaches {ratio:.2} effective radii; above {LARGEST_RADIUS_RATIO} the sphere is no paraboloid \
              any more, and the law isn't valid"
-        ));
-    }
-    let Some(density) = density else { return warnings };
-    let waves = wave_speed(pair.youngs_modulus, density);
-    let ratio = speed / waves;
-    if ratio > LARGEST_SPEED_RATIO {
-        warnings.push(format!(
+        ),
+        Beyond::Speed { ratio, waves } => format!(
             "the speed is {ratio:.3} of the wave speed of {waves:.0} m/s; above {LARGEST_SPEED_RATIO} elastic waves take energy \
              that the law leaves out, here {:.0} % of an elastic impact's",
             100.0 * wave_energy(ratio)
-        ));
-    }
-    warnings
+        ),
+    };
+    beyond(pair, density, prediction.max_contact_radius, speed).into_iter().map(words).collect()
 }
 
 /// Up to where the unit's law is valid on bodies with this `depth` [m] and target, in words: what the unit tells of.

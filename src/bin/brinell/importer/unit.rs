@@ -46,20 +46,34 @@ fn address(path: &Path) -> String {
     format!("file:///{}", path.trim_start_matches('/').bytes().map(byte).collect::<String>())
 }
 
-/// Keeps the last message. The unit's messages are complete texts, so that the variable arguments aren't needed.
+/// The category of warnings.
+const WARNING: &CStr = c"logStatusWarning";
+
+/// What a unit has said.
+#[derive(Default)]
+struct Said {
+    last: String,
+    /// In the category `logStatusWarning`.
+    warnings: Vec<String>,
+}
+
+/// Keeps the last message, and all warnings. The unit's messages are complete texts, so that the variable arguments aren't needed.
 unsafe extern "C" fn keep_message(
     environment: *mut c_void,
     _instance: *const c_char,
     _status: c_int,
-    _category: *const c_char,
+    category: *const c_char,
     message: *const c_char,
 ) {
-    // SAFETY: the environment is the String below, which outlives the instance; the message ends with 0.
+    // SAFETY: the environment is what is kept below, which outlives the instance; the strings end with 0.
     unsafe {
-        if let Some(kept) = environment.cast::<String>().as_mut()
+        if let Some(said) = environment.cast::<Said>().as_mut()
             && !message.is_null()
         {
-            *kept = CStr::from_ptr(message).to_string_lossy().replace("%%", "%").replace("##", "#");
+            said.last = CStr::from_ptr(message).to_string_lossy().replace("%%", "%").replace("##", "#");
+            if !category.is_null() && CStr::from_ptr(category) == WARNING {
+                said.warnings.push(said.last.clone());
+            }
         }
     }
 }
@@ -76,6 +90,7 @@ struct Functions<'a> {
     set_input_derivatives: libloading::Symbol<'a, SetDerivatives>,
     output_derivatives: libloading::Symbol<'a, GetDerivatives>,
     setup: libloading::Symbol<'a, unsafe extern "C" fn(Component, c_int, f64, f64, c_int, f64) -> c_int>,
+    set_logging: libloading::Symbol<'a, unsafe extern "C" fn(Component, c_int, usize, *const *const c_char) -> c_int>,
     free: libloading::Symbol<'a, unsafe extern "C" fn(Component)>,
 }
 
@@ -83,7 +98,7 @@ struct Functions<'a> {
 pub struct Instance<'a> {
     functions: Functions<'a>,
     component: Component,
-    message: *mut String,
+    said: *mut Said,
     // the unit may keep the pointer instead of a copy
     _callbacks: Box<Callbacks>,
 }
@@ -119,13 +134,13 @@ impl Unit {
             c_int,
         ) -> Component;
         let simple = ["fmi2EnterInitializationMode", "fmi2ExitInitializationMode", "fmi2Terminate", "fmi2Reset"];
-        let message = Box::into_raw(Box::<String>::default());
+        let said = Box::into_raw(Box::<Said>::default());
         let callbacks = Box::new(Callbacks {
             logger: keep_message,
             allocate: Some(calloc),
             free: Some(free),
             step_finished: std::ptr::null(),
-            environment: message.cast(),
+            environment: said.cast(),
         });
         // SAFETY: the functions have the standard's signatures; strings and callbacks live long enough.
         unsafe {
@@ -142,12 +157,13 @@ impl Unit {
                 set_input_derivatives: self.get("fmi2SetRealInputDerivatives")?,
                 output_derivatives: self.get("fmi2GetRealOutputDerivatives")?,
                 setup: self.get("fmi2SetupExperiment")?,
+                set_logging: self.get("fmi2SetDebugLogging")?,
                 free: self.get("fmi2FreeInstance")?,
             };
             let (guid, resources) = (self.guid.as_ptr(), self.resources.as_ptr());
             let component = instantiate(c"check".as_ptr(), 1, guid, resources, &raw const *callbacks, 0, 0);
-            let instance = Instance { functions, component, message, _callbacks: callbacks };
-            if component.is_null() { Err(ImportError::Instantiate((*message).clone())) } else { Ok(instance) }
+            let instance = Instance { functions, component, said, _callbacks: callbacks };
+            if component.is_null() { Err(ImportError::Instantiate((*said).last.clone())) } else { Ok(instance) }
         }
     }
 }
@@ -159,7 +175,7 @@ impl Drop for Instance<'_> {
             if !self.component.is_null() {
                 (self.functions.free)(self.component);
             }
-            drop(Box::from_raw(self.message));
+            drop(Box::from_raw(self.said));
         }
     }
 }
@@ -170,9 +186,23 @@ impl Instance<'_> {
         if matches!(status, 0 | 1) {
             return Ok(());
         }
-        // SAFETY: the String lives as long as the instance, and the unit writes to it during calls only.
-        let message = unsafe { (*self.message).clone() };
+        // SAFETY: it lives as long as the instance, and the unit writes to it during calls only.
+        let message = unsafe { (*self.said).last.clone() };
         Err(ImportError::Call { function, status, message })
+    }
+
+    /// Asks for warnings; those that were told once are told again.
+    pub fn ask_for_warnings(&mut self) -> Result<(), ImportError> {
+        let set = &self.functions.set_logging;
+        // SAFETY: the component is live; one category.
+        let status = unsafe { set(self.component, 1, 1, &WARNING.as_ptr()) };
+        self.check("fmi2SetDebugLogging", status)
+    }
+
+    /// The warnings since the last call.
+    pub fn take_warnings(&mut self) -> Vec<String> {
+        // SAFETY: it lives as long as the instance, and the unit writes to it during calls only.
+        unsafe { std::mem::take(&mut (*self.said).warnings) }
     }
 
     /// A call without arguments.

@@ -100,8 +100,8 @@ impl Picture {
             // nothing to show, or nothing but zeros
             true if high <= 0.0 => 0.1..1.0,
             false if high <= low.min(0.0) => 0.0..1.0,
-            // a hair of room below, so that a power of ten at the end has its label
-            true => low * (1.0 - 1e-9)..high * 1.1,
+            // a little room, so that no line hides under an axis, and a power of ten at the end has its label
+            true => low / 1.3..high * 1.1,
             false => low.min(0.0)..high + 0.06 * (high - low.min(0.0)),
         }
     }
@@ -135,9 +135,19 @@ impl Picture {
                 continue;
             }
             for piece in self.pieces(series) {
-                chart.draw_series(LineSeries::new(piece.iter().copied(), stroke(index))).expect(IN_MEMORY);
+                chart.draw_series(LineSeries::new(piece.iter().copied(), self.stroke(index))).expect(IN_MEMORY);
             }
         }
+    }
+
+    /// The line of the series at `index`: wider where another one will cover it, so that both can be seen.
+    fn stroke(&self, index: usize) -> ShapeStyle {
+        let style = stroke(index);
+        let points = &self.series[index].points;
+        let covers =
+            |other: &Series| !other.dots && other.points.len() == points.len() && coincide(&other.points, points);
+        let wider = if self.series[index + 1..].iter().any(covers) { 2 } else { 1 };
+        ShapeStyle { stroke_width: wider * style.stroke_width, ..style }
     }
 
     /// The names of the series, each behind a piece of its line: beside the curves, or above them if there are few.
@@ -155,7 +165,7 @@ impl Picture {
         let series = &self.series[index];
         let drawn = match series.dots {
             true => root.draw(&dot((x + length / 2, y))),
-            false => root.draw(&PathElement::new([(x, y), (x + length, y)], stroke(index))),
+            false => root.draw(&PathElement::new([(x, y), (x + length, y)], self.stroke(index))),
         };
         drawn.expect(IN_MEMORY);
         root.draw(&Text::new(series.label.clone(), (x + length + 6 * SCALE as i32, y), style)).expect(IN_MEMORY);
@@ -182,6 +192,12 @@ pub fn side_by_side(pictures: &[Picture], width: u32, height: u32) -> String {
             first.draw_name(&lower, index, (MARGIN + place * column, MARGIN / 2 + row * LINE));
         }
     })
+}
+
+/// Whether two lines can't be told apart.
+fn coincide(one: &[(f64, f64)], other: &[(f64, f64)]) -> bool {
+    let near = |one: f64, other: f64| (one - other).abs() <= 0.01 * one.abs().max(other.abs());
+    one.iter().zip(other).all(|(one, other)| near(one.0, other.0) && near(one.1, other.1))
 }
 
 /// What `draw` draws, as SVG of `width` by `height` pixels.

@@ -22,13 +22,16 @@ figure { margin: 0; max-width: 46rem; } figure svg { width: 100%; height: auto; 
 .legend i { display: inline-block; width: 1.25rem; margin-right: .4rem; vertical-align: middle; }
 .table { overflow: auto; max-height: 30rem; font-size: .9rem; } table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { text-align: right; padding: .2rem .6rem; border-bottom: 1px solid #8886; white-space: nowrap; }
-th { vertical-align: bottom; white-space: normal; } .scene th, .scene td { text-align: left; }
+th { vertical-align: bottom; white-space: normal; }
+th button { all: unset; cursor: pointer; } th button:focus-visible { outline: 2px solid; }
+[aria-sort=ascending] button::after { content: \" \\2191\"; } [aria-sort=descending] button::after { content: \" \\2193\"; }
+.copy { font: inherit; } .scene th, .scene td, .words { text-align: left; } .lead { font-size: 1.15rem; }
 @media screen and (prefers-color-scheme: dark) { figure svg, .legend i { filter: invert(1) hue-rotate(180deg); } }
 @media print {
   body { max-width: none; padding: 0; font-size: 9pt; } .csv { display: none; } .table { overflow: visible; max-height: none; font-size: inherit; }
   .panels { grid-template-columns: repeat(3, 1fr); } h2 { break-after: avoid; } tr, figure { break-inside: avoid; }
   .legend i { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  th, td { padding: .1rem .35rem; }
+  th, td { padding: .1rem .35rem; } .words { white-space: normal; }
 }";
 
 /// The page of `sweep` on the bodies of `scene`.

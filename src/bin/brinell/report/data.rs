@@ -79,21 +79,25 @@ impl Table {
         self.rows.iter().map(object).collect()
     }
 
-    /// For people.
+    /// For people; sorting and copying take the number with all its digits.
     pub fn html(&self) -> String {
-        let head = |column: &Column| match column.unit {
-            "" => format!("<th>{}</th>", column.name),
-            unit => format!("<th>{} [{unit}]</th>", column.name),
+        let head = |(index, column): (usize, &Column)| {
+            let has_words = self.rows.iter().any(|row| matches!(row[index], Cell::Text(_)));
+            let class = if has_words { " class=\"words\"" } else { "" };
+            match column.unit {
+                "" => format!("<th{class}>{}</th>", column.name),
+                unit => format!("<th{class}>{} [{unit}]</th>", column.name),
+            }
         };
         let cell = |cell: &Cell| match cell {
-            Cell::Text(text) => format!("<td style=\"text-align: left\">{}</td>", escape(text)),
-            Cell::Number(value) => format!("<td>{}</td>", digits(*value)),
+            Cell::Text(text) => format!("<td class=\"words\">{}</td>", escape(text)),
+            Cell::Number(value) => format!("<td data-value=\"{value:e}\">{}</td>", digits(*value)),
             Cell::Empty => "<td>-</td>".into(),
         };
         let row = |row: &Vec<Cell>| format!("<tr>{}</tr>\n", row.iter().map(cell).collect::<String>());
         format!(
             "<div class=\"table\">\n<table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</div>\n",
-            self.columns.iter().map(head).collect::<String>(),
+            self.columns.iter().enumerate().map(head).collect::<String>(),
             self.rows.iter().map(row).collect::<String>()
         )
     }

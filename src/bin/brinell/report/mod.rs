@@ -17,6 +17,7 @@ use crate::importer::ImportError;
 use crate::package::{ExportError, write_whole};
 use crate::plot::Picture;
 use crate::scene::Scene;
+use crate::validity;
 use data::Table;
 use peer::Peer;
 use precision::Plan;
@@ -95,6 +96,8 @@ impl Report {
         let failed = cases.iter().filter(|case| case.failure.is_some()).count();
         let (mut summary, recommendations) = summary::summarize(&lines, &stability, &prediction, (cases.len(), failed));
         summary.extend(spread);
+        let warnings = validity::warnings(&model.pair(), alone.contacts[0].density, &prediction, impact.speed);
+        summary.extend(warnings.into_iter().map(|warning| format!("Beware: {warning}.")));
         if scene.contact_count() > 1 {
             summary.push("The scene has several contacts: all this is of its first contact.".into());
         }

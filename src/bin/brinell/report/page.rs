@@ -15,8 +15,10 @@ pub fn write(report: &Report) -> String {
 fn body(page: &mut String, report: &Report) -> std::fmt::Result {
     let name = escape(&report.name);
     begin(page, &format!("{name}: report"))?;
-    writeln!(page, "<h1>{name}: step, coupling and law</h1>\n<ul>")?;
-    for sentence in &report.summary {
+    writeln!(page, "<h1>{name}: step, coupling and law</h1>")?;
+    let (lead, others) = report.summary.split_first().expect("there is something to say");
+    writeln!(page, "<p class=\"lead\"><strong>{}</strong></p>\n<ul>", escape(lead))?;
+    for sentence in others {
         writeln!(page, "<li>{}</li>", escape(sentence))?;
     }
     writeln!(page, "</ul>\n<p>Numbers of this page for programs: <a href=\"report.json\">report.json</a></p>")?;
@@ -36,5 +38,6 @@ fn body(page: &mut String, report: &Report) -> std::fmt::Result {
             writeln!(page, "{rows}<p class=\"csv\"><a href=\"{file}\">{file}</a>, with all digits</p>")?;
         }
     }
-    writeln!(page, "<p>Brinell {}</p>\n</body>\n</html>", env!("CARGO_PKG_VERSION"))
+    writeln!(page, "<p>Brinell {}</p>", env!("CARGO_PKG_VERSION"))?;
+    writeln!(page, "<script>\n{}</script>\n</body>\n</html>", include_str!("tables.js"))
 }

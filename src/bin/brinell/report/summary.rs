@@ -17,16 +17,18 @@ pub fn summarize(
     (cases, failed): (usize, usize),
 ) -> (Vec<String>, Value) {
     let lines: Vec<_> = all.iter().filter(|line| line.peer.is_none() && line.way != ALONE).collect();
-    let mut good: Vec<_> = lines.iter().filter_map(|line| Some((line.way, line.step_for(GOAL)?))).collect();
+    let mut good: Vec<_> = lines.iter().filter_map(|line| Some((*line, line.step_for(GOAL)?))).collect();
     good.sort_by(|one, other| one.1.calls.total_cmp(&other.1.calls));
     let mut summary: Vec<String> = good
         .iter()
         .enumerate()
-        .map(|(place, (way, point))| {
+        .map(|(place, (line, point))| {
             let verb = if place == 0 { "Use" } else { "Or" };
             format!(
-                "{verb} {way} with steps of {} s ({} per contact): expect an error of restitution of {} % with {:.0} calls, \
+                "{verb} {} ({}) with steps of {} s, {} per contact: expect an error of restitution of {} % with {:.0} calls, \
                  which take {} us, per impact.",
+                line.way,
+                line.what,
                 digits(point.step),
                 point.steps,
                 two_digits(100.0 * point.restitution),
@@ -42,8 +44,8 @@ pub fn summarize(
     summary.push(format!("{} of {cases} stiff and extreme cases are right.", cases - failed));
     let ways: Vec<_> = good
         .iter()
-        .map(|(way, point)| {
-            json!({ "way": way, "step_s": point.step, "steps_per_contact": point.steps,
+        .map(|(line, point)| {
+            json!({ "way": line.way, "step_s": point.step, "steps_per_contact": point.steps,
                     "error_of_restitution": point.restitution, "calls_per_impact": point.calls })
         })
         .collect();

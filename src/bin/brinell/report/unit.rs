@@ -60,6 +60,8 @@ pub struct Contact<'a> {
     start_time: f64,
     /// Calls since the start.
     pub calls: u64,
+    /// The largest closing speed since the start [m/s].
+    pub fastest: f64,
 }
 
 impl<'a> Contact<'a> {
@@ -78,6 +80,7 @@ impl<'a> Contact<'a> {
             time: 0.0,
             start_time: 0.0,
             calls: 0,
+            fastest: 0.0,
         })
     }
 
@@ -93,7 +96,7 @@ impl<'a> Contact<'a> {
             self.instance.set_real(self.description.real(name)?, *value)?;
         }
         self.instance.call("fmi2ExitInitializationMode")?;
-        (self.time, self.start_time, self.calls) = (0.0, 0.0, 0);
+        (self.time, self.start_time, self.calls, self.fastest) = (0.0, 0.0, 0, 0.0);
         Ok(())
     }
 
@@ -110,6 +113,17 @@ impl<'a> Contact<'a> {
         Ok(())
     }
 
+    /// Asks for warnings, also for those that were told before.
+    pub fn ask_for_warnings(&mut self) -> Result<(), ImportError> {
+        self.instance.take_warnings();
+        self.instance.ask_for_warnings()
+    }
+
+    /// The warnings since they were asked for.
+    pub fn warnings(&mut self) -> Vec<String> {
+        self.instance.take_warnings()
+    }
+
     /// Time since the start [s].
     pub fn elapsed(&self) -> f64 {
         self.time - self.start_time
@@ -118,6 +132,7 @@ impl<'a> Contact<'a> {
     /// Sets the closing speed [m/s].
     pub fn set_rate(&mut self, rate: f64) -> Result<(), ImportError> {
         self.calls += 1;
+        self.fastest = self.fastest.max(rate);
         self.instance.set_real(self.rate, rate)
     }
 

@@ -43,15 +43,42 @@ pub enum Needs {
 /// A way to couple.
 pub struct Way {
     pub name: &'static str,
+    /// What is done, in words.
+    pub what: &'static str,
     pub advance: Advance,
     pub needs: Needs,
 }
 
-pub const LATE: Way = Way { name: "late force", advance: late, needs: Needs::Force };
-pub const PREDICTED: Way = Way { name: "predicted_force", advance: predicted, needs: Needs::Force };
-pub const LEAP_FROG: Way = Way { name: "leap-frog", advance: leap_frog, needs: Needs::Force };
-pub const DERIVATIVES: Way = Way { name: "input derivatives", advance: derivatives, needs: Needs::MeanForce };
-pub const MASS_KNOWN: Way = Way { name: "mass known", advance: mass_known, needs: Needs::Mass };
+pub const LATE: Way = Way {
+    name: "late force",
+    what: "all units at once, with the force of the last step",
+    advance: late,
+    needs: Needs::Force,
+};
+pub const PREDICTED: Way = Way {
+    name: "predicted_force",
+    what: "all units at once, with the force that the contact expects",
+    advance: predicted,
+    needs: Needs::Force,
+};
+pub const LEAP_FROG: Way = Way {
+    name: "leap-frog",
+    what: "the contact first, then the bodies with its new force",
+    advance: leap_frog,
+    needs: Needs::Force,
+};
+pub const DERIVATIVES: Way = Way {
+    name: "input derivatives",
+    what: "acceleration and jerk set with the rate, mean_force applied",
+    advance: derivatives,
+    needs: Needs::MeanForce,
+};
+pub const MASS_KNOWN: Way = Way {
+    name: "mass known",
+    what: "the unit moves the mass within the step, mean_force applied",
+    advance: mass_known,
+    needs: Needs::Mass,
+};
 
 /// All ways that a report runs.
 pub static WAYS: [Way; 5] = [LATE, PREDICTED, LEAP_FROG, DERIVATIVES, MASS_KNOWN];

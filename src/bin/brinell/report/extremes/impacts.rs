@@ -7,6 +7,7 @@ use crate::report::progress::{Progress, Work};
 use crate::report::unit::{self, Contact};
 use crate::report::ways::{LEAP_FROG, Needs};
 use crate::scene::Scene;
+use crate::validity::{self, Beyond};
 use brinell::contact::impact::{Impact, Prediction};
 
 /// Bodies and impact that are not the scene's.
@@ -14,7 +15,7 @@ pub struct Bodies {
     parameters: Vec<(&'static str, f64)>,
     pub model: AnyModel,
     impact: Impact,
-    pub radius: f64,
+    density: Option<f64>,
 }
 
 /// Factors to the scene: target's Young's modulus [Pa], yield strain, radius [m], speed [m/s]; none: as in the scene.
@@ -53,17 +54,24 @@ impl Bodies {
         }
         let asked = change.strain.is_none() || scene.value("target.yield_strength").is_some();
         let impact = Impact { mass, speed: change.speed.unwrap_or(scene.impact.speed) };
-        asked.then(|| Bodies { parameters, model: changed.any_model(), impact, radius })
+        asked.then(|| Bodies { parameters, model: changed.any_model(), impact, density: scene.contacts[0].density })
     }
 
     pub fn predict(&self) -> Option<Prediction> {
         self.model.predict(&self.impact)
     }
 
+    /// A contact of these bodies that will tell what it leaves of its validity.
     pub fn start(&self, contact: &mut Contact) -> Result<(), ImportError> {
         let mut parameters = self.parameters.clone();
         parameters.push(("initial_gap", 0.0));
-        contact.start(&parameters)
+        contact.start(&parameters)?;
+        contact.ask_for_warnings()
+    }
+
+    /// What a contact leaves that reaches this contact `radius` [m] and closing `speed` [m/s].
+    pub fn beyond(&self, radius: f64, speed: f64) -> Vec<Beyond> {
+        validity::beyond(&self.model.pair(), self.density, radius, speed)
     }
 }
 
@@ -125,7 +133,6 @@ fn impact(contact: &mut Contact, name: String, bodies: &Bodies, (steps, most): (
         return must_be_refused(contact, case, bodies, steps);
     };
     case.indentation = prediction.max_indentation;
-    case.width = prediction.max_contact_radius / bodies.radius;
     let shorter = prediction.loading_time.min(prediction.unloading_time);
     case.step = (shorter / steps).max(prediction.contact_time() / most);
     let Impact { mass, speed } = bodies.impact;
@@ -137,6 +144,7 @@ fn impact(contact: &mut Contact, name: String, bodies: &Bodies, (steps, most): (
             return case;
         }
     };
+    case.note_validity(contact, bodies, prediction.max_contact_radius);
     let energy = (rebound.speed / speed).powi(2);
     case.errors = (
         (rebound.max_force / prediction.max_force - 1.0).abs(),

@@ -8,7 +8,8 @@ use super::data::{Table, number, text};
 use super::progress::Progress;
 use super::unit::Contact;
 use crate::scene::Scene;
-use brinell::contact::validity::LARGEST_RADIUS_RATIO;
+use crate::validity::Beyond;
+use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use impacts::{Bodies, Change};
 
 /// Largest error of an impact by leap-frog: of the energy relative to the incoming one, of the force relative to itself.
@@ -23,11 +24,15 @@ pub struct Case {
     /// Of the case [m], [s].
     pub indentation: f64,
     pub step: f64,
-    /// Contact radius over the sphere's.
+    /// Contact radius over the effective radius.
     pub width: f64,
     /// Of force and energy.
     pub errors: (f64, f64),
     pub tolerance: f64,
+    /// How many warnings the unit gave.
+    told: usize,
+    /// What leaves the validity of the law.
+    pub beyond: Vec<Beyond>,
     /// What the unit said that rightly refused it.
     pub refusal: Option<String>,
     /// Why it failed.
@@ -58,6 +63,8 @@ impl Case {
             indentation: f64::NAN,
             step: f64::NAN,
             width: f64::NAN,
+            told: 0,
+            beyond: Vec::new(),
             errors,
             tolerance,
             refusal: None,
@@ -65,7 +72,14 @@ impl Case {
         }
     }
 
-    /// Fails the case if it isn't right to its tolerance, or if `passive` is false.
+    /// Notes what was left of the validity, at this contact `radius` [m], and how much of that the unit has told.
+    fn note_validity(&mut self, contact: &mut Contact, bodies: &Bodies, radius: f64) {
+        self.width = radius / bodies.model.pair().radius;
+        self.beyond = bodies.beyond(radius, contact.fastest);
+        self.told = contact.warnings().len();
+    }
+
+    /// Fails the case if it isn't right to its tolerance, if `passive` is false, or if the unit was silent or cried wolf.
     fn judge(&mut self, passive: bool) {
         let (force, energy) = self.errors;
         // NaN is not right
@@ -76,6 +90,8 @@ impl Case {
             Some(format!("the energy is off by {energy:e}"))
         } else if !passive {
             Some("it makes energy".into())
+        } else if self.told != self.beyond.len() {
+            Some(format!("{} limits of validity were left, and the unit told of {}", self.beyond.len(), self.told))
         } else {
             None
         };
@@ -95,7 +111,7 @@ fn table(cases: &[Case]) -> Table {
             ("error of energy", ""),
             ("tolerance", ""),
             ("verdict", ""),
-            ("warning", ""),
+            ("beyond validity", ""),
         ],
     );
     for case in cases {
@@ -104,7 +120,11 @@ fn table(cases: &[Case]) -> Table {
             (None, Some(why)) => format!("right to refuse it: {why}"),
             (None, None) => "right".into(),
         };
-        let warning = if case.width > LARGEST_RADIUS_RATIO { "a/R above 0.3: beyond the law's validity" } else { "" };
+        let warning = |beyond: &Beyond| match beyond {
+            Beyond::Width(_) => format!("a/R above {LARGEST_RADIUS_RATIO}"),
+            Beyond::Speed { .. } => format!("speed above {LARGEST_SPEED_RATIO} of the wave speed"),
+        };
+        let warnings: Vec<_> = case.beyond.iter().map(warning).collect();
         table.rows.push(vec![
             text(&case.name),
             number(case.indentation),
@@ -114,7 +134,7 @@ fn table(cases: &[Case]) -> Table {
             number(case.errors.1),
             number(case.tolerance),
             text(verdict),
-            text(warning),
+            text(warnings.join(", ")),
         ]);
     }
     table
@@ -127,7 +147,9 @@ pub fn part(cases: &[Case]) -> Part {
         words: format!(
             "Each is stepped through the unit. Impacts by leap-frog must agree with the energy balance to {}; their mass grows \
              as the volume of the sphere, and with E the yield strength. Prescribed motions, in and out again, must dissipate \
-             what the law says to {:e} of the work, and leave no force.",
+             what the law says to {:e} of the work, and leave no force. What leaves the validity of the law (contact radius \
+             over effective radius, speed over wave speed) must be told in the unit's log, nothing else; and where the law \
+             can't be evaluated the unit must refuse the step.",
             TOLERANCE, EXACT
         ),
         pictures: Vec::new(),

@@ -110,12 +110,12 @@ fn judge(contact: &mut Contact, bodies: &Bodies, model: &Model<AnyLoading, AnyUn
     let once = model.loading.work(&model.pair, depth);
     let (work, recovered) = (f64::from(yields) * once, f64::from(yields) * model.recovered_work(depth, depth));
     let segment = model.loading.segment(&model.pair, depth);
-    case.width = model.loading.contact_radius(&model.pair, depth) / bodies.radius;
     let ran = bodies.start(contact).and_then(|()| run(contact));
     let ended = ran.and_then(|()| Ok((contact.force()?, contact.output("dissipated_energy")?)));
     match ended {
         Err(error) => case.failure = Some(error.to_string()),
         Ok((force, dissipated)) => {
+            case.note_validity(contact, bodies, model.loading.contact_radius(&model.pair, depth));
             // the energy of a tiny indentation is below the smallest number
             let energy = if work > 0.0 { (dissipated - (work - recovered)).abs() / work } else { dissipated.abs() };
             // rounding of the path may leave a trace of an elastic contact

@@ -41,6 +41,8 @@ pub struct Point {
 /// One way over the steps per contact, from few to many.
 pub struct Line {
     pub way: &'static str,
+    /// What is done, in words.
+    pub what: &'static str,
     /// The other unit that was run; none for that of the scene.
     pub peer: Option<String>,
     pub points: Vec<Point>,
@@ -90,7 +92,7 @@ impl Plan<'_> {
         let points = self.steps(2).map(|steps| self.point(contact, way, steps));
         let points = points.collect::<Result<Vec<_>, _>>()?;
         let order = order(&points);
-        Ok(Line { way: way.name, peer: None, points, order })
+        Ok(Line { way: way.name, what: way.what, peer: None, points, order })
     }
 
     fn point(self, contact: &mut Contact, way: &Way, steps: u32) -> Result<Point, ImportError> {
@@ -144,7 +146,7 @@ impl Plan<'_> {
             self.progress.done(self.work_of(steps));
             points.push(sums.point(steps, self.prediction.contact_time() / f64::from(steps)));
         }
-        Ok(Line { way: ALONE, peer: None, points, order: None })
+        Ok(Line { way: ALONE, what: "the unit without bodies", peer: None, points, order: None })
     }
 
     /// Restitution, largest force [N] and dent [m] of a contact that is pressed to the largest indentation and let go, each

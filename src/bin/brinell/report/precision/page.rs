@@ -102,8 +102,8 @@ pub fn part(scene: &str, lines: &[Line]) -> Part {
     ];
     let mut words = String::from(
         "Errors are relative to the energy balance, root mean squares over the places within a step where the bodies \
-         meet. The largest force is that at the ends of steps, and the time per impact that of this machine. Late \
-         force: all units step at once; leap-frog: the contact first; input derivatives: with mean_force.",
+         meet. The largest force is that at the ends of steps, and the time per impact that of this machine. Where two \
+         lines coincide the lower one is wider.",
     );
     if lines.iter().any(|line| line.way == ALONE) {
         words.push_str(
