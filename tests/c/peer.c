@@ -84,6 +84,8 @@ fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time, fmi2Real step, fmi
     return fmi2Warning;
 }
 
+fmi2Status fmi2SetDebugLogging(fmi2Component component) { return (void)component, fmi2OK; }
+
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component component) { return (void)component, fmi2Error; }
 
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component) { return (void)component, fmi2Error; }

@@ -41,7 +41,7 @@ impl Work {
 impl Progress {
     /// Nothing done yet, and nothing known.
     pub fn new() -> Progress {
-        let style = ProgressStyle::with_template("{elapsed:>4} {wide_bar} {percent:>3} %, {eta} left  {msg}");
+        let style = ProgressStyle::with_template("{elapsed:>4} {bar:30} {percent:>3} %, {eta:>3} left  {wide_msg}");
         let bar = ProgressBar::new(0).with_style(style.expect("a good template"));
         bar.enable_steady_tick(Duration::from_millis(200));
         Progress { bar, began: Instant::now() }
