@@ -90,6 +90,8 @@ fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
         scene.impact.speed,
         scene.any_model().method()
     )?;
+    let (model, density) = (scene.any_model(), scene.contacts[0].density);
+    let stiffness = model.stiffness(prediction.max_indentation);
     let rows = [
         ("Largest force", prediction.max_force, "N"),
         ("Largest indentation", prediction.max_indentation, "m"),
@@ -98,12 +100,12 @@ fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
         ("Coefficient of restitution", prediction.restitution, ""),
         ("Contact time", prediction.contact_time(), "s"),
         ("Step that suits it", experiment.step, "s"),
+        ("Largest stable step, 2 sqrt(m/K)", 2.0 * (scene.impact.mass / stiffness).sqrt(), "s"),
     ];
     for (quantity, value, unit) in rows {
         writeln!(page, "<tr><td>{quantity}</td><td class=\"n\">{}</td><td>{unit}</td></tr>", digits(value))?;
     }
     writeln!(page, "</table>")?;
-    let (model, density) = (scene.any_model(), scene.contacts[0].density);
     for warning in validity::warnings(&model.pair(), density, &prediction, scene.impact.speed) {
         writeln!(page, "<p><strong>Beyond the validity of the law:</strong> {warning}.</p>")?;
     }
