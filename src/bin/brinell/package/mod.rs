@@ -1,0 +1,132 @@
+//! From a scene to an `.fmu`: cargo builds the library, its symbols are checked, everything is zipped.
+
+mod library;
+
+use crate::interface::{Entry, entries};
+use crate::scene::Scene;
+use crate::symbols::{self, SymbolError};
+use crate::{constants, documentation, model_description};
+use sha2::{Digest, Sha256};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::{env, fs, io};
+use zip::CompressionMethod;
+use zip::write::SimpleFileOptions;
+
+include!(concat!(env!("OUT_DIR"), "/library_source.rs"));
+
+const LICENSE: &str = include_str!("../../../../LICENSE");
+const THIRD_PARTY: &str = include_str!("../../../../modelDescription/licenses.txt");
+const ICON: &[u8] = include_bytes!("../../../../modelDescription/model.png");
+
+/// A unit that couldn't be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    #[error("{path}: {source}", path = path.display())]
+    File { path: PathBuf, source: io::Error },
+    #[error("cargo can't be started ({0}): exporting needs a Rust toolchain on PATH, see rustup.rs")]
+    NoCargo(io::Error),
+    #[error("cargo didn't build the library:\n{0}")]
+    Build(String),
+    #[error("the library is not packed: {0}")]
+    Symbols(#[from] SymbolError),
+    #[error("the archive can't be written: {0}")]
+    Zip(#[from] zip::result::ZipError),
+    #[error("units for {0} can't be made here: FMI 2.0 has no folder for this platform")]
+    Platform(String),
+}
+
+/// What was exported.
+pub struct Exported {
+    pub path: PathBuf,
+    pub guid: String,
+    /// Size of the archive [bytes].
+    pub size: usize,
+    /// Size of the library in it [bytes].
+    pub library_size: usize,
+    pub imports: Vec<String>,
+}
+
+/// Folder of the binaries for this machine, and how libraries are called there.
+pub fn platform() -> Result<(&'static str, &'static str), ExportError> {
+    match (env::consts::OS, env::consts::ARCH) {
+        ("linux", "x86_64") => Ok(("linux64", "so")),
+        ("linux", "aarch64") => Ok(("aarch64-linux", "so")),
+        ("windows", "x86_64") => Ok(("win64", "dll")),
+        ("macos", "x86_64") => Ok(("darwin64", "dylib")),
+        ("macos", "aarch64") => Ok(("aarch64-darwin", "dylib")),
+        (os, arch) => Err(ExportError::Platform(format!("{os} on {arch}"))),
+    }
+}
+
+/// Builds the unit of `scene` and writes it to `path`, which is replaced only when everything has gone well.
+///
+/// # Errors
+/// [`ExportError`]; nothing is then written.
+pub fn export(scene: &Scene, path: &Path) -> Result<Exported, ExportError> {
+    let (folder, extension) = platform()?;
+    let entries = entries(scene);
+    let guid = identification(scene, &entries);
+    let library = library::build(scene, &constants::write(scene, &entries, &guid), &guid)?;
+    let imports = symbols::check(&library)?;
+    let license = format!("{LICENSE}\n{THIRD_PARTY}");
+    let page = documentation::write(scene, &entries);
+    let description = model_description::write(scene, &entries, &guid);
+    let files: [(String, &[u8]); 6] = [
+        ("modelDescription.xml".into(), description.as_bytes()),
+        ("model.png".into(), ICON),
+        (format!("binaries/{folder}/{}.{extension}", scene.name), &library),
+        ("documentation/index.html".into(), page.as_bytes()),
+        ("documentation/licenses/license.txt".into(), license.as_bytes()),
+        ("resources/scene.toml".into(), scene.text.as_bytes()),
+    ];
+    let archive = archive(&files)?;
+    write_whole(path, &archive)?;
+    Ok(Exported { path: path.into(), guid, size: archive.len(), library_size: library.len(), imports })
+}
+
+/// Hash of all that the unit is made of: description, constants, source of the library.
+fn identification(scene: &Scene, entries: &[Entry]) -> String {
+    let mut hash = Sha256::new();
+    hash.update(model_description::write(scene, entries, ""));
+    hash.update(constants::write(scene, entries, ""));
+    for (name, text) in LIBRARY_SOURCE {
+        hash.update(name);
+        hash.update(text);
+    }
+    hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The files as a zip archive: the same bytes for the same files.
+fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
+    let mut archive = zip::ZipWriter::new(io::Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(9))
+        .last_modified_time(zip::DateTime::default())
+        .unix_permissions(0o644);
+    for (name, bytes) in files {
+        archive.start_file(name.as_str(), options)?;
+        archive.write_all(bytes).map_err(zip::result::ZipError::from)?;
+    }
+    Ok(archive.finish()?.into_inner())
+}
+
+/// Writes beside the goal and renames, so that no half of a unit is ever found there.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+    let file_error = |source| ExportError::File { path: path.into(), source };
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let mut file = tempfile::Builder::new().prefix(".brinell-").tempfile_in(folder).map_err(file_error)?;
+    file.write_all(bytes).map_err(file_error)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let readable = fs::Permissions::from_mode(0o644);
+        fs::set_permissions(file.path(), readable).map_err(file_error)?;
+    }
+    file.persist(path).map_err(|error| file_error(error.error))?;
+    Ok(())
+}
