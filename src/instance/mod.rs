@@ -1,6 +1,7 @@
 //! Co-simulation as safe Rust: phase, time, variables, step, reset, save and load. Nothing here is particular to FMI 2.0.
 
 mod saved;
+mod start;
 mod stepping;
 mod validity;
 mod variables;
@@ -12,6 +13,7 @@ use crate::coupling::{CURVE_WORDS, Curve, MOMENTUM_WORDS, Momentum};
 use crate::fault::Fault;
 use crate::scene::{self, History, Model};
 use crate::variable::{Integer, Parameter, Real, Settable};
+use start::{Bodies, NO_BODIES, START, model_of, pair_of};
 
 /// The phases in which an instance can be, as bits: a set of phases is their sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,17 +41,6 @@ impl Phase {
 
 /// The settable parameters of the scene, in the order of [`scene::SETTABLE`].
 pub type Values = [f64; scene::SETTABLE.len()];
-
-/// The start values of the settable parameters.
-const START: Values = {
-    let mut values = [0.0; scene::SETTABLE.len()];
-    let mut index = 0;
-    while index < values.len() {
-        values[index] = scene::SETTABLE[index].start;
-        index += 1;
-    }
-    values
-};
 
 /// How many contacts have their force in memory. One contact computes it when it is asked for, and so do those whose
 /// force follows the rate; of many the step has it at hand.
@@ -99,24 +90,6 @@ pub struct Instance {
     fast: bool,
 }
 
-/// What of a pair is worth keeping; the rest are parameters.
-#[derive(Clone, Copy, Debug)]
-struct Bodies {
-    /// Effective radius [m].
-    radius: f64,
-    /// Effective modulus [Pa].
-    modulus: f64,
-    /// Indentation up to which the law is valid [m].
-    depth: f64,
-}
-
-impl Bodies {
-    /// Takes what is kept of `pair`; the depth is found when all parameters are known.
-    fn take(&mut self, pair: &Pair) {
-        (self.radius, self.modulus) = (pair.radius, pair.modulus);
-    }
-}
-
 /// The words of an instance that don't belong to a contact or a parameter.
 const OWN_WORDS: usize = 5;
 
@@ -141,9 +114,6 @@ const STOP_TOLERANCE: f64 = 1e-3;
 /// A limit before every time [s].
 const NOWHERE: f64 = -f64::MAX;
 
-/// 2^64 over the golden ratio, odd: what hashes are mixed with.
-const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
-
 /// Room for rounding of a time far from zero, as a fraction of it.
 const TIME_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
@@ -156,44 +126,6 @@ const FAR: f64 = 1e90;
 /// See [`FAST`] [s].
 const LATE: f64 = 1e50;
 
-/// The pair of bodies of `group` that `values` describe.
-fn pair_of(group: usize, values: &Values) -> Result<Pair, Fault> {
-    let value = |parameter| scene::parameter(parameter, group, values);
-    let impactor = Body {
-        radius: value(Parameter::ImpactorRadius),
-        youngs_modulus: value(Parameter::ImpactorYoungsModulus),
-        poissons_ratio: value(Parameter::ImpactorPoissonsRatio),
-    };
-    let target = Body {
-        radius: value(Parameter::TargetRadius),
-        youngs_modulus: value(Parameter::TargetYoungsModulus),
-        poissons_ratio: value(Parameter::TargetPoissonsRatio),
-    };
-    Pair::new(&impactor, &target, value(Parameter::TargetYieldStrength))
-        .ok_or(Fault::NoPointContact { impactor: impactor.radius, target: target.radius })
-}
-
-/// What is in contact in `group`, whose `bodies` are those of `values`.
-fn model_of(group: usize, bodies: Bodies, values: &Values) -> Model {
-    let value = |parameter| scene::parameter(parameter, group, values);
-    let pair = Pair {
-        radius: bodies.radius,
-        modulus: bodies.modulus,
-        yield_strength: value(Parameter::TargetYieldStrength),
-        youngs_modulus: value(Parameter::TargetYoungsModulus),
-        poissons_ratio: value(Parameter::TargetPoissonsRatio),
-    };
-    scene::model(pair, group, values)
-}
-
-/// A contact of `group` before any motion.
-#[inline(never)]
-fn start_of(group: usize, values: &Values) -> Result<(Pair, History), Fault> {
-    let model = scene::model(pair_of(group, values)?, group, values);
-    let history = History::start(&model, scene::parameter(Parameter::InitialGap, group, values));
-    Ok((model.pair, history.map_err(|deep| too_deep(0, deep))?))
-}
-
 /// Where plain steps end in this phase [s].
 fn limit(phase: Phase, stop: f64) -> f64 {
     if phase == Phase::StepComplete { stop } else { NOWHERE }
@@ -204,75 +136,6 @@ fn too_deep(contact: usize, TooDeep { indentation }: TooDeep) -> Fault {
 }
 
 impl Instance {
-    /// Makes the instance as it is before anything is set, the same bit for bit each time.
-    ///
-    /// # Errors
-    /// [`Fault::NoPointContact`] if the start values of the scene don't fit together.
-    pub fn reset(&mut self) -> Result<(), Fault> {
-        self.values = START;
-        self.rates.fill(0.0);
-        self.time = 0.0;
-        self.stop = f64::MAX;
-        self.experiment_defined = false;
-        self.fast = false;
-        self.last_step.fill(0.0);
-        self.deep = 0;
-        self.straighten();
-        self.set_phase(Phase::Instantiated);
-        self.start()
-    }
-
-    /// Puts all contacts where they are before any motion; if one can't be there nothing is done.
-    fn start(&mut self) -> Result<(), Fault> {
-        let started = self.start_contacts();
-        self.stamp_parameters();
-        started
-    }
-
-    /// Makes the [`Instance::stamp`] that of the parameters and of the bodies that follow from them, and finds what else does.
-    #[cold]
-    #[inline(never)]
-    fn stamp_parameters(&mut self) {
-        let bodies = self.pairs.iter().flat_map(|bodies| [bodies.radius, bodies.modulus]);
-        let mix = |sum: u64, value: f64| {
-            let mixed = (sum ^ value.to_bits()).wrapping_mul(GOLDEN);
-            mixed ^ mixed >> 32
-        };
-        // blank memory has the stamp zero
-        let stamp = self.values.iter().copied().chain(bodies).fold(GOLDEN, mix) | 1;
-        if stamp != self.stamp {
-            self.stamp = stamp;
-            self.lowest_rate = validity::lowest_rate(&self.values);
-            for (group, bodies) in self.pairs.iter_mut().enumerate() {
-                bodies.depth = model_of(group, *bodies, &self.values).valid_depth();
-            }
-        }
-    }
-
-    fn start_contacts(&mut self) -> Result<(), Fault> {
-        if scene::GROUPS > 1 {
-            for group in 0..scene::GROUPS {
-                start_of(group, &self.values)?;
-            }
-        }
-        let mut histories = self.histories.iter_mut();
-        let mut first = 0;
-        for (group, bodies) in self.pairs.iter_mut().enumerate() {
-            let (pair, history) = start_of(group, &self.values)?;
-            bodies.take(&pair);
-            let end = scene::end(group);
-            for slot in histories.by_ref().take(end - first) {
-                *slot = history;
-            }
-            first = end;
-        }
-        for (momentum, history) in self.momenta.iter_mut().zip(&self.histories) {
-            *momentum = Momentum::start(history.force_at_rate(0.0));
-        }
-        self.note_forces();
-        Ok(())
-    }
-
     /// Forgets the derivatives of inputs.
     fn straighten(&mut self) {
         self.curved = false;
@@ -371,9 +234,6 @@ impl Instance {
         model_of(group, self.pairs.get(group).copied().unwrap_or(NO_BODIES), &self.values)
     }
 }
-
-/// What stands where there is no group.
-const NO_BODIES: Bodies = Bodies { radius: f64::NAN, modulus: f64::NAN, depth: f64::NAN };
 
 /// Whether a parameter may have this `value`.
 fn allows(settable: &Settable, value: f64) -> bool {
