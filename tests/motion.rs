@@ -131,6 +131,29 @@ fn a_small_motion_under_a_large_load_takes_no_more_evaluations_than_a_large_one(
 }
 
 #[test]
+fn a_small_motion_in_the_dent_of_any_impact_stays_small_and_cheap() {
+    for (name, model) in all_models(mild()) {
+        for speed in [1e-3, 0.03, 1.0, 60.0] {
+            let prediction = predict(&model, &Impact { mass: MASS, speed }).expect("within range");
+            let (depth, elastic) =
+                (prediction.max_indentation, prediction.max_indentation - prediction.residual_indentation);
+            let frequency = (model.unloading_segment(depth, depth).stiffness(depth) / MASS).sqrt();
+            let mut history = History::start(&model, -depth).unwrap();
+            history.advance(-0.01 * elastic, || model).unwrap();
+            let acceleration = history.force() / MASS;
+            let first = 1e-6 * elastic * frequency;
+            let (mut rate, mut most) = (first, 0);
+            for _ in 0..20 {
+                let outcome = go(&mut history, &model, acceleration, rate, 8.0 / frequency);
+                (rate, most) = (outcome.speed, most.max(outcome.evaluations));
+            }
+            assert!(most < 20_000, "{name} after {speed} m/s: {most} evaluations");
+            assert!(rate.abs() < 1.01 * first, "{name} after {speed} m/s: it grows to {rate:e} from {first:e} m/s");
+        }
+    }
+}
+
+#[test]
 fn bodies_that_part_fly_on() {
     let model = model("big-alabo", "contact-radius");
     let mut history = History::start(&model, 1e-3).unwrap();

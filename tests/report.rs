@@ -242,3 +242,48 @@ fn a_scene_with_several_contacts_or_a_rate_dependent_law_has_a_report_too() {
     let (_folder, data) = report("damped");
     assert!(rows(&data, "orders").iter().all(|row| row["way"] != "mass known"), "{}", data["orders"]);
 }
+
+#[test]
+fn the_unit_alone_adds_nothing_but_rounding() {
+    let alone: Vec<_> = rows(&DEFAULT.1, "precision").iter().filter(|row| row["way"] == "unit alone").collect();
+    assert_eq!(alone.len(), 7, "4 to 256 steps per contact");
+    for row in alone {
+        for error in ["error_of_restitution", "error_of_largest_force", "error_of_dent"] {
+            assert!(row[error].as_f64().expect("an error") < 1e-14, "{error}: {row}");
+        }
+    }
+}
+
+#[test]
+fn the_error_of_the_dent_has_the_order_of_the_method_too() {
+    let dents = |way: &str| -> Vec<f64> {
+        let points = rows(&DEFAULT.1, "precision").iter().filter(|row| row["way"] == way);
+        points.map(|row| row["error_of_dent"].as_f64().expect("an error")).collect()
+    };
+    // from 32 to 256 steps per contact
+    for (way, order) in [("late force", 1.0), ("leap-frog", 2.0), ("input derivatives", 3.0)] {
+        let dents = dents(way);
+        let fallen = (dents[4] / dents[7]).log2() / 3.0;
+        assert!((fallen - order).abs() < 0.35, "{way}: order {fallen} instead of {order}");
+    }
+}
+
+#[test]
+fn a_unit_is_right_to_refuse_what_its_law_has_no_answer_to_and_the_summary_warns_of_a_wide_impact() {
+    let folder = empty_folder();
+    let text = fs::read_to_string(scene("steel_ball")).expect("a scene");
+    let text = text.replace("loading = \"big-alabo\"", "loading = \"jackson-green\"");
+    let text = text.replace("speed = 1.0 ", "speed = 60.0 ");
+    assert!(text.contains("jackson-green") && text.contains("60.0"), "{text}");
+    fs::write(folder.path().join("scene.toml"), text).expect("a writable folder");
+    let run = run(folder.path(), ["report", "scene.toml", "--quick", "--json"]).with_status(0);
+    let data = run.json();
+    let refused = "right to refuse it: fmi2DoStep returned status 3: fmi2DoStep: the indentation would become";
+    let verdicts = || rows(&data, "extremes").iter().map(|row| row["verdict"].as_str().expect("a verdict"));
+    assert!(verdicts().any(|verdict| verdict.starts_with(refused)), "{:?}", verdicts().collect::<Vec<_>>());
+    assert!(verdicts().all(|verdict| verdict.starts_with("right")), "{:?}", verdicts().collect::<Vec<_>>());
+    let summary = data["summary"].to_string();
+    for beware in ["Beware: the contact radius reaches", "Beware: the speed is 0.012 of the wave speed"] {
+        assert!(summary.contains(beware), "{summary}");
+    }
+}

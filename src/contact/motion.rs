@@ -56,7 +56,7 @@ pub const MOST_EVALUATIONS: u32 = 4_000_000;
 /// Largest error of an inner step, relative to its change of speed and its way.
 const TOLERANCE: f64 = 2e-14;
 
-/// The rounding of a difference of forces that cancel, relative to the forces, in tolerances.
+/// The rounding of a force or of an indentation, relative to it, in tolerances.
 const CANCELLED: f64 = 0.1;
 
 /// Columns of the extrapolation: its order is twice that.
@@ -84,6 +84,8 @@ struct Stepper<'a, 'b, L, U> {
     drive: &'a Drive,
     start: f64,
     speed: f64,
+    /// What rounding makes of a difference of forces that cancel, over the mass, in tolerances [m/s^2].
+    noise: f64,
     evaluations: &'a mut u32,
 }
 
@@ -125,7 +127,7 @@ impl<L: Loading, U: Unloading> Stepper<'_, '_, L, U> {
             let (change, speed_change) = (fabs(entry.0 - trial.way), fabs(entry.1 - trial.speed));
             let speed_scale = largest(largest(fabs(self.speed), fabs(entry.1)), fabs(first) * time);
             // a small motion under a large load: what rounding makes of the difference of two large forces is no error
-            let speed_scale = largest(speed_scale, CANCELLED * fabs(self.drive.acceleration) * time);
+            let speed_scale = largest(speed_scale, self.noise * time);
             let relative = largest(change / (speed_scale * time), speed_change / speed_scale);
             let error = if speed_scale > 0.0 { relative / TOLERANCE } else { 0.0 };
             trial = Trial { way: entry.0, speed: entry.1, error, columns: column + 1 };
@@ -285,12 +287,16 @@ impl<L: Loading, U: Unloading> Motion<'_, L, U> {
             return self.go_to(piece.lower, false);
         }
         let mut inner = if self.inner < self.left { self.inner } else { self.left };
-        let mut stepper =
-            Stepper { piece: &piece, drive: self.drive, start, speed: self.speed, evaluations: &mut self.evaluations };
+        let Drive { mass, acceleration } = *self.drive;
+        // without another force nothing cancels
+        let rounded = fabs(acceleration) + start * piece.stiffness(start) / mass;
+        let noise = if acceleration == 0.0 { 0.0 } else { CANCELLED * rounded };
+        let (speed, evaluations) = (self.speed, &mut self.evaluations);
+        let mut stepper = Stepper { piece: &piece, drive: self.drive, start, speed, noise, evaluations };
         let mut trial = stepper.trial(inner);
         loop {
             let stiffness = largest(piece.stiffness(start), piece.stiffness(start + trial.way));
-            let phase = inner * sqrt(stiffness / self.drive.mass);
+            let phase = inner * sqrt(stiffness / mass);
             // written so that a NaN is refused
             if trial.error <= 1.0 && phase <= LARGEST_PHASE {
                 break;
