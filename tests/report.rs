@@ -287,3 +287,16 @@ fn a_unit_is_right_to_refuse_what_its_law_has_no_answer_to_and_the_summary_warns
         assert!(summary.contains(beware), "{summary}");
     }
 }
+
+#[test]
+fn what_a_law_itself_makes_of_energy_is_no_failure_of_its_unit_and_is_told() {
+    let folder = empty_folder();
+    let text = fs::read_to_string(scene("steel_ball")).expect("a scene");
+    let text =
+        text.replace("loading = \"big-alabo\"", "loading = \"stronge\"").replace("speed = 1.0 ", "speed = 1e-3 ");
+    fs::write(folder.path().join("scene.toml"), text).expect("a writable folder");
+    let data = run(folder.path(), ["report", "scene.toml", "--quick", "--json"]).with_status(0).json();
+    let gains = |row: &&Value| row["beyond_validity"].as_str().expect("words").contains("the law makes energy");
+    let gaining: Vec<_> = rows(&data, "extremes").iter().filter(gains).collect();
+    assert!(!gaining.is_empty() && gaining.iter().all(|row| row["verdict"] == "right"), "{gaining:?}");
+}

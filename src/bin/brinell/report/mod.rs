@@ -94,7 +94,8 @@ impl Report {
         progress.say("laws side by side");
         let (laws, spread) = spread::part(&alone);
         let failed = cases.iter().filter(|case| case.failure.is_some()).count();
-        let (mut summary, recommendations) = summary::summarize(&lines, &stability, &prediction, (cases.len(), failed));
+        let judged = cases.iter().filter(|case| case.is_judged()).count();
+        let (mut summary, recommendations) = summary::summarize(&lines, &stability, &prediction, (judged, failed));
         summary.extend(spread);
         let warnings = validity::warnings(&model.pair(), alone.contacts[0].density, &prediction, impact.speed);
         summary.extend(warnings.into_iter().map(|warning| format!("Beware: {warning}.")));

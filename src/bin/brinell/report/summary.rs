@@ -14,7 +14,7 @@ pub fn summarize(
     all: &[Line],
     stability: &Stability,
     prediction: &Prediction,
-    (cases, failed): (usize, usize),
+    (judged, failed): (usize, usize),
 ) -> (Vec<String>, Value) {
     let lines: Vec<_> = all.iter().filter(|line| line.peer.is_none() && line.way != ALONE).collect();
     let mut good: Vec<_> = lines.iter().filter_map(|line| Some((*line, line.step_for(GOAL)?))).collect();
@@ -41,7 +41,7 @@ pub fn summarize(
         summary.push(format!("With {}, no step that was tried keeps the error of restitution below 1 %.", line.way));
     }
     summary.extend(stability.sentences());
-    summary.push(format!("{} of {cases} stiff and extreme cases are right.", cases - failed));
+    summary.push(format!("{} of {judged} stiff and extreme cases are right.", judged - failed));
     let ways: Vec<_> = good
         .iter()
         .map(|(line, point)| {

@@ -33,8 +33,10 @@ pub struct Case {
     told: usize,
     /// What leaves the validity of the law.
     pub beyond: Vec<Beyond>,
-    /// What the unit said that rightly refused it.
-    pub refusal: Option<String>,
+    /// Whether the law itself gives back more than it took.
+    makes_energy: bool,
+    /// What is to be said of a case that isn't just right.
+    pub remark: Option<String>,
     /// Why it failed.
     pub failure: Option<String>,
 }
@@ -54,12 +56,20 @@ pub fn measure(contact: &mut Contact, scene: &Scene, quick: bool, progress: &Pro
     cases
 }
 
+/// What begins the remark on a case that nothing can be said of.
+const NOT_JUDGED: &str = "not judged: ";
+
 impl Case {
+    /// Whether it was judged.
+    pub fn is_judged(&self) -> bool {
+        !self.remark.as_ref().is_some_and(|remark| remark.starts_with(NOT_JUDGED))
+    }
+
     /// A case that is yet to be run.
-    fn new(name: String, tolerance: f64) -> Case {
+    fn new(name: &str, tolerance: f64) -> Case {
         let errors = (f64::NAN, f64::NAN);
         Case {
-            name,
+            name: name.into(),
             indentation: f64::NAN,
             step: f64::NAN,
             width: f64::NAN,
@@ -67,7 +77,8 @@ impl Case {
             beyond: Vec::new(),
             errors,
             tolerance,
-            refusal: None,
+            makes_energy: false,
+            remark: None,
             failure: None,
         }
     }
@@ -115,16 +126,19 @@ fn table(cases: &[Case]) -> Table {
         ],
     );
     for case in cases {
-        let verdict = match (&case.failure, &case.refusal) {
+        let verdict = match (&case.failure, &case.remark) {
             (Some(why), _) => format!("FAILED: {why}"),
-            (None, Some(why)) => format!("right to refuse it: {why}"),
+            (None, Some(remark)) => remark.clone(),
             (None, None) => "right".into(),
         };
         let warning = |beyond: &Beyond| match beyond {
             Beyond::Width(_) => format!("a/R above {LARGEST_RADIUS_RATIO}"),
             Beyond::Speed { .. } => format!("speed above {LARGEST_SPEED_RATIO} of the wave speed"),
         };
-        let warnings: Vec<_> = case.beyond.iter().map(warning).collect();
+        let mut warnings: Vec<_> = case.beyond.iter().map(warning).collect();
+        if case.makes_energy {
+            warnings.push("the law makes energy".into());
+        }
         table.rows.push(vec![
             text(&case.name),
             number(case.indentation),

@@ -105,7 +105,7 @@ fn in_and_out(contact: &mut Contact, depth: f64, steps: &[f64]) -> Result<(), Im
 /// Runs `motion`, and compares what it has dissipated.
 fn judge(contact: &mut Contact, bodies: &Bodies, model: &Model<AnyLoading, AnyUnloading>, motion: Motion) -> Case {
     let Motion { name, depth, step, yields, run } = motion;
-    let mut case = Case::new(name, EXACT);
+    let mut case = Case::new(&name, EXACT);
     (case.indentation, case.step) = (depth, step);
     let once = model.loading.work(&model.pair, depth);
     let (work, recovered) = (f64::from(yields) * once, f64::from(yields) * model.recovered_work(depth, depth));
