@@ -260,6 +260,15 @@ fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
 }
 
 #[test]
+fn an_impact_without_an_answer_is_refused() {
+    let deep = "[law]\nloading = \"jackson-green\"\n§[impact]\nmass = 1e250\nspeed = 1e9\n";
+    refused_with(deep, &["mass = 1e250 kg", "speed = 1000000000.0 m/s", "deeper than the law can be evaluated"]);
+    // so light that the damper alone decides
+    let endless = "[law]\nloading = \"kuwabara-kono\"\n§[impact]\nmass = 1e-30\nspeed = 1.0\n";
+    refused_with(endless, &["mass = 1e-30 kg", "speed = 1.0 m/s", "damped so much that it has no end"]);
+}
+
+#[test]
 fn an_unloading_law_for_a_contact_that_leaves_no_dent_is_refused() {
     let scene = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.5\nunloading = §\"thornton\"\n";
     refused_with(scene, &["law.unloading = \"thornton\"", "hunt-crossley leaves no dent"]);

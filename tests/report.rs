@@ -283,7 +283,7 @@ fn a_unit_is_right_to_refuse_what_its_law_has_no_answer_to_and_the_summary_warns
     assert!(verdicts().any(|verdict| verdict.starts_with(refused)), "{:?}", verdicts().collect::<Vec<_>>());
     assert!(verdicts().all(|verdict| verdict.starts_with("right")), "{:?}", verdicts().collect::<Vec<_>>());
     let summary = data["summary"].to_string();
-    for beware in ["Beware: the contact radius reaches", "Beware: the speed is 0.012 of the wave speed"] {
+    for beware in ["Beware: the contact radius reaches", "Beware: the speed is 0.0117 of the wave speed"] {
         assert!(summary.contains(beware), "{summary}");
     }
 }

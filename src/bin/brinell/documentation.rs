@@ -185,6 +185,11 @@ fn constants(page: &mut String, scene: &Scene) -> std::fmt::Result {
     writeln!(page, "</table>")
 }
 
+/// A number to so many significant digits.
+pub fn significant(value: f64, count: usize) -> String {
+    digits(format!("{value:.*e}", count - 1).parse().expect("a number"))
+}
+
 /// Six significant digits at most.
 pub fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().expect("a number");

@@ -1,5 +1,6 @@
 //! What leaves the validity of the laws, in words.
 
+use crate::documentation::significant;
 use brinell::contact::Pair;
 use brinell::contact::impact::Prediction;
 use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};
@@ -36,12 +37,14 @@ pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec
 pub fn warnings(pair: &Pair, density: Option<f64>, prediction: &Prediction, speed: f64) -> Vec<String> {
     let words = |beyond| match beyond {
         Beyond::Width(ratio) => format!(
-            "the contact radius reaches {ratio:.2} effective radii; above {LARGEST_RADIUS_RATIO} the sphere is no paraboloid \
-             any more, and the law isn't valid"
+            "the contact radius reaches {} effective radii; above {LARGEST_RADIUS_RATIO} the sphere is no paraboloid any more, \
+             and the law isn't valid",
+            significant(ratio, 3)
         ),
         Beyond::Speed { ratio, waves } => format!(
-            "the speed is {ratio:.3} of the wave speed of {waves:.0} m/s; above {LARGEST_SPEED_RATIO} elastic waves take energy \
+            "the speed is {} of the wave speed of {waves:.0} m/s; above {LARGEST_SPEED_RATIO} elastic waves take energy \
              that the law leaves out, here {:.0} % of an elastic impact's",
+            significant(ratio, 3),
             100.0 * wave_energy(ratio)
         ),
     };

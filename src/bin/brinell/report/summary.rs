@@ -2,7 +2,7 @@
 
 use super::precision::{ALONE, Line};
 use super::stability::Stability;
-use crate::documentation::digits;
+use crate::documentation::{digits, significant};
 use brinell::contact::impact::Prediction;
 use serde_json::{Value, json};
 
@@ -31,9 +31,9 @@ pub fn summarize(
                 line.what,
                 digits(point.step),
                 point.steps,
-                two_digits(100.0 * point.restitution),
+                significant(100.0 * point.restitution, 2),
                 point.calls,
-                two_digits(1e6 * point.run_time)
+                significant(1e6 * point.run_time, 2)
             )
         })
         .collect();
@@ -59,9 +59,4 @@ pub fn summarize(
         used.extend(stable);
     }
     (summary, used)
-}
-
-/// Two significant digits.
-fn two_digits(value: f64) -> String {
-    digits(format!("{value:.1e}").parse().expect("a number"))
 }

@@ -153,9 +153,11 @@ fn check_depth(scene: &Scene, group: usize, span: Range<usize>) -> Result<(), Mi
         return Ok(());
     }
     let Impact { mass, speed } = scene.impact;
-    let message = format!(
-        "the impact of mass = {mass:?} kg and speed = {speed:?} m/s drives the bodies deeper than the law can be evaluated"
-    );
+    let what = match scene.damped {
+        None => "drives the bodies deeper than the law can be evaluated",
+        Some(_) => "drives the bodies deeper than the law can be evaluated, or is damped so much that it has no end",
+    };
+    let message = format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}");
     Err(Mistake(span, message))
 }
 
