@@ -161,7 +161,7 @@ pub fn part(cases: &[Case]) -> Part {
         words: format!(
             "Each is stepped through the unit. Impacts by leap-frog must agree with the energy balance to {}; their mass grows \
              as the volume of the sphere, and with E the yield strength. Prescribed motions, in and out again, must dissipate \
-             what the law says to {:e} of the work, and leave no force. What leaves the validity of the law (contact radius \
+             what the law says to {:e} of the work, and leave the force that it says: none, but for a law that makes energy. What leaves the validity of the law (contact radius \
              over effective radius, speed over wave speed) must be told in the unit's log, nothing else; and where the law \
              can't be evaluated the unit must refuse the step.",
             TOLERANCE, EXACT
