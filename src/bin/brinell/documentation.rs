@@ -2,6 +2,7 @@
 
 use crate::guard;
 use crate::interface::{Entry, experiment, prediction};
+use crate::numbers::digits;
 use crate::parameters::{self, Constant};
 use crate::plot::{Picture, Series};
 use crate::scene::Scene;
@@ -183,17 +184,6 @@ fn constants(page: &mut String, scene: &Scene) -> std::fmt::Result {
         writeln!(page, "<tr><td><code>{}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>", parameter.name)?;
     }
     writeln!(page, "</table>")
-}
-
-/// A number to so many significant digits.
-pub fn significant(value: f64, count: usize) -> String {
-    digits(format!("{value:.*e}", count - 1).parse().expect("a number"))
-}
-
-/// Six significant digits at most.
-pub fn digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().expect("a number");
-    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 /// `text` as HTML has it.

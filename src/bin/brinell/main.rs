@@ -13,6 +13,7 @@ mod law_list;
 mod laws;
 mod model;
 mod model_description;
+mod numbers;
 mod package;
 mod parameters;
 mod plot;

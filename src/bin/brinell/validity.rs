@@ -1,6 +1,6 @@
 //! What leaves the validity of the laws, in words.
 
-use crate::documentation::significant;
+use crate::numbers::significant;
 use brinell::contact::Pair;
 use brinell::contact::impact::Prediction;
 use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};

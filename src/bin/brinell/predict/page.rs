@@ -2,7 +2,8 @@
 
 use super::quantities;
 use super::sweep::{STEPS, Sweep};
-use crate::documentation::{digits, escape};
+use crate::documentation::escape;
+use crate::numbers::digits;
 use crate::plot::css_line;
 use crate::scene::Scene;
 use crate::table;

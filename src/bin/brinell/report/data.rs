@@ -1,6 +1,7 @@
 //! Tables with a unit for every column: the page, the CSV files and the JSON say the same.
 
-use crate::documentation::{digits, escape};
+use crate::documentation::escape;
+use crate::numbers::digits;
 use serde_json::{Map, Value, json};
 
 /// A column.

@@ -25,7 +25,7 @@ use progress::{Progress, Work};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use units::Units;
-use ways::{Needs, WAYS};
+use ways::Needs;
 
 /// A report that couldn't be made.
 #[derive(Debug, thiserror::Error)]
@@ -141,9 +141,9 @@ impl Report {
 
 /// All that a report has to do.
 fn work(scene: &Scene, plan: &Plan, peers: &[Peer], quick: bool) -> Vec<Work> {
-    let ways = if plan.follows_rate { WAYS.iter().filter(|way| way.needs == Needs::Force).count() } else { WAYS.len() };
+    let (building, ways) = Units::work(scene);
     let lines = ways + usize::from(!plan.follows_rate) + peers.iter().map(|peer| peer.ways().len()).sum::<usize>();
-    let mut all: Vec<Work> = Units::work(scene).collect();
+    let mut all: Vec<Work> = building.collect();
     all.extend((0..lines).flat_map(|_| plan.work()));
     all.extend((0..ways).map(|_| Work::Way));
     all.extend((0..extremes::count(scene, quick)).map(|_| Work::Case));

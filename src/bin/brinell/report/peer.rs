@@ -1,7 +1,7 @@
 //! Other units with the same variables, run in the same picture.
 
 use super::precision::{Line, Plan};
-use super::ways::{Needs, PREDICTED, WAYS, Way};
+use super::ways::{Needs, WAYS, Way};
 use super::{ReportError, unit::Contact};
 use crate::importer::{Archive, ImportError, Unit};
 use crate::scene::Scene;
@@ -78,12 +78,14 @@ impl Peer {
         let description = &self.archive.description;
         let has = |name| description.real(name).is_ok();
         let derivatives = description.interpolates_inputs && description.output_derivatives > 0;
-        let offered = |way: &&Way| {
-            // a unit that moves the mass itself does nothing else
-            (way.needs == Needs::Mass) == has("effective_mass")
-                && (way.name != PREDICTED.name || has("predicted_force"))
-                && (way.needs != Needs::MeanForce || derivatives)
-                && (way.needs == Needs::Force || has("mean_force"))
+        // a unit that moves the mass itself does nothing else
+        let knows_mass = has("effective_mass");
+        let offered = |way: &&Way| match way.needs {
+            Needs::Mass => knows_mass && has("mean_force"),
+            _ if knows_mass => false,
+            Needs::Force => true,
+            Needs::PredictedForce => has("predicted_force"),
+            Needs::MeanForce => derivatives && has("mean_force"),
         };
         WAYS.iter().filter(offered).collect()
     }

@@ -23,7 +23,7 @@ pub enum Work {
     Steps(u64),
     /// A way to couple, tried for stability.
     Way,
-    /// A case, or the laws, to be run.
+    /// A case to be run.
     Case,
 }
 

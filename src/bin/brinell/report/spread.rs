@@ -3,9 +3,10 @@
 use super::Part;
 use super::data::{Cell, Table, number, text};
 use crate::curve;
-use crate::documentation::{digits, escape};
+use crate::documentation::escape;
 use crate::laws::{Choice, UnknownLaw, choose};
 use crate::model::AnyModel;
+use crate::numbers::digits;
 use crate::plot::Series;
 use crate::predict;
 use crate::predict::sweep::Sweep;

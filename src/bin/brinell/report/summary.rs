@@ -1,8 +1,8 @@
 //! The summary: what step and coupling to use, and what to expect of them.
 
-use super::precision::{ALONE, Line};
+use super::precision::Line;
 use super::stability::Stability;
-use crate::documentation::{digits, significant};
+use crate::numbers::{digits, significant};
 use brinell::contact::impact::Prediction;
 use serde_json::{Value, json};
 
@@ -16,19 +16,20 @@ pub fn summarize(
     prediction: &Prediction,
     (judged, failed): (usize, usize),
 ) -> (Vec<String>, Value) {
-    let lines: Vec<_> = all.iter().filter(|line| line.peer.is_none() && line.way != ALONE).collect();
-    let mut good: Vec<_> = lines.iter().filter_map(|line| Some((*line, line.step_for(GOAL)?))).collect();
+    let own = all.iter().filter(|line| line.peer.is_none());
+    let lines: Vec<_> = own.filter_map(|line| Some((line.way?, line.step_for(GOAL)))).collect();
+    let mut good: Vec<_> = lines.iter().filter_map(|(way, point)| Some((*way, (*point)?))).collect();
     good.sort_by(|one, other| one.1.calls.total_cmp(&other.1.calls));
     let mut summary: Vec<String> = good
         .iter()
         .enumerate()
-        .map(|(place, (line, point))| {
+        .map(|(place, (way, point))| {
             let verb = if place == 0 { "Use" } else { "Or" };
             format!(
                 "{verb} {} ({}) with steps of {} s, {} per contact: expect an error of restitution of {} % with {:.0} calls, \
                  which take {} us, per impact.",
-                line.way,
-                line.what,
+                way.name,
+                way.what,
                 digits(point.step),
                 point.steps,
                 significant(100.0 * point.restitution, 2),
@@ -37,15 +38,15 @@ pub fn summarize(
             )
         })
         .collect();
-    for line in lines.iter().filter(|line| line.step_for(GOAL).is_none()) {
-        summary.push(format!("With {}, no step that was tried keeps the error of restitution below 1 %.", line.way));
+    for (way, _) in lines.iter().filter(|(_, point)| point.is_none()) {
+        summary.push(format!("With {}, no step that was tried keeps the error of restitution below 1 %.", way.name));
     }
     summary.extend(stability.sentences());
     summary.push(format!("{} of {judged} stiff and extreme cases are right.", judged - failed));
     let ways: Vec<_> = good
         .iter()
-        .map(|(line, point)| {
-            json!({ "way": line.way, "step_s": point.step, "steps_per_contact": point.steps,
+        .map(|(way, point)| {
+            json!({ "way": way.name, "step_s": point.step, "steps_per_contact": point.steps,
                     "error_of_restitution": point.restitution, "calls_per_impact": point.calls })
         })
         .collect();

@@ -6,14 +6,17 @@ use crate::scene::{Group, Parameter, Scene};
 use crate::table::VARIABLES;
 use brinell::contact::impact::Impact;
 
-/// Outputs that a report asks for, whatever the scene shows; the last is left out where it isn't needed.
-const OUTPUTS: [&str; 5] =
-    ["indentation", "residual_indentation", "dissipated_energy", "predicted_force", "mean_force"];
+/// Outputs that a report asks for, whatever the scene shows and whatever the coupling needs.
+const OUTPUTS: [&str; 3] = ["indentation", "residual_indentation", "dissipated_energy"];
 
 /// The first contact of `scene` alone, with every parameter settable, for a kind of coupling.
 pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
     let mass = (needs == Needs::Mass).then_some(scene.impact.mass);
-    let outputs = &OUTPUTS[..OUTPUTS.len() - usize::from(needs == Needs::Force)];
+    let more = match needs {
+        Needs::Force => None,
+        Needs::PredictedForce => Some("predicted_force"),
+        Needs::MeanForce | Needs::Mass => Some("mean_force"),
+    };
     let mut parameters: Vec<Parameter> = Vec::new();
     // in the order of the table, as the parameters of every scene
     for name in VARIABLES.iter().map(|variable| variable.name.as_str()) {
@@ -31,7 +34,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         description: scene.description.clone(),
         parameters,
         contacts: vec![Group { name: None, count: None, own: Vec::new(), ..scene.contacts[0].clone() }],
-        outputs: outputs.iter().map(|name| (*name).into()).collect(),
+        outputs: OUTPUTS.into_iter().chain(more).map(String::from).collect(),
         loading: scene.loading,
         unloading: scene.unloading,
         damped: scene.damped,

@@ -22,16 +22,20 @@ struct Loaded {
 fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
     let all = [
         (Needs::Force, "the unit"),
+        (Needs::PredictedForce, "the unit with predicted_force"),
         (Needs::MeanForce, "the unit with mean_force"),
         (Needs::Mass, "the unit that knows the mass"),
     ];
-    all.into_iter().take(if scene.damped.is_some() { 1 } else { all.len() })
+    let damped = scene.damped.is_some();
+    all.into_iter().filter(move |(needs, _)| !damped || matches!(needs, Needs::Force | Needs::PredictedForce))
 }
 
 impl Units {
-    /// The work of [`Units::build`].
-    pub fn work(scene: &Scene) -> impl Iterator<Item = Work> {
-        kinds(scene).map(|_| Work::Building)
+    /// The work of [`Units::build`], and the ways that can then be run.
+    pub fn work(scene: &Scene) -> (impl Iterator<Item = Work>, usize) {
+        let kinds: Vec<_> = kinds(scene).map(|(needs, _)| needs).collect();
+        let ways = WAYS.iter().filter(|way| kinds.contains(&way.needs)).count();
+        (kinds.into_iter().map(|_| Work::Building), ways)
     }
 
     /// Builds and loads the units of `scene`.

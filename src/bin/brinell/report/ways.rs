@@ -32,8 +32,10 @@ pub type Advance = fn(&mut Contact, &mut Body, f64) -> Result<(), ImportError>;
 /// What a way to couple needs of the unit.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Needs {
-    /// The force, now or at the end of the next step.
+    /// The force.
     Force,
+    /// The force that it expects at the end of the next step.
+    PredictedForce,
     /// Input derivatives, and the mean force over the step.
     MeanForce,
     /// To know the mass.
@@ -47,44 +49,73 @@ pub struct Way {
     pub what: &'static str,
     pub advance: Advance,
     pub needs: Needs,
+    /// The largest stable step for a linear spring, as `h sqrt(K/m)`: 0 for a way that is stable at no step, infinity for
+    /// one that is at every step. Below, `z = h^2 K/m`, `x` is the indentation and `u = h v`.
+    pub stable: f64,
 }
 
+/// `x' = x + u`, `u' = u - z x`: both eigenvalues have the modulus `sqrt(1 + z)`.
 pub const LATE: Way = Way {
     name: "late force",
     what: "all units at once, with the force of the last step",
     advance: late,
     needs: Needs::Force,
+    stable: 0.0,
 };
+
+/// For a spring the same as leap-frog.
 pub const PREDICTED: Way = Way {
     name: "predicted_force",
     what: "all units at once, with the force that the contact expects",
     advance: predicted,
-    needs: Needs::Force,
+    needs: Needs::PredictedForce,
+    stable: 2.0,
 };
+
+/// `x' = x + u`, `u' = u - z x'`: stable to `z = 4`.
+///
+/// Reference: E. Hairer, C. Lubich, G. Wanner, *Acta Numerica* 12 (2003) 399-450, section 1.
 pub const LEAP_FROG: Way = Way {
     name: "leap-frog",
     what: "the contact first, then the bodies with its new force",
     advance: leap_frog,
     needs: Needs::Force,
+    stable: 2.0,
 };
+
+/// The step also carries the jerk `j` [times `h^3`], which the unit's slope of the force at the end of a step gives, with
+/// the unit's own rate there. With `a = -z x`:
+/// `x' = x + u + a/2 + j/6`, `u' = u - z (x + u/2 + a/6 + j/24)` by the mean force, and `j' = -z (u + a + j/2)`. The
+/// eigenvalue that leaves the unit circle first does so at -1, where the determinant of the step's matrix plus one is
+/// `(576 - 432 z + 48 z^2 - z^3) / 144`: at the square root of the smallest root of `z^3 - 48 z^2 + 432 z - 576`.
 pub const DERIVATIVES: Way = Way {
     name: "input derivatives",
     what: "acceleration and jerk set with the rate, mean_force applied",
     advance: derivatives,
     needs: Needs::MeanForce,
+    stable: 1.269_862_885_454_414,
 };
+
+/// Exact.
 pub const MASS_KNOWN: Way = Way {
     name: "mass known",
     what: "the unit moves the mass within the step, mean_force applied",
     advance: mass_known,
     needs: Needs::Mass,
+    stable: f64::INFINITY,
 };
 
 /// All ways that a report runs.
 pub static WAYS: [Way; 5] = [LATE, PREDICTED, LEAP_FROG, DERIVATIVES, MASS_KNOWN];
 
-/// Steps after which an impact is given up: the longest that a report asks for has half a million.
+/// Steps after which an impact is given up: the longest that a report asks for has sixteen million.
 const LONGEST: u64 = 20_000_000;
+
+/// Gaps [m] of which bodies close at `speed` [m/s] to meet at so many places within a `step` [s], evenly spread: within the
+/// second, since a prediction needs a step before.
+pub fn gaps(speed: f64, step: f64, places: u32) -> impl Iterator<Item = f64> {
+    (0..places).map(move |place| (1.0 + (f64::from(place) + 0.5) / f64::from(places)) * speed * step)
+}
 
 impl Body {
     /// A body that flies at `speed` [m/s].

@@ -4,7 +4,7 @@ mod page;
 
 use super::progress::{Progress, Work};
 use super::unit::Contact;
-use super::ways::Way;
+use super::ways::{Way, gaps};
 use crate::importer::ImportError;
 use brinell::contact::impact::{Impact, Prediction};
 use std::time::Instant;
@@ -40,9 +40,8 @@ pub struct Point {
 
 /// One way over the steps per contact, from few to many.
 pub struct Line {
-    pub way: &'static str,
-    /// What is done, in words.
-    pub what: &'static str,
+    /// None for the unit alone.
+    pub way: Option<&'static Way>,
     /// The other unit that was run; none for that of the scene.
     pub peer: Option<String>,
     pub points: Vec<Point>,
@@ -64,9 +63,6 @@ pub struct Plan<'a> {
     pub progress: &'a Progress,
 }
 
-/// The name of the line that isn't a way to couple.
-pub const ALONE: &str = "unit alone";
-
 impl Plan<'_> {
     /// The numbers of steps per contact, from `fewest` on.
     fn steps(self, fewest: u32) -> impl Iterator<Item = u32> {
@@ -87,21 +83,19 @@ impl Plan<'_> {
     ///
     /// # Errors
     /// [`ImportError`] if the unit refuses a call.
-    pub fn measure(self, contact: &mut Contact, way: &Way) -> Result<Line, ImportError> {
+    pub fn measure(self, contact: &mut Contact, way: &'static Way) -> Result<Line, ImportError> {
         self.progress.say(&format!("error against run time: {}", way.name));
         let points = self.steps(2).map(|steps| self.point(contact, way, steps));
         let points = points.collect::<Result<Vec<_>, _>>()?;
         let order = order(&points);
-        Ok(Line { way: way.name, what: way.what, peer: None, points, order })
+        Ok(Line { way: Some(way), peer: None, points, order })
     }
 
     fn point(self, contact: &mut Contact, way: &Way, steps: u32) -> Result<Point, ImportError> {
         let Plan { impact, prediction, .. } = self;
         let step = prediction.contact_time() / f64::from(steps);
         let mut sums = Sums::default();
-        for phase in 0..self.phases {
-            // in the second step: a prediction needs a step before
-            let gap = (1.0 + (f64::from(phase) + 0.5) / f64::from(self.phases)) * impact.speed * step;
+        for gap in gaps(impact.speed, step, self.phases) {
             contact.start_apart(gap, step)?;
             let began = Instant::now();
             let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
@@ -146,7 +140,7 @@ impl Plan<'_> {
             self.progress.done(self.work_of(steps));
             points.push(sums.point(steps, self.prediction.contact_time() / f64::from(steps)));
         }
-        Ok(Line { way: ALONE, what: "the unit without bodies", peer: None, points, order: None })
+        Ok(Line { way: None, peer: None, points, order: None })
     }
 
     /// Restitution, largest force [N] and dent [m] of a contact that is pressed to the largest indentation and let go, each
@@ -220,6 +214,11 @@ fn order(points: &[Point]) -> Option<f64> {
 }
 
 impl Line {
+    /// What the way is called.
+    pub fn name(&self) -> &'static str {
+        self.way.map_or("unit alone", |way| way.name)
+    }
+
     /// The biggest step from which on the error of restitution stays below `error`.
     pub fn step_for(&self, error: f64) -> Option<&Point> {
         let good = |point: &&Point| point.restitution < error;

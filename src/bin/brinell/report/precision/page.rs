@@ -1,6 +1,6 @@
 //! Error against run time as words, pictures and tables.
 
-use super::{ALONE, Line, Point};
+use super::{Line, Point};
 use crate::plot::{Picture, Series};
 use crate::report::Part;
 use crate::report::data::{Table, number, text};
@@ -12,8 +12,8 @@ impl Line {
     /// What it is called in pictures.
     fn label(&self) -> String {
         match &self.peer {
-            None => self.way.into(),
-            Some(peer) => format!("{peer}: {}", self.way),
+            None => self.name().into(),
+            Some(peer) => format!("{peer}: {}", self.name()),
         }
     }
 }
@@ -39,7 +39,7 @@ fn table(scene: &str, lines: &[Line]) -> Table {
         table.rows.extend(line.points.iter().map(|point| {
             vec![
                 text(line.peer.as_deref().unwrap_or(scene)),
-                text(line.way),
+                text(line.name()),
                 number(f64::from(point.steps)),
                 number(point.step),
                 number(point.restitution),
@@ -57,10 +57,10 @@ fn table(scene: &str, lines: &[Line]) -> Table {
 /// The fitted orders.
 fn orders(scene: &str, lines: &[Line]) -> Table {
     let mut table = Table::new("orders", [("unit", ""), ("way", ""), ("order", "")]);
-    let coupled = lines.iter().filter(|line| line.way != ALONE);
+    let coupled = lines.iter().filter(|line| line.way.is_some());
     let row = |line: &Line| {
         let unit = line.peer.as_deref().unwrap_or(scene);
-        vec![text(unit), text(line.way), number(line.order.unwrap_or(f64::NAN))]
+        vec![text(unit), text(line.name()), number(line.order.unwrap_or(f64::NAN))]
     };
     table.rows = coupled.map(row).collect();
     table
@@ -69,7 +69,7 @@ fn orders(scene: &str, lines: &[Line]) -> Table {
 /// Error of restitution against run time and against the number of calls, and of the other quantities against steps.
 fn pictures(lines: &[Line]) -> [Picture; 5] {
     let series = |line: &Line, at: &dyn Fn(&Point) -> (f64, f64)| {
-        let least = if line.way == ALONE { LAST_PLACE } else { 0.0 };
+        let least = if line.way.is_none() { LAST_PLACE } else { 0.0 };
         // max would make a number of NaN
         let drawn = |(x, y): (f64, f64)| (x, if y < least { least } else { y });
         let points = line.points.iter().map(|point| drawn(at(point))).collect();
@@ -105,7 +105,7 @@ pub fn part(scene: &str, lines: &[Line]) -> Part {
          meet. The largest force is that at the ends of steps, and the time per impact that of this machine. Where two \
          lines coincide the lower one is wider.",
     );
-    if lines.iter().any(|line| line.way == ALONE) {
+    if lines.iter().any(|line| line.way.is_none()) {
         words.push_str(
             " Unit alone: a given way in and out, split into steps of unequal length, beside the same in one step each; \
              what differs is rounding, drawn at 1.1e-16 where it is less.",

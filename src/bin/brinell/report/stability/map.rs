@@ -2,13 +2,13 @@
 
 use super::limit::Limit;
 use super::{Line, MATTERS, ROUNDING, Stability, makes_energy};
-use crate::documentation::digits;
+use crate::numbers::significant;
 use crate::plot::{Class, Map, Row};
 
 /// The map of what was found.
 pub fn of(stability: &Stability) -> Map {
     let row = |line: &Line| Row {
-        name: line.way.into(),
+        name: line.way.name.into(),
         values: line.energies.iter().map(|energy| energy.worst(stability.predicted)).collect(),
         bar: if let Limit::Upto(limit) = line.limit { Some(limit) } else { None },
     };
@@ -17,10 +17,7 @@ pub fn of(stability: &Stability) -> Map {
         x_title: "h sqrt(K/m)".into(),
         columns: columns.unwrap_or_default(),
         rows: stability.lines.iter().map(row).collect(),
-        legend: format!(
-            "rebound energy over incoming energy; predicted: {}",
-            digits(format!("{:.2e}", stability.predicted).parse().expect("a number"))
-        ),
+        legend: format!("rebound energy over incoming energy; predicted: {}", significant(stability.predicted, 3)),
         classes: classes(stability.predicted),
         bar_legend: "largest stable step of a pressed body".into(),
     }

@@ -4,14 +4,14 @@ mod limit;
 mod map;
 mod words;
 
-use super::data::{Cell, Table, number, text};
+use super::data::{Table, number, text};
 use super::progress::{Progress, Work};
 use super::unit::Contact;
 use super::units::Contacts;
-use super::ways::Way;
+use super::ways::{Way, gaps};
 use super::{Part, drawn};
-use crate::documentation::digits;
 use crate::importer::ImportError;
+use crate::numbers::digits;
 use crate::plot::{Picture, Series};
 use brinell::contact::impact::{Impact, Prediction};
 use limit::Limit;
@@ -19,7 +19,7 @@ use limit::Limit;
 /// What was found; steps are told as `h sqrt(K/m)`.
 pub struct Stability {
     /// Largest stiffness of the impact: that of the way back from the largest indentation [N/m].
-    pub stiffness: f64,
+    stiffness: f64,
     /// `sqrt(K/m)` [1/s].
     frequency: f64,
     /// Rebound energy over the incoming one, as predicted.
@@ -29,7 +29,7 @@ pub struct Stability {
 
 /// One way over the steps.
 struct Line {
-    way: &'static str,
+    way: &'static Way,
     energies: Vec<Energy>,
     limit: Limit,
 }
@@ -42,9 +42,9 @@ struct Energy {
 }
 
 /// The impact that is run.
-pub struct Setting<'a> {
-    pub impact: &'a Impact,
-    pub prediction: &'a Prediction,
+struct Setting<'a> {
+    impact: &'a Impact,
+    prediction: &'a Prediction,
     /// As in [`Stability`] [1/s].
     frequency: f64,
     /// Places within a step where the bodies meet.
@@ -78,7 +78,7 @@ pub fn measure(
         progress.say(&format!("stability: {}", way.name));
         let contact = contacts.of(way);
         let energies = energies(contact, way, &setting)?;
-        lines.push(Line { way: way.name, energies, limit: limit::find(contact, way, &setting)? });
+        lines.push(Line { way, energies, limit: limit::find(contact, way, &setting)? });
         progress.done(Work::Way);
     }
     Ok(Stability { stiffness, frequency, predicted: prediction.rebound_energy / prediction.energy, lines })
@@ -91,8 +91,7 @@ fn energies(contact: &mut Contact, way: &Way, setting: &Setting) -> Result<Vec<E
         let relative = RANGE.0 * (RANGE.1 / RANGE.0).powf(f64::from(point) / f64::from(POINTS));
         let step = relative / frequency;
         let mut energy = Energy { relative, lowest: f64::INFINITY, highest: 0.0 };
-        for phase in 0..phases {
-            let gap = (1.0 + (f64::from(phase) + 0.5) / f64::from(phases)) * impact.speed * step;
+        for gap in gaps(impact.speed, step, phases) {
             contact.start(&[("initial_gap", gap)])?;
             let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
             let ratio = (rebound.speed / impact.speed).powi(2);
@@ -145,7 +144,7 @@ impl Stability {
             table.rows.extend(line.energies.iter().map(|energy| {
                 let step = number(energy.relative / self.frequency);
                 let (lowest, highest) = (number(energy.lowest), number(energy.highest));
-                vec![text(line.way), number(energy.relative), step, lowest, highest, text(energy.verdict())]
+                vec![text(line.way.name), number(energy.relative), step, lowest, highest, text(energy.verdict())]
             }));
         }
         table
@@ -165,14 +164,10 @@ impl Stability {
         for line in &self.lines {
             let limit = if let Limit::Upto(limit) = line.limit { limit } else { f64::NAN };
             table.rows.push(vec![
-                text(line.way),
+                text(line.way.name),
                 text(line.limit.words()),
                 number(limit),
-                match limit::theory(line.way) {
-                    Some(f64::INFINITY) => text("every step"),
-                    Some(limit) => number(limit),
-                    None => Cell::Empty,
-                },
+                if line.way.stable < f64::INFINITY { number(line.way.stable) } else { text("every step") },
                 number(limit / self.frequency),
                 number(line.makes_energy_from().unwrap_or(f64::NAN)),
             ]);
@@ -183,7 +178,7 @@ impl Stability {
     /// Rebound energies against steps.
     fn curves(&self) -> Picture {
         let line = |line: &Line| Series {
-            label: line.way.into(),
+            label: line.way.name.into(),
             points: line.energies.iter().map(|energy| (energy.relative, energy.worst(self.predicted))).collect(),
             dots: false,
         };

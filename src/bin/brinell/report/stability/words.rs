@@ -1,8 +1,8 @@
 //! Stability in words, and for programs.
 
 use super::limit::Limit;
-use super::{Line, MATTERS, RANGE, Stability, limit};
-use crate::documentation::digits;
+use super::{Line, MATTERS, RANGE, Stability};
+use crate::numbers::{digits, significant};
 use crate::report::ways::{LATE, LEAP_FROG, MASS_KNOWN};
 use serde_json::{Value, json};
 
@@ -25,14 +25,14 @@ impl Limit {
 impl Stability {
     /// The limit of a way, if it was measured.
     fn limit(&self, way: &str) -> Option<Limit> {
-        self.lines.iter().find(|line| line.way == way).map(|line| line.limit)
+        self.lines.iter().find(|line| line.way.name == way).map(|line| line.limit)
     }
 
     /// Up to which step each way is stable, and what to change to go further.
     pub fn sentences(&self) -> Vec<String> {
         let told = |relative: f64| format!("{} s (h sqrt(K/m) = {relative:.3})", digits(relative / self.frequency));
         let sentence = |line: &Line| {
-            let begin = format!("With {}, a pressed body stays at rest", line.way);
+            let begin = format!("With {}, a pressed body stays at rest", line.way.name);
             match line.limit {
                 Limit::Upto(limit) => format!("{begin} up to a step of {}.", told(limit)),
                 Limit::Every => format!("{begin} at every step that was tried, the largest {}.", told(RANGE.1)),
@@ -57,7 +57,7 @@ impl Stability {
     /// What to use where a way is stable at no step.
     fn instead(&self) -> String {
         let others = self.lines.iter().filter(|line| !matches!(line.limit, Limit::None));
-        match others.map(|line| line.way).collect::<Vec<_>>().as_slice() {
+        match others.map(|line| line.way.name).collect::<Vec<_>>().as_slice() {
             [] => String::new(),
             others => format!(": use {} instead", others.join(" or ")),
         }
@@ -68,7 +68,7 @@ impl Stability {
         let makes = self.lines.iter().filter_map(|line| {
             let first = line.energies.iter().find(|energy| energy.highest > MATTERS)?;
             let step = first.relative / self.frequency;
-            Some(format!("with {} from a step of {} s on", line.way, digits(format!("{step:.1e}").parse().ok()?)))
+            Some(format!("with {} from a step of {} s on", line.way.name, significant(step, 2)))
         });
         let makes: Vec<_> = makes.collect();
         let energy = format!("over {:.0} % more energy than came in", 100.0 * (MATTERS - 1.0));
@@ -86,8 +86,8 @@ impl Stability {
             .iter()
             .map(|line| {
                 let limit = line.limit.step();
-                let theory = limit::theory(line.way).filter(|limit| limit.is_finite());
-                json!({ "way": line.way, "stable": line.limit.words(), "h_sqrt(K/m)": limit,
+                let theory = Some(line.way.stable).filter(|limit| limit.is_finite());
+                json!({ "way": line.way.name, "stable": line.limit.words(), "h_sqrt(K/m)": limit,
                         "step_s": limit.map(|limit| limit / self.frequency), "elastic_theory": theory })
             })
             .collect();
