@@ -3,13 +3,21 @@
 #[path = "support/physics.rs"]
 mod physics;
 
-use brinell::contact::History;
 use brinell::contact::impact::{Impact, predict};
+use brinell::contact::{History, Pair};
 use physics::{AnyModel, Random, all_models, model, pair_of};
 
 /// Any number over the decades from `10^low` to `10^high`.
 fn decades(random: &mut Random, low: f64, high: f64) -> f64 {
     10f64.powf(low + (high - low) * random.next())
+}
+
+/// A sphere of any radius [m] on a target of any modulus [Pa] and strength [Pa].
+fn bodies(random: &mut Random) -> (f64, Pair) {
+    let modulus = decades(random, 3.0, 15.0);
+    let strength = modulus * decades(random, -9.0, 0.0);
+    let radius = decades(random, -9.0, 3.0);
+    (radius, pair_of(radius, modulus, strength))
 }
 
 /// Force, stiffness, dent, contact radius and energies of the contact must be numbers.
@@ -32,14 +40,12 @@ fn a_contact_shows_numbers_or_is_refused_for_any_bodies_and_depth() {
     let mut random = Random(2015);
     let (mut shown, mut refused) = (0, 0);
     for _ in 0..400 {
-        let modulus = decades(&mut random, 3.0, 15.0);
-        let strength = modulus * decades(&mut random, -9.0, 0.0);
-        let radius = decades(&mut random, -9.0, 3.0);
-        for (name, model) in all_models(pair_of(radius, modulus, strength)) {
+        let (radius, pair) = bodies(&mut random);
+        for (name, model) in all_models(pair) {
             let depth = radius * decades(&mut random, -12.0, 6.0);
             let mut history = History::start(&model, 0.0).unwrap();
             let before = history;
-            let what = format!("{name}, R = {radius:e}, E* = {modulus:e}, S = {strength:e}, d = {depth:e}");
+            let what = format!("{name}, {pair:?}, d = {depth:e}");
             if history.advance(depth, || model).is_err() {
                 assert_eq!(history, before, "{what}: a refused step moves nothing");
                 refused += 1;
@@ -59,11 +65,9 @@ fn a_prediction_is_of_numbers_or_there_is_none() {
     let mut random = Random(1985);
     let (mut found, mut none) = (0, 0);
     for _ in 0..40 {
-        let modulus = decades(&mut random, 3.0, 15.0);
-        let strength = modulus * decades(&mut random, -9.0, 0.0);
-        let radius = decades(&mut random, -9.0, 3.0);
+        let (radius, pair) = bodies(&mut random);
         let impact = Impact { mass: 1e4 * radius.powi(3), speed: decades(&mut random, -9.0, 4.0) };
-        for (name, model) in all_models(pair_of(radius, modulus, strength)) {
+        for (name, model) in all_models(pair) {
             let Some(prediction) = predict(&model, &impact) else {
                 none += 1;
                 continue;
@@ -77,7 +81,7 @@ fn a_prediction_is_of_numbers_or_there_is_none() {
                 prediction.restitution,
                 prediction.contact_time(),
             ];
-            let what = format!("{name}, R = {radius:e}, E* = {modulus:e}, S = {strength:e}, {impact:?}");
+            let what = format!("{name}, {pair:?}, {impact:?}");
             assert!(numbers.iter().all(|number| number.is_finite()), "{what}: {prediction:?}");
             assert!(prediction.loading_time > 0.0 && prediction.unloading_time > 0.0, "{what}: {prediction:?}");
             found += 1;

@@ -23,7 +23,7 @@ const HALVINGS: u32 = 60;
 /// The indentation up to which a law is valid on a sphere of effective `radius` [m]: where its `contact_radius`, a function of
 /// the indentation [m], reaches [`LARGEST_RADIUS_RATIO`].
 ///
-/// It rises with every law, and at an indentation of `R` it is larger than Hertz's, which is `R` there.
+/// It rises with every law, and at an indentation of `R`, where Hertz's is `R`, it is far above that.
 #[inline(never)]
 pub fn largest_indentation(radius: f64, contact_radius: impl Fn(f64) -> f64) -> f64 {
     let (mut depth, mut width) = (0.0, radius);

@@ -93,7 +93,7 @@ impl Report {
         let cases = extremes::measure(contacts.plain(), &alone, quick, progress);
         progress.say("laws side by side");
         let (laws, spread) = spread::part(&alone);
-        let failed = cases.iter().filter(|case| case.failure.is_some()).count();
+        let failed = cases.iter().filter(|case| case.has_failed()).count();
         let judged = cases.iter().filter(|case| case.is_judged()).count();
         let (mut summary, recommendations) = summary::summarize(&lines, &stability, &prediction, (judged, failed));
         summary.extend(spread);

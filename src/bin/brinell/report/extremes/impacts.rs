@@ -1,6 +1,6 @@
 //! Impacts far from the scene's: of harder, stronger, larger and faster bodies, and of softer, weaker, smaller and slower ones.
 
-use super::{Case, NOT_JUDGED, TOLERANCE};
+use super::{Case, TOLERANCE, Verdict};
 use crate::importer::ImportError;
 use crate::model::AnyModel;
 use crate::report::progress::{Progress, Work};
@@ -128,19 +128,18 @@ pub fn run(contact: &mut Contact, scene: &Scene, quick: bool, progress: &Progres
 
 /// How much finer a step is tried whose master has missed the peak of the force: that of a damped contact may be right behind
 /// the first touch. Each try may take more steps.
-const FINER: [f64; 3] = [1.0, 8.0, 64.0];
+const FINER: [f64; 2] = [8.0, 64.0];
 
 /// An impact by leap-frog with so many `steps` of its shorter half, at `most` so many of the whole.
 fn impact(contact: &mut Contact, name: &str, bodies: &Bodies, (steps, most): (f64, f64)) -> Case {
     let Some(prediction) = bodies.predict() else { return without_prediction(contact, name, bodies, steps) };
     let shorter = prediction.loading_time.min(prediction.unloading_time);
-    let mut case = Case::new(name, TOLERANCE);
-    for finer in FINER {
-        let step = (shorter / steps / finer).max(prediction.contact_time() / most / finer.sqrt());
-        if case.failure.is_none() && case.step.is_finite() || step == case.step {
-            break;
+    let step = |finer: f64| (shorter / steps / finer).max(prediction.contact_time() / most / finer.sqrt());
+    let mut case = by_steps(contact, name, bodies, &prediction, step(1.0));
+    for step in FINER.map(step) {
+        if case.has_failed() && step < case.step {
+            case = by_steps(contact, name, bodies, &prediction, step);
         }
-        case = by_steps(contact, name, bodies, &prediction, step);
     }
     case
 }
@@ -154,7 +153,7 @@ fn by_steps(contact: &mut Contact, name: &str, bodies: &Bodies, prediction: &Pre
     let rebound = match run {
         Ok(rebound) => rebound,
         Err(error) => {
-            case.failure = Some(error.to_string());
+            case.verdict = Verdict::Failed(error.to_string());
             return case;
         }
     };
@@ -174,16 +173,16 @@ const ROUNDING: f64 = 1e-9;
 fn without_prediction(contact: &mut Contact, name: &str, bodies: &Bodies, steps: f64) -> Case {
     let mut case = Case::new(name, TOLERANCE);
     if bodies.model.elastoplastic().is_none() {
-        case.remark = Some(format!("{NOT_JUDGED}the bodies creep apart without end"));
+        case.verdict = Verdict::NotJudged("the bodies creep apart without end");
         return case;
     }
     let Impact { mass, speed } = bodies.impact;
     // as deep as Hertz's law would be; a law that yields is softer
     let depth = (0.5 * mass * speed * speed / (0.4 * bodies.model.pair().hertz_stiffness())).powf(0.4);
     case.step = depth / speed / steps;
-    match bodies.start(contact).and_then(|()| LEAP_FROG.impact(contact, mass, speed, case.step)) {
-        Ok(_) => case.failure = Some("there is no prediction, and the unit goes on".into()),
-        Err(error) => case.remark = Some(format!("right to refuse it: {error}")),
-    }
+    case.verdict = match bodies.start(contact).and_then(|()| LEAP_FROG.impact(contact, mass, speed, case.step)) {
+        Ok(_) => Verdict::Failed("there is no prediction, and the unit goes on".into()),
+        Err(error) => Verdict::Refused(error.to_string()),
+    };
     case
 }

@@ -35,10 +35,17 @@ pub struct Case {
     pub beyond: Vec<Beyond>,
     /// Whether the law itself gives back more than it took.
     makes_energy: bool,
-    /// What is to be said of a case that isn't just right.
-    pub remark: Option<String>,
-    /// Why it failed.
-    pub failure: Option<String>,
+    pub verdict: Verdict,
+}
+
+/// What a case was found to be.
+pub enum Verdict {
+    Right,
+    /// The unit was right to refuse it, and said why.
+    Refused(String),
+    /// There is nothing to judge it by.
+    NotJudged(&'static str),
+    Failed(String),
 }
 
 /// How many cases there are, to a few that a law may leave out.
@@ -56,13 +63,15 @@ pub fn measure(contact: &mut Contact, scene: &Scene, quick: bool, progress: &Pro
     cases
 }
 
-/// What begins the remark on a case that nothing can be said of.
-const NOT_JUDGED: &str = "not judged: ";
-
 impl Case {
     /// Whether it was judged.
     pub fn is_judged(&self) -> bool {
-        !self.remark.as_ref().is_some_and(|remark| remark.starts_with(NOT_JUDGED))
+        !matches!(self.verdict, Verdict::NotJudged(_))
+    }
+
+    /// Whether it has failed.
+    pub fn has_failed(&self) -> bool {
+        matches!(self.verdict, Verdict::Failed(_))
     }
 
     /// A case that is yet to be run.
@@ -78,8 +87,7 @@ impl Case {
             errors,
             tolerance,
             makes_energy: false,
-            remark: None,
-            failure: None,
+            verdict: Verdict::NotJudged("not run"),
         }
     }
 
@@ -95,17 +103,19 @@ impl Case {
         let (force, energy) = self.errors;
         // NaN is not right
         let right = |error: f64| error <= self.tolerance;
-        self.failure = if !right(force) {
-            Some(format!("the force is off by {force:e}"))
+        let failure = if !right(force) {
+            format!("the force is off by {force:e}")
         } else if !right(energy) {
-            Some(format!("the energy is off by {energy:e}"))
+            format!("the energy is off by {energy:e}")
         } else if !passive {
-            Some("it makes energy".into())
+            "it makes energy".into()
         } else if self.told != self.beyond.len() {
-            Some(format!("{} limits of validity were left, and the unit told of {}", self.beyond.len(), self.told))
+            format!("{} limits of validity were left, and the unit told of {}", self.beyond.len(), self.told)
         } else {
-            None
+            self.verdict = Verdict::Right;
+            return;
         };
+        self.verdict = Verdict::Failed(failure);
     }
 }
 
@@ -126,10 +136,11 @@ fn table(cases: &[Case]) -> Table {
         ],
     );
     for case in cases {
-        let verdict = match (&case.failure, &case.remark) {
-            (Some(why), _) => format!("FAILED: {why}"),
-            (None, Some(remark)) => remark.clone(),
-            (None, None) => "right".into(),
+        let verdict = match &case.verdict {
+            Verdict::Right => "right".into(),
+            Verdict::Refused(message) => format!("right to refuse it: {message}"),
+            Verdict::NotJudged(why) => format!("not judged: {why}"),
+            Verdict::Failed(why) => format!("FAILED: {why}"),
         };
         let warning = |beyond: &Beyond| match beyond {
             Beyond::Width(_) => format!("a/R above {LARGEST_RADIUS_RATIO}"),
@@ -161,7 +172,8 @@ pub fn part(cases: &[Case]) -> Part {
         words: format!(
             "Each is stepped through the unit. Impacts by leap-frog must agree with the energy balance to {}; their mass grows \
              as the volume of the sphere, and with E the yield strength. Prescribed motions, in and out again, must dissipate \
-             what the law says to {:e} of the work, and leave the force that it says: none, but for a law that makes energy. What leaves the validity of the law (contact radius \
+             what the law says to {:e} of the work, and leave the force that it says: none, but for a law that makes energy. \
+             What leaves the validity of the law (contact radius \
              over effective radius, speed over wave speed) must be told in the unit's log, nothing else; and where the law \
              can't be evaluated the unit must refuse the step.",
             TOLERANCE, EXACT

@@ -1,7 +1,7 @@
 //! Motions that no sane master would make.
 
 use super::impacts::Bodies;
-use super::{Case, EXACT};
+use super::{Case, EXACT, Verdict};
 use crate::importer::ImportError;
 use crate::report::progress::{Progress, Work};
 use crate::report::unit::Contact;
@@ -117,7 +117,7 @@ fn judge(contact: &mut Contact, bodies: &Bodies, model: &Model<AnyLoading, AnyUn
     let ran = bodies.start(contact).and_then(|()| run(contact));
     let ended = ran.and_then(|()| Ok((contact.force()?, contact.output("dissipated_energy")?)));
     match ended {
-        Err(error) => case.failure = Some(error.to_string()),
+        Err(error) => case.verdict = Verdict::Failed(error.to_string()),
         Ok((force, dissipated)) => {
             case.note_validity(contact, bodies, model.loading.contact_radius(&model.pair, depth));
             // the energy of a tiny indentation is below the smallest number

@@ -23,8 +23,8 @@ pub fn of(stability: &Stability) -> Map {
     }
 }
 
-/// The classes about the `predicted` ratio: blue below it, yellow to orange above, and red where energy is made. A page in the dark turns dark
-/// red into pink, so that no red is very dark.
+/// The classes about the `predicted` ratio: blue below it, yellow to orange above, and red where energy is made. A page in the
+/// dark turns dark red into pink, so that no red is very dark.
 fn classes(predicted: f64) -> Vec<Class> {
     // rounding makes no energy
     let most = 1.0 + ROUNDING;
