@@ -13,12 +13,11 @@ mod exporter {
     use std::path::{Path, PathBuf};
     use std::{env, fs};
 
-    /// The files with exported functions.
-    const INTERFACE: [&str; 4] =
-        ["src/fmi2/lifecycle.rs", "src/fmi2/variables.rs", "src/fmi2/stepping.rs", "src/fmi2/states.rs"];
+    /// The file with the exported functions.
+    const INTERFACE: &str = "src/fmi2/exports.rs";
 
     /// The exporter's own files, and the one that it writes anew for every scene.
-    const NOT_EMBEDDED: [&str; 2] = ["src/bin", "src/scene.rs"];
+    const NOT_EMBEDDED: [&str; 2] = ["src/bin", "src/scene/exported.rs"];
 
     pub fn prepare() {
         let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
@@ -43,10 +42,7 @@ mod exporter {
             export: cbindgen::ExportConfig { item_types: vec![cbindgen::ItemType::Functions], ..Default::default() },
             ..Default::default()
         };
-        let mut builder = cbindgen::Builder::new().with_config(config);
-        for file in INTERFACE {
-            builder = builder.with_src(root.join(file));
-        }
+        let builder = cbindgen::Builder::new().with_config(config).with_src(root.join(INTERFACE));
         builder.generate().expect("the interface has a C header").write_to_file(header);
     }
 

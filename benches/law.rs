@@ -34,7 +34,7 @@ fn history(model: &Steel, increments: &[f64]) -> History {
     let unit = model.loading.yield_point(&model.pair).indentation;
     let mut history = History::start(model, 0.0).expect("no gap is in range");
     for increment in increments {
-        history.advance(increment * unit, || *model).expect("the path is in range");
+        history.advance(model, increment * unit).expect("the path is in range");
     }
     history
 }
@@ -64,7 +64,7 @@ fn step_on_a_branch(criterion: &mut Criterion) {
         let mut history = start;
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
-                history.advance(black_box(increment), || model).expect("the step is in range");
+                history.advance(&model, black_box(increment)).expect("the step is in range");
                 history.force()
             });
         });
@@ -87,7 +87,7 @@ fn change_of_branch(criterion: &mut Criterion) {
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
                 let mut history = black_box(start);
-                history.advance(black_box(increment), || model).expect("the step is in range");
+                history.advance(&model, black_box(increment)).expect("the step is in range");
                 history
             });
         });

@@ -30,23 +30,24 @@
 //! let model = Model { pair, loading: BigAlabo::REFERENCE, unloading: ContactRadius, surface: Surface::Dented };
 //!
 //! let mut history = History::start(&model, 0.0).unwrap();
-//! history.advance(10e-6, || model).unwrap(); // 10 um in
-//! history.advance(-1e-6, || model).unwrap(); // 1 um back
+//! history.advance(&model, 10e-6).unwrap(); // 10 um in
+//! history.advance(&model, -1e-6).unwrap(); // 1 um back
 //! assert!(history.force() > 0.0 && history.residual_indentation(&model) > 7e-6);
 //!
 //! let outcome = impact::predict(&model, &impact::Impact { mass: 4.11e-3, speed: 1.0 }).unwrap();
 //! assert!((outcome.restitution - 0.4463).abs() < 1e-4);
 //! ```
 //!
-//! # The house
-//! | where | what |
+//! # Modules
+//! | module | what it has |
 //! |---|---|
 //! | [`contact`] | the physics: not one word of FMI |
+//! | [`scene`] | which contacts there are, by which laws, and which variables: a trait, and the scene of an exported FMU |
 //! | [`instance`] | co-simulation as safe Rust: phase, time, variables, step, reset |
-//! | [`coupling`] | the course of an input in a step, and the momentum of the last one |
-//! | [`variable`] | the variables that there can be |
-//! | [`scene`] | which laws and variables a unit has: written by the exporter |
-//! | `fmi2` (feature `fmu`) | the C interface, and the only `unsafe` of the library |
+//! | `fmi2` (feature `c-interface`) | the C interface, and the only `unsafe` of the library |
+//!
+//! Each uses the ones above it only. For the physics alone depend on this crate with `default-features = false`: it then
+//! brings `libm` and nothing else.
 //!
 //! The library needs neither `std` nor `alloc`, and cannot panic.
 //!
@@ -56,15 +57,12 @@
 //! - K. L. Johnson, *Contact Mechanics*, Cambridge University Press, 1985.
 //! - *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.5.
 #![cfg_attr(not(test), no_std)]
+#![deny(unsafe_code)]
+#![deny(rustdoc::broken_intra_doc_links)]
 #![warn(missing_docs)]
-// [m] and [Pa] are units, not links
-#![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod contact;
-pub mod coupling;
-pub mod fault;
-#[cfg(feature = "fmu")]
+#[cfg(feature = "c-interface")]
 pub mod fmi2;
 pub mod instance;
 pub mod scene;
-pub mod variable;

@@ -3,13 +3,14 @@
 #[path = "support/physics.rs"]
 mod physics;
 
+use brinell::contact::Contact;
+use brinell::contact::behaviour::is_finite_at;
 use brinell::contact::damped::hunt_crossley::DampingFactor;
 use brinell::contact::damped::tsuji::TsujiDamping;
 use brinell::contact::damped::{
     Adams, AnyDamped, Damped, History, HuntCrossley, KelvinVoigt, KuwabaraKono, Model, Tsuji, impact,
 };
 use brinell::contact::impact::{Impact, Prediction};
-use brinell::contact::path::Course;
 use physics::{MASS, logarithmic, mild};
 use std::f64::consts::PI;
 
@@ -157,12 +158,12 @@ fn the_impact_function_is_that_of_the_manuals() {
     let stiffness = 2.0 * mild().hertz_stiffness() * 1e-4f64.powf(1.5) / 1e-4f64.powf(2.2);
     for (depth, step) in [(0.5e-4, 0.5), (0.25e-4, 0.0625 * 2.5), (1e-4, 1.0), (3e-4, 1.0)] {
         let mut history = History::start(&model, 0.0).unwrap();
-        history.step(depth, 1.0, || model).unwrap();
+        history.advance(depth, 1.0).unwrap();
         for rate in [0.3, 0.0, -0.2] {
             let expected = stiffness * depth.powf(2.2) + 50.0 * step * rate;
-            assert_close(&format!("force at {depth}"), history.force_at_rate(rate), expected, 1e-12);
+            assert_close(&format!("force at {depth}"), history.force(rate), expected, 1e-12);
         }
-        assert_eq!(history.force_at_rate(-1e9), 0.0, "the surface doesn't pull");
+        assert_eq!(history.force(-1e9), 0.0, "the surface doesn't pull");
     }
 }
 
@@ -190,9 +191,9 @@ fn work_is_the_integral_of_the_force_and_heat_never_falls() {
             {
                 let step = way / f64::abs(rate) / f64::from(pieces);
                 for _ in 0..pieces {
-                    let before = history.force_at_rate(rate);
-                    history.step(rate, step, || model).unwrap();
-                    let after = history.force_at_rate(rate);
+                    let before = history.force(rate);
+                    history.advance(rate, step).unwrap();
+                    let after = history.force(rate);
                     work += 0.5 * (before + after) * rate * step;
                     largest = largest.max(work.abs());
                     assert!(history.dissipated_energy(&model) >= heat, "{name}: heat falls");
@@ -212,9 +213,9 @@ fn one_step_does_what_a_thousand_do() {
         let model = model_of(law, 0.4);
         let (mut one, mut many) = (History::start(&model, 1e-6).unwrap(), History::start(&model, 1e-6).unwrap());
         for (rate, time) in [(1.0, 2.1e-5), (-20.0, 0.5e-6), (0.4, 3e-5), (-3.0, 8e-6), (-3.0, 4e-6)] {
-            one.step(rate, time, || model).unwrap();
+            one.advance(rate, time).unwrap();
             for _ in 0..1000 {
-                many.step(rate, time / 1000.0, || model).unwrap();
+                many.advance(rate, time / 1000.0).unwrap();
             }
             let scale = one.work(&model);
             assert!((one.indentation() - many.indentation()).abs() < 1e-19, "{name}");
@@ -232,18 +233,18 @@ fn stiffness_is_the_slope_of_the_force_at_a_held_rate() {
         for depth in logarithmic(1e-8, 1e-3, 30) {
             let at = |depth: f64| {
                 let mut history = History::start(&model, 0.0).unwrap();
-                history.step(1.0, depth, || model).unwrap();
+                history.advance(1.0, depth).unwrap();
                 history
             };
             for rate in [2.0, 0.0, -0.1] {
                 let width = 1e-6 * depth;
-                let (low, high) = (at(depth - width).force_at_rate(rate), at(depth + width).force_at_rate(rate));
+                let (low, high) = (at(depth - width).force(rate), at(depth + width).force(rate));
                 if low <= 0.0 || high <= 0.0 {
                     continue;
                 }
                 let slope = (high - low) / (2.0 * width);
-                let scale = slope.abs() + at(depth).force_at_rate(rate) / depth;
-                let error = (at(depth).stiffness_at_rate(rate) - slope).abs() / scale;
+                let scale = slope.abs() + at(depth).force(rate) / depth;
+                let error = (at(depth).stiffness(rate) - slope).abs() / scale;
                 assert!(error < 1e-6, "{name} at {depth:e} m, {rate} m/s: off by {error:e}");
             }
         }
@@ -256,14 +257,14 @@ fn the_touch_speed_is_that_of_the_step_that_closes_the_contact() {
     let force =
         |depth: f64, rate: f64, touch: f64| mild().hertz_stiffness() * depth.powf(1.5) * (1.0 + 0.75 * rate / touch);
     let mut history = History::start(&model, 1e-6).unwrap();
-    history.step(2.0, 1e-6, || model).unwrap();
-    assert_close("after the touch", history.force_at_rate(2.0), force(1e-6, 2.0, 2.0), 1e-9);
-    history.step(0.5, 2e-6, || model).unwrap();
-    assert_close("slower now", history.force_at_rate(0.5), force(2e-6, 0.5, 2.0), 1e-9);
-    history.step(-1.0, 3e-6, || model).unwrap();
-    assert_eq!((history.force_at_rate(-1.0), history.force_at_rate(1.0)), (0.0, 0.0), "apart");
-    history.step(0.25, 8e-6, || model).unwrap();
-    assert_close("touched again", history.force_at_rate(0.25), force(1e-6, 0.25, 0.25), 1e-9);
+    history.advance(2.0, 1e-6).unwrap();
+    assert_close("after the touch", history.force(2.0), force(1e-6, 2.0, 2.0), 1e-9);
+    history.advance(0.5, 2e-6).unwrap();
+    assert_close("slower now", history.force(0.5), force(2e-6, 0.5, 2.0), 1e-9);
+    history.advance(-1.0, 3e-6).unwrap();
+    assert_eq!((history.force(-1.0), history.force(1.0)), (0.0, 0.0), "apart");
+    history.advance(0.25, 8e-6).unwrap();
+    assert_close("touched again", history.force(0.25), force(1e-6, 0.25, 0.25), 1e-9);
 }
 
 #[test]
@@ -271,12 +272,12 @@ fn a_contact_that_starts_pressed_in_counts_its_first_closing_rate_as_the_touch()
     let model = model_of(hunt_crossley(DampingFactor::HuntCrossley), 0.5);
     let mut history = History::start(&model, -1e-6).unwrap();
     let elastic = mild().hertz_stiffness() * 1e-9;
-    assert_close("no damping yet", history.force_at_rate(3.0), elastic, 1e-12);
-    history.step(-0.1, 1e-6, || model).unwrap();
-    history.step(4.0, 0.1e-6, || model).unwrap();
+    assert_close("no damping yet", history.force(3.0), elastic, 1e-12);
+    history.advance(-0.1, 1e-6).unwrap();
+    history.advance(4.0, 0.1e-6).unwrap();
     let depth = 1e-6 - 0.1e-6 + 0.4e-6;
     let expected = mild().hertz_stiffness() * f64::powf(depth, 1.5) * 1.75;
-    assert_close("damped", history.force_at_rate(4.0), expected, 1e-9);
+    assert_close("damped", history.force(4.0), expected, 1e-9);
 }
 
 #[test]
@@ -286,16 +287,16 @@ fn what_is_not_refused_is_finite_and_nothing_physical_is_refused() {
         for depth in logarithmic(1e-300, 1e99, 120) {
             for rate in [1e-300, 1e-9, 1e4] {
                 let mut history = History::start(&model, 0.0).unwrap();
-                let stepped = history.step(rate, depth / rate, || model);
+                let stepped = history.advance(rate, depth / rate);
                 let physical = depth > 1e-18 && depth < 1e3 && rate > 1e-10;
                 assert!(stepped.is_ok() || !physical, "{name} at {depth:e} m, {rate} m/s");
                 for now in [rate, -rate, 0.0, 1e5, 1e200] {
-                    let finite = history.is_finite_at_rate(now);
+                    let finite = is_finite_at(&history, now);
                     assert!(finite || !physical || now > 1e5, "{name} at {depth:e} m, {now} m/s");
                     let values = [
-                        history.force_at_rate(now),
-                        history.stiffness_at_rate(now),
-                        history.mean_pressure_at_rate(&model, now),
+                        history.force(now),
+                        history.stiffness(now),
+                        history.mean_pressure(&model, now),
                         history.work(&model),
                     ];
                     assert!(!finite || values.iter().all(|value| value.is_finite()), "{name} at {depth:e}: {values:?}");
@@ -313,7 +314,7 @@ fn indentations_out_of_range_are_refused_and_change_nothing() {
     let mut history = History::start(&model, -1e-6).unwrap();
     let before = history;
     for rate in [1e200, -1e200, f64::NAN, f64::INFINITY] {
-        assert!(history.step(rate, 1.0, || model).is_err(), "{rate}");
+        assert!(history.advance(rate, 1.0).is_err(), "{rate}");
         assert_eq!(history, before);
     }
 }
@@ -323,16 +324,18 @@ fn a_stored_history_goes_on_as_before() {
     for (name, law) in every_law() {
         let model = model_of(law, 0.5);
         let mut history = History::start(&model, 0.0).unwrap();
-        history.step(1.0, 1e-5, || model).unwrap();
-        history.step(-0.5, 1e-6, || model).unwrap();
-        let mut restored = History::from_words(&history.to_words(), &model).expect("whole");
+        history.advance(1.0, 1e-5).unwrap();
+        history.advance(-0.5, 1e-6).unwrap();
+        let mut words = Vec::new();
+        history.save(&mut |word| words.push(word));
+        let load = |words: &[u64]| History::load(&mut words.iter().copied(), &model);
+        let mut restored = load(&words).expect("whole");
         for contact in [&mut history, &mut restored] {
-            contact.step(-2.0, 1e-6, || model).unwrap();
+            contact.advance(-2.0, 1e-6).unwrap();
         }
         assert_eq!(history, restored, "{name}");
-        let mut damaged = history.to_words();
-        damaged[3] = f64::NAN.to_bits();
-        assert_eq!(History::from_words(&damaged, &model), None, "{name}");
+        words[3] = f64::NAN.to_bits();
+        assert_eq!(load(&words), None, "{name}");
     }
 }
 
@@ -360,14 +363,14 @@ fn the_mean_force_of_a_step_is_that_of_many_small_ones() {
         let mut history = History::start(&model, 1e-6).unwrap();
         // to the surface and in, out slowly, faster than the surface follows, and out of contact
         for (rate, time) in [(1.0, 2.1e-5), (-0.3, 5e-6), (-20.0, 0.5e-6), (0.4, 3e-5), (-3.0, 8e-6), (-3.0, 4e-6)] {
-            let mean = history.mean_force_along(&Course::held(rate), time, &model).unwrap();
+            let mean = history.mean_force(rate, time);
             let parts = 20_000;
             let part = time / f64::from(parts);
             let (mut sum, mut largest) = (0.0, 1e-3f64);
             for _ in 0..parts {
-                let before = history.force_at_rate(rate);
-                history.step(rate, part, || model).unwrap();
-                let after = history.force_at_rate(rate);
+                let before = history.force(rate);
+                history.advance(rate, part).unwrap();
+                let after = history.force(rate);
                 sum += 0.5 * (before + after);
                 largest = largest.max(after);
             }

@@ -46,13 +46,13 @@ fn a_contact_shows_numbers_or_is_refused_for_any_bodies_and_depth() {
             let mut history = History::start(&model, 0.0).unwrap();
             let before = history;
             let what = format!("{name}, {pair:?}, d = {depth:e}");
-            if history.advance(depth, || model).is_err() {
+            if history.advance(&model, depth).is_err() {
                 assert_eq!(history, before, "{what}: a refused step moves nothing");
                 refused += 1;
                 continue;
             }
             check(&what, &history, &model);
-            history.advance(-0.3 * depth, || model).unwrap();
+            history.advance(&model, -0.3 * depth).unwrap();
             check(&format!("{what}, on the way back"), &history, &model);
             shown += 1;
         }
@@ -96,9 +96,9 @@ fn jackson_and_green_end_where_their_fit_overflows() {
     let model = model("jackson-green", "jackson");
     let strong = AnyModel { pair: pair_of(5e-3, 1e11, 1e11), ..model };
     let mut history = History::start(&strong, 0.0).unwrap();
-    let refused = history.advance(1.0, || strong).unwrap_err();
+    let refused = history.advance(&strong, 1.0).unwrap_err();
     assert_eq!(refused.indentation, 1.0);
     assert_eq!(history.force(), 0.0);
-    history.advance(1e-4, || strong).unwrap();
+    history.advance(&strong, 1e-4).unwrap();
     assert!(history.force() > 0.0);
 }

@@ -139,7 +139,7 @@ fn a_small_motion_in_the_dent_of_any_impact_stays_small_and_cheap() {
                 (prediction.max_indentation, prediction.max_indentation - prediction.residual_indentation);
             let frequency = (model.unloading_segment(depth, depth).stiffness(depth) / MASS).sqrt();
             let mut history = History::start(&model, -depth).unwrap();
-            history.advance(-0.01 * elastic, || model).unwrap();
+            history.advance(&model, -0.01 * elastic).unwrap();
             let acceleration = history.force() / MASS;
             let first = 1e-6 * elastic * frequency;
             let (mut rate, mut most) = (first, 0);

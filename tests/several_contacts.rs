@@ -175,13 +175,21 @@ fn one_wrong_reference_or_value_and_nothing_is_set() {
 
 #[test]
 fn a_refused_step_names_the_contact_and_moves_none() {
-    let unit = several("mixed", &["name = \"left\"\n".into(), "name = \"row\"\ncount = 3\n".into()]);
+    // a law that is a fit, and ends before the deepest indentation where the target is nearly as strong as stiff
+    let strong = "target = { youngs_modulus = 91e9, poissons_ratio = 0.3, yield_strength = 1e11 }\n";
+    let groups = ["name = \"left\"\n".into(), format!("name = \"row\"\ncount = 3\n{strong}")];
+    let mut text =
+        format!("name = \"mixed\"\n{PLAIN}{OUTPUTS}[law]\nloading = \"jackson-green\"\nunloading = \"jackson\"\n");
+    for group in groups {
+        write!(text, "[[contact]]\n{group}").unwrap();
+    }
+    let unit = Unit::load(&write_scene("mixed", &text));
     let mut instance = unit.ready();
     run(&mut instance, 0..5, 4);
     let prefixes = ["left.", "row[1].", "row[2].", "row[3]."];
     let before = prefixes.map(|prefix| outputs(&instance, prefix));
-    assert_eq!(instance.set(&[0, 1, 2, 3], &[1.0, -1.0, 1e300, 2.0]), OK);
-    assert_eq!(instance.step(5.0 * STEP, 1e3), ERROR);
+    assert_eq!(instance.set(&[0, 1, 2, 3], &[1.0, -1.0, 1e3, 2.0]), OK);
+    assert_eq!(instance.step(5.0 * STEP, 1.0), ERROR);
     assert_eq!(prefixes.map(|prefix| outputs(&instance, prefix)), before);
     let message = instance.message();
     assert!(message.contains("row[2]: the indentation would become"), "{message}");

@@ -7,9 +7,9 @@ mod physics;
 
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, largest_speed};
-use brinell::contact::{History, Loading};
+use brinell::contact::{Contact, History, Loading};
 use command::{empty_folder, run};
-use physics::{all_models, mild, pair_of};
+use physics::{AnyModel, all_models, mild, pair_of};
 use std::fs;
 use std::process::Command;
 
@@ -40,11 +40,9 @@ fn a_mark_on_the_way_changes_no_bit_of_the_force() {
             let (mut marked, mut plain) = (History::start(&model, 0.0).unwrap(), History::start(&model, 0.0).unwrap());
             for step in 1..400 {
                 let increment = if step % 7 == 0 { -0.02 * depth } else { 0.01 * depth };
-                if marked.max_indentation() < mark {
-                    marked.notice_at(mark);
-                }
-                marked.advance(increment, || model).unwrap();
-                plain.advance(increment, || model).unwrap();
+                Contact::<AnyModel>::stays_within(&mut marked, mark);
+                marked.advance(&model, increment).unwrap();
+                plain.advance(&model, increment).unwrap();
                 assert_eq!(marked.force().to_bits(), plain.force().to_bits(), "{name} at {}", plain.indentation());
                 assert_eq!(marked.max_indentation(), plain.max_indentation(), "{name}");
             }

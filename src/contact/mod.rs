@@ -2,7 +2,8 @@
 //!
 //! `f64` only; no allocation, no input or output, no panic, no `unsafe`, and nothing of FMI. A [`Model`] says what is in
 //! contact and by which law; a [`History`] is everything a contact remembers. [`History::advance`] moves it along a path,
-//! and force, stiffness, energies and dent are functions of the two.
+//! and force, stiffness, energies and dent are functions of the two. The trait [`Contact`] is what elastoplastic and
+//! [rate-dependent](damped) contacts have in common.
 //!
 //! | module | what |
 //! |---|---|
@@ -13,6 +14,7 @@
 //! | [`path`] | the indentation, summed without loss |
 //! | [`dual`] | slopes of long formulas |
 //! | [`quadrature`] | work and time where there is no closed form |
+//! | [`behaviour`] | the trait [`Contact`] |
 //! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | what an impact will do, from the energy balance |
 //! | [`piece`] | the smooth pieces along which a contact moves |
@@ -21,6 +23,7 @@
 //! | [`damped`] | rate-dependent laws, with a history of their own |
 //! | [`validity`] | up to where the laws hold |
 
+pub mod behaviour;
 pub mod damped;
 pub mod dual;
 pub mod history;
@@ -36,6 +39,7 @@ pub mod segment;
 pub mod unloading;
 pub mod validity;
 
+pub use behaviour::Contact;
 pub use history::{History, Regime, TooDeep};
 pub use loading::Loading;
 pub use material::{Body, Pair};

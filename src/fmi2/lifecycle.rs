@@ -1,23 +1,28 @@
 //! Versions, instantiation, logging, initialization, termination, reset.
 
 use super::abi::*;
+use super::complaint::Complaint;
 use super::component::{Component, Logger, array, call};
+use super::handle::Handle;
 use super::memory;
 use super::order;
 use super::report::{ALL_CATEGORIES, Category};
-use crate::fault::Fault;
-use crate::scene;
+use crate::scene::Scene;
 use core::ffi::CStr;
 
 /// The platform types: those of `fmi2TypesPlatform.h`, "default".
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetTypesPlatform() -> *const fmi2Char {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_types_platform() -> *const fmi2Char {
     c"default".as_ptr()
 }
 
 /// The version of the standard, "2.0".
-#[unsafe(no_mangle)]
-pub extern "C" fn fmi2GetVersion() -> *const fmi2Char {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_version() -> *const fmi2Char {
     c"2.0".as_ptr()
 }
 
@@ -25,8 +30,10 @@ pub extern "C" fn fmi2GetVersion() -> *const fmi2Char {
 ///
 /// Returns null, with a message if there is a logger, for a missing name, a GUID other than that of the model
 /// description, a type other than co-simulation, or missing callbacks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Instantiate(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn instantiate<S: Scene>(
     instanceName: fmi2String,
     fmuType: fmi2Type,
     fmuGUID: fmi2String,
@@ -40,12 +47,12 @@ pub unsafe extern "C" fn fmi2Instantiate(
     let Some(callbacks) = (unsafe { functions.as_ref() }) else { return core::ptr::null_mut() };
     let logger = Logger::of(callbacks);
     // SAFETY: the caller's strings are null or end with 0.
-    match unsafe { instantiate(instanceName, fmuType, fmuGUID, logger, loggingOn != fmi2False) } {
+    match unsafe { make::<S>(instanceName, fmuType, fmuGUID, logger, loggingOn != fmi2False) } {
         Ok(component) => component,
-        Err(fault) => {
+        Err(complaint) => {
             let name = if instanceName.is_null() { c"".as_ptr() } else { instanceName };
             // SAFETY: the name ends with 0.
-            unsafe { logger.log(name, "fmi2Instantiate", &fault, Category::Error) };
+            unsafe { logger.log::<S>(name, "fmi2Instantiate", &complaint) };
             core::ptr::null_mut()
         }
     }
@@ -53,53 +60,58 @@ pub unsafe extern "C" fn fmi2Instantiate(
 
 /// # Safety
 /// `name` and `guid` are null or end with 0.
-unsafe fn instantiate(
+unsafe fn make<S: Scene>(
     name: fmi2String,
     kind: fmi2Type,
     guid: fmi2String,
     logger: Logger,
     logging_on: bool,
-) -> Result<fmi2Component, Fault> {
+) -> Result<fmi2Component, Complaint> {
     if name.is_null() || guid.is_null() {
-        return Err(Fault::NullPointer { argument: if name.is_null() { "instanceName" } else { "fmuGUID" } });
+        return Err(Complaint::NullPointer { argument: if name.is_null() { "instanceName" } else { "fmuGUID" } });
     }
     // SAFETY: neither is null, and both end with 0.
     let (name, guid) = unsafe { (CStr::from_ptr(name), CStr::from_ptr(guid)) };
     if name.to_bytes().iter().all(u8::is_ascii_whitespace) {
-        return Err(Fault::BadInstance { reason: "instanceName is empty" });
+        return Err(Complaint::BadInstance { reason: "instanceName is empty" });
     }
     if kind != fmi2CoSimulation {
-        return Err(Fault::BadInstance { reason: "fmuType must be fmi2CoSimulation: this unit has no model exchange" });
+        return Err(Complaint::BadInstance {
+            reason: "fmuType must be fmi2CoSimulation: this unit has no model exchange",
+        });
     }
-    if guid.to_bytes() != scene::GUID.as_bytes() {
-        return Err(Fault::BadInstance {
+    if guid.to_bytes() != S::guid().as_bytes() {
+        return Err(Complaint::BadInstance {
             reason: "fmuGUID is not the one of this library: modelDescription.xml and binary are from different exports",
         });
     }
     let name = name.to_bytes_with_nul();
-    let memory = memory::allocate(size_of::<Component>() + name.len());
+    let memory = memory::allocate(size_of::<Component<S>>() + name.len());
     if memory.is_null() {
-        return Err(Fault::NoMemory);
+        return Err(Complaint::NoMemory);
     }
-    // SAFETY: the memory is large enough for the component and, behind it, the name, and aligned for any object; a
-    // component is made of numbers, enumerations with a variant 0, and pointers that may be null, so that zeros are one.
+    let _ = Component::<S>::ZEROS;
+    // SAFETY: the memory is large enough for the component and, behind it, the name, and aligned for any object; it is all
+    // zeros, and so is a component: `ZEROS` proves it.
     unsafe {
-        let component = memory.cast::<Component>();
+        let component = Component::<S>::pointer(memory);
         core::ptr::copy_nonoverlapping(name.as_ptr(), component.add(1).cast(), name.len());
         let component = &mut *component;
         component.logger = logger;
         component.categories = if logging_on { ALL_CATEGORIES } else { 0 };
         if let Err(fault) = component.instance.reset() {
             memory::release(memory);
-            return Err(fault);
+            return Err(fault.into());
         }
     }
     Ok(memory)
 }
 
 /// Frees an instance; null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn free_instance<S: Scene>(c: fmi2Component) {
     if !c.is_null() {
         // SAFETY: it came from fmi2Instantiate, and the caller doesn't use it again.
         unsafe { memory::release(c) };
@@ -107,8 +119,10 @@ pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
 }
 
 /// Switches logging of the named categories on or off, of all if none is named. Errors are logged in any case.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetDebugLogging(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn set_debug_logging<S: Scene>(
     c: fmi2Component,
     loggingOn: fmi2Boolean,
     nCategories: usize,
@@ -116,13 +130,13 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and as many categories as announced.
     unsafe {
-        call(c, order::SET_DEBUG_LOGGING, |component| {
+        call::<S>(c, order::SET_DEBUG_LOGGING, |component| {
             let mut bits = if nCategories == 0 { ALL_CATEGORIES } else { 0 };
             for &name in array(categories, nCategories, "categories")? {
                 if name.is_null() {
-                    return Err(Fault::NullPointer { argument: "categories" });
+                    return Err(Complaint::NullPointer { argument: "categories" });
                 }
-                bits |= Category::bits(CStr::from_ptr(name)).ok_or(Fault::UnknownCategory)?;
+                bits |= Category::bits(CStr::from_ptr(name)).ok_or(Complaint::UnknownCategory)?;
             }
             if loggingOn != fmi2False {
                 component.categories |= bits;
@@ -137,8 +151,10 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 }
 
 /// Sets start and stop time; may be called again before initialization. The tolerance is not used: steps are exact.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetupExperiment(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn setup_experiment<S: Scene>(
     c: fmi2Component,
     toleranceDefined: fmi2Boolean,
     tolerance: fmi2Real,
@@ -149,29 +165,39 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     let _ = (toleranceDefined, tolerance);
     let stop = (stopTimeDefined != fmi2False).then_some(stopTime);
     // SAFETY: the caller's component.
-    unsafe { call(c, order::SETUP_EXPERIMENT, |component| component.instance.set_experiment(startTime, stop)) }
+    unsafe {
+        call::<S>(c, order::SETUP_EXPERIMENT, |component| Ok(component.instance.set_experiment(startTime, stop)?))
+    }
 }
 
 /// Begins initialization; fmi2SetupExperiment must have been called.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterInitializationMode(c: fmi2Component) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn enter_initialization_mode<S: Scene>(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { call(c, order::ENTER_INITIALIZATION_MODE, |component| component.instance.enter_initialization()) }
+    unsafe {
+        call::<S>(c, order::ENTER_INITIALIZATION_MODE, |component| Ok(component.instance.enter_initialization()?))
+    }
 }
 
 /// Ends initialization; refused if the parameters don't fit together.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn exit_initialization_mode<S: Scene>(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { call(c, order::EXIT_INITIALIZATION_MODE, |component| component.instance.exit_initialization()) }
+    unsafe { call::<S>(c, order::EXIT_INITIALIZATION_MODE, |component| Ok(component.instance.exit_initialization()?)) }
 }
 
 /// Ends the simulation.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn terminate<S: Scene>(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
     unsafe {
-        call(c, order::TERMINATE, |component| {
+        call::<S>(c, order::TERMINATE, |component| {
             component.instance.terminate();
             Ok(())
         })
@@ -179,8 +205,10 @@ pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
 }
 
 /// Makes the instance as it was after fmi2Instantiate. Name, callbacks and log settings stay.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn reset<S: Scene>(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { call(c, order::RESET, |component| component.instance.reset()) }
+    unsafe { call::<S>(c, order::RESET, |component| Ok(component.instance.reset()?)) }
 }

@@ -1,23 +1,34 @@
-//! The C interface of FMI 2.0 for co-simulation: 34 functions, and the only `unsafe` of the project.
+//! The C interface of FMI 2.0 for co-simulation: 34 functions, and the only `unsafe` of the library.
+//!
+//! The functions are written once for any [`Scene`](crate::scene::Scene). [`exports`] makes the C symbols of them, for the scene
+//! that the exporter has written.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`abi`] | the types of the standard's headers |
 //! | [`component`] | what an `fmi2Component` points to; the guard that every call passes |
 //! | [`order`] | which function may be called in which phase: the standard's state table |
-//! | [`report`] | a [`Fault`](crate::fault::Fault) as status, log category and text |
+//! | [`complaint`] | why a call is refused |
+//! | [`report`] | a refused call or a warning as status, log category and text |
 //! | [`text`] | text without allocation and without panic |
 //! | [`memory`] | memory from the process |
+//! | [`handle`] | the pointers that importers get, each with its type |
 //! | [`state`] | FMU states and their bytes |
-//! | [`lifecycle`], [`variables`], [`stepping`], [`states`] | the functions |
+//! | [`lifecycle`], [`variables`], [`stepping`], [`states`] | the functions, for any scene |
+//! | [`exports`] | the C symbols |
 //!
 //! # Safety
 //! Every function trusts its caller for what C can't check: a component that this library made and has not freed, arrays
 //! as long as announced, strings that end. Null pointers, unknown references, wrong order and damaged state are refused.
+#![allow(unsafe_code)]
 #![allow(non_camel_case_types, non_snake_case, non_upper_case_globals, clippy::missing_safety_doc)]
 
 pub mod abi;
+pub mod complaint;
 pub mod component;
+#[cfg(feature = "fmu")]
+pub mod exports;
+pub mod handle;
 pub mod lifecycle;
 pub mod memory;
 pub mod order;
@@ -30,6 +41,7 @@ pub mod variables;
 
 // A panic would kill the importer's process. There is none: this handler calls a function that nobody defines, so that a
 // panic path that survives shows up as an undefined symbol, which the exporter refuses.
+#[cfg(feature = "fmu")]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo) -> ! {
     unsafe extern "C" {

@@ -1,12 +1,11 @@
-//! A fault as status, log category and text: the one place where it becomes words.
+//! A refused call or a warning as status, log category and text: the one place where it becomes words.
 
 use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status};
+use super::complaint::Complaint;
 use super::text::Text;
 use crate::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
-use crate::fault::Fault;
-use crate::instance::Phase;
-use crate::scene;
-use crate::variable::Settable;
+use crate::instance::{FASTEST, Fault, LATEST, Phase, Warning};
+use crate::scene::{Scene, Settable};
 use core::ffi::CStr;
 
 /// A category of log messages, as declared in the model description.
@@ -26,11 +25,11 @@ pub const DISCARD: u8 = 1;
 /// That of [`Category::Error`], which has no effect.
 const ERROR: u8 = 2;
 
-/// The bit of [`Fault::Guarded`]. Each warning is told once: then its bit is off, until the importer switches its category on again.
+/// The bit of [`Warning::Guarded`]. Each warning is told once: then its bit is off, until the importer switches its category on again.
 pub const GUARD: u8 = 4;
-/// The bit of [`Fault::Deep`].
+/// The bit of [`Warning::Deep`].
 pub const DEEP: u8 = 8;
-/// The bit of [`Fault::Fast`].
+/// The bit of [`Warning::Fast`].
 pub const FAST: u8 = 16;
 
 /// Those of [`Category::Warning`].
@@ -46,11 +45,10 @@ impl Category {
         }
     }
 
-    /// Where the message about `fault` belongs.
-    pub fn of(fault: &Fault) -> Category {
-        match fault {
-            Fault::Unavailable => Category::Discard,
-            Fault::Guarded | Fault::Deep { .. } | Fault::Fast { .. } => Category::Warning,
+    /// Where the message about a refused call belongs.
+    pub fn of(complaint: &Complaint) -> Category {
+        match complaint {
+            Complaint::Unavailable => Category::Discard,
             _ => Category::Error,
         }
     }
@@ -93,15 +91,15 @@ fn phase_name(phase: Phase) -> &'static str {
 }
 
 /// Names a contact, if there are several.
-fn contact_name(text: &mut Text, contact: usize) -> &mut Text {
-    if scene::CONTACTS == 1 {
+fn contact_name<S: Scene>(text: &mut Text, contact: usize) -> &mut Text {
+    if S::CONTACTS == 1 {
         return text;
     }
-    let group = scene::group(contact);
-    let (name, counted) = scene::GROUP_NAMES.get(group).copied().unwrap_or(("contact", true));
+    let group = S::group(contact);
+    let (name, counted) = S::group_name(group);
     text.string(name);
     if counted {
-        let first = group.checked_sub(1).map_or(0, scene::end);
+        let first = group.checked_sub(1).map_or(0, S::end);
         text.string("[").integer((contact + 1 - first) as u32).string("]");
     }
     text.string(": ")
@@ -123,24 +121,42 @@ fn fill(text: &mut Text, template: &str, words: [&str; 2], numbers: [f64; 3]) {
 /// The text below says them.
 const _: () = assert!(LARGEST_RADIUS_RATIO == 0.3 && LARGEST_SPEED_RATIO == 0.01);
 
-/// Writes what `fault` is.
-pub fn describe(text: &mut Text, fault: &Fault) {
-    let (mut words, mut numbers) = ([""; 2], [0.0; 3]);
-    let mut of = None;
-    let template = match *fault {
-        Fault::BadInstance { reason } => {
-            words[0] = reason;
-            "@"
+/// What a message is made of: a template with words and numbers, and the contact that it is about.
+///
+/// It is filled field by field: a value for each case would be written out whole in each, which is twice the code.
+struct Message {
+    template: &'static str,
+    words: [&'static str; 2],
+    numbers: [f64; 3],
+    contact: Option<usize>,
+}
+
+impl Message {
+    const BLANK: Message = Message { template: "", words: [""; 2], numbers: [0.0; 3], contact: None };
+
+    fn write<S: Scene>(&self, text: &mut Text) {
+        if let Some(contact) = self.contact {
+            contact_name::<S>(text, contact);
         }
-        Fault::OutOfOrder { phase } => {
-            words[0] = phase_name(phase);
+        fill(text, self.template, self.words, self.numbers);
+    }
+}
+
+/// Writes why a call is refused.
+pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
+    let mut message = Message::BLANK;
+    message.template = match *complaint {
+        Complaint::Instance(fault) => describe_fault::<S>(&mut message, fault),
+        Complaint::BadInstance { reason } => reason,
+        Complaint::OutOfOrder { phase } => {
+            message.words[0] = phase_name(phase);
             "not allowed @"
         }
-        Fault::NullPointer { argument } => {
-            words[0] = argument;
+        Complaint::NullPointer { argument } => {
+            message.words[0] = argument;
             "the argument @ is null"
         }
-        Fault::UnknownReference { kind, reference } => {
+        Complaint::UnknownReference { kind, reference } => {
             // a number is written with nine digits, and this may have ten
             text.string("there is no variable of type ")
                 .string(kind)
@@ -148,22 +164,46 @@ pub fn describe(text: &mut Text, fault: &Fault) {
                 .integer(reference);
             return;
         }
+        Complaint::Unsupported => "this unit doesn't have this capability (see its model description)",
+        Complaint::Unavailable => "not available: every step is complete when its call returns",
+        Complaint::UnknownCategory => {
+            "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll"
+        }
+        Complaint::BadState { reason } => {
+            message.words[0] = reason;
+            "the FMU state can't be used: @"
+        }
+        Complaint::NoMemory => "out of memory",
+    };
+    message.write::<S>(text);
+}
+
+/// The template for `fault`, whose words and numbers are put into `message`.
+#[inline]
+fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str {
+    let Message { words, numbers, contact: of, .. } = message;
+    match fault {
         Fault::NotSettable => "an output can't be set",
-        Fault::FixedParameter { name } => {
-            words[0] = name;
+        Fault::FixedParameter { index } => {
+            words[0] = S::settable().get(index).map_or("", |settable| settable.name);
             "the parameter @ can't be set after initialization"
         }
         Fault::NotFinite { name, value } => {
             (words[0], numbers[0]) = (name, value);
             "@ = ~ is not finite"
         }
+        Fault::RateOutOfRange { rate } => {
+            *numbers = [rate, -FASTEST, FASTEST];
+            "indentation_rate = ~ is out of range: allowed is ~ to ~ m/s"
+        }
         Fault::TooFast { rate } => {
             numbers[0] = rate;
             "indentation_rate = ~ is too fast: the force would not be finite"
         }
-        Fault::OutOfRange { settable, value } => {
-            let Settable { name, unit, minimum, maximum, .. } = *settable;
-            (words, numbers) = ([name, unit], [value, minimum, maximum]);
+        Fault::OutOfRange { index, value } => {
+            let Some(settable) = S::settable().get(index) else { return "" };
+            let Settable { name, unit, minimum, maximum } = *settable;
+            (*words, *numbers) = ([name, unit], [value, minimum, maximum]);
             if unit.is_empty() {
                 "@ = ~ is out of range: allowed is ~ to ~"
             } else {
@@ -176,8 +216,8 @@ pub fn describe(text: &mut Text, fault: &Fault) {
              and no radius is below 1e-12 m"
         }
         Fault::Experiment { start, stop } => {
-            (numbers[0], numbers[1]) = (start, stop);
-            "startTime = ~ s, stopTime = ~ s: allowed are finite times with stopTime not before startTime"
+            *numbers = [start, stop, LATEST];
+            "startTime = ~ s, stopTime = ~ s: allowed are finite times, a startTime up to ~ s, and a stopTime not before it"
         }
         Fault::NoExperiment => "fmi2SetupExperiment must be called before",
         Fault::StepSize { step } => {
@@ -192,10 +232,17 @@ pub fn describe(text: &mut Text, fault: &Fault) {
             (numbers[0], numbers[1]) = (end, stop);
             "the step would end at ~ s, beyond the stop time ~ s"
         }
+        Fault::TooLate { end } => {
+            (numbers[0], numbers[1]) = (end, LATEST);
+            "the step would end at ~ s: allowed are times up to ~ s"
+        }
         Fault::TooDeep { contact, indentation } => {
-            of = Some(contact);
-            numbers[0] = indentation;
+            (*of, numbers[0]) = (Some(contact), indentation);
             "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
+        }
+        Fault::TooLong { step } => {
+            numbers[0] = step;
+            "the bodies rebound too often to be followed within communicationStepSize = ~ s"
         }
         Fault::DerivativeOrder { order, largest } => {
             numbers[0] = f64::from(order);
@@ -209,37 +256,27 @@ pub fn describe(text: &mut Text, fault: &Fault) {
             words[0] = of;
             "there are derivatives of @ only"
         }
-        Fault::TooLong { step } => {
-            numbers[0] = step;
-            "the bodies rebound too often to be followed within communicationStepSize = ~ s"
-        }
-        Fault::Unsupported => "this unit doesn't have this capability (see its model description)",
-        Fault::Unavailable => "not available: every step is complete when its call returns",
-        Fault::UnknownCategory => {
-            "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll"
-        }
-        Fault::BadState { reason } => {
-            words[0] = reason;
-            "the FMU state can't be used: @"
-        }
-        Fault::NoMemory => "out of memory",
-        Fault::Guarded => {
-            words[0] = scene::GUARD.unwrap_or("");
-            "@"
-        }
-        Fault::Deep { contact, indentation, allowed } => {
-            of = Some(contact as usize);
-            (numbers[0], numbers[1]) = (indentation, allowed);
+        Fault::DerivativeNotFinite => "the derivative is beyond all numbers",
+        Fault::NotAnInput => "there are derivatives by indentation_rate only",
+        Fault::NoInputDerivatives => "inputs of this unit have no derivatives: its law depends on the rate",
+    }
+}
+
+/// Writes what a user should know.
+pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
+    let mut message = Message::BLANK;
+    message.template = match *warning {
+        Warning::Guarded => S::GUARD.map_or("", |guard| guard.words),
+        Warning::Deep { contact, indentation, allowed } => {
+            message.contact = Some(contact);
+            (message.numbers[0], message.numbers[1]) = (indentation, allowed);
             "at an indentation of ~ m the contact radius is above 0.3 effective radii: the law is valid up to ~ m"
         }
-        Fault::Fast { contact, rate, allowed } => {
-            of = Some(contact as usize);
-            (numbers[0], numbers[1]) = (rate, allowed);
+        Warning::Fast { contact, rate, allowed } => {
+            message.contact = Some(contact);
+            (message.numbers[0], message.numbers[1]) = (rate, allowed);
             "indentation_rate = ~ m/s is above 0.01 of the wave speed: the law is valid up to ~ m/s"
         }
     };
-    if let Some(contact) = of {
-        contact_name(text, contact);
-    }
-    fill(text, template, words, numbers);
+    message.write::<S>(text);
 }

@@ -1,50 +1,61 @@
 //! FMU states: a copy in memory, and bytes that another process can read.
 
 use super::abi::fmi2FMUstate;
+use super::complaint::Complaint;
+use super::handle::Handle;
 use super::memory;
-use crate::fault::Fault;
-use crate::instance::{Instance, WORDS};
-use crate::scene;
+use crate::instance::Instance;
+use crate::scene::Scene;
 
 /// What an `fmi2FMUstate` points to.
 ///
 /// The instance comes first, as in a component: both then have it at the same alignment, and a processor hands the stores
 /// of a save straight on to the loads of a restore.
 #[repr(C)]
-pub struct Snapshot {
+pub struct Snapshot<S: Scene> {
     /// The instance as it was.
-    pub instance: Instance,
+    pub instance: Instance<S>,
     mark: u64,
 }
 
-/// Tells a snapshot from other memory ("snapshot" in ASCII); taken away when it is freed.
+impl<S: Scene> Handle for Snapshot<S> {}
+
+/// What the marks of all scenes have in common ("snapshot" in ASCII).
 const MARK: u64 = u64::from_be_bytes(*b"snapshot");
 
 /// First bytes of a serialized state: what it is, and the version of its layout.
-const MAGIC: [u8; 8] = *b"brinell\x01";
+const MAGIC: [u8; 8] = *b"brinell\x02";
 
-/// Layout: magic, GUID, number of words, the words of the instance, checksum; all little-endian.
-const GUID_AT: usize = MAGIC.len();
-const COUNT_AT: usize = GUID_AT + scene::GUID.len();
-const WORDS_AT: usize = COUNT_AT + 8;
-const CHECKSUM_AT: usize = WORDS_AT + 8 * WORDS;
+/// Layout, in words: magic, identity of the scene, number of words, the words of the instance, checksum; all little-endian.
+const IDENTITY_AT: usize = 1;
+const COUNT_AT: usize = 2;
+const WORDS_AT: usize = 3;
 
-/// Length of a serialized state [bytes].
-pub const SERIALIZED_SIZE: usize = CHECKSUM_AT + 8;
+impl<S: Scene> Snapshot<S> {
+    const CHECKSUM_AT: usize = WORDS_AT + Instance::<S>::WORDS;
 
-impl Snapshot {
+    /// Length of a serialized state [bytes].
+    pub const SERIALIZED_SIZE: usize = 8 * (Self::CHECKSUM_AT + 1);
+
+    /// Tells a state of this scene from those of other scenes, which may be as long.
+    fn mark() -> u64 {
+        MARK ^ S::identity()
+    }
+
     /// The snapshot behind `state`.
+    ///
+    /// # Errors
+    /// [`Complaint::NullPointer`], and [`Complaint::BadState`] for a state of another unit.
     ///
     /// # Safety
     /// `state` is null or points to at least as much memory as a snapshot has, which nothing else uses meanwhile.
-    pub unsafe fn at<'a>(state: fmi2FMUstate) -> Result<&'a mut Snapshot, Fault> {
+    pub unsafe fn at<'a>(state: fmi2FMUstate) -> Result<&'a mut Snapshot<S>, Complaint> {
         // SAFETY: as the caller promises.
-        let snapshot =
-            unsafe { state.cast::<Snapshot>().as_mut() }.ok_or(Fault::NullPointer { argument: "FMUstate" })?;
-        if snapshot.mark == MARK {
+        let snapshot = unsafe { Self::behind(state) }.ok_or(Complaint::NullPointer { argument: "FMUstate" })?;
+        if snapshot.mark == Self::mark() {
             Ok(snapshot)
         } else {
-            Err(Fault::BadState { reason: "it was not made by this unit, or is freed" })
+            Err(Complaint::BadState { reason: "it was not made by this unit" })
         }
     }
 
@@ -52,22 +63,22 @@ impl Snapshot {
     ///
     /// # Safety
     /// As for [`Snapshot::at`].
-    pub unsafe fn store(state: &mut fmi2FMUstate, instance: &Instance) -> Result<(), Fault> {
+    pub unsafe fn store(state: &mut fmi2FMUstate, instance: &Instance<S>) -> Result<(), Complaint> {
         // SAFETY: as the caller promises.
         unsafe {
             if state.is_null() {
-                *state = Snapshot::allocate()?;
+                *state = Self::allocate()?;
             }
-            Snapshot::at(*state)?.instance.copy(instance);
+            Self::at(*state)?.instance.copy(instance);
         }
         Ok(())
     }
 
     /// A snapshot of nothing.
-    fn allocate() -> Result<fmi2FMUstate, Fault> {
-        let made = memory::allocate(size_of::<Snapshot>());
+    fn allocate() -> Result<fmi2FMUstate, Complaint> {
+        let made = memory::allocate(size_of::<Snapshot<S>>());
         // SAFETY: the memory is large enough and aligned for any object, and zeros are a snapshot as they are a component.
-        unsafe { made.cast::<Snapshot>().as_mut() }.ok_or(Fault::NoMemory)?.mark = MARK;
+        unsafe { Self::behind(made) }.ok_or(Complaint::NoMemory)?.mark = Self::mark();
         Ok(made)
     }
 
@@ -75,11 +86,11 @@ impl Snapshot {
     ///
     /// # Safety
     /// As for [`Snapshot::at`], and the snapshot is not used afterwards.
-    pub unsafe fn free(state: &mut fmi2FMUstate) -> Result<(), Fault> {
+    pub unsafe fn free(state: &mut fmi2FMUstate) -> Result<(), Complaint> {
         if !state.is_null() {
             // SAFETY: as the caller promises; a snapshot came from `allocate`.
             unsafe {
-                Snapshot::at(*state)?.mark = 0;
+                Self::at(*state)?;
                 memory::release(*state);
             }
             *state = core::ptr::null_mut();
@@ -88,92 +99,85 @@ impl Snapshot {
     }
 
     /// Writes the snapshot into `bytes`.
-    pub fn serialize(&self, bytes: &mut [u8; SERIALIZED_SIZE]) {
-        let mut writer = Writer { slots: bytes.iter_mut(), sum: CHECKSUM_START };
-        writer.put(&MAGIC);
-        writer.put(scene::GUID.as_bytes());
-        writer.word(WORDS as u64);
-        self.instance.to_words(|word| writer.word(word));
-        let sum = writer.sum;
-        writer.word(sum);
-    }
-
-    /// Makes the snapshot at `state`, which is made if there is none, from what [`Snapshot::serialize`] wrote.
     ///
     /// # Errors
-    /// [`Fault::BadState`] for another length, another unit or version, and damaged bytes; `state` is then as it was.
+    /// [`Complaint::BadState`] if they are fewer than [`Snapshot::SERIALIZED_SIZE`].
+    pub fn serialize(&self, bytes: &mut [u8]) -> Result<(), Complaint> {
+        let (slots, _) = bytes.as_chunks_mut();
+        if slots.len() <= Self::CHECKSUM_AT {
+            return Err(Complaint::BadState { reason: "the buffer is too short" });
+        }
+        let mut writer = Writer { slots: slots.iter_mut(), sum: CHECKSUM_START };
+        for word in [u64::from_le_bytes(MAGIC), S::identity(), Instance::<S>::WORDS as u64] {
+            writer.word(word);
+        }
+        self.instance.save(|word| writer.word(word));
+        let sum = writer.sum;
+        writer.word(sum);
+        Ok(())
+    }
+
+    /// A new snapshot from what [`Snapshot::serialize`] wrote.
     ///
-    /// # Safety
-    /// As for [`Snapshot::at`].
-    pub unsafe fn deserialize(state: &mut fmi2FMUstate, bytes: &[u8]) -> Result<(), Fault> {
-        check(bytes)?;
-        let (words, _) = bytes.get(WORDS_AT..).unwrap_or(&[]).as_chunks();
-        let made = if state.is_null() { Snapshot::allocate()? } else { *state };
-        // SAFETY: as the caller promises; what was made here is released here.
+    /// # Errors
+    /// [`Complaint::BadState`] for another length, another unit or version, and damaged bytes.
+    pub fn deserialize(bytes: &[u8]) -> Result<fmi2FMUstate, Complaint> {
+        let bad = |reason| Err(Complaint::BadState { reason });
+        let (words, rest) = bytes.as_chunks();
+        if words.len() != Self::CHECKSUM_AT + 1 || !rest.is_empty() {
+            return bad("it doesn't have the length of a state of this unit");
+        }
+        let known =
+            [(0, u64::from_le_bytes(MAGIC)), (IDENTITY_AT, S::identity()), (COUNT_AT, Instance::<S>::WORDS as u64)];
+        if known.into_iter().any(|(place, expected)| word(words, place) != expected) {
+            return bad("it is of another unit or version");
+        }
+        let summed = words.iter().take(Self::CHECKSUM_AT);
+        let sum = summed.fold(CHECKSUM_START, |sum, word| checksum(sum, word));
+        if sum != word(words, Self::CHECKSUM_AT) {
+            return bad("its checksum is wrong, it is damaged");
+        }
+        let made = Self::allocate()?;
+        let own = words.get(WORDS_AT..Self::CHECKSUM_AT).unwrap_or(&[]);
+        // SAFETY: it was made here, nobody else knows it, and it is released here.
         unsafe {
-            if !Snapshot::at(made)?.instance.restore(words) {
-                if state.is_null() {
-                    memory::release(made);
-                }
-                return Err(Fault::BadState { reason: "its values don't make a contact" });
+            if !Self::at(made)?.instance.load(own) {
+                memory::release(made);
+                return bad("its values don't make a contact");
             }
         }
-        *state = made;
-        Ok(())
+        Ok(made)
     }
 }
 
-/// Bytes that are written one after the other, and the checksum of those written so far.
+/// Words that are written one after the other, and the checksum of those written so far.
 struct Writer<'a> {
-    slots: core::slice::IterMut<'a, u8>,
+    slots: core::slice::IterMut<'a, [u8; 8]>,
     sum: u64,
 }
 
 impl Writer<'_> {
     #[inline(never)]
-    fn put(&mut self, bytes: &[u8]) {
-        for (&byte, slot) in bytes.iter().zip(&mut self.slots) {
-            self.sum = checksum(self.sum, byte);
-            *slot = byte;
+    fn word(&mut self, word: u64) {
+        let bytes = word.to_le_bytes();
+        self.sum = checksum(self.sum, &bytes);
+        if let Some(slot) = self.slots.next() {
+            *slot = bytes;
         }
     }
-
-    #[inline(never)]
-    fn word(&mut self, word: u64) {
-        self.put(&word.to_le_bytes());
-    }
 }
 
-/// Whether `bytes` are whole, and of this unit.
-fn check(bytes: &[u8]) -> Result<(), Fault> {
-    let bad = |reason| Err(Fault::BadState { reason });
-    if bytes.len() != SERIALIZED_SIZE {
-        return bad("it doesn't have the length of a state of this unit");
-    }
-    let head = [u64::from_le_bytes(MAGIC), WORDS as u64];
-    let guid = bytes.iter().skip(GUID_AT).zip(scene::GUID.as_bytes()).all(|(one, other)| one == other);
-    if [word(bytes, 0), word(bytes, COUNT_AT)] != head || !guid {
-        return bad("it is of another unit or version");
-    }
-    let sum = bytes.iter().take(CHECKSUM_AT).fold(CHECKSUM_START, |sum, &byte| checksum(sum, byte));
-    if sum != word(bytes, CHECKSUM_AT) {
-        return bad("its checksum is wrong, it is damaged");
-    }
-    Ok(())
-}
-
-/// The word that begins at `place`.
-#[inline(never)]
-fn word(bytes: &[u8], place: usize) -> u64 {
-    bytes.get(place..).and_then(|rest| rest.first_chunk()).map_or(0, |word| u64::from_le_bytes(*word))
+/// The word at `place`.
+fn word(words: &[[u8; 8]], place: usize) -> u64 {
+    words.get(place).map_or(0, |word| u64::from_le_bytes(*word))
 }
 
 /// What a checksum begins with.
 const CHECKSUM_START: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// FNV-1a, 64 bits: any single changed byte changes it.
+/// FNV-1a, 64 bits, byte by byte: any single changed byte changes it.
 ///
 /// Reference: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm".
-fn checksum(sum: u64, byte: u8) -> u64 {
-    (sum ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
+fn checksum(sum: u64, word: &[u8; 8]) -> u64 {
+    word.iter().fold(sum, |sum, &byte| (sum ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }

@@ -1,15 +1,20 @@
 //! The step, its derivatives and its status.
 
 use super::abi::*;
-use super::component::{array, array_mut, call, component, object};
+use super::complaint::Complaint;
+use super::component::{Component, array, array_mut, call, object};
+use super::handle::Handle;
 use super::order::{self, Function};
-use super::variables::any_real;
-use crate::fault::Fault;
-use crate::scene;
+use super::variables::{any_real, real};
+use crate::instance::Instance;
+use crate::scene::Scene;
 
 /// Moves the contact over a step with the indentation rate held; complete when it returns.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DoStep(
+///
+/// # Safety
+/// See [the module](super#safety).
+#[inline(always)]
+pub unsafe fn do_step<S: Scene>(
     c: fmi2Component,
     currentCommunicationPoint: fmi2Real,
     communicationStepSize: fmi2Real,
@@ -18,16 +23,16 @@ pub unsafe extern "C" fn fmi2DoStep(
     let _ = noSetFMUStatePriorToCurrentPoint;
     // SAFETY: the caller's component.
     unsafe {
-        if let Some(component) = component(c)
+        if let Some(component) = Component::<S>::behind(c)
             && component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize)
         {
             // one contact that goes too deep leaves its branch
-            if scene::CONTACTS > 1 && component.instance.is_deep() {
+            if S::CONTACTS > 1 && component.instance.is_deep() {
                 component.warn_of_limits(order::DO_STEP);
             }
             return fmi2OK;
         }
-        do_any_step(c, currentCommunicationPoint, communicationStepSize)
+        do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize)
     }
 }
 
@@ -37,10 +42,10 @@ pub unsafe extern "C" fn fmi2DoStep(
 /// The caller's component.
 #[cold]
 #[inline(never)]
-unsafe fn do_any_step(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
+unsafe fn do_any_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        call(c, order::DO_STEP, |component| {
+        call::<S>(c, order::DO_STEP, |component| {
             component.instance.do_step(time, step)?;
             component.warn_of_guard(order::DO_STEP);
             component.warn_of_limits(order::DO_STEP);
@@ -53,21 +58,25 @@ unsafe fn do_any_step(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
 ///
 /// # Safety
 /// The caller's component.
-unsafe fn unsupported(c: fmi2Component, function: Function) -> fmi2Status {
+unsafe fn unsupported<S: Scene>(c: fmi2Component, function: Function) -> fmi2Status {
     // SAFETY: as the caller promises.
-    unsafe { call(c, function, |_| Err(Fault::Unsupported)) }
+    unsafe { call::<S>(c, function, |_| Err(Complaint::Unsupported)) }
 }
 
 /// Refused: no step is ever in progress.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn cancel_step<S: Scene>(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { unsupported(c, order::CANCEL_STEP) }
+    unsafe { unsupported::<S>(c, order::CANCEL_STEP) }
 }
 
 /// Sets derivatives of inputs for the next step, after the inputs themselves. If one is refused none is set.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn set_real_input_derivatives<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -76,25 +85,27 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        call(c, order::SET_REAL_INPUT_DERIVATIVES, |component| {
+        call::<S>(c, order::SET_REAL_INPUT_DERIVATIVES, |component| {
             let references = array(vr, nvr, "vr")?;
             let orders = array(order, nvr, "order")?;
             let values = array(value, nvr, "value")?;
             let all = || references.iter().zip(orders).zip(values);
             for ((&reference, &order), &value) in all() {
-                component.instance.check_input_derivative(any_real(reference)?, order, value)?;
+                component.instance.check_input_derivative(any_real::<S>(reference)?, order, value)?;
             }
             for ((&reference, &order), &value) in all() {
-                component.instance.set_input_derivative(any_real(reference)?.1, order, value);
+                component.instance.set_input_derivative(any_real::<S>(reference)?.1, order, value);
             }
             Ok(())
         })
     }
 }
 
-/// Reads derivatives of forces by time, at the end of the last step.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+/// Reads derivatives of outputs by time, at the end of the last step.
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_real_output_derivatives<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -103,21 +114,23 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        call(c, order::GET_REAL_OUTPUT_DERIVATIVES, |component| {
+        call::<S>(c, order::GET_REAL_OUTPUT_DERIVATIVES, |component| {
             let references = array(vr, nvr, "vr")?;
             let orders = array(order, nvr, "order")?;
             let values = array_mut(value, nvr, "value")?;
             for ((value, &reference), &order) in values.iter_mut().zip(references).zip(orders) {
-                *value = component.instance.output_derivative(any_real(reference)?, order)?;
+                *value = component.instance.output_derivative(real::<S>(reference)?, order)?;
             }
             Ok(())
         })
     }
 }
 
-/// Refused: see `providesDirectionalDerivative`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
+/// Derivatives of outputs in the direction `dvKnown` of the inputs, at this moment.
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_directional_derivative<S: Scene>(
     c: fmi2Component,
     vUnknown_ref: *const fmi2ValueReference,
     nUnknown: usize,
@@ -126,78 +139,97 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     dvKnown: *const fmi2Real,
     dvUnknown: *mut fmi2Real,
 ) -> fmi2Status {
-    let _ = (vUnknown_ref, nUnknown, vKnown_ref, nKnown, dvKnown, dvUnknown);
-    // SAFETY: the caller's component.
-    unsafe { unsupported(c, order::GET_DIRECTIONAL_DERIVATIVE) }
+    // SAFETY: the caller's component, and arrays as long as announced.
+    unsafe {
+        call::<S>(c, order::GET_DIRECTIONAL_DERIVATIVE, |component| {
+            let unknowns = array(vUnknown_ref, nUnknown, "vUnknown_ref")?;
+            let knowns = array(vKnown_ref, nKnown, "vKnown_ref")?;
+            let directions = array(dvKnown, nKnown, "dvKnown")?;
+            let derivatives = array_mut(dvUnknown, nUnknown, "dvUnknown")?;
+            for (derivative, &unknown) in derivatives.iter_mut().zip(unknowns) {
+                // the regime is an output, too, and the same for inputs near by
+                let output = if S::integer(unknown).is_some() { None } else { Some(real::<S>(unknown)?) };
+                let mut sum = 0.0;
+                for (&known, &direction) in knowns.iter().zip(directions) {
+                    let input = any_real::<S>(known)?;
+                    if let Some(output) = output {
+                        sum += component.instance.derivative_by_input(output, input)? * direction;
+                    }
+                }
+                *derivative = sum;
+            }
+            Ok(())
+        })
+    }
 }
 
 /// Writes `answer` for the status `kind`, if `kind` is the one that there is an answer to.
 ///
 /// # Safety
 /// The caller's component and pointer.
-unsafe fn status<T: Copy>(
+unsafe fn status<S: Scene, T: Copy>(
     c: fmi2Component,
     function: Function,
     value: *mut T,
-    answer: impl FnOnce(&crate::instance::Instance) -> Option<T>,
+    answer: impl FnOnce(&Instance<S>) -> Option<T>,
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        call(c, function, |component| {
+        call::<S>(c, function, |component| {
             let value = object(value, "value")?;
-            *value = answer(&component.instance).ok_or(Fault::Unavailable)?;
+            *value = answer(&component.instance).ok_or(Complaint::Unavailable)?;
             Ok(())
         })
     }
 }
 
 /// For fmi2DoStepStatus: fmi2OK, since no step runs on after its call.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, order::GET_STATUS, value, |_| (s == fmi2DoStepStatus).then_some(fmi2OK)) }
+    unsafe { status::<S, _>(c, order::GET_STATUS, value, |_| (s == fmi2DoStepStatus).then_some(fmi2OK)) }
 }
 
 /// For fmi2LastSuccessfulTime: the end of the last step.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_real_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
     unsafe {
-        status(c, order::GET_REAL_STATUS, value, |instance| (s == fmi2LastSuccessfulTime).then_some(instance.time()))
+        status::<S, _>(c, order::GET_REAL_STATUS, value, |instance| {
+            (s == fmi2LastSuccessfulTime).then_some(instance.time())
+        })
     }
 }
 
 /// There is no status of this type.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetIntegerStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    value: *mut fmi2Integer,
-) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_integer_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Integer) -> fmi2Status {
     let _ = s;
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, order::GET_INTEGER_STATUS, value, |_| None) }
+    unsafe { status::<S, _>(c, order::GET_INTEGER_STATUS, value, |_| None) }
 }
 
 /// For fmi2Terminated: false, since the unit never wants to end by itself.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetBooleanStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    value: *mut fmi2Boolean,
-) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_boolean_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Boolean) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, order::GET_BOOLEAN_STATUS, value, |_| (s == fmi2Terminated).then_some(fmi2False)) }
+    unsafe { status::<S, _>(c, order::GET_BOOLEAN_STATUS, value, |_| (s == fmi2Terminated).then_some(fmi2False)) }
 }
 
 /// There is no status of this type: no step is ever pending.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetStringStatus(
-    c: fmi2Component,
-    s: fmi2StatusKind,
-    value: *mut fmi2String,
-) -> fmi2Status {
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_string_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2String) -> fmi2Status {
     let _ = s;
     // SAFETY: the caller's component and pointer.
-    unsafe { status(c, order::GET_STRING_STATUS, value, |_| None) }
+    unsafe { status::<S, _>(c, order::GET_STRING_STATUS, value, |_| None) }
 }

@@ -1,22 +1,23 @@
 //! Getting and setting variables.
 
 use super::abi::*;
-use super::component::{array, array_mut, call, component};
+use super::complaint::Complaint;
+use super::component::{Component, array, array_mut, call};
+use super::handle::Handle;
 use super::order::{self, Function};
-use crate::fault::Fault;
-use crate::scene;
-use crate::variable::Real;
+use crate::instance::Fault;
+use crate::scene::{Real, Scene};
 
 /// [`real`] where it needn't be quick.
 #[inline(never)]
-pub(super) fn any_real(reference: fmi2ValueReference) -> Result<(Real, usize), Fault> {
-    real(reference)
+pub(super) fn any_real<S: Scene>(reference: fmi2ValueReference) -> Result<(Real, usize), Complaint> {
+    real::<S>(reference)
 }
 
 /// The Real variable with this reference. Inlined, so that what isn't among them is left out of what follows.
 #[inline(always)]
-fn real(reference: fmi2ValueReference) -> Result<(Real, usize), Fault> {
-    scene::real(reference).ok_or(Fault::UnknownReference { kind: "Real", reference })
+pub(super) fn real<S: Scene>(reference: fmi2ValueReference) -> Result<(Real, usize), Complaint> {
+    S::real(reference).ok_or(Complaint::UnknownReference { kind: "Real", reference })
 }
 
 /// The place of the inputs and of the forces among the kinds of variables that a contact has.
@@ -25,10 +26,10 @@ const FORCE: u32 = 1;
 
 /// The contact whose variable of this `kind` has this reference.
 #[inline(always)]
-fn contact_of(kind: u32, reference: fmi2ValueReference) -> Option<usize> {
+fn contact_of<S: Scene>(kind: u32, reference: fmi2ValueReference) -> Option<usize> {
     // of a smaller reference the difference is a very large number
-    let contact = reference.wrapping_sub(kind * scene::CONTACTS as u32) as usize;
-    (contact < scene::CONTACTS).then_some(contact)
+    let contact = reference.wrapping_sub(kind * S::CONTACTS as u32) as usize;
+    (contact < S::CONTACTS).then_some(contact)
 }
 
 /// The contact that a call for one variable of this `kind` is for, with pointers that aren't null.
@@ -36,29 +37,32 @@ fn contact_of(kind: u32, reference: fmi2ValueReference) -> Option<usize> {
 /// # Safety
 /// A pointer to references that isn't null points to as many as announced.
 #[inline(always)]
-unsafe fn only_one(kind: u32, vr: *const fmi2ValueReference, nvr: usize) -> Option<usize> {
+unsafe fn only_one<S: Scene>(kind: u32, vr: *const fmi2ValueReference, nvr: usize) -> Option<usize> {
     if nvr != 1 {
         return None;
     }
     // SAFETY: nothing is done; but the compiler can't make one test of the two, which would take two instructions more.
     unsafe { core::arch::asm!("", options(nomem, nostack, preserves_flags)) };
     // SAFETY: as the caller promises.
-    contact_of(kind, *unsafe { vr.as_ref() }?)
+    contact_of::<S>(kind, *unsafe { vr.as_ref() }?)
 }
 
 /// The first contact of those whose variables of this `kind` have these references, one after the other.
-fn run_of(kind: u32, references: &[fmi2ValueReference]) -> Option<usize> {
-    let &first = references.first().filter(|_| scene::CONTACTS > 1)?;
+fn run_of<S: Scene>(kind: u32, references: &[fmi2ValueReference]) -> Option<usize> {
+    let &first = references.first().filter(|_| S::CONTACTS > 1)?;
     let mut other = false;
     for (index, &reference) in references.iter().enumerate() {
         other |= reference.wrapping_sub(first) != index as u32;
     }
-    if other { None } else { contact_of(kind, first) }
+    if other { None } else { contact_of::<S>(kind, first) }
 }
 
 /// Reads Real variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetReal(
+///
+/// # Safety
+/// See [the module](super#safety).
+#[inline(always)]
+pub unsafe fn get_real<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -66,15 +70,15 @@ pub unsafe extern "C" fn fmi2GetReal(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        if let Some(contact) = only_one(FORCE, vr, nvr)
-            && let Some(component) = component(c)
+        if let Some(contact) = only_one::<S>(FORCE, vr, nvr)
+            && let Some(component) = Component::<S>::behind(c)
             && let Some(force) = component.instance.plain_force(contact)
             && !value.is_null()
         {
             *value = force;
             return fmi2OK;
         }
-        get_any_real(c, vr, nvr, value)
+        get_any_real::<S>(c, vr, nvr, value)
     }
 }
 
@@ -83,7 +87,7 @@ pub unsafe extern "C" fn fmi2GetReal(
 /// # Safety
 /// The caller's component, and arrays as long as announced.
 #[inline(never)]
-unsafe fn get_any_real(
+unsafe fn get_any_real<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -91,16 +95,16 @@ unsafe fn get_any_real(
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        call(c, order::GET_REAL, |component| {
+        call::<S>(c, order::GET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
             let values = array_mut(value, nvr, "value")?;
-            if let Some(first) = run_of(FORCE, references)
+            if let Some(first) = run_of::<S>(FORCE, references)
                 && component.instance.copy_plain_forces(first, values)
             {
                 return Ok(());
             }
             for (value, &reference) in values.iter_mut().zip(references) {
-                *value = component.instance.real(real(reference)?);
+                *value = component.instance.real(real::<S>(reference)?);
             }
             Ok(())
         })
@@ -108,8 +112,10 @@ unsafe fn get_any_real(
 }
 
 /// Reads Integer variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetInteger(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_integer<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -117,12 +123,12 @@ pub unsafe extern "C" fn fmi2GetInteger(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        call(c, order::GET_INTEGER, |component| {
+        call::<S>(c, order::GET_INTEGER, |component| {
             let references = array(vr, nvr, "vr")?;
             let values = array_mut(value, nvr, "value")?;
             for (value, &reference) in values.iter_mut().zip(references) {
-                let fault = Fault::UnknownReference { kind: "Integer", reference };
-                *value = component.instance.integer(scene::integer(reference).ok_or(fault)?);
+                let fault = Complaint::UnknownReference { kind: "Integer", reference };
+                *value = component.instance.integer(S::integer(reference).ok_or(fault)?);
             }
             Ok(())
         })
@@ -130,8 +136,11 @@ pub unsafe extern "C" fn fmi2GetInteger(
 }
 
 /// Sets Real variables: the input, and parameters before initialization ends. If one is refused none is set.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetReal(
+///
+/// # Safety
+/// See [the module](super#safety).
+#[inline(always)]
+pub unsafe fn set_real<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -139,14 +148,14 @@ pub unsafe extern "C" fn fmi2SetReal(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
-        if let Some(contact) = only_one(RATE, vr, nvr)
-            && let Some(component) = component(c)
+        if let Some(contact) = only_one::<S>(RATE, vr, nvr)
+            && let Some(component) = Component::<S>::behind(c)
             && !value.is_null()
             && component.instance.set_plain_rate(contact, *value)
         {
             return fmi2OK;
         }
-        set_any_real(c, vr, nvr, value)
+        set_any_real::<S>(c, vr, nvr, value)
     }
 }
 
@@ -155,7 +164,7 @@ pub unsafe extern "C" fn fmi2SetReal(
 /// # Safety
 /// The caller's component, and arrays as long as announced.
 #[inline(never)]
-unsafe fn set_any_real(
+unsafe fn set_any_real<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -163,26 +172,26 @@ unsafe fn set_any_real(
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        call(c, order::SET_REAL, |component| {
+        call::<S>(c, order::SET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
             let values = array(value, nvr, "value")?;
-            if let Some(first) = run_of(RATE, references)
+            if let Some(first) = run_of::<S>(RATE, references)
                 && component.instance.set_plain_rates(first, values)
             {
                 return Ok(());
             }
             for (&value, &reference) in values.iter().zip(references) {
-                component.instance.check_real(real(reference)?, value)?;
+                component.instance.check_real(real::<S>(reference)?, value)?;
             }
             let mut parameters = false;
             for (&value, &reference) in values.iter().zip(references) {
-                parameters |= component.instance.set_real(real(reference)?, value);
+                parameters |= component.instance.set_real(real::<S>(reference)?, value);
             }
             if parameters {
                 component.instance.parameters_are_set();
             }
             // among many a look at each would take long
-            if scene::CONTACTS == 1 || values.iter().any(|&value| component.instance.may_be_fast(value)) {
+            if S::CONTACTS == 1 || values.iter().any(|&value| component.instance.may_be_fast(value)) {
                 component.warn_of_limits(order::SET_REAL);
             }
             Ok(())
@@ -194,7 +203,7 @@ unsafe fn set_any_real(
 ///
 /// # Safety
 /// The caller's component, and an array of `length` references.
-unsafe fn none_of_type(
+unsafe fn none_of_type<S: Scene>(
     c: fmi2Component,
     function: Function,
     kind: &'static str,
@@ -203,10 +212,10 @@ unsafe fn none_of_type(
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        call(c, function, |_| match array(references, length, "vr")?.first() {
-            Some(&reference) => Err(match scene::integer(reference) {
-                Some(_) if kind == "Integer" => Fault::NotSettable,
-                _ => Fault::UnknownReference { kind, reference },
+        call::<S>(c, function, |_| match array(references, length, "vr")?.first() {
+            Some(&reference) => Err(match S::integer(reference) {
+                Some(_) if kind == "Integer" => Fault::NotSettable.into(),
+                _ => Complaint::UnknownReference { kind, reference },
             }),
             None => Ok(()),
         })
@@ -214,8 +223,10 @@ unsafe fn none_of_type(
 }
 
 /// There are no Boolean variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetBoolean(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_boolean<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -223,12 +234,14 @@ pub unsafe extern "C" fn fmi2GetBoolean(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, order::GET_BOOLEAN, "Boolean", vr, nvr) }
+    unsafe { none_of_type::<S>(c, order::GET_BOOLEAN, "Boolean", vr, nvr) }
 }
 
 /// There are no String variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetString(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn get_string<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -236,12 +249,14 @@ pub unsafe extern "C" fn fmi2GetString(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, order::GET_STRING, "String", vr, nvr) }
+    unsafe { none_of_type::<S>(c, order::GET_STRING, "String", vr, nvr) }
 }
 
 /// No Integer variable can be set: they are outputs.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetInteger(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn set_integer<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -249,12 +264,14 @@ pub unsafe extern "C" fn fmi2SetInteger(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, order::SET_INTEGER, "Integer", vr, nvr) }
+    unsafe { none_of_type::<S>(c, order::SET_INTEGER, "Integer", vr, nvr) }
 }
 
 /// There are no Boolean variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetBoolean(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn set_boolean<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -262,12 +279,14 @@ pub unsafe extern "C" fn fmi2SetBoolean(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, order::SET_BOOLEAN, "Boolean", vr, nvr) }
+    unsafe { none_of_type::<S>(c, order::SET_BOOLEAN, "Boolean", vr, nvr) }
 }
 
 /// There are no String variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetString(
+///
+/// # Safety
+/// See [the module](super#safety).
+pub unsafe fn set_string<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,
@@ -275,5 +294,5 @@ pub unsafe extern "C" fn fmi2SetString(
 ) -> fmi2Status {
     let _ = value;
     // SAFETY: the caller's component, and an array as long as announced.
-    unsafe { none_of_type(c, order::SET_STRING, "String", vr, nvr) }
+    unsafe { none_of_type::<S>(c, order::SET_STRING, "String", vr, nvr) }
 }

@@ -1,152 +1,150 @@
 //! Saving and restoring: as a copy, and as words.
 
+use super::start::pair_of;
 use super::*;
 
-impl Instance {
-    /// Makes this instance the same as `other` and reports true; if their parameters differ nothing is done, and false.
+/// The words of an instance that don't belong to a contact, a group or a parameter.
+const OWN_WORDS: usize = 5;
+
+impl<S: Scene> Instance<S> {
+    /// The words of a contact.
+    const CONTACT_WORDS: usize = 1
+        + S::Contact::WORDS
+        + if S::Course::IS_PRESENT { Curve::WORDS } else { 0 }
+        + if S::Momentum::IS_PRESENT { Momentum::WORDS } else { 0 };
+
+    /// Number of words that hold an instance.
+    pub const WORDS: usize =
+        OWN_WORDS + <S::Values as Store<f64>>::LENGTH + 2 * S::GROUPS + Self::CONTACT_WORDS * S::CONTACTS;
+
+    /// Makes this instance the same as `other` and reports true. If their parameters differ nothing is done, and the result is
+    /// false.
     #[inline(always)]
-    pub fn copy_alike(&mut self, other: &Instance) -> bool {
-        if self.stamp != other.stamp {
+    pub fn copy_alike(&mut self, other: &Instance<S>) -> bool {
+        if self.settings.stamp != other.settings.stamp {
             return false;
         }
-        self.rates.copy_from_slice(&other.rates);
-        if scene::CONTACTS == 1 {
-            self.histories.iter_mut().zip(&other.histories).for_each(|(own, history)| own.copy_from(history));
+        let (own, given) = (&mut self.contacts, &other.contacts);
+        own.rates.as_mut().copy_from_slice(given.rates.as_ref());
+        if S::CONTACTS == 1 {
+            let histories = own.histories.as_mut().iter_mut().zip(given.histories.as_ref());
+            histories.for_each(|(own, history)| own.copy_from(history));
         } else {
-            self.histories.copy_from_slice(&other.histories);
+            own.histories.as_mut().copy_from_slice(given.histories.as_ref());
         }
-        self.forces.copy_from_slice(&other.forces);
-        (self.time, self.stop, self.limit) = (other.time, other.stop, other.limit);
-        (self.phase, self.experiment_defined, self.fast) = (other.phase, other.experiment_defined, other.fast);
-        self.momenta.copy_from_slice(&other.momenta);
-        self.last_step.copy_from_slice(&other.last_step);
+        own.forces.as_mut().copy_from_slice(given.forces.as_ref());
+        own.momenta.as_mut().copy_from_slice(given.momenta.as_ref());
+        own.last_step.as_mut().copy_from_slice(given.last_step.as_ref());
         // what isn't curved has curves of no meaning
         if other.curved {
-            self.curves.copy_from_slice(&other.curves);
+            own.curves.as_mut().copy_from_slice(given.curves.as_ref());
         }
         self.curved = other.curved;
+        self.clock = other.clock;
         true
     }
 
     /// Makes this instance the same as `other`, whatever its parameters are.
     #[inline(never)]
-    pub fn copy(&mut self, other: &Instance) {
-        self.pairs.copy_from_slice(&other.pairs);
-        self.values.copy_from_slice(&other.values);
-        (self.lowest_rate, self.stamp) = (other.lowest_rate, other.stamp);
+    pub fn copy(&mut self, other: &Instance<S>) {
+        let (own, given) = (&mut self.settings, &other.settings);
+        own.bodies.as_mut().copy_from_slice(given.bodies.as_ref());
+        own.values = given.values;
+        (own.lowest_rate, own.stamp) = (given.lowest_rate, given.stamp);
         self.copy_alike(other);
     }
 
-    /// The instance as [`WORDS`] words, to be stored.
-    pub fn to_words(&self, mut store: impl FnMut(u64)) {
-        let last_step = self.last_step.first().copied().unwrap_or(0.0);
-        let flags = u64::from(self.experiment_defined) | u64::from(self.curved) << 1;
-        for word in [self.phase as u64, flags, self.time.to_bits(), self.stop.to_bits(), last_step.to_bits()] {
+    /// Hands the [`Instance::WORDS`] words of the instance to `store`. Equal instances have equal words.
+    pub fn save(&self, mut store: impl FnMut(u64)) {
+        let last_step = self.contacts.last_step.as_ref().first().copied().unwrap_or(0.0);
+        let flags = u64::from(self.clock.experiment_defined) | u64::from(self.curved) << 1;
+        let [time, stop, last_step] = [self.clock.time, self.clock.stop(), last_step].map(f64::to_bits);
+        for word in [self.clock.phase as u64, flags, time, stop, last_step] {
             store(word);
         }
-        for value in &self.values {
+        for value in self.settings.values.as_ref() {
             store(value.to_bits());
         }
-        for (contact, (history, rate)) in self.histories.iter().zip(&self.rates).enumerate() {
+        for bodies in self.settings.bodies.as_ref() {
+            store(bodies.radius.to_bits());
+            store(bodies.modulus.to_bits());
+        }
+        let (curves, momenta) = (self.contacts.curves.as_ref(), self.contacts.momenta.as_ref());
+        for (contact, (history, rate)) in self.histories().iter().zip(self.rates()).enumerate() {
             store(rate.to_bits());
-            for word in history.to_words() {
-                store(word);
-            }
+            history.save(&mut store);
             // of contacts with neither there are none
-            for word in self.curves.get(contact).into_iter().flat_map(|curve| curve.to_words()) {
-                store(word);
+            if let Some(curve) = curves.get(contact) {
+                // what isn't curved has curves of no meaning
+                let curve = if self.curved { *curve } else { Curve::default() };
+                curve.save(&mut store);
             }
-            for word in self.momenta.get(contact).into_iter().flat_map(|momentum| momentum.to_words()) {
-                store(word);
+            if let Some(momentum) = momenta.get(contact) {
+                momentum.save(&mut store);
             }
         }
     }
 
-    /// Makes this the instance that [`Instance::to_words`] stored, each word as little-endian bytes, and reports true. If the words
-    /// don't make one nothing is done.
-    pub fn restore(&mut self, words: &[[u8; 8]]) -> bool {
-        let number = |place| f64::from_bits(word(words, place));
-        let mut values = START;
-        let mut bad = word(words, 1) > 3 || [2, 3, 4].into_iter().any(|place| !number(place).is_finite());
-        for ((value, settable), place) in values.iter_mut().zip(&scene::SETTABLE).zip(OWN_WORDS..) {
-            *value = number(place);
-            bad |= !allows(settable, *value);
-        }
-        let Some(phase) = Phase::ALL.into_iter().find(|&phase| phase as u64 == word(words, 0)) else { return false };
+    /// Makes this the instance that [`Instance::save`] has stored, each word as little-endian bytes, and reports true. If the
+    /// words don't make one nothing is done.
+    pub fn load(&mut self, words: &[[u8; 8]]) -> bool {
         // first a look at all that there is, and then the same again in earnest
-        if bad || !self.restore_contacts(words, &values, false) {
-            return false;
-        }
-        self.fast = false;
-        self.restore_contacts(words, &values, true);
-        self.values = values;
-        self.stamp_parameters();
-        (self.time, self.stop) = (number(2), number(3));
-        self.experiment_defined = word(words, 1) & 1 != 0;
-        self.curved = word(words, 1) & 2 != 0;
-        self.last_step.fill(number(4));
-        self.set_phase(phase);
-        // what came before is not known here
-        self.look();
-        self.note_forces();
-        true
+        words.len() == Self::WORDS && self.read(words, false).is_some() && self.read(words, true).is_some()
     }
 
-    /// Reads all contacts, and puts them in place if it is `in_earnest`; false if the words don't make contacts.
+    /// Reads everything, and puts it in place if it is `in_earnest`; `None` if the words don't make an instance.
     #[inline(never)]
-    fn restore_contacts(&mut self, words: &[[u8; 8]], values: &Values, in_earnest: bool) -> bool {
-        let mut place = OWN_WORDS + scene::SETTABLE.len();
-        let mut contacts = self.histories.iter_mut().zip(&mut self.rates);
-        let (mut curves, mut momenta) = (self.curves.iter_mut(), self.momenta.iter_mut());
-        let mut first = 0;
-        for (group, bodies) in self.pairs.iter_mut().enumerate() {
-            let Ok(pair) = pair_of(group, values) else { return false };
-            let model = scene::model(pair, group, values);
-            if in_earnest {
-                bodies.take(&pair);
-            }
-            let end = scene::end(group);
-            for (own, slot) in contacts.by_ref().take(end - first) {
-                let rate = f64::from_bits(word(words, place));
-                let stored = read(words, place + 1);
-                let curve = if CURVES > 0 { Curve::from_words(read(words, place + CURVE_AT)) } else { None };
-                let momentum =
-                    if scene::MOMENTUM { Momentum::from_words(read(words, place + MOMENTUM_AT)) } else { None };
-                if CURVES > 0 && curve.is_none() || scene::MOMENTUM && momentum.is_none() {
-                    return false;
-                }
-                let Some(history) = History::from_words(&stored, &model).filter(|_| rate.is_finite()) else {
-                    return false;
-                };
-                if in_earnest {
-                    self.fast |= rate.abs() > FAST || history.indentation().abs() > FAR;
-                    (*own, *slot) = (history, rate);
-                    if let (Some(slot), Some(curve)) = (curves.next(), curve) {
-                        *slot = curve;
-                    }
-                    if let (Some(slot), Some(momentum)) = (momenta.next(), momentum) {
-                        *slot = momentum;
-                    }
-                }
-                place += CONTACT_WORDS;
-            }
-            first = end;
+    fn read(&mut self, words: &[[u8; 8]], in_earnest: bool) -> Option<()> {
+        let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
+        let (phase, flags) = (words.next()?, words.next().filter(|&flags| flags <= 3)?);
+        let phase = Phase::ALL.into_iter().find(|&known| known as u64 == phase)?;
+        let mut number = || words.next().map(f64::from_bits).filter(|number| number.is_finite());
+        let (time, stop, last_step) = (number()?, number()?, number()?);
+        let clock = Clock::of(time, stop, phase, flags & 1 != 0)?;
+        let mut values = S::start_values();
+        for (value, settable) in values.as_mut().iter_mut().zip(S::settable()) {
+            *value = number().filter(|&value| allows(settable, value))?;
         }
-        true
+        let unfit = !matches!(phase, Phase::StepComplete | Phase::Terminated);
+        for (group, bodies) in self.settings.bodies.as_mut().iter_mut().enumerate() {
+            let saved = Bodies { radius: number()?, modulus: number()?, ..NO_BODIES };
+            let bodies_now = match pair_of::<S>(group, &values) {
+                Ok(pair) => Bodies { radius: pair.radius, modulus: pair.modulus, ..NO_BODIES },
+                // parameters that don't fit together leave the bodies that there were before
+                Err(_) if unfit && saved.radius > 0.0 && saved.modulus > 0.0 => saved,
+                Err(_) => return None,
+            };
+            if in_earnest {
+                *bodies = bodies_now;
+            }
+        }
+        let bodies_of = |group: usize, bodies: &S::Groups<Bodies>| bodies.as_ref().get(group).copied();
+        let Contacts { histories, rates, curves, momenta, .. } = &mut self.contacts;
+        let (mut curves, mut momenta) = (curves.as_mut().iter_mut(), momenta.as_mut().iter_mut());
+        let slots = histories.as_mut().iter_mut().zip(rates.as_mut());
+        for (contact, (history_slot, rate_slot)) in slots.enumerate() {
+            let group = S::group(contact);
+            let model = model_of::<S>(group, bodies_of(group, &self.settings.bodies)?, &values);
+            let rate = words.next().map(f64::from_bits).filter(|rate| rate.abs() <= FASTEST)?;
+            let history = S::Contact::load(&mut words, &model)?;
+            let curve = if S::Course::IS_PRESENT { Curve::load(&mut words)? } else { Curve::default() };
+            let momentum = if S::Momentum::IS_PRESENT { Momentum::load(&mut words)? } else { Momentum::default() };
+            if in_earnest {
+                (*history_slot, *rate_slot) = (history, rate);
+                curves.next().into_iter().for_each(|slot| *slot = curve);
+                momenta.next().into_iter().for_each(|slot| *slot = momentum);
+            }
+        }
+        if in_earnest {
+            self.settings.values = values;
+            self.stamp_parameters();
+            self.clock = clock;
+            self.curved = flags & 2 != 0;
+            self.contacts.last_step.as_mut().fill(last_step);
+            // what came before is not known here
+            self.look();
+            self.note_forces();
+        }
+        Some(())
     }
-}
-
-/// So many words from `place` on.
-fn read<const COUNT: usize>(words: &[[u8; 8]], place: usize) -> [u64; COUNT] {
-    let mut read = [0; COUNT];
-    for (index, slot) in read.iter_mut().enumerate() {
-        *slot = word(words, place + index);
-    }
-    read
-}
-
-/// A word of those that [`Instance::to_words`] stored.
-#[inline(never)]
-fn word(words: &[[u8; 8]], place: usize) -> u64 {
-    words.get(place).map_or(0, |word| u64::from_le_bytes(*word))
 }

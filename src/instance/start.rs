@@ -1,20 +1,12 @@
 //! An instance before any motion: the bodies that its parameters describe, and where they are.
 
 use super::*;
-
-/// The start values of the settable parameters.
-pub(super) const START: Values = {
-    let mut values = [0.0; scene::SETTABLE.len()];
-    let mut index = 0;
-    while index < values.len() {
-        values[index] = scene::SETTABLE[index].start;
-        index += 1;
-    }
-    values
-};
+use crate::contact::{Body, Pair};
+use crate::scene::Parameter;
 
 /// What of a pair is worth keeping; the rest are parameters.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub(super) struct Bodies {
     /// Effective radius [m].
     pub radius: f64,
@@ -38,8 +30,8 @@ pub(super) const NO_BODIES: Bodies = Bodies { radius: f64::NAN, modulus: f64::NA
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The pair of bodies of `group` that `values` describe.
-pub(super) fn pair_of(group: usize, values: &Values) -> Result<Pair, Fault> {
-    let value = |parameter| scene::parameter(parameter, group, values);
+pub(super) fn pair_of<S: Scene>(group: usize, values: &S::Values) -> Result<Pair, Fault> {
+    let value = |parameter| S::parameter(parameter, group, values);
     let impactor = Body {
         radius: value(Parameter::ImpactorRadius),
         youngs_modulus: value(Parameter::ImpactorYoungsModulus),
@@ -55,8 +47,8 @@ pub(super) fn pair_of(group: usize, values: &Values) -> Result<Pair, Fault> {
 }
 
 /// What is in contact in `group`, whose `bodies` are those of `values`.
-pub(super) fn model_of(group: usize, bodies: Bodies, values: &Values) -> Model {
-    let value = |parameter| scene::parameter(parameter, group, values);
+pub(super) fn model_of<S: Scene>(group: usize, bodies: Bodies, values: &S::Values) -> S::Model {
+    let value = |parameter| S::parameter(parameter, group, values);
     let pair = Pair {
         radius: bodies.radius,
         modulus: bodies.modulus,
@@ -64,33 +56,56 @@ pub(super) fn model_of(group: usize, bodies: Bodies, values: &Values) -> Model {
         youngs_modulus: value(Parameter::TargetYoungsModulus),
         poissons_ratio: value(Parameter::TargetPoissonsRatio),
     };
-    scene::model(pair, group, values)
+    S::model(pair, group, values)
 }
 
 /// A contact of `group` before any motion.
 #[inline(never)]
-fn start_of(group: usize, values: &Values) -> Result<(Pair, History), Fault> {
-    let model = scene::model(pair_of(group, values)?, group, values);
-    let history = History::start(&model, scene::parameter(Parameter::InitialGap, group, values));
-    Ok((model.pair, history.map_err(|deep| too_deep(0, deep))?))
+fn start_of<S: Scene>(group: usize, values: &S::Values) -> Result<(Pair, S::Contact), Fault> {
+    let pair = pair_of::<S>(group, values)?;
+    let model = S::model(pair, group, values);
+    let history = S::Contact::start(&model, S::parameter(Parameter::InitialGap, group, values));
+    let first = group.checked_sub(1).map_or(0, S::end);
+    Ok((pair, history.map_err(|deep| too_deep(first, deep))?))
 }
 
-impl Instance {
+impl<S: Scene> Instance<S> {
+    /// An instance before anything is set. Of many contacts it is large: see [`Instance::reset`] for one in place.
+    ///
+    /// # Errors
+    /// As for [`Instance::reset`].
+    pub fn new() -> Result<Instance<S>, Fault> {
+        let values = S::start_values();
+        let (_, history) = start_of::<S>(0, &values)?;
+        let mut instance = Instance {
+            clock: Clock::START,
+            curved: false,
+            contacts: Contacts {
+                histories: Store::filled(history),
+                rates: Store::filled(0.0),
+                forces: Store::filled(0.0),
+                momenta: Store::filled(Momentum::default()),
+                curves: Store::filled(Curve::default()),
+                last_step: Store::filled(0.0),
+            },
+            settings: Settings { lowest_rate: 0.0, stamp: 0, bodies: Store::filled(NO_BODIES), values },
+            deep: Deep { contact: 0, indentation: 0.0 },
+        };
+        instance.reset()?;
+        Ok(instance)
+    }
+
     /// Makes the instance as it is before anything is set, the same bit for bit each time.
     ///
     /// # Errors
     /// [`Fault::NoPointContact`] if the start values of the scene don't fit together.
     pub fn reset(&mut self) -> Result<(), Fault> {
-        self.values = START;
-        self.rates.fill(0.0);
-        self.time = 0.0;
-        self.stop = f64::MAX;
-        self.experiment_defined = false;
-        self.fast = false;
-        self.last_step.fill(0.0);
-        self.deep = 0;
+        self.settings.values = S::start_values();
+        self.contacts.rates.as_mut().fill(0.0);
+        self.contacts.last_step.as_mut().fill(0.0);
+        self.clock = Clock::START;
+        self.deep.contact = 0;
         self.straighten();
-        self.set_phase(Phase::Instantiated);
         self.start()
     }
 
@@ -101,45 +116,48 @@ impl Instance {
         started
     }
 
-    /// Makes the [`Instance::stamp`] that of the parameters and of the bodies that follow from them, and finds what else does.
+    /// Makes the stamp that of the parameters and of the bodies that follow from them, and finds what else does.
     #[cold]
     #[inline(never)]
     pub(super) fn stamp_parameters(&mut self) {
-        let bodies = self.pairs.iter().flat_map(|bodies| [bodies.radius, bodies.modulus]);
+        let Settings { lowest_rate, stamp, bodies, values } = &mut self.settings;
+        let sizes = bodies.as_ref().iter().flat_map(|bodies| [bodies.radius, bodies.modulus]);
         let mix = |sum: u64, value: f64| {
             let mixed = (sum ^ value.to_bits()).wrapping_mul(GOLDEN);
             mixed ^ mixed >> 32
         };
         // blank memory has the stamp zero
-        let stamp = self.values.iter().copied().chain(bodies).fold(GOLDEN, mix) | 1;
-        if stamp != self.stamp {
-            self.stamp = stamp;
-            self.lowest_rate = validity::lowest_rate(&self.values);
-            for (group, bodies) in self.pairs.iter_mut().enumerate() {
-                bodies.depth = model_of(group, *bodies, &self.values).valid_depth();
+        let present = values.as_ref().iter().copied().chain(sizes).fold(GOLDEN, mix) | 1;
+        if present != *stamp {
+            *stamp = present;
+            *lowest_rate = validity::lowest_rate::<S>(values);
+            for (group, bodies) in bodies.as_mut().iter_mut().enumerate() {
+                bodies.depth = S::Contact::valid_depth(&model_of::<S>(group, *bodies, values));
             }
         }
     }
 
     fn start_contacts(&mut self) -> Result<(), Fault> {
-        if scene::GROUPS > 1 {
-            for group in 0..scene::GROUPS {
-                start_of(group, &self.values)?;
+        let Settings { bodies, values, .. } = &mut self.settings;
+        if S::GROUPS > 1 {
+            for group in 0..S::GROUPS {
+                start_of::<S>(group, values)?;
             }
         }
-        let mut histories = self.histories.iter_mut();
+        let mut histories = self.contacts.histories.as_mut().iter_mut();
         let mut first = 0;
-        for (group, bodies) in self.pairs.iter_mut().enumerate() {
-            let (pair, history) = start_of(group, &self.values)?;
+        for (group, bodies) in bodies.as_mut().iter_mut().enumerate() {
+            let (pair, history) = start_of::<S>(group, values)?;
             bodies.take(&pair);
-            let end = scene::end(group);
+            let end = S::end(group);
             for slot in histories.by_ref().take(end - first) {
                 *slot = history;
             }
             first = end;
         }
-        for (momentum, history) in self.momenta.iter_mut().zip(&self.histories) {
-            *momentum = Momentum::start(history.force_at_rate(0.0));
+        let Contacts { histories, momenta, .. } = &mut self.contacts;
+        for (momentum, history) in momenta.as_mut().iter_mut().zip(histories.as_ref()) {
+            *momentum = Momentum::start(history.force(0.0));
         }
         self.note_forces();
         Ok(())

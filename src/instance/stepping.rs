@@ -1,52 +1,62 @@
 //! Steps: the plain one, and any other.
 
-use super::validity::stays_within;
 use super::*;
+use crate::contact::motion::{Drive, NoMotion};
+use crate::contact::path::Course;
+use crate::scene::Parameter;
 
-impl Instance {
-    /// Moves the contacts from `time` over `step` [s] with the rates held. Then [`Instance::take_deep`] has something to tell, or
-    /// not.
+/// A contact after a step that it has yet to make.
+struct Moved<C> {
+    history: C,
+    /// The course that ends as the step did.
+    course: Course,
+    mean_force: f64,
+    /// The largest indentation on the way [m].
+    deepest: f64,
+}
+
+impl<S: Scene> Instance<S> {
+    /// Moves the contacts from `time` over `step` [s] with the rates held. Then [`Instance::take_deep`] may have a warning.
     ///
     /// # Errors
-    /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooDeep`]; every contact
-    /// is then where it was.
+    /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
+    /// [`Fault::TooLong`]; every contact is then where it was.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
-        self.check_step(time, step)?;
+        self.clock.check(time, step)?;
         self.advance(time + step, step)?;
         // it may have been asked to look
         if !self.curved {
-            self.limit = self.stop;
+            self.clock.release();
         }
-        if scene::CONTACTS > 1 && !self.is_deep() {
+        if S::CONTACTS > 1 && !self.is_deep() {
             self.find_deep();
         }
         Ok(())
     }
 
     /// The step that nearly every step is: plainly in order, and of one contact on the branch that it is on. It does what
-    /// [`Instance::do_step`] does; if it isn't such a step nothing is done, and false.
+    /// [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result is false.
     #[inline(always)]
     pub fn do_plain_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
-        // a step that is zero, negative or NaN is not larger than any distance; without a stop time `stop` is the largest
-        // number, so that an infinite step isn't plain
-        let follows = (time - self.time).abs() * (1.0 / TIME_TOLERANCE) < step;
-        let beyond = end > self.limit;
-        let in_order = follows && !beyond;
-        if scene::CONTACTS > 1 {
-            // what the passivity guard does must be told
-            let plain = in_order && PLAIN && scene::GUARD.is_none();
+        let in_order = self.clock.takes(time, end, step);
+        if S::CONTACTS > 1 {
+            // what the passivity guard does must be logged
+            let plain = in_order && Self::PLAIN && S::GUARD.is_none();
             return plain && self.advance(end, step).is_ok();
         }
-        let (Some(history), Some(&rate)) = (self.histories.first_mut(), self.rates.first()) else { return false };
-        let from = if scene::MOMENTUM { history.indentation() } else { 0.0 };
-        let done = PLAIN && in_order && history.plain_step(rate, step);
+        let Contacts { histories, rates, momenta, last_step, .. } = &mut self.contacts;
+        let (Some(history), Some(&rate)) = (histories.as_mut().first_mut(), rates.as_ref().first()) else {
+            return false;
+        };
+        let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
+        let done = Self::PLAIN && in_order && history.short_step(rate * step);
         if done {
-            for momentum in &mut self.momenta {
-                momentum.add(history.mean_force_since(from), step);
+            for momentum in momenta.as_mut() {
+                momentum.add(history.mean_force_of_short_step(from), step);
             }
-            self.last_step.fill(step);
-            self.time = end;
+            last_step.as_mut().fill(step);
+            self.clock.time = end;
         }
         done
     }
@@ -54,50 +64,54 @@ impl Instance {
     /// Moves all contacts over `step` [s], to the time `end` [s], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        let ahead = History::FOLLOWS_RATE || self.curved || self.fast || end.abs() > LATE || !PLAIN;
-        if scene::CONTACTS > 1 && ahead {
-            for contact in 0..scene::CONTACTS {
-                self.moved(contact, step)?;
+        if S::CONTACTS > 1 {
+            // within the limits of rates and times a law that is made of segments can't refuse
+            let looks_ahead = self.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));
+            if looks_ahead {
+                for contact in 0..S::CONTACTS {
+                    self.moved(contact, step)?;
+                }
             }
         }
-        if self.curved || !PLAIN || History::FOLLOWS_RATE && scene::MOMENTUM {
+        if self.curved || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT {
             self.advance_any(step)?;
         } else {
             self.advance_held(step)?;
         }
-        self.last_step.fill(step);
-        self.time = end;
+        self.contacts.last_step.as_mut().fill(step);
+        self.clock.time = end;
         Ok(())
     }
 
     /// Moves all contacts with their rates held.
     #[inline]
     fn advance_held(&mut self, step: f64) -> Result<(), Fault> {
-        let (pairs, values) = (&self.pairs, &self.values);
-        for (contact, (history, &rate)) in self.histories.iter_mut().zip(&self.rates).enumerate() {
-            let from = if scene::MOMENTUM { history.indentation() } else { 0.0 };
+        let Contacts { histories, rates, forces, momenta, .. } = &mut self.contacts;
+        let Settings { bodies, values, .. } = &self.settings;
+        let (bodies, forces, momenta) = (bodies.as_ref(), forces.as_mut(), momenta.as_mut());
+        for (contact, (history, &rate)) in histories.as_mut().iter_mut().zip(rates.as_ref()).enumerate() {
+            let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
             let before = *history;
             // one contact has been tried before, or is only looked at: its momentum is then that of a plain step, too
-            let plain = (scene::CONTACTS > 1 || scene::MOMENTUM) && history.plain_step(rate, step);
-            let group = scene::group(contact);
-            let bodies = || pairs.get(group).copied().unwrap_or(NO_BODIES);
-            let model = || model_of(group, bodies(), values);
-            if !plain {
-                history.step(rate, step, model).map_err(|deep| too_deep(contact, deep))?;
+            let short = (S::CONTACTS > 1 || S::Momentum::IS_PRESENT) && history.short_step(rate * step);
+            let group = S::group(contact);
+            let bodies = || bodies.get(group).copied().unwrap_or(NO_BODIES);
+            let model = || model_of::<S>(group, bodies(), values);
+            let course = Course::held(rate);
+            if !short {
+                history.step(&model(), &course, step).map_err(|deep| too_deep(contact, deep))?;
             }
             let allowed = bodies().depth;
-            if (scene::CONTACTS == 1 || !plain) && !stays_within(allowed, history) {
-                (self.deep, self.deepest) = (contact as u32 + 1, history.max_indentation());
+            if (S::CONTACTS == 1 || !short) && !history.stays_within(allowed) {
+                self.deep = Deep { contact: contact as u32 + 1, indentation: history.max_indentation() };
             }
-            if let Some(force) = self.forces.get_mut(contact) {
-                *force = history.plain_force(rate, Model::SQUARES);
+            if let Some(force) = forces.get_mut(contact) {
+                *force = history.force(rate);
             }
-            if let Some(momentum) = self.momenta.get_mut(contact) {
-                let mean = match plain {
-                    true => history.mean_force_since(from),
-                    false => before
-                        .mean_force_along(&Course::held(rate), step, &model())
-                        .map_err(|deep| too_deep(contact, deep))?,
+            if let Some(momentum) = momenta.get_mut(contact) {
+                let mean = match short {
+                    true => history.mean_force_of_short_step(from),
+                    false => before.mean_force(&model(), &course, step).map_err(|deep| too_deep(contact, deep))?,
                 };
                 momentum.add(mean, step);
             }
@@ -108,26 +122,28 @@ impl Instance {
     /// Moves all contacts, each on the course of its input, or by its mass.
     #[cold]
     fn advance_any(&mut self, step: f64) -> Result<(), Fault> {
-        let curved = !PLAIN || self.curves.iter().any(|curve| curve.slope != 0.0 || curve.bend != 0.0);
-        self.curved |= !PLAIN;
-        for contact in 0..scene::CONTACTS {
+        let is_curved = |curve: &Curve| curve.slope != 0.0 || curve.bend != 0.0;
+        let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(is_curved);
+        self.curved |= !Self::PLAIN;
+        for contact in 0..S::CONTACTS {
             let Moved { mut history, course, mean_force, deepest } = self.moved(contact, step)?;
             let allowed = self.valid_depth(contact);
-            stays_within(allowed, &mut history);
+            history.stays_within(allowed);
             if deepest >= allowed {
-                (self.deep, self.deepest) = (contact as u32 + 1, deepest);
+                self.note_deep(contact, deepest);
             }
-            if let Some(momentum) = self.momenta.get_mut(contact) {
+            let Contacts { histories, forces, momenta, curves, .. } = &mut self.contacts;
+            if let Some(momentum) = momenta.as_mut().get_mut(contact) {
                 momentum.add(mean_force, step);
             }
-            if let Some(slot) = self.histories.get_mut(contact) {
+            if let Some(slot) = histories.as_mut().get_mut(contact) {
                 *slot = history;
             }
-            if let Some(curve) = self.curves.get_mut(contact) {
+            if let Some(curve) = curves.as_mut().get_mut(contact) {
                 curve.end_of(&course, step);
             }
-            if let Some(force) = self.forces.get_mut(contact) {
-                *force = history.force_at_rate(course.rate);
+            if let Some(force) = forces.as_mut().get_mut(contact) {
+                *force = history.force(course.rate);
             }
         }
         // how the step ended is known until the next one, which isn't plain for that reason
@@ -138,16 +154,16 @@ impl Instance {
     }
 
     /// Where `contact` will be after `step` [s].
-    fn moved(&self, contact: usize, step: f64) -> Result<Moved, Fault> {
-        let (Some(history), Some(&rate)) = (self.histories.get(contact), self.rates.get(contact)) else {
-            return Err(Fault::Unavailable);
+    fn moved(&self, contact: usize, step: f64) -> Result<Moved<S::Contact>, Fault> {
+        let (Some(history), Some(&rate)) = (self.histories().get(contact), self.rates().get(contact)) else {
+            return Err(Fault::StepSize { step });
         };
         let mut history = *history;
-        let mut course = self.curves.get(contact).copied().unwrap_or_default().course(rate);
+        let mut course = self.contacts.curves.as_ref().get(contact).copied().unwrap_or_default().course(rate);
         let model = self.model(contact);
         let failed = |deep| too_deep(contact, deep);
-        if let Some(follow) = scene::FOLLOW {
-            let mass = scene::parameter(Parameter::EffectiveMass, scene::group(contact), &self.values);
+        if let Some(follow) = S::FOLLOW {
+            let mass = S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values);
             let drive = Drive { mass, acceleration: course.slope };
             let outcome = follow(&mut history, &model, &drive, rate, step).map_err(|reason| match reason {
                 NoMotion::TooDeep(deep) => failed(deep),
@@ -155,42 +171,15 @@ impl Instance {
             })?;
             let mean_force = mass * outcome.taken / step;
             // as if the rate had gone there in a straight line
-            let slope = course.slope - history.force_at_rate(outcome.speed) / mass;
+            let slope = course.slope - history.force(outcome.speed) / mass;
             course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
             return Ok(Moved { history, course, mean_force, deepest: outcome.deepest });
         }
-        let mean_force = match scene::MOMENTUM {
-            true => history.mean_force_along(&course, step, &model).map_err(failed)?,
+        let mean_force = match S::Momentum::IS_PRESENT {
+            true => history.mean_force(&model, &course, step).map_err(failed)?,
             false => 0.0,
         };
-        let deepest = history.step_along(&course, step, || model).map_err(failed)?;
+        let deepest = history.step(&model, &course, step).map_err(failed)?;
         Ok(Moved { history, course, mean_force, deepest })
     }
-
-    fn check_step(&self, time: f64, step: f64) -> Result<(), Fault> {
-        if !(step > 0.0 && step < f64::INFINITY) {
-            return Err(Fault::StepSize { step });
-        }
-        let rounding = TIME_ROUNDING * (time.abs() + self.time.abs());
-        let follows = time.is_finite() && (time - self.time).abs() <= TIME_TOLERANCE * step + rounding;
-        if !follows {
-            return Err(Fault::CommunicationPoint { given: time, expected: self.time });
-        }
-        let end = time + step;
-        let in_time = end - self.stop <= STOP_TOLERANCE * step + rounding;
-        if !in_time {
-            return Err(Fault::BeyondStopTime { end, stop: self.stop });
-        }
-        Ok(())
-    }
-}
-
-/// A contact after a step that it has yet to make.
-struct Moved {
-    history: History,
-    /// The course that ends as the step did.
-    course: Course,
-    mean_force: f64,
-    /// The largest indentation on the way [m].
-    deepest: f64,
 }

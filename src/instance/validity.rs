@@ -1,79 +1,76 @@
-//! Noticing where a simulation leaves what its law is valid for. It goes on there: what is told of it is no matter of this module.
+//! Noticing where a simulation leaves what its law is valid for. It goes on there; the messages are made elsewhere.
 
 use super::*;
 use crate::contact::validity;
-
-/// Puts up a mark where `history` would leave `depth` [m], so that the step that does isn't plain. False if it has left it.
-#[inline]
-pub(super) fn stays_within(depth: f64, history: &mut History) -> bool {
-    let within = history.max_indentation() < depth;
-    if within {
-        history.notice_at(depth);
-    }
-    within
-}
+use crate::scene::Parameter;
 
 /// The closing speed [m/s] up to which elastic waves can be left out in `group`; any, if its density isn't known.
-fn largest_speed(group: usize, values: &Values) -> f64 {
-    let modulus = scene::parameter(Parameter::TargetYoungsModulus, group, values);
-    scene::density(group).map_or(f64::MAX, |density| validity::largest_speed(modulus, density))
+fn largest_speed<S: Scene>(group: usize, values: &S::Values) -> f64 {
+    let modulus = S::parameter(Parameter::TargetYoungsModulus, group, values);
+    S::density(group).map_or(FASTEST, |density| validity::largest_speed(modulus, density))
 }
 
 /// The opposite of the rate up to which an input needs no further look in any group [m/s].
-pub(super) fn lowest_rate(values: &Values) -> f64 {
-    let finite = if scene::CONTACTS > 1 { FAST } else { f64::MAX };
-    let speeds = (0..scene::GROUPS).map(|group| largest_speed(group, values));
-    -speeds.fold(finite, |least, speed| if speed < least { speed } else { least })
+pub(super) fn lowest_rate<S: Scene>(values: &S::Values) -> f64 {
+    let speeds = (0..S::GROUPS).map(|group| largest_speed::<S>(group, values));
+    -speeds.fold(FASTEST, |least, speed| if speed < least { speed } else { least })
 }
 
-impl Instance {
-    /// Makes the next step look at every contact, wherever it is: nobody has heard of it yet.
+impl<S: Scene> Instance<S> {
+    /// Makes the next step look at every contact, wherever it is: its user hasn't heard of it yet.
     pub fn look(&mut self) {
-        self.limit = NOWHERE;
+        self.clock.hold();
     }
 
     /// Whether this may be too fast for an input [m/s].
     pub fn may_be_fast(&self, rate: f64) -> bool {
-        rate > -self.lowest_rate
+        rate > -self.settings.lowest_rate
     }
 
     /// Up to which indentation the law of `contact` is valid [m].
     pub(super) fn valid_depth(&self, contact: usize) -> f64 {
-        self.pairs.get(scene::group(contact)).map_or(f64::NAN, |bodies| bodies.depth)
+        self.settings.bodies.as_ref().get(S::group(contact)).map_or(f64::NAN, |bodies| bodies.depth)
+    }
+
+    /// Notes that `contact` has been as deep as `indentation` [m].
+    pub(super) fn note_deep(&mut self, contact: usize, indentation: f64) {
+        self.deep = Deep { contact: contact as u32 + 1, indentation };
     }
 
     /// Looks for a contact that is deeper than its law is valid for.
     #[cold]
     pub(super) fn find_deep(&mut self) {
-        let mut contacts = self.histories.iter().enumerate();
+        let mut contacts = self.histories().iter().enumerate();
         let deep = contacts.find(|(contact, history)| history.max_indentation() >= self.valid_depth(*contact));
         if let Some((contact, history)) = deep {
-            (self.deep, self.deepest) = (contact as u32 + 1, history.max_indentation());
+            self.note_deep(contact, history.max_indentation());
         }
     }
 
-    /// A contact that the last step has left deeper than its law is valid for, or had there on the way, if it is yet to be told.
+    /// Whether the last step has left a contact deeper than its law is valid for, or had it there on the way, and nobody has
+    /// [taken](Instance::take_deep) the warning yet.
     #[inline(always)]
     pub fn is_deep(&self) -> bool {
-        self.deep != 0
+        self.deep.contact != 0
     }
 
-    /// The warning of that contact, which then is told.
-    pub fn take_deep(&mut self) -> Option<Fault> {
-        let contact = core::mem::take(&mut self.deep).checked_sub(1)?;
-        Some(Fault::Deep { contact, indentation: self.deepest, allowed: self.valid_depth(contact as usize) })
+    /// The warning of that contact, once.
+    pub fn take_deep(&mut self) -> Option<Warning> {
+        let contact = core::mem::take(&mut self.deep.contact).checked_sub(1)? as usize;
+        Some(Warning::Deep { contact, indentation: self.deep.indentation, allowed: self.valid_depth(contact) })
     }
 
     /// The first contact that closes faster than its law is valid.
-    pub fn find_fast(&self) -> Option<Fault> {
-        self.rates.iter().enumerate().find_map(|(contact, &rate)| {
+    pub fn find_fast(&self) -> Option<Warning> {
+        self.rates().iter().enumerate().find_map(|(contact, &rate)| {
             if !self.may_be_fast(rate) {
                 return None;
             }
             // the bound of the one group is known
-            let only = scene::GROUPS == 1;
-            let allowed = if only { -self.lowest_rate } else { largest_speed(scene::group(contact), &self.values) };
-            (rate > allowed).then_some(Fault::Fast { contact: contact as u32, rate, allowed })
+            let only = S::GROUPS == 1;
+            let values = &self.settings.values;
+            let allowed = if only { -self.settings.lowest_rate } else { largest_speed::<S>(S::group(contact), values) };
+            (rate > allowed).then_some(Warning::Fast { contact, rate, allowed })
         })
     }
 }

@@ -37,19 +37,22 @@ static void stepping(fmi2Component c) {
     check_count("setting, stepping and reading take no memory", allocations() == 0 && releases() == 0);
 }
 
-/* Saves, steps, restores, steps: the same bits, through the state and through its bytes. */
+/* Saves, steps, restores, steps: the same bits, through the state and through its bytes, which make a new state each time. */
 static void states(fmi2Component c, fmi2FMUstate *state, fmi2FMUstate *other) {
     size_t size = 0;
     bool good = fmi.GetFMUstate(c, state) == fmi2OK && fmi.SerializedFMUstateSize(c, *state, &size) == fmi2OK;
     char *bytes = calloc(1, size);
     good &= fmi.SerializeFMUstate(c, *state, bytes, size) == fmi2OK;
     good &= fmi.DeSerializeFMUstate(c, bytes, size, other) == fmi2OK && *other != *state;
-    fmi2FMUstate const first = *state, second = *other;
+    fmi2FMUstate const first = *state;
     count_from_here();
     for (int i = 0; i < 100; i++) {
         good &= fmi.GetFMUstate(c, state) == fmi2OK;
         good &= fmi.SerializedFMUstateSize(c, *state, &size) == fmi2OK;
         good &= fmi.SerializeFMUstate(c, *state, bytes, size) == fmi2OK;
+        good &= fmi.FreeFMUstate(c, other) == fmi2OK;
+        /* whatever the pointer is: it is only written */
+        *other = (fmi2FMUstate)(size_t)(i % 2 ? 0x10 : 0);
         good &= fmi.DeSerializeFMUstate(c, bytes, size, other) == fmi2OK;
         double there = step(c, 1000 + i, 0.3);
         good &= there > 0 && fmi.SetFMUstate(c, *state) == fmi2OK && step(c, 1000 + i, 0.3) == there;
@@ -57,8 +60,8 @@ static void states(fmi2Component c, fmi2FMUstate *state, fmi2FMUstate *other) {
     }
     stop_counting();
     check("a saved state, and one from bytes, lead to the same bits", good);
-    check("states that are there are used again", first == *state && second == *other);
-    check_count("saving, restoring and serializing into them take no memory", allocations() == 0 && releases() == 0);
+    check("a state that is there is used again", first == *state);
+    check_count("saving, restoring and serializing take no memory", allocations() == 100 && releases() == 100);
     free(bytes);
 }
 

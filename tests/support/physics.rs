@@ -189,7 +189,7 @@ pub fn pressed(model: &AnyModel, indentation: f64) -> History {
 
 /// Moves `history` by `increment` [m], which must be within range.
 pub fn advance(history: &mut History, model: &AnyModel, increment: f64) {
-    history.advance(increment, || *model).expect("within range");
+    history.advance(model, increment).expect("within range");
 }
 
 /// Moves `history` to `indentation` [m], up to the rounding of one sum.

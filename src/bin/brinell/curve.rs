@@ -40,7 +40,7 @@ fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooD
         let from = history.indentation();
         for point in 1..=POINTS {
             let to = from + (goal - from) * f64::from(point) / f64::from(POINTS);
-            history.advance(to - history.indentation(), || model)?;
+            history.advance(&model, to - history.indentation())?;
             rows.push(Row {
                 indentation: history.indentation(),
                 force: history.force(),

@@ -96,12 +96,12 @@ fn rate(scene: &Scene, name: &str, variant: String, law: AnyDamped) -> Rated {
     let prediction = damped::impact::predict(&model, &impact).expect("an impact within range");
     let mut touched = damped::History::start(&model, 0.0).expect("zero is within range");
     let hardly = 1e-12 * prediction.max_indentation;
-    touched.step(impact.speed, hardly / impact.speed, || model).expect("within range");
+    touched.advance(impact.speed, hardly / impact.speed).expect("within range");
     let told = table::damped_law(name);
     Rated {
         name: variant,
         title: &told.title,
-        force_at_touch: touched.force_at_rate(impact.speed) / prediction.max_force,
+        force_at_touch: touched.force(impact.speed) / prediction.max_force,
         restitution: prediction.restitution,
         parameters: parameters::constants(&law, told),
         validity: &told.validity,

@@ -38,17 +38,9 @@ pub struct Model<D> {
 }
 
 impl<D> Model<D> {
-    /// There are no branches here that could be quadratic.
-    pub const SQUARES: bool = false;
-
     /// The indentation up to which the law is valid [m]: the contact radius is Hertz's, `a^2 = R d`.
     pub fn valid_depth(&self) -> f64 {
         LARGEST_RADIUS_RATIO * LARGEST_RADIUS_RATIO * self.pair.radius
-    }
-
-    /// There is no passivity guard here: what these laws give back is less than what they took.
-    pub fn is_held_back_at(&self, _max_indentation: f64) -> bool {
-        false
     }
 }
 

@@ -1,11 +1,11 @@
 //! The state of a contact, and its path through the branches of the law.
 
+mod behaviour;
 mod outputs;
 mod saved;
 
 use super::loading::Loading;
-use super::momentum;
-use super::path::{Course, Sum};
+use super::path::Sum;
 use super::segment::Segment;
 use super::unloading::Unloading;
 use super::{Model, Surface};
@@ -77,15 +77,6 @@ impl Regime {
 }
 
 impl History {
-    /// Number of words that hold a history.
-    pub const WORDS: usize = 13;
-
-    /// Whether the force depends on the rate at the same instant.
-    pub const FOLLOWS_RATE: bool = false;
-
-    /// Up to which order there are derivatives of the force by time.
-    pub const DERIVATIVES: i32 = 2;
-
     /// A contact at `gap` [m] before any motion; a negative gap is an indentation reached along the loading curve.
     pub fn start<L: Loading, U: Unloading>(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         let mut history = History {
@@ -106,88 +97,23 @@ impl History {
     ///
     /// # Errors
     /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN; the history is left as it was.
-    pub fn advance<L: Loading, U: Unloading>(
-        &mut self,
-        increment: f64,
-        model: impl FnOnce() -> Model<L, U>,
-    ) -> Result<(), TooDeep> {
+    pub fn advance<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, increment: f64) -> Result<(), TooDeep> {
         if !self.advance_on_branch(increment) {
             let sum = self.indentation.plus(increment);
             // what overflows has no rest
             let indentation = if sum.value.is_finite() { sum.total() } else { sum.value };
             // no motion, no other branch: at its very end a branch that was entered from below is still the right one
             if indentation != self.indentation.total() {
-                self.enter(&model(), indentation, increment > 0.0)?;
+                self.enter(model, indentation, increment > 0.0)?;
             }
             self.indentation = sum;
         }
         Ok(())
     }
 
-    /// Moves the contact with `rate` [m/s] over `step` [s].
-    ///
-    /// # Errors
-    /// As for [`History::advance`].
-    pub fn step<L: Loading, U: Unloading>(
-        &mut self,
-        rate: f64,
-        step: f64,
-        model: impl FnOnce() -> Model<L, U>,
-    ) -> Result<(), TooDeep> {
-        self.advance(rate * step, model)
-    }
-
-    /// Moves the contact on `course` over `step` [s]; the largest indentation on the way [m], which a fresh surface forgets.
-    ///
-    /// # Errors
-    /// As for [`History::advance`].
-    pub fn step_along<L: Loading, U: Unloading>(
-        &mut self,
-        course: &Course,
-        step: f64,
-        model: impl Fn() -> Model<L, U>,
-    ) -> Result<f64, TooDeep> {
-        let mut moved = *self;
-        let (mut from, mut deepest) = (0.0, 0.0);
-        for end in course.monotone_ends(step) {
-            let to = course.way(end);
-            moved.advance(to - from, &model)?;
-            from = to;
-            let reached = moved.max_indentation();
-            deepest = if reached > deepest { reached } else { deepest };
-        }
-        *self = moved;
-        Ok(deepest)
-    }
-
-    /// Mean force over a step on `course` over `step` [s] that is yet to be made [N].
-    ///
-    /// # Errors
-    /// As for [`History::advance`].
-    pub fn mean_force_along<L: Loading, U: Unloading>(
-        &self,
-        course: &Course,
-        step: f64,
-        model: &Model<L, U>,
-    ) -> Result<f64, TooDeep> {
-        Ok(momentum::impulse(self, model, course, step)? / step)
-    }
-
-    /// Mean force of a step that came from the indentation `from` [m] on the branch that the contact is on [N].
-    #[inline]
-    pub fn mean_force_since(&self, from: f64) -> f64 {
-        self.segment.mean_force(from, self.indentation())
-    }
-
-    /// The step if it leaves the contact on its branch; otherwise nothing is done, and false.
-    #[inline(always)]
-    pub fn plain_step(&mut self, rate: f64, step: f64) -> bool {
-        self.advance_on_branch(rate * step)
-    }
-
     /// Moves the contact by `increment` [m] if that leaves it on its branch; otherwise nothing is done, and false.
     #[inline(always)]
-    pub fn advance_on_branch(&mut self, increment: f64) -> bool {
+    fn advance_on_branch(&mut self, increment: f64) -> bool {
         let sum = self.indentation.plus(increment);
         let indentation = sum.total();
         // a NaN is not above the lower end; each comparison has its second number in memory
@@ -200,12 +126,9 @@ impl History {
         stays
     }
 
-    /// Ends the present branch at `indentation` [m], if it goes beyond: the step that comes there then asks for its branch, so
-    /// that it can be noticed. It finds the same one, and nothing else changes.
-    pub fn notice_at(&mut self, indentation: f64) {
-        if indentation < self.segment.upper {
-            self.segment.upper = indentation;
-        }
+    /// Whether the contact is on the loading curve, from where the way back is another one.
+    fn is_loading(&self) -> bool {
+        self.least_increment == 0.0
     }
 
     /// Puts the contact at `indentation` [m] exactly; at a corner on the branch that lies in the direction of motion.

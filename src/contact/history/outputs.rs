@@ -1,10 +1,10 @@
-//! What a contact shows: force, stiffness, radius, pressure, energies, and the derivatives of the force by time.
+//! What a contact shows: force, stiffness, curvature, radius, energies.
 
-use super::{History, Regime, Sum};
+use super::{History, Regime};
 use crate::contact::Model;
+use crate::contact::behaviour::{Contact, slopes};
 use crate::contact::loading::Loading;
 use crate::contact::unloading::Unloading;
-use core::f64::consts::PI;
 
 impl History {
     /// Indentation [m]; negative while apart.
@@ -24,38 +24,20 @@ impl History {
         self.regime
     }
 
+    /// Whether the passivity guard has shortened the path on which the load comes off, or came off.
+    pub fn is_held_back<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> bool {
+        matches!(self.regime, Regime::Unloaded | Regime::Apart) && model.is_held_back_at(self.max_indentation())
+    }
+
     /// Normal force [N], compressive positive; exactly zero while apart.
     #[inline]
     pub fn force(&self) -> f64 {
         self.segment.force_inside(self.indentation.total())
     }
 
-    /// The force [N] by laws whose branches have a quadratic term only if `squares` says so.
-    #[inline(always)]
-    pub fn plain_force(&self, _rate: f64, squares: bool) -> f64 {
-        if squares { self.force() } else { self.segment.force_without_square(self.indentation.total()) }
-    }
-
-    /// The force, which doesn't depend on the rate [N].
-    #[inline]
-    pub fn force_at_rate(&self, _rate: f64) -> f64 {
-        self.force()
-    }
-
-    /// Always: the force doesn't depend on the rate.
-    #[inline(always)]
-    pub fn is_finite_at_rate(&self, _rate: f64) -> bool {
-        true
-    }
-
     /// dF/d(indentation) on the present branch [N/m]; at a corner the one in the direction of the last motion.
     pub fn stiffness(&self) -> f64 {
         self.segment.stiffness(self.indentation.total())
-    }
-
-    /// The stiffness, which doesn't depend on the rate [N/m].
-    pub fn stiffness_at_rate(&self, _rate: f64) -> f64 {
-        self.stiffness()
     }
 
     /// Depth of the dent that would remain if the load were taken off now [m].
@@ -84,13 +66,13 @@ impl History {
 
     /// Force over contact area [Pa], 0 while apart.
     pub fn mean_pressure<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
-        let radius = self.contact_radius(model);
-        if radius > 0.0 { self.force() / (PI * radius * radius) } else { 0.0 }
+        Contact::mean_pressure(self, model, 0.0)
     }
 
-    /// The mean pressure, which doesn't depend on the rate [Pa].
-    pub fn mean_pressure_at_rate<L: Loading, U: Unloading>(&self, model: &Model<L, U>, _rate: f64) -> f64 {
-        self.mean_pressure(model)
+    /// Work done on the contact by the bodies since the start [J]: the sum of the two energies, and so a function of the
+    /// state, not of the steps that led there. A contact that starts pressed in counts the way there as done.
+    pub fn work<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+        Contact::work(self, model)
     }
 
     /// What unloading would give back [J].
@@ -116,41 +98,18 @@ impl History {
         model.loading.work(&model.pair, largest) - model.recovered_work(largest, largest)
     }
 
-    /// Work done on the contact by the bodies since the start [J]: the sum of the other two energies, and so a function
-    /// of the state, not of the steps that led there. A contact that starts pressed in counts the way there as done.
-    pub fn work<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
-        self.elastic_energy(model) + self.dissipated_energy(model)
-    }
-
-    /// Derivative of the force by time [N/s], or of second `order` [N/s^2], with this `rate` [m/s] and its derivative `slope`
-    /// [m/s^2], on the branch that the contact is on.
-    pub fn force_derivative<L: Loading, U: Unloading>(
-        &self,
-        order: i32,
-        rate: f64,
-        slope: f64,
-        model: &Model<L, U>,
-    ) -> f64 {
-        let stiffness = self.stiffness();
-        if order == 1 { stiffness * rate } else { self.curvature(model) * rate * rate + stiffness * slope }
-    }
-
     /// d2F/d(indentation)^2 on the present branch [N/m^2]; of a law without segments from its stiffness near by.
-    fn curvature<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
+    pub fn curvature<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let indentation = self.indentation();
-        let segmented = model.loading.is_segmented() && U::SEGMENTED;
-        if segmented || self.segment.upper > indentation.next_up() {
-            return self.segment.curvature(indentation);
-        }
-        let width = 1e-5 * indentation;
-        let slope_at = |indentation: f64| {
-            let mut near = *self;
-            // at the end of the range there is no neighbour
-            let rising = self.least_increment == 0.0;
-            near.max_indentation = if rising { 0.0 } else { self.max_indentation };
-            near.indentation = Sum::new(0.0);
-            near.go_to(model, indentation, rising).map_or(0.0, |()| near.stiffness())
+        let segmented = match self.regime {
+            Regime::Apart => return 0.0,
+            Regime::Elastic => true,
+            Regime::Unloaded => U::SEGMENTED,
+            _ => model.loading.is_segmented(),
         };
-        (slope_at(indentation + width) - slope_at(indentation - width)) / (2.0 * width)
+        match segmented {
+            true => self.segment.curvature(indentation),
+            false => slopes(self, model, History::stiffness).0,
+        }
     }
 }

@@ -1,30 +1,20 @@
-//! The groups of contacts as constants, and what they don't have in common.
+//! The groups of contacts, and what they don't have in common.
 
-use super::{add, list, literal};
+use super::{File, list, literal};
 use crate::scene::{Group, Scene};
 use brinell::contact::Surface;
 
 /// How many contacts there are, in which groups.
-pub fn add_groups(text: &mut String, scene: &Scene) {
+pub fn add_groups(file: &mut File, scene: &Scene) {
     let (contacts, groups) = (scene.contact_count(), scene.contacts.len());
-    let names = scene.contacts.iter();
-    let names = names.map(|group| format!("({:?}, {})", group.name.as_deref().unwrap_or(""), group.count.is_some()));
-    let names = list("GROUP_NAMES", "(&str, bool)", "GROUPS", &names.collect::<Vec<_>>());
-    add(
-        text,
-        &format!(
-            "/// How many contacts there are.\npub const CONTACTS: usize = {contacts};\n\
-             /// How many groups of equal contacts they form.\npub const GROUPS: usize = {groups};\n\
-             /// The name of each group, and whether its contacts are counted.\npub {names}"
-        ),
-    );
+    file.add_item(&format!(
+        "/// How many contacts there are.\nconst CONTACTS: usize = {contacts};\n\
+         /// How many groups of equal contacts they form.\nconst GROUPS: usize = {groups};\n"
+    ));
     let (group, end) = if groups == 1 {
-        ("pub fn group(_contact: usize) -> usize {\n    0\n", "pub fn end(_group: usize) -> usize {\n    CONTACTS\n")
+        (("_contact", "0"), ("_group", "CONTACTS"))
     } else if groups == contacts {
-        (
-            "pub fn group(contact: usize) -> usize {\n    contact\n",
-            "pub fn end(group: usize) -> usize {\n    group + 1\n",
-        )
+        (("contact", "contact"), ("group", "group + 1"))
     } else {
         let mut end = 0;
         let ends = scene.contacts.iter().map(|group| {
@@ -32,40 +22,50 @@ pub fn add_groups(text: &mut String, scene: &Scene) {
             end.to_string()
         });
         let ends = list("ENDS", "usize", "GROUPS", &ends.collect::<Vec<_>>());
-        add(text, &format!("/// The contact behind the last one of each group.\n{ends}"));
+        file.add_item(&format!("/// The contact behind the last one of each group.\n{ends}"));
         (
-            "pub fn group(contact: usize) -> usize {\n    ENDS.partition_point(|&end| end <= contact)\n",
-            "pub fn end(group: usize) -> usize {\n    ENDS.get(group).copied().unwrap_or(CONTACTS)\n",
+            ("contact", "ENDS.partition_point(|&end| end <= contact)"),
+            ("group", "ENDS.get(group).copied().unwrap_or(CONTACTS)"),
         )
     };
-    add(text, &format!("/// The group of a contact.\n{group}}}\n"));
-    add(text, &format!("/// The contact behind the last one of a group.\n{end}}}\n"));
+    file.add_method(&format!("group({}: usize) -> usize", group.0), group.1);
+    file.add_method(&format!("end({}: usize) -> usize", end.0), end.1);
+    let name = |group: &Group| format!("({:?}, {})", group.name.as_deref().unwrap_or(""), group.count.is_some());
+    let names: Vec<_> = scene.contacts.iter().map(name).collect();
+    let (argument, value) = match names.as_slice() {
+        [only] => ("_group", only.clone()),
+        _ => {
+            let names = list("GROUP_NAMES", "(&str, bool)", "GROUPS", &names);
+            file.add_item(&format!("/// The name of each group, and whether its contacts are counted.\n{names}"));
+            ("group", "GROUP_NAMES.get(group).copied().unwrap_or((\"\", true))".into())
+        }
+    };
+    file.add_method(&format!("group_name({argument}: usize) -> (&'static str, bool)"), &value);
 }
 
-pub fn add_surface(text: &mut String, scene: &Scene) {
+/// The name of the argument that says the group, and what a new contact of it meets.
+pub fn surface(file: &mut File, scene: &Scene) -> (&'static str, String) {
     let name = |group: &Group| match group.surface {
         Surface::Dented => "Surface::Dented".to_string(),
         Surface::Fresh => "Surface::Fresh".to_string(),
     };
-    let head = "/// What a new contact of a group meets.\npub fn surface";
     let names: Vec<_> = scene.contacts.iter().map(name).collect();
-    add_by_group(text, head, "Surface", ("SURFACES", "What a new contact meets, by group."), &names);
+    by_group(file, "Surface", ("SURFACES", "What a new contact meets, by group."), &names)
 }
 
-pub fn add_density(text: &mut String, scene: &Scene) {
+pub fn add_density(file: &mut File, scene: &Scene) {
     let value = |group: &Group| group.density.map_or("None".into(), |density| format!("Some({})", literal(density)));
-    let head = "/// Density of the target of a group [kg/m^3], if it is known.\npub fn density";
     let values: Vec<_> = scene.contacts.iter().map(value).collect();
-    add_by_group(text, head, "Option<f64>", ("DENSITIES", "Density of the target [kg/m^3], by group."), &values);
+    let (group, value) =
+        by_group(file, "Option<f64>", ("DENSITIES", "Density of the target [kg/m^3], by group."), &values);
+    file.add_method(&format!("density({group}: usize) -> Option<f64>"), &value);
 }
 
-/// A function of the group that begins with `head`: one value for all, or a table with its name and what it says.
-fn add_by_group(text: &mut String, head: &str, kind: &str, (name, says): (&str, &str), values: &[String]) {
-    let (argument, body) = if values.iter().all(|value| *value == values[0]) {
-        ("_group", values[0].clone())
-    } else {
-        add(text, &format!("/// {says}\n{}", list(name, kind, "GROUPS", values)));
-        ("group", format!("{name}.get(group).copied().unwrap_or_default()"))
-    };
-    add(text, &format!("{head}({argument}: usize) -> {kind} {{\n    {body}\n}}\n"));
+/// The argument and the expression of something of a group: one value for all, or a table with its name and what it says.
+fn by_group(file: &mut File, kind: &str, (name, says): (&str, &str), values: &[String]) -> (&'static str, String) {
+    if values.iter().all(|value| *value == values[0]) {
+        return ("_group", values[0].clone());
+    }
+    file.add_item(&format!("/// {says}\n{}", list(name, kind, "GROUPS", values)));
+    ("group", format!("{name}.get(group).copied().unwrap_or_default()"))
 }

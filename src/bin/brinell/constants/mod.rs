@@ -1,4 +1,4 @@
-//! The scene as Rust: the file `src/scene.rs` of the library.
+//! The scene as Rust: the file `src/scene/exported.rs` of the library.
 
 mod groups;
 mod parameters;
@@ -7,24 +7,126 @@ mod variables;
 use crate::interface::Entry;
 use crate::scene::Scene;
 use brinell::contact::damped::AnyDamped;
+use std::fmt::Write;
 
-/// The constants of `scene` with the variables `entries`, under the identification `guid`.
+/// The scene as Rust with the variables `entries`, under the identification `guid`.
 pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
-    let mut text = String::from(HEAD);
-    let uses = if scene.damped.is_some() { "self, Pair, damped" } else { "self, Pair, Surface, loading, unloading" };
-    let several = parameters::differing(scene).next().is_some();
-    let uses_variable = if several { USES.into() } else { USES.replace("Source, ", "") };
-    add(&mut text, &format!("use crate::contact::{{{uses}}};\n{uses_variable}"));
-    let loading = value_of(&scene.loading.1);
-    // an elastic contact never unloads by another law; the compiler leaves out whatever stands here
-    let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.model().unloading));
-    add(
-        &mut text,
-        &format!(
-            "/// What the model description and the binary recognise each other by.\npub const GUID: &str = {guid:?};\n"
-        ),
-    );
-    groups::add_groups(&mut text, scene);
+    let mut file = File::default();
+    file.add_item(&format!(
+        "/// What the model description and the binary recognise each other by.\nconst GUID: &str = {guid:?};\n"
+    ));
+    file.add_method("guid() -> &'static str", "GUID");
+    file.add_method("identity() -> u64", "const { identity_of(GUID) }");
+    groups::add_groups(&mut file, scene);
+    parameters::add_settable(&mut file, entries);
+    parameters::add_parameters(&mut file, scene);
+    add_laws(&mut file, scene);
+    groups::add_density(&mut file, scene);
+    variables::add_reals(&mut file, entries);
+    variables::add_integers(&mut file, entries);
+    file.text(scene)
+}
+
+/// The parts of the file: what stands by itself, and the methods of the scene.
+#[derive(Default)]
+struct File {
+    items: String,
+    methods: String,
+    /// The types of model and contact.
+    model: String,
+    contact: String,
+}
+
+impl File {
+    /// A constant or a table.
+    fn add_item(&mut self, item: &str) {
+        self.items.push('\n');
+        self.items.push_str(item);
+    }
+
+    /// A method without arguments of its own beyond its `head`.
+    fn add_method(&mut self, head: &str, body: &str) {
+        let body = body.trim_end().replace('\n', "\n        ");
+        write!(self.methods, "\n    fn {head} {{\n        {body}\n    }}\n").expect("a String takes everything");
+    }
+
+    /// The whole file.
+    fn text(&self, scene: &Scene) -> String {
+        let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
+        let presence = |is: bool| if is { "Present" } else { "Absent" };
+        let follows_rate = scene.damped.is_some();
+        let forces = presence(scene.contact_count() > 1 && !follows_rate);
+        let momentum = presence(chosen(&["impulse", "mean_force"]));
+        let (course, prediction) = (presence(!follows_rate), presence(chosen(&["predicted_force"])));
+        let follow = match scene.knows_mass {
+            true => "\n    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(follow);\n",
+            false => "",
+        };
+        let guard = match crate::guard::words(scene).map(|words| format!("the passivity guard {words}")) {
+            Some(words) => format!(
+                "\n    const GUARD: Option<Guard<Self>> =\n        Some(Guard {{ words: {words:?}, acts: contact::History::is_held_back }});\n"
+            ),
+            None => String::new(),
+        };
+        let Self { items, methods, model, contact } = self;
+        let implementation = format!(
+            "impl Scene for Exported {{
+    type Model = {model};
+    type Contact = {contact};
+
+    type Contacts<T: Copy> = [T; CONTACTS];
+    type Groups<T: Copy> = [T; GROUPS];
+    type Values = [f64; SETTABLE.len()];
+
+    type Forces = {forces};
+    type Momentum = {momentum};
+    type Course = {course};
+    type Prediction = {prediction};
+{follow}{guard}{methods}}}
+"
+        );
+        let text = format!(
+            "\n/// The scene that the exporter has been given.\npub struct Exported;\n{items}\n{implementation}"
+        );
+        format!("{HEAD}\n{}{text}", uses(&text))
+    }
+}
+
+/// What the file uses.
+fn uses(text: &str) -> String {
+    let named = |names: &[&'static str]| -> Vec<&'static str> {
+        names.iter().copied().filter(|name| text.contains(name.trim_end_matches(" as _"))).collect()
+    };
+    let mut contact = vec!["self", "Pair"];
+    contact.extend(named(&["Surface", "damped", "loading", "unloading"]));
+    let follow = if text.contains("Some(follow)") { "use crate::contact::motion::{Follow, follow};\n" } else { "" };
+    let mut scene = named(&["Absent", "Guard", "Integer", "Parameter", "Present", "Real"]);
+    scene.extend(["Scene", "Settable", "identity_of"]);
+    // a scene without a contact law that asks for them has no use for these names alone
+    if !text.contains("contact::") {
+        contact.remove(0);
+    }
+    let source = if text.contains("Source::") { "Source, " } else { "" };
+    let variable = match source {
+        "" => "use crate::scene::variable::kind_and_contact;\n".to_string(),
+        source => format!("use crate::scene::variable::{{{source}kind_and_contact}};\n"),
+    };
+    format!(
+        "use crate::contact::{{{}}};\n{follow}{variable}use crate::scene::{{{}}};\n",
+        contact.join(", "),
+        scene.join(", ")
+    )
+}
+
+const HEAD: &str = "\
+//! The scene of this library.
+//!
+//! `brinell export` writes this file for every scene that it builds. The one in the source tree is that of
+//! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
+";
+
+/// The laws with their constants, and the model of a group.
+fn add_laws(file: &mut File, scene: &Scene) {
     if let Some((_, law)) = &scene.damped {
         // an enum inside of a law is printed without its path
         let path = match law {
@@ -32,71 +134,28 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
             _ => "damped::tsuji::TsujiDamping::",
         };
         let value = value_of(law).replace("damping_factor: ", &format!("damping_factor: {path}"));
-        add_law(&mut text, "Law", "LAW", "damped", &value);
-        add_guard(&mut text, scene);
-        add(&mut text, DAMPED_MODEL);
-    } else {
-        add_law(&mut text, "Loading", "LOADING", "loading", &loading);
-        add_law(&mut text, "Unloading", "UNLOADING", "unloading", &unloading);
-        add_guard(&mut text, scene);
-        groups::add_surface(&mut text, scene);
-        add(&mut text, MODEL);
+        let kind = add_law(file, "LAW", "damped", &value);
+        file.model = format!("damped::Model<{kind}>");
+        file.contact = format!("damped::History<{kind}>");
+        file.add_method(
+            "model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model",
+            "let value = |which| Self::parameter(which, group, values);\n\
+             let (restitution, mass) = (value(Parameter::Restitution), value(Parameter::EffectiveMass));\n\
+             damped::Model { pair, law: LAW, restitution, mass }",
+        );
+        return;
     }
-    groups::add_density(&mut text, scene);
-    add_coupling(&mut text, scene);
-    parameters::add_settable(&mut text, entries);
-    parameters::add_parameters(&mut text, scene);
-    variables::add_reals(&mut text, entries);
-    variables::add_integers(&mut text, entries);
-    text
-}
-
-const HEAD: &str = "\
-//! The scene: which laws, which variables, which start values.
-//!
-//! `brinell export` writes this file for every scene that it builds. The one in the source tree is that of
-//! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
-";
-
-const USES: &str = "\
-use crate::instance::Values;
-use crate::variable::{Integer, Parameter, Real, Settable, Source, kind_and_contact};
-";
-
-const MODEL: &str = "\
-/// What a contact remembers.
-pub type History = contact::History;
-/// What is in contact, and by which laws.
-pub type Model = contact::Model<Loading, Unloading>;
-
-/// What moves a contact through a step by its mass.
-pub type Follow = contact::motion::Follow<History, Model>;
-
-/// These bodies with the laws of the scene.
-pub fn model(pair: Pair, group: usize, _settable: &Values) -> Model {
-    Model { pair, loading: LOADING, unloading: UNLOADING, surface: surface(group) }
-}
-";
-
-const DAMPED_MODEL: &str = "\
-/// What a contact remembers.
-pub type History = damped::History<Law>;
-/// What is in contact, and by which law.
-pub type Model = damped::Model<Law>;
-
-/// What moves a contact through a step by its mass.
-pub type Follow = contact::motion::Follow<History, Model>;
-
-/// These bodies with the law of the scene.
-pub fn model(pair: Pair, group: usize, settable: &Values) -> Model {
-    let value = |which| parameter(which, group, settable);
-    damped::Model { pair, law: LAW, restitution: value(Parameter::Restitution), mass: value(Parameter::EffectiveMass) }
-}
-";
-
-fn add(text: &mut String, paragraph: &str) {
-    text.push('\n');
-    text.push_str(paragraph);
+    let loading = add_law(file, "LOADING", "loading", &value_of(&scene.loading.1));
+    // an elastic contact never unloads by another law; the compiler leaves out whatever is here
+    let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.model().unloading));
+    let unloading = add_law(file, "UNLOADING", "unloading", &unloading);
+    file.model = format!("contact::Model<{loading}, {unloading}>");
+    file.contact = "contact::History".into();
+    let (group, surface) = groups::surface(file, scene);
+    file.add_method(
+        &format!("model(pair: Pair, {group}: usize, _values: &Self::Values) -> Self::Model"),
+        &format!("contact::Model {{ pair, loading: LOADING, unloading: UNLOADING, surface: {surface} }}"),
+    );
 }
 
 /// The Rust expression of a law: the Debug form of the enum that holds it, without the enum.
@@ -106,7 +165,8 @@ fn value_of(law: &impl std::fmt::Debug) -> String {
     inner.map_or(text.clone(), str::to_string)
 }
 
-fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &str) {
+/// Adds a law as a constant; the result is its type.
+fn add_law(file: &mut File, constant: &str, module: &str, value: &str) -> String {
     let guarded = value.strip_prefix("Guarded(").and_then(|value| value.strip_suffix(')'));
     let value = guarded.unwrap_or(value);
     let name = value.split(' ').next().unwrap_or(value);
@@ -123,37 +183,12 @@ fn add_law(text: &mut String, kind: &str, constant: &str, module: &str, value: &
         }
         None => value.to_string(),
     };
-    let (name, value) = match guarded {
-        Some(_) => (format!("Guarded<{module}::{name}>"), format!("Guarded({module}::{value})")),
-        None => (name.to_string(), value),
+    let (kind, value) = match guarded {
+        Some(_) => (format!("{module}::Guarded<{module}::{name}>"), format!("{module}::Guarded({module}::{value})")),
+        None => (format!("{module}::{name}"), format!("{module}::{value}")),
     };
-    add(
-        text,
-        &format!(
-            "/// The {module} law.\npub type {kind} = {module}::{name};\n\
-             /// The {module} law with its constants.\npub const {constant}: {kind} = {module}::{value};\n"
-        ),
-    );
-}
-
-fn add_coupling(text: &mut String, scene: &Scene) {
-    let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
-    let (momentum, predicts) = (chosen(&["impulse", "mean_force"]), chosen(&["predicted_force"]));
-    let follow = if scene.knows_mass { "Some(contact::motion::follow)" } else { "None" };
-    add(
-        text,
-        &format!(
-            "/// Whether an output tells the momentum of a step.\npub const MOMENTUM: bool = {momentum};\n\
-             /// Whether an output predicts the force of the next step.\npub const PREDICTS: bool = {predicts};\n\
-             /// How the bodies move through a step, if the unit knows their mass.\npub const FOLLOW: Option<Follow> = {follow};\n"
-        ),
-    );
-}
-
-fn add_guard(text: &mut String, scene: &Scene) {
-    let guard = crate::guard::words(scene).map(|words| format!("the passivity guard {words}"));
-    let guard = format!("pub const GUARD: Option<&str> = {guard:?};\n");
-    add(text, &format!("/// Where the passivity guard acts, if there is one.\n{guard}"));
+    file.add_item(&format!("/// The {module} law with its constants.\nconst {constant}: {kind} = {value};\n"));
+    kind
 }
 
 /// `value` as a Rust expression that gives the same bits.

@@ -1,6 +1,6 @@
 //! The parameters as constants: those that can be set, and where every one has its value from.
 
-use super::{add, list, literal};
+use super::{File, list, literal};
 use crate::interface::Entry;
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, Variable};
@@ -17,24 +17,28 @@ const ABSENT: [(&str, f64); 6] = [
     ("effective_mass", f64::INFINITY),
 ];
 
-pub fn add_settable(text: &mut String, entries: &[Entry]) {
+pub fn add_settable(file: &mut File, entries: &[Entry]) {
     let settable: Vec<_> = entries.iter().filter(|entry| entry.variable.causality == Causality::Parameter).collect();
-    let mut table =
-        format!("/// The parameters that can be set.\npub const SETTABLE: [Settable; {}] = [", settable.len());
+    let number = |value: Option<f64>| literal(value.expect("a parameter has a start value and limits"));
+    let mut table = format!("/// The parameters that can be set.\nstatic SETTABLE: [Settable; {}] = [", settable.len());
     for entry in &settable {
-        let Entry { variable, start, .. } = entry;
+        let variable = entry.variable;
         let unit = variable.unit.as_deref().unwrap_or("");
-        let [start, minimum, maximum] = [*start, variable.minimum, variable.maximum]
-            .map(|value| literal(value.expect("a parameter has a start value and limits")));
+        let [minimum, maximum] = [variable.minimum, variable.maximum].map(number);
         write!(
             table,
-            "\n    Settable {{ name: {:?}, unit: {unit:?}, start: {start}, minimum: {minimum}, maximum: {maximum} }},",
+            "\n    Settable {{ name: {:?}, unit: {unit:?}, minimum: {minimum}, maximum: {maximum} }},",
             entry.name(0)
         )
         .expect("a String takes everything");
     }
     table.push_str(if settable.is_empty() { "];\n" } else { "\n];\n" });
-    add(text, &table);
+    file.add_item(&table);
+    file.add_method("settable() -> &'static [Settable]", "&SETTABLE");
+    let starts: Vec<_> = settable.iter().map(|entry| number(entry.start)).collect();
+    let line = format!("[{}]", starts.join(", "));
+    let starts = if line.len() < 90 { line } else { format!("[\n    {},\n]", starts.join(",\n    ")) };
+    file.add_method("start_values() -> Self::Values", &starts);
 }
 
 /// The variables that a scene can have as parameters.
@@ -49,7 +53,7 @@ pub fn differing(scene: &Scene) -> impl Iterator<Item = &'static Variable> {
         .filter(move |variable| scene.contacts.len() > 1 && scene.contacts.iter().any(|group| own(variable, group)))
 }
 
-pub fn add_parameters(text: &mut String, scene: &Scene) {
+pub fn add_parameters(file: &mut File, scene: &Scene) {
     // where each group has its own parameters among those that can be set
     let mut first = scene.settable().count();
     let firsts = scene.contacts.iter().map(|group| {
@@ -76,7 +80,7 @@ pub fn add_parameters(text: &mut String, scene: &Scene) {
         },
     };
     let differing: Vec<_> = differing(scene).map(|variable| variable.rust.as_str()).collect();
-    let (mut arms, mut tables) = (String::new(), String::new());
+    let mut arms = String::new();
     let mut uses_settable = !differing.is_empty();
     for variable in parameters() {
         let value = if differing.contains(&variable.rust.as_str()) {
@@ -86,28 +90,24 @@ pub fn add_parameters(text: &mut String, scene: &Scene) {
                 Value::Constant(value) => format!("Source::Constant({})", literal(value)),
             });
             let sources = list(&constant, "Source", "GROUPS", &sources.collect::<Vec<_>>());
-            tables.push_str(&format!("\n/// `{}` by group.\n{sources}", variable.name));
-            format!("Source::value({constant}.get(group), settable)")
+            file.add_item(&format!("/// `{}` by group.\n{sources}", variable.name));
+            format!("Source::value({constant}.get(group), values)")
         } else {
             match source(0, &variable.name) {
                 Value::Settable(place) => {
                     uses_settable = true;
-                    format!("settable[{place}]")
+                    format!("values[{place}]")
                 }
                 Value::Constant(value) => literal(value),
             }
         };
-        writeln!(arms, "        Parameter::{} => {value},", variable.rust).expect("a String takes everything");
+        writeln!(arms, "    Parameter::{} => {value},", variable.rust).expect("a String takes everything");
     }
-    text.push_str(&tables);
     let group = if differing.is_empty() { "_group" } else { "group" };
-    let settable = if uses_settable { "settable" } else { "_settable" };
-    add(
-        text,
-        &format!(
-            "/// The value of any parameter for the contacts of a group: set, or constant in this scene.\n\
-             pub fn parameter(parameter: Parameter, {group}: usize, {settable}: &Values) -> f64 {{\n    match parameter {{\n{arms}    }}\n}}\n"
-        ),
+    let values = if uses_settable { "values" } else { "_values" };
+    file.add_method(
+        &format!("parameter(parameter: Parameter, {group}: usize, {values}: &Self::Values) -> f64"),
+        &format!("match parameter {{\n{arms}}}"),
     );
 }
 

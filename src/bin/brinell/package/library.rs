@@ -25,7 +25,8 @@ crate-type = ["cdylib"]
 
 [features]
 default = ["fmu"]
-fmu = []
+fmu = ["c-interface"]
+c-interface = []
 # named in the source, and never on
 exporter = []
 
@@ -124,7 +125,8 @@ pub fn build(scene: &Scene, constants: &str, guid: &str) -> Result<Vec<u8>, Expo
     let folder = folder.map_err(|source| ExportError::File { path: env::temp_dir(), source })?;
     let root = folder.path();
     let (manifest, lock_file) = (manifest(guid), lock_file(guid));
-    let own = [("src/scene.rs", constants), ("Cargo.toml", &manifest), ("Cargo.lock", &lock_file), LINKER_SCRIPT];
+    let own =
+        [("src/scene/exported.rs", constants), ("Cargo.toml", &manifest), ("Cargo.lock", &lock_file), LINKER_SCRIPT];
     for (name, text) in LIBRARY_SOURCE.iter().copied().chain(own) {
         write_file(&root.join(name), text.as_bytes())?;
     }

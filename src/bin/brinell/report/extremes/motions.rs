@@ -59,7 +59,7 @@ fn motions(depth: f64, quick: bool, surface: Surface) -> Vec<Motion> {
         contact.step(1.0)
     });
     add(format!("{still} steps at rest in the dent"), depth, 1.0, run);
-    for depth in [5e-324, 1e-300, 1e-30, 1e30, 1e99] {
+    for depth in [5e-324, 1e-300, 1e-30, 1e30, 1e39] {
         let run = Box::new(move |contact: &mut Contact| in_and_out(contact, depth, &[1.0, 1.0]));
         add(format!("indentation of {depth:e} m"), depth, 1.0, run);
     }

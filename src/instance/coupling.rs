@@ -1,11 +1,16 @@
-//! What a contact has beside its history for masters that couple it well: the course of its input inside of a step, and the
+//! What a contact has beside its state for masters that couple it well: the course of its input inside of a step, and the
 //! momentum of the last one.
 
 use crate::contact::path::{Course, Sum};
 
+/// The next finite number of stored words.
+fn number(words: &mut impl Iterator<Item = u64>) -> Option<f64> {
+    words.next().map(f64::from_bits).filter(|number| number.is_finite())
+}
+
 /// The course of the input over the next step, and how the last one ended.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Curve {
+pub(super) struct Curve {
     /// First derivative of the rate over the next step [m/s^2].
     pub slope: f64,
     /// Second derivative [m/s^3].
@@ -16,10 +21,10 @@ pub struct Curve {
     pub end_slope: f64,
 }
 
-/// Number of words that hold a curve.
-pub const CURVE_WORDS: usize = 4;
-
 impl Curve {
+    /// Number of words that hold a curve.
+    pub const WORDS: usize = 4;
+
     /// The course over the next step of a contact with this `rate` [m/s].
     pub fn course(&self, rate: f64) -> Course {
         Course { rate, slope: self.slope, bend: self.bend }
@@ -34,31 +39,28 @@ impl Curve {
         };
     }
 
-    /// The curve as words, to be stored.
-    pub fn to_words(self) -> [u64; CURVE_WORDS] {
-        [self.slope, self.bend, self.end_rate, self.end_slope].map(f64::to_bits)
+    pub fn save(&self, store: &mut impl FnMut(u64)) {
+        [self.slope, self.bend, self.end_rate, self.end_slope].into_iter().for_each(|number| store(number.to_bits()));
     }
 
-    /// The curve that [`Curve::to_words`] stored; `None` if a word is not a finite number.
-    pub fn from_words(words: [u64; CURVE_WORDS]) -> Option<Curve> {
-        let [slope, bend, end_rate, end_slope] = words.map(f64::from_bits);
-        let finite = slope.is_finite() && bend.is_finite() && end_rate.is_finite() && end_slope.is_finite();
-        finite.then_some(Curve { slope, bend, end_rate, end_slope })
+    /// The curve that [`Curve::save`] has stored; `None` if a word is not a finite number.
+    pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Curve> {
+        Some(Curve { slope: number(words)?, bend: number(words)?, end_rate: number(words)?, end_slope: number(words)? })
     }
 }
 
 /// The integral of the force over time.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Momentum {
+pub(super) struct Momentum {
     impulse: Sum,
     /// Impulse of the last step over its length [N].
     pub mean_force: f64,
 }
 
-/// Number of words that hold a momentum.
-pub const MOMENTUM_WORDS: usize = 3;
-
 impl Momentum {
+    /// Number of words that hold a momentum.
+    pub const WORDS: usize = 3;
+
     /// A contact before any motion, with this `force` [N].
     pub fn start(force: f64) -> Momentum {
         Momentum { impulse: Sum::new(0.0), mean_force: force }
@@ -76,15 +78,13 @@ impl Momentum {
         self.impulse.total()
     }
 
-    /// The momentum as words, to be stored.
-    pub fn to_words(self) -> [u64; MOMENTUM_WORDS] {
-        [self.impulse.value, self.impulse.rest, self.mean_force].map(f64::to_bits)
+    pub fn save(&self, store: &mut impl FnMut(u64)) {
+        [self.impulse.value, self.impulse.rest, self.mean_force].into_iter().for_each(|number| store(number.to_bits()));
     }
 
-    /// The momentum that [`Momentum::to_words`] stored; `None` if a word is not a finite number.
-    pub fn from_words(words: [u64; MOMENTUM_WORDS]) -> Option<Momentum> {
-        let [value, rest, mean_force] = words.map(f64::from_bits);
-        let finite = value.is_finite() && rest.is_finite() && mean_force.is_finite();
-        finite.then_some(Momentum { impulse: Sum { value, rest }, mean_force })
+    /// The momentum that [`Momentum::save`] has stored; `None` if a word is not a finite number.
+    pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Momentum> {
+        let impulse = Sum { value: number(words)?, rest: number(words)? };
+        Some(Momentum { impulse, mean_force: number(words)? })
     }
 }

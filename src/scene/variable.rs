@@ -1,4 +1,4 @@
-//! The variables that a unit can have, as the library sees them; `modelDescription/variables.toml` is their table.
+//! The variables that a scene can have; `modelDescription/variables.toml` is their table.
 
 /// A parameter that a scene can have; each scene has a value or a variable for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,8 +32,6 @@ pub struct Settable {
     pub name: &'static str,
     /// Unit, or "".
     pub unit: &'static str,
-    /// Value before anyone sets it.
-    pub start: f64,
     /// Smallest value allowed.
     pub minimum: f64,
     /// Largest value allowed.
@@ -43,7 +41,7 @@ pub struct Settable {
 /// Where a parameter has its value from, if groups of contacts differ.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// From the parameter with this index in [`SETTABLE`](crate::scene::SETTABLE).
+    /// From the parameter with this index in [`Scene::settable`](super::Scene::settable).
     Settable(usize),
     /// From the scene.
     Constant(f64),
@@ -91,7 +89,7 @@ pub enum Real {
     MeanForce,
     /// [N]
     PredictedForce,
-    /// The settable parameter with this index in [`SETTABLE`](crate::scene::SETTABLE).
+    /// The settable parameter with this index in [`Scene::settable`](super::Scene::settable).
     Parameter(usize),
 }
 

@@ -1,0 +1,143 @@
+//! A rate-dependent contact as a [`Contact`].
+
+use super::{Damped, Factors, History, Model, Regime, Sum, TooDeep, within};
+use crate::contact::behaviour::{Contact, slopes};
+use crate::contact::history::LARGEST_INDENTATION;
+use crate::contact::path::Course;
+
+impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
+    const FOLLOWS_RATE: bool = true;
+    /// The second one would need the third derivative of the indentation.
+    const DERIVATIVES: i32 = 1;
+    const WORDS: usize = 8;
+
+    fn start(model: &Model<D>, gap: f64) -> Result<History<D>, TooDeep> {
+        History::start(model, gap)
+    }
+
+    /// Flight, from a place outside to another.
+    #[inline]
+    fn short_step(&mut self, increment: f64) -> bool {
+        let sum = self.indentation.plus(increment);
+        let flies = self.indentation.total() <= 0.0 && sum.total() <= 0.0 && within(sum.total()).is_ok();
+        if flies {
+            self.indentation = sum;
+        }
+        flies
+    }
+
+    /// None: a short step is a flight.
+    fn mean_force_of_short_step(&self, _from: f64) -> f64 {
+        0.0
+    }
+
+    /// The rate must be held: inputs of these laws have no derivatives.
+    fn step(&mut self, _model: &Model<D>, course: &Course, step: f64) -> Result<f64, TooDeep> {
+        debug_assert!(course.is_held());
+        self.advance(course.rate, step)?;
+        Ok(self.max_indentation)
+    }
+
+    fn mean_force(&self, _model: &Model<D>, course: &Course, step: f64) -> Result<f64, TooDeep> {
+        debug_assert!(course.is_held());
+        let mean = History::mean_force(self, course.rate, step);
+        // a step that can't be made has none
+        within(self.indentation.total() + course.rate * step)?;
+        Ok(mean)
+    }
+
+    /// Short steps are flights and reach no depth at all.
+    fn stays_within(&mut self, depth: f64) -> bool {
+        self.max_indentation < depth
+    }
+
+    fn indentation(&self) -> f64 {
+        self.indentation.total()
+    }
+
+    fn max_indentation(&self) -> f64 {
+        self.max_indentation
+    }
+
+    /// Nothing remains.
+    fn residual_indentation(&self, _model: &Model<D>) -> f64 {
+        0.0
+    }
+
+    fn regime(&self) -> Regime {
+        History::regime(self)
+    }
+
+    fn force(&self, rate: f64) -> f64 {
+        History::force(self, rate)
+    }
+
+    fn damping(&self, rate: f64) -> f64 {
+        if !self.pushes(rate) {
+            return 0.0;
+        }
+        self.damping_force(1.0) * self.law.damping(self.indentation.total()).value
+    }
+
+    fn stiffness(&self, rate: f64) -> f64 {
+        History::stiffness(self, rate)
+    }
+
+    fn curvature(&self, model: &Model<D>, rate: f64) -> f64 {
+        slopes(self, model, |contact| contact.stiffness(rate)).0
+    }
+
+    fn contact_radius(&self, model: &Model<D>) -> f64 {
+        History::contact_radius(self, model)
+    }
+
+    fn elastic_energy(&self, _model: &Model<D>) -> f64 {
+        self.stored()
+    }
+
+    /// Summed step by step, each exactly for its held rate.
+    fn dissipated_energy(&self, _model: &Model<D>) -> f64 {
+        self.dissipated.total()
+    }
+
+    /// Between the borders of the law: from the surface or the last border to the next one.
+    fn smooth_piece(&self, _model: &Model<D>) -> (f64, f64) {
+        let indentation = self.indentation.total();
+        let borders = self.law.borders();
+        let below = borders.into_iter().rfind(|&border| border <= indentation).unwrap_or(0.0);
+        let above = borders.into_iter().find(|&border| border > indentation).unwrap_or(LARGEST_INDENTATION);
+        (below, above)
+    }
+
+    fn moved_to(&self, _model: &Model<D>, indentation: f64) -> History<D> {
+        History { indentation: Sum::new(indentation), ..*self }
+    }
+
+    fn valid_depth(model: &Model<D>) -> f64 {
+        model.valid_depth()
+    }
+
+    /// Where damping or heat would be beyond all numbers.
+    fn may_refuse(_model: &Model<D>) -> bool {
+        true
+    }
+
+    fn save(&self, store: &mut impl FnMut(u64)) {
+        let Factors { elastic, damping } = self.factors;
+        let (Sum { value, rest }, heat) = (self.indentation, self.dissipated);
+        let numbers = [value, rest, self.max_indentation, self.touch_speed, heat.value, heat.rest, elastic, damping];
+        numbers.into_iter().for_each(|number| store(number.to_bits()));
+    }
+
+    fn load(words: &mut impl Iterator<Item = u64>, model: &Model<D>) -> Option<History<D>> {
+        let mut number = || words.next().map(f64::from_bits).filter(|number| number.is_finite());
+        Some(History {
+            law: model.law,
+            indentation: Sum { value: number()?, rest: number()? },
+            max_indentation: number()?,
+            touch_speed: number()?,
+            dissipated: Sum { value: number()?, rest: number()? },
+            factors: Factors { elastic: number()?, damping: number()? },
+        })
+    }
+}

@@ -1,0 +1,167 @@
+//! The state of a contact with a rate-dependent law.
+
+mod behaviour;
+mod energy;
+mod impulse;
+
+use super::{Damped, Factors, Model};
+use crate::contact::behaviour::is_finite_at;
+use crate::contact::history::{LARGEST_INDENTATION, Regime, TooDeep};
+use crate::contact::path::Sum;
+use libm::sqrt;
+
+/// Everything a contact remembers, and the factors of its law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct History<D> {
+    law: D,
+    factors: Factors,
+    indentation: Sum,
+    max_indentation: f64,
+    /// Closing speed at first touch [m/s]; zero until there was one.
+    touch_speed: f64,
+    dissipated: Sum,
+}
+
+/// Halvings that find a number between two others to its last digit, whatever they are.
+const HALVINGS: u32 = 1100;
+
+impl<D: Damped + Copy> History<D> {
+    /// A contact at `gap` [m] before any motion. One that starts pressed in has not been touched at any speed: the first
+    /// closing rate then counts as that speed.
+    ///
+    /// # Errors
+    /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN.
+    pub fn start(model: &Model<D>, gap: f64) -> Result<History<D>, TooDeep> {
+        // not -gap, so that no gap is 0.0 and not -0.0
+        let indentation = within(0.0 - gap)?;
+        Ok(History {
+            law: model.law,
+            factors: model.law.factors(&model.pair, model.restitution, model.mass),
+            indentation: Sum::new(indentation),
+            max_indentation: if indentation > 0.0 { indentation } else { 0.0 },
+            touch_speed: 0.0,
+            dissipated: Sum::new(0.0),
+        })
+    }
+
+    /// Moves the contact with `rate` [m/s] over `step` [s].
+    ///
+    /// # Errors
+    /// [`TooDeep`] as for [`History::start`], and where force or heat would be beyond all numbers; the history is left as it was.
+    pub fn advance(&mut self, rate: f64, step: f64) -> Result<(), TooDeep> {
+        let sum = self.indentation.plus(rate * step);
+        let to = within(sum.total())?;
+        let from = self.indentation.total();
+        let mut next = *self;
+        next.touch(to, rate);
+        if from <= 0.0 && to > 0.0 {
+            next.max_indentation = 0.0;
+        }
+        next.max_indentation = if to > next.max_indentation { to } else { next.max_indentation };
+        let positive = |d: f64| if d > 0.0 { d } else { 0.0 };
+        next.dissipated = self.dissipated.plus(next.dissipation(positive(from), positive(to), rate));
+        next.indentation = sum;
+        // written positively, so that a NaN fails
+        let finite = is_finite_at(&next, rate) && next.stored() + next.dissipated.total() < f64::INFINITY;
+        if !finite {
+            return Err(TooDeep { indentation: to });
+        }
+        *self = next;
+        Ok(())
+    }
+
+    /// Notes the speed of a first touch on the way to `to` [m].
+    fn touch(&mut self, to: f64, rate: f64) {
+        let touches = if self.indentation.total() > 0.0 { self.touch_speed <= 0.0 } else { to > 0.0 };
+        if touches && rate > 0.0 {
+            self.touch_speed = rate;
+        }
+    }
+
+    /// `C d'`, with `d'` over the touch speed if the law wants it [N]; none before there was a touch.
+    fn damping_force(&self, rate: f64) -> f64 {
+        // the ratio first: a touch at next to no speed must not divide the factor
+        match (self.law.scaled_by_touch(), self.touch_speed > 0.0) {
+            (false, _) => self.factors.damping * rate,
+            (true, true) => self.factors.damping * (rate / self.touch_speed),
+            (true, false) => 0.0,
+        }
+    }
+
+    /// `K phi + C psi d'` at `indentation` > 0, which may be negative [N].
+    fn sum_of_forces(&self, indentation: f64, rate: f64) -> f64 {
+        self.factors.elastic * self.law.elastic(indentation).value
+            + self.damping_force(rate) * self.law.damping(indentation).value
+    }
+
+    /// Whether the surface pushes with `rate` [m/s]: it never pulls.
+    fn pushes(&self, rate: f64) -> bool {
+        let indentation = self.indentation.total();
+        indentation > 0.0 && self.sum_of_forces(indentation, rate) > 0.0
+    }
+
+    /// Where in `low`..`high` [m] the force has another sign than at `high`; `low` if it has none other.
+    fn sign_change(&self, mut low: f64, mut high: f64, rate: f64) -> f64 {
+        let pushes = |d: f64| self.sum_of_forces(d, rate) > 0.0;
+        let sign = pushes(high);
+        // at zero indentation both forces may vanish: the sign just above counts
+        if pushes(if low > 0.0 { low } else { f64::MIN_POSITIVE }) == sign {
+            return low;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if !(middle > low && middle < high) {
+                break;
+            }
+            if pushes(middle) == sign {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        high
+    }
+
+    /// Normal force with `rate` [m/s], [N]; zero while apart, and where the surface would have to pull.
+    pub fn force(&self, rate: f64) -> f64 {
+        let indentation = self.indentation.total();
+        let force = if indentation > 0.0 { self.sum_of_forces(indentation, rate) } else { 0.0 };
+        if force > 0.0 { force } else { 0.0 }
+    }
+
+    /// dF/d(indentation) with `rate` held [N/m]; zero where there is no force.
+    pub fn stiffness(&self, rate: f64) -> f64 {
+        if !self.pushes(rate) {
+            return 0.0;
+        }
+        let indentation = self.indentation.total();
+        self.factors.elastic * self.law.elastic(indentation).slope
+            + self.damping_force(rate) * self.law.damping(indentation).slope
+    }
+
+    /// Indentation [m]; negative while apart.
+    pub fn indentation(&self) -> f64 {
+        self.indentation.total()
+    }
+
+    /// Largest indentation of the present contact, or of the last one [m].
+    pub fn max_indentation(&self) -> f64 {
+        self.max_indentation
+    }
+
+    /// Elastic while the surface is pressed in.
+    pub fn regime(&self) -> Regime {
+        if self.indentation.total() > 0.0 { Regime::Elastic } else { Regime::Apart }
+    }
+
+    /// Contact radius of Hertz, `a^2 = R d` [m]; 0 while apart.
+    pub fn contact_radius(&self, model: &Model<D>) -> f64 {
+        let indentation = self.indentation.total();
+        if indentation > 0.0 { sqrt(model.pair.radius * indentation) } else { 0.0 }
+    }
+}
+
+fn within(indentation: f64) -> Result<f64, TooDeep> {
+    let within = indentation > -LARGEST_INDENTATION && indentation < LARGEST_INDENTATION;
+    if within { Ok(indentation) } else { Err(TooDeep { indentation }) }
+}

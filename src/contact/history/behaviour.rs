@@ -1,0 +1,165 @@
+//! An elastoplastic contact as a [`Contact`].
+
+use super::{History, Regime, Sum, TooDeep};
+use crate::contact::behaviour::Contact;
+use crate::contact::loading::Loading;
+use crate::contact::path::Course;
+use crate::contact::segment::Segment;
+use crate::contact::unloading::Unloading;
+use crate::contact::{Model, momentum};
+
+impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
+    const FOLLOWS_RATE: bool = false;
+    const DERIVATIVES: i32 = 2;
+    const WORDS: usize = 13;
+
+    fn start(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
+        History::start(model, gap)
+    }
+
+    #[inline(always)]
+    fn short_step(&mut self, increment: f64) -> bool {
+        self.advance_on_branch(increment)
+    }
+
+    #[inline]
+    fn mean_force_of_short_step(&self, from: f64) -> f64 {
+        self.segment.mean_force(from, self.indentation())
+    }
+
+    fn step(&mut self, model: &Model<L, U>, course: &Course, step: f64) -> Result<f64, TooDeep> {
+        if course.is_held() {
+            self.advance(model, course.rate * step)?;
+            return Ok(self.max_indentation());
+        }
+        let mut moved = *self;
+        let (mut from, mut deepest) = (0.0, 0.0);
+        for end in course.monotone_ends(step) {
+            let to = course.way(end);
+            moved.advance(model, to - from)?;
+            from = to;
+            let reached = moved.max_indentation();
+            deepest = if reached > deepest { reached } else { deepest };
+        }
+        *self = moved;
+        Ok(deepest)
+    }
+
+    fn mean_force(&self, model: &Model<L, U>, course: &Course, step: f64) -> Result<f64, TooDeep> {
+        Ok(momentum::impulse(self, model, course, step)? / step)
+    }
+
+    /// Ends the present branch at `depth`, if it goes beyond: the step that comes there then asks for its branch. It finds the
+    /// same one, and nothing else changes.
+    #[inline]
+    fn stays_within(&mut self, depth: f64) -> bool {
+        let within = self.max_indentation() < depth;
+        if within && depth < self.segment.upper {
+            self.segment.upper = depth;
+        }
+        within
+    }
+
+    #[inline]
+    fn indentation(&self) -> f64 {
+        self.indentation.total()
+    }
+
+    fn max_indentation(&self) -> f64 {
+        History::max_indentation(self)
+    }
+
+    fn residual_indentation(&self, model: &Model<L, U>) -> f64 {
+        History::residual_indentation(self, model)
+    }
+
+    fn regime(&self) -> Regime {
+        self.regime
+    }
+
+    #[inline(always)]
+    fn force(&self, _rate: f64) -> f64 {
+        let indentation = self.indentation.total();
+        // most laws never have a quadratic term
+        match Model::<L, U>::SQUARES {
+            true => self.segment.force_inside(indentation),
+            false => self.segment.force_without_square(indentation),
+        }
+    }
+
+    fn damping(&self, _rate: f64) -> f64 {
+        0.0
+    }
+
+    fn stiffness(&self, _rate: f64) -> f64 {
+        History::stiffness(self)
+    }
+
+    fn curvature(&self, model: &Model<L, U>, _rate: f64) -> f64 {
+        History::curvature(self, model)
+    }
+
+    fn contact_radius(&self, model: &Model<L, U>) -> f64 {
+        History::contact_radius(self, model)
+    }
+
+    fn elastic_energy(&self, model: &Model<L, U>) -> f64 {
+        History::elastic_energy(self, model)
+    }
+
+    fn dissipated_energy(&self, model: &Model<L, U>) -> f64 {
+        History::dissipated_energy(self, model)
+    }
+
+    fn smooth_piece(&self, model: &Model<L, U>) -> (f64, f64) {
+        let indentation = self.indentation.total();
+        match self.regime {
+            _ if self.is_loading() => (indentation, model.loading.next_corner(&model.pair, indentation)),
+            Regime::Unloaded => (model.unloading_path(self.max_indentation).lower, self.max_indentation),
+            _ => (0.0, self.segment.upper),
+        }
+    }
+
+    fn moved_to(&self, model: &Model<L, U>, indentation: f64) -> History {
+        let mut moved = *self;
+        if self.is_loading() {
+            // on the loading curve it may also be less
+            moved.max_indentation = 0.0;
+            moved.indentation = Sum::new(0.0);
+        }
+        // where the law has ended there is no neighbour
+        match moved.go_to(model, indentation, self.is_loading()) {
+            Ok(()) => moved,
+            Err(TooDeep { .. }) => *self,
+        }
+    }
+
+    fn valid_depth(model: &Model<L, U>) -> f64 {
+        model.valid_depth()
+    }
+
+    fn may_refuse(model: &Model<L, U>) -> bool {
+        !model.loading.is_segmented()
+    }
+
+    /// Number by number: a compiler that looks for the smallest code would otherwise take the slowest instruction for it.
+    #[inline(always)]
+    fn copy_from(&mut self, other: &History) {
+        let Sum { value, rest } = other.indentation;
+        let Segment { lower, upper, origin, constant, linear, power, square } = other.segment;
+        let (max_indentation, least_increment) = (other.max_indentation, other.least_increment);
+        let (regime, left_behind) = (other.regime, other.left_behind);
+        self.indentation = Sum { value, rest };
+        self.segment = Segment { lower, upper, origin, constant, linear, power, square };
+        (self.max_indentation, self.least_increment) = (max_indentation, least_increment);
+        (self.regime, self.left_behind) = (regime, left_behind);
+    }
+
+    fn save(&self, store: &mut impl FnMut(u64)) {
+        self.save_words(store);
+    }
+
+    fn load(words: &mut impl Iterator<Item = u64>, _model: &Model<L, U>) -> Option<History> {
+        History::of_words(words)
+    }
+}

@@ -1,0 +1,389 @@
+//! The C functions of the scene that this library is built for.
+//!
+//! Each is written out: cbindgen, which proves the signatures against the official headers, doesn't expand macros, and neither
+//! does a reader.
+
+use super::abi::*;
+use super::{lifecycle, states, stepping, variables};
+use crate::scene::exported::Exported;
+
+/// The platform types: those of `fmi2TypesPlatform.h`, "default".
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetTypesPlatform() -> *const fmi2Char {
+    // SAFETY: as the caller promises.
+    unsafe { lifecycle::get_types_platform() }
+}
+
+/// The version of the standard, "2.0".
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetVersion() -> *const fmi2Char {
+    // SAFETY: as the caller promises.
+    unsafe { lifecycle::get_version() }
+}
+
+/// Makes an instance. The name and the callbacks are copied; resources and `visible` are not used.
+///
+/// Returns null, with a message if there is a logger, for a missing name, a GUID other than that of the model
+/// description, a type other than co-simulation, or missing callbacks.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    instanceName: fmi2String,
+    fmuType: fmi2Type,
+    fmuGUID: fmi2String,
+    fmuResourceLocation: fmi2String,
+    functions: *const fmi2CallbackFunctions,
+    visible: fmi2Boolean,
+    loggingOn: fmi2Boolean,
+) -> fmi2Component {
+    // SAFETY: as the caller promises.
+    unsafe {
+        lifecycle::instantiate::<Exported>(
+            instanceName,
+            fmuType,
+            fmuGUID,
+            fmuResourceLocation,
+            functions,
+            visible,
+            loggingOn,
+        )
+    }
+}
+
+/// Frees an instance; null is ignored.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
+    // SAFETY: as the caller promises.
+    unsafe { lifecycle::free_instance::<Exported>(c) }
+}
+
+/// Switches logging of the named categories on or off, of all if none is named. Errors are logged in any case.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetDebugLogging(
+    c: fmi2Component,
+    loggingOn: fmi2Boolean,
+    nCategories: usize,
+    categories: *const fmi2String,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { lifecycle::set_debug_logging::<Exported>(c, loggingOn, nCategories, categories) }
+}
+
+/// Sets start and stop time; may be called again before initialization. The tolerance is not used: steps are exact.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetupExperiment(
+    c: fmi2Component,
+    toleranceDefined: fmi2Boolean,
+    tolerance: fmi2Real,
+    startTime: fmi2Real,
+    stopTimeDefined: fmi2Boolean,
+    stopTime: fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe {
+        lifecycle::setup_experiment::<Exported>(c, toleranceDefined, tolerance, startTime, stopTimeDefined, stopTime)
+    }
+}
+
+/// Begins initialization; fmi2SetupExperiment must have been called.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterInitializationMode(c: fmi2Component) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { lifecycle::enter_initialization_mode::<Exported>(c) }
+}
+
+/// Ends initialization; refused if the parameters don't fit together.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { lifecycle::exit_initialization_mode::<Exported>(c) }
+}
+
+/// Ends the simulation.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { lifecycle::terminate::<Exported>(c) }
+}
+
+/// Makes the instance as it was after fmi2Instantiate. Name, callbacks and log settings stay.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { lifecycle::reset::<Exported>(c) }
+}
+
+/// Reads Real variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetReal(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { variables::get_real::<Exported>(c, vr, nvr, value) }
+}
+
+/// Reads Integer variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetInteger(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Integer,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { variables::get_integer::<Exported>(c, vr, nvr, value) }
+}
+
+/// Sets Real variables: the input, and parameters before initialization ends. If one is refused none is set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetReal(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { variables::set_real::<Exported>(c, vr, nvr, value) }
+}
+
+/// There are no Boolean variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBoolean(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Boolean,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { variables::get_boolean::<Exported>(c, vr, nvr, value) }
+}
+
+/// There are no String variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetString(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2String,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { variables::get_string::<Exported>(c, vr, nvr, value) }
+}
+
+/// No Integer variable can be set: they are outputs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetInteger(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Integer,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { variables::set_integer::<Exported>(c, vr, nvr, value) }
+}
+
+/// There are no Boolean variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetBoolean(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Boolean,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { variables::set_boolean::<Exported>(c, vr, nvr, value) }
+}
+
+/// There are no String variables.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetString(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2String,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { variables::set_string::<Exported>(c, vr, nvr, value) }
+}
+
+/// Moves the contact over a step with the indentation rate held; complete when it returns.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DoStep(
+    c: fmi2Component,
+    currentCommunicationPoint: fmi2Real,
+    communicationStepSize: fmi2Real,
+    noSetFMUStatePriorToCurrentPoint: fmi2Boolean,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe {
+        stepping::do_step::<Exported>(
+            c,
+            currentCommunicationPoint,
+            communicationStepSize,
+            noSetFMUStatePriorToCurrentPoint,
+        )
+    }
+}
+
+/// Refused: no step is ever in progress.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { stepping::cancel_step::<Exported>(c) }
+}
+
+/// Sets derivatives of inputs for the next step, after the inputs themselves. If one is refused none is set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *const fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { stepping::set_real_input_derivatives::<Exported>(c, vr, nvr, order, value) }
+}
+
+/// Reads derivatives of forces by time, at the end of the last step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { stepping::get_real_output_derivatives::<Exported>(c, vr, nvr, order, value) }
+}
+
+/// Refused: see `providesDirectionalDerivative`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
+    c: fmi2Component,
+    vUnknown_ref: *const fmi2ValueReference,
+    nUnknown: usize,
+    vKnown_ref: *const fmi2ValueReference,
+    nKnown: usize,
+    dvKnown: *const fmi2Real,
+    dvUnknown: *mut fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe {
+        stepping::get_directional_derivative::<Exported>(
+            c,
+            vUnknown_ref,
+            nUnknown,
+            vKnown_ref,
+            nKnown,
+            dvKnown,
+            dvUnknown,
+        )
+    }
+}
+
+/// For fmi2DoStepStatus: fmi2OK, since no step runs on after its call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { stepping::get_status::<Exported>(c, s, value) }
+}
+
+/// For fmi2LastSuccessfulTime: the end of the last step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { stepping::get_real_status::<Exported>(c, s, value) }
+}
+
+/// There is no status of this type.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetIntegerStatus(
+    c: fmi2Component,
+    s: fmi2StatusKind,
+    value: *mut fmi2Integer,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { stepping::get_integer_status::<Exported>(c, s, value) }
+}
+
+/// For fmi2Terminated: false, since the unit never wants to end by itself.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBooleanStatus(
+    c: fmi2Component,
+    s: fmi2StatusKind,
+    value: *mut fmi2Boolean,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { stepping::get_boolean_status::<Exported>(c, s, value) }
+}
+
+/// There is no status of this type: no step is ever pending.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStringStatus(
+    c: fmi2Component,
+    s: fmi2StatusKind,
+    value: *mut fmi2String,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { stepping::get_string_status::<Exported>(c, s, value) }
+}
+
+/// Copies the instance into a state; memory is allocated only if `FMUstate` points to null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { states::get_fmu_state::<Exported>(c, FMUstate) }
+}
+
+/// Makes the instance as it was when the state was saved, parameters and phase included.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, FMUstate: fmi2FMUstate) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { states::set_fmu_state::<Exported>(c, FMUstate) }
+}
+
+/// Frees a state and sets the pointer to null; null and a pointer to null are ignored.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeFMUstate(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { states::free_fmu_state::<Exported>(c, FMUstate) }
+}
+
+/// The length of a serialized state [bytes]; the same for every state of this unit.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
+    c: fmi2Component,
+    FMUstate: fmi2FMUstate,
+    size: *mut usize,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { states::serialized_fmu_state_size::<Exported>(c, FMUstate, size) }
+}
+
+/// Writes a state as bytes that work in another instance and in another process.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializeFMUstate(
+    c: fmi2Component,
+    FMUstate: fmi2FMUstate,
+    serializedState: *mut fmi2Byte,
+    size: usize,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { states::serialize_fmu_state::<Exported>(c, FMUstate, serializedState, size) }
+}
+
+/// Makes a state from bytes. If they are refused `FMUstate` is left alone.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
+    c: fmi2Component,
+    serializedState: *const fmi2Byte,
+    size: usize,
+    FMUstate: *mut fmi2FMUstate,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe { states::deserialize_fmu_state::<Exported>(c, serializedState, size, FMUstate) }
+}

@@ -1,0 +1,177 @@
+//! Derivatives: of inputs and outputs by time, and of outputs by the input.
+
+use super::*;
+use crate::contact::Regime;
+use crate::contact::behaviour::slopes;
+use crate::scene::Real;
+use core::f64::consts::PI;
+
+impl<S: Scene> Instance<S> {
+    /// The highest order of a derivative of an input.
+    const INPUT_ORDER: i32 = if S::FOLLOW.is_some() { 1 } else { 2 };
+
+    /// Whether the derivative of this `order` of an input may be set to `value` now.
+    ///
+    /// # Errors
+    /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`], [`Fault::NotFinite`],
+    /// [`Fault::NoInputDerivatives`] for a law that follows the rate.
+    pub fn check_input_derivative(&self, (variable, _): (Real, usize), order: i32, value: f64) -> Result<(), Fault> {
+        if !S::Course::IS_PRESENT {
+            return Err(Fault::NoInputDerivatives);
+        }
+        if variable != Real::IndentationRate {
+            return Err(Fault::NoDerivative { of: "indentation_rate" });
+        }
+        check_order(order, Self::INPUT_ORDER)?;
+        if value.is_finite() {
+            Ok(())
+        } else {
+            Err(Fault::NotFinite { name: "a derivative of indentation_rate", value })
+        }
+    }
+
+    /// Sets a derivative that [`Instance::check_input_derivative`] has allowed; it holds for the next step.
+    pub fn set_input_derivative(&mut self, contact: usize, order: i32, value: f64) {
+        let Contacts { curves, rates, .. } = &mut self.contacts;
+        let curves = curves.as_mut();
+        if let Some(curve) = curves.get_mut(contact) {
+            *(if order == 1 { &mut curve.slope } else { &mut curve.bend }) = value;
+            if value != 0.0 && !self.curved {
+                // the ends of contacts that had none
+                for (curve, &rate) in curves.iter_mut().zip(rates.as_ref()) {
+                    (curve.end_rate, curve.end_slope) = (rate, 0.0);
+                }
+                self.curved = true;
+                self.clock.hold();
+            }
+        }
+    }
+
+    /// The derivative of this `order` of an output by time, at the end of the last step: one-sided at corners of the law, in
+    /// the direction of the last motion. What belongs to a whole step, `mean_force` and `predicted_force`, doesn't change
+    /// within it.
+    ///
+    /// # Errors
+    /// [`Fault::NoDerivative`] for a variable that is no output, [`Fault::DerivativeOrder`], [`Fault::DerivativeNotFinite`].
+    #[inline(always)]
+    pub fn output_derivative(&self, (variable, contact): (Real, usize), order: i32) -> Result<f64, Fault> {
+        if matches!(variable, Real::IndentationRate | Real::Parameter(_)) {
+            return Err(Fault::NoDerivative { of: "outputs" });
+        }
+        check_order(order, S::Contact::DERIVATIVES)?;
+        let derivative = self.derivatives(variable, contact).map_or(f64::NAN, |(first, second)| match order {
+            1 => first,
+            _ => second,
+        });
+        if derivative.is_finite() { Ok(derivative) } else { Err(Fault::DerivativeNotFinite) }
+    }
+
+    /// First and second derivative of an output by time.
+    #[inline(always)]
+    fn derivatives(&self, variable: Real, contact: usize) -> Option<(f64, f64)> {
+        let history = self.histories().get(contact)?;
+        let (rate, slope) = self.end_of(contact);
+        let model = self.model(contact);
+        let (force, stiffness) = (history.force(rate), history.stiffness(rate));
+        let work = (force * rate, stiffness * rate * rate + force * slope);
+        // of what is a function of the indentation, with these derivatives
+        let by_time = |(first, second): (f64, f64)| (first * rate, second * rate * rate + first * slope);
+        let along: fn(&S::Contact, &S::Model, f64) -> f64 = match variable {
+            Real::Force => return Some(by_time((stiffness, history.curvature(&model, rate)))),
+            Real::Indentation => return Some((rate, slope)),
+            Real::MaxIndentation => {
+                let deepest = history.indentation() > 0.0 && history.indentation() >= history.max_indentation();
+                return Some(if deepest && rate > 0.0 { (rate, slope) } else { (0.0, 0.0) });
+            }
+            Real::Work => return Some(work),
+            Real::Impulse => return Some((force, stiffness * rate)),
+            Real::MeanForce | Real::PredictedForce => return Some((0.0, 0.0)),
+            Real::IndentationRate | Real::Parameter(_) => return None,
+            Real::ResidualIndentation => |contact, model, _| contact.residual_indentation(model),
+            Real::ContactRadius => |contact, model, _| contact.contact_radius(model),
+            Real::MeanPressure => |contact, model, rate| contact.mean_pressure(model, rate),
+            Real::Stiffness => |contact, _, rate| contact.stiffness(rate),
+            // heat isn't a function of the indentation, but the rest of the work
+            Real::DissipatedEnergy if !S::Contact::FOLLOWS_RATE => |contact, model, _| contact.dissipated_energy(model),
+            Real::ElasticEnergy | Real::DissipatedEnergy => |contact, model, _| contact.elastic_energy(model),
+        };
+        if history.regime() == Regime::Apart {
+            return Some((0.0, 0.0));
+        }
+        let (first, second) = by_time(slopes(history, &model, |contact| along(contact, &model, rate)));
+        let rest = variable == Real::DissipatedEnergy && S::Contact::FOLLOWS_RATE;
+        Some(if rest { (work.0 - first, work.1 - second) } else { (first, second) })
+    }
+
+    /// The derivative of a variable by the input of contact `by`, at this moment: zero for all but `predicted_force`, and with
+    /// a rate-dependent law the force, the mean pressure and the stiffness.
+    ///
+    /// # Errors
+    /// [`Fault::NoDerivative`] for a variable that is no output, [`Fault::NotAnInput`], [`Fault::DerivativeNotFinite`].
+    #[inline(always)]
+    pub fn derivative_by_input(
+        &self,
+        (variable, contact): (Real, usize),
+        (input, by): (Real, usize),
+    ) -> Result<f64, Fault> {
+        if matches!(variable, Real::IndentationRate | Real::Parameter(_)) {
+            return Err(Fault::NoDerivative { of: "outputs" });
+        }
+        if input != Real::IndentationRate {
+            return Err(Fault::NotAnInput);
+        }
+        let derivative = match contact == by {
+            true => self.by_own_input(variable, contact).unwrap_or(f64::NAN),
+            false => 0.0,
+        };
+        if derivative.is_finite() { Ok(derivative) } else { Err(Fault::DerivativeNotFinite) }
+    }
+
+    #[inline(always)]
+    fn by_own_input(&self, variable: Real, contact: usize) -> Option<f64> {
+        let history = self.histories().get(contact)?;
+        let rate = *self.rates().get(contact)?;
+        let model = self.model(contact);
+        if variable == Real::PredictedForce {
+            return self.prediction_by_input(contact, &model, rate);
+        }
+        if !S::Contact::FOLLOWS_RATE {
+            return Some(0.0);
+        }
+        let damping = history.damping(rate);
+        let radius = history.contact_radius(&model);
+        Some(match variable {
+            Real::Force => damping,
+            Real::MeanPressure if radius > 0.0 => damping / (PI * radius * radius),
+            Real::Stiffness if damping != 0.0 => slopes(history, &model, |contact| contact.damping(rate)).0,
+            _ => 0.0,
+        })
+    }
+}
+
+impl<S: Scene> Instance<S> {
+    /// dF/d(rate) of the predicted force [N.s/m].
+    fn prediction_by_input(&self, contact: usize, model: &S::Model, rate: f64) -> Option<f64> {
+        if self.curved {
+            // the prediction goes on from the end of a step with derivatives, whatever the input is now
+            return Some(0.0);
+        }
+        if !S::Contact::FOLLOWS_RATE {
+            return Some(self.predicted(contact, model, rate)?.stiffness(rate) * self.last_step());
+        }
+        // the speed of a touch within the step depends on the input, too
+        let width = if rate == 0.0 { SLOW } else { NEAR * rate.abs() };
+        let at = |rate: f64| Some(self.predicted(contact, model, rate)?.force(rate));
+        Some((at(rate + width)? - at(rate - width)?) / (2.0 * width))
+    }
+}
+
+/// The distance of two rates, as a part of them, for the slope of a force between them.
+const NEAR: f64 = 1e-5;
+
+/// The same for a rate of zero [m/s].
+const SLOW: f64 = 1e-6;
+
+fn check_order(order: i32, largest: i32) -> Result<(), Fault> {
+    if order >= 1 && order <= largest { Ok(()) } else { Err(Fault::DerivativeOrder { order, largest }) }
+}

@@ -1,0 +1,135 @@
+//! The scene of this library.
+//!
+//! `brinell export` writes this file for every scene that it builds. The one in the source tree is that of
+//! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
+
+use crate::contact::{self, Pair, Surface, loading, unloading};
+use crate::scene::variable::kind_and_contact;
+use crate::scene::{Absent, Integer, Parameter, Present, Real, Scene, Settable, identity_of};
+
+/// The scene that the exporter has been given.
+pub struct Exported;
+
+/// What the model description and the binary recognise each other by.
+const GUID: &str = "unpacked";
+
+/// How many contacts there are.
+const CONTACTS: usize = 1;
+/// How many groups of equal contacts they form.
+const GROUPS: usize = 1;
+
+/// The parameters that can be set.
+static SETTABLE: [Settable; 5] = [
+    Settable { name: "impactor.radius", unit: "m", minimum: 1e-12, maximum: 1e9 },
+    Settable { name: "target.youngs_modulus", unit: "Pa", minimum: 1.0, maximum: 1e18 },
+    Settable { name: "target.poissons_ratio", unit: "", minimum: -0.99, maximum: 0.5 },
+    Settable { name: "target.yield_strength", unit: "Pa", minimum: 1e-9, maximum: 1e18 },
+    Settable { name: "initial_gap", unit: "m", minimum: -1e6, maximum: 1e6 },
+];
+
+/// The loading law with its constants.
+const LOADING: loading::BigAlabo = loading::BigAlabo {
+    yield_pressure_factor: 1.1,
+    plastic_pressure_factor: 2.8,
+    second_region: 13.93,
+    fully_plastic: 82.5,
+    plastic_slope: 5.09090909090909,
+};
+
+/// The unloading law with its constants.
+const UNLOADING: unloading::ContactRadius = unloading::ContactRadius;
+
+/// How many variables a contact has, beside the parameters.
+const KINDS: u32 = 6;
+
+impl Scene for Exported {
+    type Model = contact::Model<loading::BigAlabo, unloading::ContactRadius>;
+    type Contact = contact::History;
+
+    type Contacts<T: Copy> = [T; CONTACTS];
+    type Groups<T: Copy> = [T; GROUPS];
+    type Values = [f64; SETTABLE.len()];
+
+    type Forces = Absent;
+    type Momentum = Absent;
+    type Course = Present;
+    type Prediction = Absent;
+
+    fn guid() -> &'static str {
+        GUID
+    }
+
+    fn identity() -> u64 {
+        const { identity_of(GUID) }
+    }
+
+    fn group(_contact: usize) -> usize {
+        0
+    }
+
+    fn end(_group: usize) -> usize {
+        CONTACTS
+    }
+
+    fn group_name(_group: usize) -> (&'static str, bool) {
+        ("", false)
+    }
+
+    fn settable() -> &'static [Settable] {
+        &SETTABLE
+    }
+
+    fn start_values() -> Self::Values {
+        [0.005, 2.06e11, 0.3, 3e8, 0.0]
+    }
+
+    fn parameter(parameter: Parameter, _group: usize, values: &Self::Values) -> f64 {
+        match parameter {
+            Parameter::ImpactorRadius => values[0],
+            Parameter::ImpactorYoungsModulus => f64::INFINITY,
+            Parameter::ImpactorPoissonsRatio => 0.0,
+            Parameter::TargetRadius => f64::INFINITY,
+            Parameter::TargetYoungsModulus => values[1],
+            Parameter::TargetPoissonsRatio => values[2],
+            Parameter::TargetYieldStrength => values[3],
+            Parameter::Restitution => 1.0,
+            Parameter::EffectiveMass => f64::INFINITY,
+            Parameter::InitialGap => values[4],
+        }
+    }
+
+    fn model(pair: Pair, _group: usize, _values: &Self::Values) -> Self::Model {
+        contact::Model { pair, loading: LOADING, unloading: UNLOADING, surface: Surface::Dented }
+    }
+
+    fn density(_group: usize) -> Option<f64> {
+        Some(7850.0)
+    }
+
+    #[inline]
+    fn real(value_reference: u32) -> Option<(Real, usize)> {
+        let (kind, contact) = kind_and_contact(value_reference, CONTACTS);
+        let variable = match kind {
+            0 => Real::IndentationRate,
+            1 => Real::Force,
+            2 => Real::Indentation,
+            3 => Real::ResidualIndentation,
+            4 => Real::DissipatedEnergy,
+            KINDS.. => {
+                let index = (kind - KINDS) as usize * CONTACTS + contact;
+                return (index < SETTABLE.len()).then_some((Real::Parameter(index), 0));
+            }
+            _ => return None,
+        };
+        Some((variable, contact))
+    }
+
+    fn integer(value_reference: u32) -> Option<(Integer, usize)> {
+        let (kind, contact) = kind_and_contact(value_reference, CONTACTS);
+        let variable = match kind {
+            5 => Integer::Regime,
+            _ => return None,
+        };
+        Some((variable, contact))
+    }
+}

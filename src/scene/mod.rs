@@ -1,0 +1,112 @@
+//! The scene: which contacts there are, by which laws, what can be set, and what is asked for.
+//!
+//! A scene is a type. An [`Instance`](crate::instance::Instance) is made for one, so that what the scene doesn't ask for takes
+//! neither memory nor time. The exporter writes [`exported::Exported`] for the scene of each FMU; a program may write its own.
+
+pub mod exported;
+pub mod storage;
+pub mod variable;
+
+pub use storage::{Absent, Presence, Present, Store};
+pub use variable::{Integer, Parameter, Real, Settable};
+
+use crate::contact::motion::Follow;
+use crate::contact::{Contact, Pair};
+
+/// A scene: `CONTACTS` contacts in groups of equal ones, with their parameters and variables.
+///
+/// Contacts are counted from 0, and so are groups. The contacts of a group follow each other. Everything that depends on
+/// parameters is asked for with their present values, in the order of [`Scene::settable`].
+pub trait Scene: Sized {
+    /// What is in contact, and by which laws.
+    type Model: Copy;
+    /// What a contact remembers.
+    type Contact: Contact<Self::Model>;
+
+    /// Something of each contact: an array as long as there are contacts.
+    type Contacts<T: Copy>: Store<T>;
+    /// Something of each group of contacts.
+    type Groups<T: Copy>: Store<T>;
+    /// The values of the parameters that can be set.
+    type Values: Store<f64> + Copy;
+
+    /// Whether forces are kept in memory. One contact computes its force when it is asked for, and so do those whose force
+    /// follows the rate; of many the step has it at hand.
+    type Forces: Presence;
+    /// Whether an output shows the momentum of a step.
+    type Momentum: Presence;
+    /// Whether the course of the input inside of a step can be given. Contacts whose force follows the rate have none.
+    type Course: Presence;
+    /// Whether an output predicts the force at the end of the next step.
+    type Prediction: Presence;
+
+    /// How the bodies move through a step, if the scene knows their mass.
+    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
+    /// The passivity guard, if there is one.
+    const GUARD: Option<Guard<Self>> = None;
+
+    /// How many contacts there are.
+    const CONTACTS: usize = <Self::Contacts<u8> as Store<u8>>::LENGTH;
+    /// How many groups they form.
+    const GROUPS: usize = <Self::Groups<u8> as Store<u8>>::LENGTH;
+
+    /// The GUID of the model description that belongs to the scene.
+    fn guid() -> &'static str;
+
+    /// A number that no other scene has, to know saved states by.
+    fn identity() -> u64;
+
+    /// The group of a contact.
+    fn group(contact: usize) -> usize;
+
+    /// The contact behind the last one of a group.
+    fn end(group: usize) -> usize;
+
+    /// The name of a group, and whether its contacts are counted.
+    fn group_name(group: usize) -> (&'static str, bool);
+
+    /// The parameters that can be set, with their limits.
+    fn settable() -> &'static [Settable];
+
+    /// Their values before anyone sets them.
+    fn start_values() -> Self::Values;
+
+    /// The value of any parameter for the contacts of a group: set, or constant in this scene. A parameter that the scene
+    /// hasn't got has the value at which it does nothing.
+    fn parameter(parameter: Parameter, group: usize, values: &Self::Values) -> f64;
+
+    /// The bodies of a group with the laws of the scene.
+    fn model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model;
+
+    /// Density of the target of a group [kg/m^3], if it is known.
+    fn density(group: usize) -> Option<f64>;
+
+    /// The Real variable with this value reference, and its contact.
+    fn real(value_reference: u32) -> Option<(Real, usize)>;
+
+    /// The Integer variable with this value reference, and its contact.
+    fn integer(value_reference: u32) -> Option<(Integer, usize)>;
+}
+
+/// The passivity guard of a scene.
+#[derive(Clone, Copy)]
+pub struct Guard<S: Scene> {
+    /// Where it acts, for the log.
+    pub words: &'static str,
+    /// Whether it shortens the path on which the load of a contact comes off.
+    pub acts: fn(&S::Contact, &S::Model) -> bool,
+}
+
+/// The identity of a scene with this GUID: its FNV-1a hash of 64 bits.
+///
+/// Reference: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm".
+pub const fn identity_of(guid: &str) -> u64 {
+    let bytes = guid.as_bytes();
+    let mut hash = 0xcbf2_9ce4_8422_2325;
+    let mut index = 0;
+    while index < bytes.len() {
+        hash = (hash ^ bytes[index] as u64).wrapping_mul(0x100_0000_01b3);
+        index += 1;
+    }
+    hash
+}
