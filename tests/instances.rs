@@ -1,0 +1,418 @@
+//! Instances of one contact, of several, of rate-dependent laws and of known mass, as ordinary values: no export, no C.
+//!
+//! The same tests run under the address sanitizer; see `tests/sanitizer.rs`.
+
+#[path = "support/physics.rs"]
+mod physics;
+#[path = "support/scenes.rs"]
+mod scenes;
+
+use brinell::contact::damped::AnyDamped;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::instance::{FASTEST, Fault, Instance, LATEST, Phase};
+use brinell::scene::exported::Exported;
+use brinell::scene::{Present, Real, Scene};
+use physics::{Random, all_models, mild};
+use scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, choose, outputs, ready, set_rate, words};
+
+type One = Chosen<Elastoplastic, 1, Present>;
+type Several = Chosen<Elastoplastic, 5, Present>;
+type DampedOne = Chosen<Damped, 1, Present>;
+type DampedSeveral = Chosen<Damped, 3, Present>;
+type MassiveOne = Chosen<Massive, 1, Present>;
+type MassiveSeveral = Chosen<Massive, 2, Present>;
+
+/// Length of the steps [s].
+const STEP: f64 = 1e-6;
+
+/// Every pairing of laws on the bodies of the default scene.
+fn every_pairing() -> Vec<(String, Choice)> {
+    let models = all_models(mild());
+    models.into_iter().map(|(name, model)| (name, Choice::of(model.loading, model.unloading))).collect()
+}
+
+/// Some pairings: all kinds of branches, and laws without segments.
+fn some_pairings() -> Vec<(String, Choice)> {
+    let wanted =
+        ["big-alabo with contact-radius", "brinell with brinell", "jackson-green with jackson", "luding with luding"];
+    every_pairing().into_iter().filter(|(name, _)| wanted.contains(&name.as_str())).collect()
+}
+
+/// Drives all contacts through yield, reversal, flight and new contacts, and gives what they show after each step.
+fn drive<S: Scene>(instance: &mut Instance<S>, steps: usize, seed: u64) -> Vec<f64> {
+    let mut random = Random(seed);
+    let mut shown = Vec::new();
+    for _ in 0..steps {
+        for contact in 0..S::CONTACTS {
+            set_rate(instance, contact, 4.0 * random.next() - 1.9);
+        }
+        let time = instance.time();
+        instance.do_step(time, STEP).expect("within the range of the law");
+        shown.extend(outputs(instance));
+    }
+    shown
+}
+
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|number| number.to_bits()).collect()
+}
+
+/// What every kind of instance does: finite outputs, the same from a copy, from words and after a reset.
+fn behaves<S: Scene>(name: &str) {
+    let mut instance = ready::<S>();
+    let first = drive(&mut instance, 40, 7);
+    assert!(first.iter().all(|number| number.is_finite()), "{name}");
+    let saved = words(&instance);
+    let bytes: Vec<[u8; 8]> = saved.iter().map(|word| word.to_le_bytes()).collect();
+    let mut copy = ready::<S>();
+    copy.copy(&instance);
+    let mut restored = ready::<S>();
+    assert!(restored.load(&bytes), "{name}: its own words are refused");
+    assert_eq!(words(&restored), saved, "{name}: equal instances have equal words");
+    let on = drive(&mut instance, 40, 8);
+    assert_eq!(bits(&drive(&mut copy, 40, 8)), bits(&on), "{name}: from a copy");
+    assert_eq!(bits(&drive(&mut restored, 40, 8)), bits(&on), "{name}: from words");
+    instance.reset().unwrap();
+    assert_eq!(instance.phase(), Phase::Instantiated);
+    instance.set_experiment(0.0, None).unwrap();
+    instance.enter_initialization().unwrap();
+    instance.exit_initialization().unwrap();
+    assert_eq!(bits(&drive(&mut instance, 40, 7)), bits(&first), "{name}: after a reset");
+}
+
+#[test]
+fn instances_of_every_kind_run_copy_save_and_reset_to_the_bit() {
+    for (name, choice) in some_pairings() {
+        choose(choice);
+        behaves::<One>(&name);
+        behaves::<Several>(&name);
+        behaves::<MassiveOne>(&name);
+        behaves::<MassiveSeveral>(&name);
+    }
+    for (name, damped) in AnyDamped::ALL {
+        choose(Choice { damped, ..some_pairings()[0].1 });
+        behaves::<DampedOne>(name);
+        behaves::<DampedSeveral>(name);
+    }
+    behaves::<Exported>("the default scene");
+}
+
+#[test]
+fn a_contact_among_several_does_what_it_does_alone() {
+    for (name, choice) in some_pairings() {
+        choose(choice);
+        let mut several = ready::<Several>();
+        let mut one = ready::<One>();
+        let mut random = Random(3);
+        for step in 0..60 {
+            let rate = 4.0 * random.next() - 1.9;
+            set_rate(&mut several, 0, rate);
+            (1..5).for_each(|contact| set_rate(&mut several, contact, random.next()));
+            set_rate(&mut one, 0, rate);
+            let (time, other) = (several.time(), one.time());
+            several.do_step(time, STEP).unwrap();
+            one.do_step(other, STEP).unwrap();
+            for output in OUTPUTS {
+                let (own, alone) = (several.real((output, 0)), one.real((output, 0)));
+                assert_eq!(own.to_bits(), alone.to_bits(), "{name}, {output:?} in step {step}: {own} and {alone}");
+            }
+        }
+    }
+}
+
+/// The look-ahead once believed that only a rate above 1e40 m/s can be refused; laws that are fits refuse too.
+#[test]
+fn a_refused_step_of_several_contacts_moves_none_of_them() {
+    let pairings = every_pairing();
+    let (_, choice) = pairings.iter().find(|(name, _)| name == "jackson-green with jackson").unwrap();
+    // each following target is stiffer by a tenth: the fit ends earlier for the first ones
+    choose(Choice { youngs_modulus: 91e9, yield_strength: 1e11, radius: 5e-3, ..*choice });
+    let mut instance = ready::<Several>();
+    (0..5).for_each(|contact| set_rate(&mut instance, contact, 1.0));
+    instance.do_step(0.0, 1e-6).unwrap();
+    let before = words(&instance);
+    let time = instance.time();
+    // the other order of success: the last contact is the one that is refused
+    (0..4).for_each(|contact| set_rate(&mut instance, contact, 1e-6));
+    let moved = words(&instance);
+    let refused = instance.do_step(time, 1.0).unwrap_err();
+    assert!(matches!(refused, Fault::TooDeep { contact: 4, .. }), "{refused:?}");
+    assert_eq!(words(&instance), moved);
+    (0..4).for_each(|contact| set_rate(&mut instance, contact, 1.0));
+    assert!(!instance.do_plain_step(time, 1.0), "a refused step is not plain");
+    assert_eq!(words(&instance), before);
+    assert!(matches!(instance.do_step(time, 1.0), Err(Fault::TooDeep { contact: 0, .. })));
+    assert_eq!(words(&instance), before);
+}
+
+#[test]
+fn rates_and_times_beyond_all_reason_are_refused_by_name() {
+    choose(some_pairings()[0].1);
+    let mut instance = ready::<One>();
+    for rate in [1.1 * FASTEST, -1e300, f64::MAX] {
+        let refused = instance.check_real((Real::IndentationRate, 0), rate).unwrap_err();
+        assert_eq!(refused, Fault::RateOutOfRange { rate });
+    }
+    for rate in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(matches!(instance.check_real((Real::IndentationRate, 0), rate), Err(Fault::NotFinite { .. })));
+    }
+    for step in [f64::INFINITY, f64::NAN, 0.0, -1.0] {
+        assert!(!instance.do_plain_step(0.0, step), "{step}");
+        assert!(matches!(instance.do_step(0.0, step), Err(Fault::StepSize { .. })), "{step}");
+    }
+    for step in [1.1 * LATEST, 1e306] {
+        assert!(!instance.do_plain_step(0.0, step), "{step}");
+        assert_eq!(instance.do_step(0.0, step), Err(Fault::TooLate { end: step }));
+    }
+    let mut made = Instance::<One>::new().unwrap();
+    for start in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN, -f64::MAX, 1.1 * LATEST, -1.1 * LATEST] {
+        assert!(matches!(made.set_experiment(start, None), Err(Fault::Experiment { .. })), "{start}");
+    }
+    // a start time of -DBL_MAX once let a step through in Initialization Mode
+    for start in [0.0, -LATEST, LATEST] {
+        let mut made = Instance::<One>::new().unwrap();
+        made.set_experiment(start, None).unwrap();
+        made.enter_initialization().unwrap();
+        for step in [1e-6, 1e40, f64::INFINITY] {
+            assert!(!made.do_plain_step(start, step), "{start} {step}");
+            assert!(!made.do_plain_step(-f64::MAX, step), "{start} {step}");
+            assert!(!made.do_plain_step(f64::NEG_INFINITY, step), "{start} {step}");
+        }
+    }
+}
+
+#[test]
+fn the_fastest_rates_over_the_longest_steps_show_numbers_or_are_refused() {
+    for (name, choice) in every_pairing() {
+        choose(choice);
+        for rate in [FASTEST, -FASTEST, 1e-300, -1e-300, 5e-324, 1e20] {
+            for step in [1e-300, 1e-6, 1e9, 1e49] {
+                let mut instance = ready::<One>();
+                set_rate(&mut instance, 0, rate);
+                for _ in 0..2 {
+                    let before = words(&instance);
+                    let time = instance.time();
+                    match instance.do_step(time, step) {
+                        Ok(()) => {}
+                        Err(_) => assert_eq!(words(&instance), before, "{name}: {rate} over {step}"),
+                    }
+                    let shown = outputs(&instance);
+                    assert!(shown.iter().all(|number| number.is_finite()), "{name}: {rate} over {step}: {shown:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn states_of_parameters_that_do_not_fit_come_back_from_their_own_words() {
+    choose(some_pairings()[0].1);
+    let mut instance = Instance::<One>::new().unwrap();
+    // the socket has a radius of 1 km
+    instance.set_real((Real::Parameter(0), 0), 2e3);
+    instance.parameters_are_set();
+    let saved = words(&instance);
+    let bytes: Vec<[u8; 8]> = saved.iter().map(|word| word.to_le_bytes()).collect();
+    let mut restored = Instance::<One>::new().unwrap();
+    assert!(restored.load(&bytes), "its own words are refused");
+    assert_eq!(words(&restored), saved);
+    assert_eq!(bits(&outputs(&restored)), bits(&outputs(&instance)));
+    restored.set_experiment(0.0, None).unwrap();
+    restored.enter_initialization().unwrap();
+    assert!(matches!(restored.exit_initialization(), Err(Fault::NoPointContact { .. })));
+    restored.fail();
+    let failed = words(&restored);
+    let bytes: Vec<[u8; 8]> = failed.iter().map(|word| word.to_le_bytes()).collect();
+    let mut again = Instance::<One>::new().unwrap();
+    assert!(again.load(&bytes), "in the error state, too");
+    // but no simulation goes on with such bodies
+    let mut ready_words = words(&ready::<One>());
+    ready_words[5] = 2e3f64.to_bits();
+    let bytes: Vec<[u8; 8]> = ready_words.iter().map(|word| word.to_le_bytes()).collect();
+    assert!(!again.load(&bytes));
+    assert_eq!(words(&again), failed, "refused words change nothing");
+}
+
+/// Stale derivatives of an input were once saved with states that have none.
+#[test]
+fn equal_states_have_equal_words_whatever_came_before() {
+    choose(some_pairings()[0].1);
+    let mut curved = ready::<Several>();
+    let plain = ready::<Several>();
+    curved.set_input_derivative(2, 1, -3e4);
+    set_rate(&mut curved, 2, 1.0);
+    curved.do_step(0.0, STEP).unwrap();
+    curved.copy(&plain);
+    assert_eq!(words(&curved), words(&plain));
+}
+
+/// Derivatives by time, against differences of the outputs over the steps that follow.
+#[test]
+fn derivatives_of_every_output_are_those_of_its_course() {
+    for (name, choice) in every_pairing() {
+        let d_y = physics::unit(&mild()).indentation;
+        for (depth, back) in [(0.6, 0.0), (3.7, 0.0), (31.0, 0.0), (150.0, 0.0), (31.0, 0.3), (150.0, 0.02)] {
+            choose(choice);
+            let mut instance = ready::<One>();
+            let mut go = |rate: f64, step: f64| {
+                set_rate(&mut instance, 0, rate);
+                let time = instance.time();
+                instance.do_step(time, step).unwrap();
+            };
+            go(1.0, depth * d_y);
+            if back > 0.0 {
+                go(-1.0, back * d_y);
+            }
+            let rate = if back > 0.0 { -1.0 } else { 1.0 };
+            let apart = instance.real((Real::Force, 0)) == 0.0;
+            let width = if apart { 1e-9 } else { 1e-3 * if back > 0.0 { back } else { depth } } * d_y;
+            // outputs at four times from here on
+            let mut later = Vec::new();
+            for place in 0..4 {
+                let mut moved = ready::<One>();
+                moved.copy(&instance);
+                if place > 0 {
+                    set_rate(&mut moved, 0, rate);
+                    let time = moved.time();
+                    moved.do_step(time, f64::from(place) * width).unwrap();
+                }
+                later.push(moved);
+            }
+            for output in OUTPUTS {
+                let at = |place: usize| later[place].real((output, 0));
+                let slow = (-11.0 * at(0) + 18.0 * at(1) - 9.0 * at(2) + 2.0 * at(3)) / (6.0 * width);
+                let bend = (2.0 * at(0) - 5.0 * at(1) + 4.0 * at(2) - at(3)) / (width * width);
+                let derivative = |order| instance.output_derivative((output, 0), order).unwrap();
+                let whole_step = matches!(output, Real::MeanForce | Real::PredictedForce);
+                if whole_step {
+                    assert_eq!([derivative(1), derivative(2)], [0.0; 2], "{name}");
+                    continue;
+                }
+                let size = (0..4).map(|place| at(place).abs()).fold(0.0, f64::max);
+                let what = format!("{name}, {output:?} at {depth} d_y, {back} d_y back");
+                let error = (derivative(1) - slow).abs();
+                let scale = slow.abs() + 1e-4 * size / width;
+                assert!(error <= 1e-4 * scale + 1e-13 * size / width, "{what}: {} for {slow}", derivative(1));
+                let error = (derivative(2) - bend).abs();
+                let scale = bend.abs() + 1e-3 * (slow.abs() / width + size / (width * width) * 1e-3);
+                assert!(error <= 0.05 * scale, "{what}: {} for {bend}", derivative(2));
+            }
+        }
+    }
+}
+
+/// Once NaN with every law that is no segment: the surface has no width to look at.
+#[test]
+fn derivatives_before_the_first_step_are_numbers() {
+    for gap in [0.0, 1e-6, -1e-6, -5e-324, 5e-324] {
+        for (name, choice) in every_pairing() {
+            choose(Choice { initial_gap: gap, ..choice });
+            let mut instance = ready::<One>();
+            set_rate(&mut instance, 0, 1.0);
+            for output in OUTPUTS {
+                for order in [1, 2] {
+                    let derivative = instance.output_derivative((output, 0), order);
+                    assert!(
+                        derivative.is_ok_and(f64::is_finite),
+                        "{name}, {output:?} of order {order}: {derivative:?}"
+                    );
+                }
+            }
+            if gap == 0.0 {
+                assert_eq!(instance.output_derivative((Real::Force, 0), 2), Ok(0.0), "{name}");
+            }
+        }
+    }
+}
+
+/// dF/d(rate) and the like, against differences of outputs at two rates.
+#[test]
+fn derivatives_by_the_input_are_those_of_the_outputs() {
+    fn check<S: Scene>(name: &str) {
+        let mut instance = ready::<S>();
+        let mut random = Random(11);
+        for step in 0..30 {
+            let rate = 3.0 * random.next() - 1.2;
+            let time = instance.time();
+            let at = |rate: f64| {
+                let mut other = ready::<S>();
+                other.copy(&instance);
+                set_rate(&mut other, 0, rate);
+                other
+            };
+            let width = 1e-4 * rate.abs();
+            let (above, below) = (at(rate + width), at(rate - width));
+            set_rate(&mut instance, 0, rate);
+            for output in OUTPUTS {
+                let input = (Real::IndentationRate, 0);
+                let exact = instance.derivative_by_input((output, 0), input).unwrap();
+                let differences = above.real((output, 0)) - below.real((output, 0));
+                let slope = differences / (2.0 * width);
+                // a corner of the law between the two is no mistake
+                let one_sided = (above.real((output, 0)) - instance.real((output, 0))) / width;
+                let smooth = (one_sided - slope).abs() < 1e-3 * slope.abs();
+                let size = instance.real((output, 0)).abs() / rate.abs();
+                assert!(
+                    !smooth && slope != 0.0 || (exact - slope).abs() <= 1e-3 * slope.abs() + 1e-9 * size,
+                    "{name}, {output:?} in step {step}: {exact} for {slope}"
+                );
+                if S::CONTACTS > 1 {
+                    let other = (Real::IndentationRate, 1);
+                    assert_eq!(instance.derivative_by_input((output, 0), other), Ok(0.0));
+                }
+            }
+            instance.do_step(time, STEP).unwrap();
+        }
+        assert_eq!(instance.derivative_by_input((Real::Force, 0), (Real::Parameter(0), 0)), Err(Fault::NotAnInput));
+    }
+    for (name, choice) in some_pairings() {
+        choose(choice);
+        check::<One>(&name);
+        check::<Several>(&name);
+    }
+    for (name, damped) in AnyDamped::ALL {
+        choose(Choice { damped, ..some_pairings()[0].1 });
+        check::<DampedOne>(name);
+        check::<DampedSeveral>(name);
+    }
+}
+
+/// A contact that is touched at next to no speed once had more damping than there are numbers.
+#[test]
+fn a_rate_dependent_contact_can_be_touched_at_next_to_no_speed() {
+    for (name, damped) in AnyDamped::ALL {
+        for rate in [1e-300, 1e-200, 1e-100, 1e-30] {
+            choose(Choice { damped, ..some_pairings()[0].1 });
+            let mut instance = ready::<DampedOne>();
+            set_rate(&mut instance, 0, rate);
+            // one micrometre in
+            instance.do_step(0.0, if rate > 1e-50 { 1e-6 / rate } else { 1e49 }).unwrap_or_else(|fault| {
+                panic!("{name} at {rate} m/s: {fault:?}");
+            });
+            let shown = outputs(&instance);
+            assert!(shown.iter().all(|number| number.is_finite()), "{name} at {rate} m/s: {shown:?}");
+        }
+    }
+}
+
+/// The laws of a scene that is read from memory are those of a scene of constants, to the bit.
+#[test]
+fn a_scene_from_memory_does_what_one_of_constants_does() {
+    let (_, loading) = AnyLoading::ALL.into_iter().find(|(name, _)| *name == "big-alabo").unwrap();
+    let (_, unloading) = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == "contact-radius").unwrap();
+    choose(Choice { target_radius: f64::INFINITY, ..Choice::of(loading, unloading) });
+    let (mut constants, mut memory) = (ready::<Exported>(), ready::<One>());
+    let mut random = Random(5);
+    for _ in 0..300 {
+        let rate = 4.0 * random.next() - 1.9;
+        set_rate(&mut constants, 0, rate);
+        set_rate(&mut memory, 0, rate);
+        let time = constants.time();
+        constants.do_step(time, STEP).unwrap();
+        memory.do_step(time, STEP).unwrap();
+        for output in [Real::Force, Real::Indentation, Real::ResidualIndentation, Real::DissipatedEnergy] {
+            assert_eq!(constants.real((output, 0)).to_bits(), memory.real((output, 0)).to_bits(), "{output:?}");
+        }
+    }
+}

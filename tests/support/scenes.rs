@@ -1,0 +1,277 @@
+//! Scenes for instances in plain Rust, without any export: bodies and laws are read from memory when an instance is made.
+//!
+//! [`Chosen`] is one contact or several, each a group of its own, of any [`Kind`]: elastoplastic, rate-dependent, or moved by
+//! its mass. Bodies and laws are those that the thread has chosen with [`choose`].
+
+#![allow(dead_code)] // each test file uses a part of it
+
+use brinell::contact::damped::{self, AnyDamped};
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::motion::{Follow, follow};
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Contact, History, Model, Pair, Surface};
+use brinell::instance::Instance;
+use brinell::scene::{Absent, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of};
+use std::cell::RefCell;
+use std::marker::PhantomData;
+
+/// What an instance is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Choice {
+    pub loading: AnyLoading,
+    pub unloading: AnyUnloading,
+    pub surface: Surface,
+    pub damped: AnyDamped,
+    /// Of the target of the first contact [Pa]; that of each following one is a tenth larger.
+    pub youngs_modulus: f64,
+    pub poissons_ratio: f64,
+    pub yield_strength: f64,
+    /// Of the impactor [m].
+    pub radius: f64,
+    /// Of the target [m]: a wide socket, so that a parameter can be set that doesn't fit.
+    pub target_radius: f64,
+    pub restitution: f64,
+    pub effective_mass: f64,
+    pub initial_gap: f64,
+}
+
+impl Choice {
+    /// The default scene's bodies with these laws.
+    pub fn of(loading: AnyLoading, unloading: AnyUnloading) -> Choice {
+        Choice {
+            loading,
+            unloading,
+            surface: Surface::Dented,
+            damped: AnyDamped::ALL[0].1,
+            youngs_modulus: 206e9,
+            poissons_ratio: 0.3,
+            yield_strength: 300e6,
+            radius: 5e-3,
+            target_radius: -1e3,
+            restitution: 0.6,
+            effective_mass: 4.11e-3,
+            initial_gap: 0.0,
+        }
+    }
+}
+
+thread_local! {
+    static CHOICE: RefCell<Option<Choice>> = const { RefCell::new(None) };
+}
+
+/// What instances of this thread are made of from now on.
+pub fn choose(choice: Choice) {
+    CHOICE.with(|slot| *slot.borrow_mut() = Some(choice));
+}
+
+fn chosen() -> Choice {
+    CHOICE.with(|slot| slot.borrow().expect("a test chooses before it makes an instance"))
+}
+
+/// A kind of contact.
+pub trait Kind {
+    type Model: Copy;
+    type Contact: Contact<Self::Model>;
+    type Course: Presence;
+    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
+    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model;
+}
+
+/// A law of indentation and largest indentation.
+pub struct Elastoplastic;
+
+/// The same, moved by its mass.
+pub struct Massive;
+
+/// A rate-dependent law.
+pub struct Damped;
+
+fn elastoplastic(pair: Pair) -> Model<AnyLoading, AnyUnloading> {
+    let Choice { loading, unloading, surface, .. } = chosen();
+    Model { pair, loading, unloading, surface }
+}
+
+impl Kind for Elastoplastic {
+    type Model = Model<AnyLoading, AnyUnloading>;
+    type Contact = History;
+    type Course = Present;
+    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
+        elastoplastic(pair)
+    }
+}
+
+impl Kind for Massive {
+    type Model = Model<AnyLoading, AnyUnloading>;
+    type Contact = History;
+    type Course = Present;
+    const FOLLOW: Option<Follow<History, Self::Model>> = Some(follow);
+    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
+        elastoplastic(pair)
+    }
+}
+
+impl Kind for Damped {
+    type Model = damped::Model<AnyDamped>;
+    type Contact = damped::History<AnyDamped>;
+    type Course = Absent;
+    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
+        damped::Model { pair, law: chosen().damped, restitution, mass }
+    }
+}
+
+/// `N` contacts of a kind, whose momentum is `M`, each a group of its own.
+pub struct Chosen<K, const N: usize, M = Absent>(PhantomData<(K, M)>);
+
+/// Whether forces are kept in memory: there are many scenes in which they are.
+type Kept = Absent;
+
+static SETTABLE: [Settable; 3] = [
+    Settable { name: "impactor.radius", unit: "m", minimum: 1e-12, maximum: 1e9 },
+    Settable { name: "target.yield_strength", unit: "Pa", minimum: 1e-9, maximum: 1e18 },
+    Settable { name: "initial_gap", unit: "m", minimum: -1e6, maximum: 1e6 },
+];
+
+/// Every Real output, in the order of their references.
+pub const OUTPUTS: [Real; 13] = [
+    Real::Force,
+    Real::Indentation,
+    Real::MaxIndentation,
+    Real::ResidualIndentation,
+    Real::ContactRadius,
+    Real::MeanPressure,
+    Real::Stiffness,
+    Real::Work,
+    Real::ElasticEnergy,
+    Real::DissipatedEnergy,
+    Real::Impulse,
+    Real::MeanForce,
+    Real::PredictedForce,
+];
+
+impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
+    type Model = K::Model;
+    type Contact = K::Contact;
+    type Contacts<T: Copy> = [T; N];
+    type Groups<T: Copy> = [T; N];
+    type Values = [f64; 3];
+    type Forces = Kept;
+    type Momentum = M;
+    type Course = K::Course;
+    type Prediction = M;
+    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
+
+    fn guid() -> &'static str {
+        "a scene of the tests"
+    }
+
+    fn identity() -> u64 {
+        identity_of(std::any::type_name::<Self>())
+    }
+
+    fn group(contact: usize) -> usize {
+        contact
+    }
+
+    fn end(group: usize) -> usize {
+        group + 1
+    }
+
+    fn group_name(_group: usize) -> (&'static str, bool) {
+        ("contact", true)
+    }
+
+    fn settable() -> &'static [Settable] {
+        &SETTABLE
+    }
+
+    fn start_values() -> [f64; 3] {
+        let choice = chosen();
+        [choice.radius, choice.yield_strength, choice.initial_gap]
+    }
+
+    fn parameter(parameter: Parameter, group: usize, values: &[f64; 3]) -> f64 {
+        let choice = chosen();
+        match parameter {
+            Parameter::ImpactorRadius => values[0],
+            Parameter::ImpactorYoungsModulus => f64::INFINITY,
+            Parameter::ImpactorPoissonsRatio => 0.0,
+            Parameter::TargetRadius => choice.target_radius,
+            Parameter::TargetYoungsModulus => choice.youngs_modulus * 1.1f64.powi(group as i32),
+            Parameter::TargetPoissonsRatio => choice.poissons_ratio,
+            Parameter::TargetYieldStrength => values[1],
+            Parameter::Restitution => choice.restitution,
+            Parameter::EffectiveMass => choice.effective_mass,
+            Parameter::InitialGap => values[2],
+        }
+    }
+
+    fn model(pair: Pair, group: usize, values: &[f64; 3]) -> K::Model {
+        let value = |which| Self::parameter(which, group, values);
+        K::model(pair, value(Parameter::Restitution), value(Parameter::EffectiveMass))
+    }
+
+    fn density(_group: usize) -> Option<f64> {
+        None
+    }
+
+    fn real(value_reference: u32) -> Option<(Real, usize)> {
+        let (kind, contact) = (value_reference as usize / N, value_reference as usize % N);
+        match kind {
+            0 => Some((Real::IndentationRate, contact)),
+            kind if kind <= OUTPUTS.len() => Some((OUTPUTS[kind - 1], contact)),
+            kind => {
+                let index = value_reference as usize - (OUTPUTS.len() + 2) * N;
+                let _ = kind;
+                (kind > OUTPUTS.len() + 1 && index < SETTABLE.len()).then_some((Real::Parameter(index), 0))
+            }
+        }
+    }
+
+    fn integer(value_reference: u32) -> Option<(Integer, usize)> {
+        let (kind, contact) = (value_reference as usize / N, value_reference as usize % N);
+        (kind == OUTPUTS.len() + 1).then_some((Integer::Regime, contact))
+    }
+}
+
+/// An instance that is ready for its first step.
+pub fn ready<S: Scene>() -> Instance<S> {
+    let mut instance = Instance::<S>::new().expect("the bodies fit");
+    instance.set_experiment(0.0, None).expect("zero is a time");
+    instance.enter_initialization().expect("there is a start time");
+    instance.exit_initialization().expect("the bodies fit");
+    instance
+}
+
+/// Sets the rate of `contact` [m/s], which must be allowed.
+pub fn set_rate<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64) {
+    let variable = (Real::IndentationRate, contact);
+    instance.check_real(variable, rate).expect("the rate is allowed");
+    instance.set_real(variable, rate);
+}
+
+/// Every Real output of every contact, and the regimes.
+pub fn outputs<S: Scene>(instance: &Instance<S>) -> Vec<f64> {
+    let contacts = 0..S::CONTACTS;
+    let reals = contacts.clone().flat_map(|contact| OUTPUTS.map(|output| (output, contact)));
+    let shown = |output: Real| {
+        let momentum = matches!(output, Real::Impulse | Real::MeanForce | Real::PredictedForce);
+        S::Momentum::IS_PRESENT || !momentum
+    };
+    let mut all: Vec<f64> =
+        reals.filter(|(output, _)| shown(*output)).map(|variable| instance.real(variable)).collect();
+    all.extend(contacts.map(|contact| f64::from(instance.integer((Integer::Regime, contact)))));
+    all
+}
+
+/// The words of an instance.
+pub fn words<S: Scene>(instance: &Instance<S>) -> Vec<u64> {
+    let mut words = Vec::new();
+    instance.save(|word| words.push(word));
+    assert_eq!(words.len(), Instance::<S>::WORDS);
+    words
+}
+
+/// How many values the scene can set.
+pub fn settable<S: Scene>() -> usize {
+    <S::Values as Store<f64>>::LENGTH
+}
