@@ -125,7 +125,9 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
     fn save(&self, store: &mut impl FnMut(u64)) {
         let Factors { elastic, damping } = self.factors;
         let (Sum { value, rest }, heat) = (self.indentation, self.dissipated);
-        let numbers = [value, rest, self.max_indentation, self.touch_speed, heat.value, heat.rest, elastic, damping];
+        // words are finite; no speed is zero, and stands for none
+        let touch_speed = if self.touch_speed < f64::INFINITY { self.touch_speed } else { 0.0 };
+        let numbers = [value, rest, self.max_indentation, touch_speed, heat.value, heat.rest, elastic, damping];
         numbers.into_iter().for_each(|number| store(number.to_bits()));
     }
 
@@ -135,7 +137,7 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
             law: model.law,
             indentation: Sum { value: number()?, rest: number()? },
             max_indentation: number()?,
-            touch_speed: number()?,
+            touch_speed: Some(number()?).filter(|&speed| speed != 0.0).unwrap_or(f64::INFINITY),
             dissipated: Sum { value: number()?, rest: number()? },
             factors: Factors { elastic: number()?, damping: number()? },
         })

@@ -17,7 +17,7 @@ pub struct History<D> {
     factors: Factors,
     indentation: Sum,
     max_indentation: f64,
-    /// Closing speed at first touch [m/s]; zero until there was one.
+    /// Closing speed at first touch [m/s]; infinite until there was one, so that a rate over it is zero.
     touch_speed: f64,
     dissipated: Sum,
 }
@@ -39,7 +39,7 @@ impl<D: Damped + Copy> History<D> {
             factors: model.law.factors(&model.pair, model.restitution, model.mass),
             indentation: Sum::new(indentation),
             max_indentation: if indentation > 0.0 { indentation } else { 0.0 },
-            touch_speed: 0.0,
+            touch_speed: f64::INFINITY,
             dissipated: Sum::new(0.0),
         })
     }
@@ -72,7 +72,7 @@ impl<D: Damped + Copy> History<D> {
 
     /// Notes the speed of a first touch on the way to `to` [m].
     fn touch(&mut self, to: f64, rate: f64) {
-        let touches = if self.indentation.total() > 0.0 { self.touch_speed <= 0.0 } else { to > 0.0 };
+        let touches = if self.indentation.total() > 0.0 { self.touch_speed == f64::INFINITY } else { to > 0.0 };
         if touches && rate > 0.0 {
             self.touch_speed = rate;
         }
@@ -81,11 +81,8 @@ impl<D: Damped + Copy> History<D> {
     /// `C d'`, with `d'` over the touch speed if the law wants it [N]; none before there was a touch.
     fn damping_force(&self, rate: f64) -> f64 {
         // the ratio first: a touch at next to no speed must not divide the factor
-        match (self.law.scaled_by_touch(), self.touch_speed > 0.0) {
-            (false, _) => self.factors.damping * rate,
-            (true, true) => self.factors.damping * (rate / self.touch_speed),
-            (true, false) => 0.0,
-        }
+        let rate = if self.law.scaled_by_touch() { rate / self.touch_speed } else { rate };
+        self.factors.damping * rate
     }
 
     /// `K phi + C psi d'` at `indentation` > 0, which may be negative [N].

@@ -1,0 +1,139 @@
+//! A host may trap floating-point exceptions: no call that succeeds raises one beyond inexact and underflow.
+#![cfg(all(target_os = "linux", target_arch = "x86_64"))]
+
+#[path = "support/physics.rs"]
+mod physics;
+#[path = "support/scenes.rs"]
+mod scenes;
+
+use brinell::contact::Surface;
+use brinell::contact::damped::AnyDamped;
+use brinell::instance::Instance;
+use brinell::scene::{Present, Real, Scene};
+use physics::{Random, all_models, mild};
+use scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, choose, words};
+
+type One = Chosen<Elastoplastic, 1, Present>;
+type Several = Chosen<Elastoplastic, 3, Present>;
+type MassiveOne = Chosen<Massive, 1, Present>;
+type DampedOne = Chosen<Damped, 1, Present>;
+
+const INVALID: i32 = 1;
+const DIVISION_BY_ZERO: i32 = 4;
+const OVERFLOW: i32 = 8;
+
+#[link(name = "m")]
+unsafe extern "C" {
+    fn feclearexcept(exceptions: i32) -> i32;
+    fn fetestexcept(exceptions: i32) -> i32;
+}
+
+/// What `call` gives, and the exceptions that it raised.
+#[inline(never)]
+fn raised<T>(call: impl FnOnce() -> T) -> (T, i32) {
+    let all = INVALID | DIVISION_BY_ZERO | OVERFLOW;
+    // SAFETY: functions of the C library that look at the processor's flags.
+    unsafe {
+        feclearexcept(all);
+        let result = std::hint::black_box(call());
+        (result, fetestexcept(all))
+    }
+}
+
+/// Fails if a call that succeeded raised an exception.
+#[track_caller]
+fn quiet<T, E>(what: impl Fn() -> String, call: impl FnOnce() -> Result<T, E>) {
+    let (result, flags) = raised(call);
+    assert!(result.is_err() || flags == 0, "{}: exceptions {flags}", what());
+}
+
+/// Makes an instance, lets it live, and looks at the flags after every call.
+fn live<S: Scene>(name: &str) {
+    let (made, flags) = raised(Instance::<S>::new);
+    assert_eq!(flags, 0, "{name}: made");
+    let mut instance = made.unwrap();
+    instance.set_experiment(0.0, None).unwrap();
+    quiet(
+        || format!("{name}: initialization"),
+        || {
+            instance.enter_initialization()?;
+            instance.exit_initialization()
+        },
+    );
+    let mut random = Random(17);
+    let special = [0.0, -0.0, 1.0, 1.0, -0.3, -8.0, -1e-300, 1e-300, 0.0, 1e-9, 5.0, -1.0, 0.0, 0.0, -50.0, -0.0];
+    for step in 0..80 {
+        let rate = if step < special.len() { special[step] } else { 6.0 * random.next() - 3.0 };
+        let length = [1e-6, 1e-7, 3e-6, 1e-9][step % 4];
+        let what = |call: &str| format!("{name}: {call} in step {step} at {rate} m/s");
+        for contact in 0..S::CONTACTS {
+            let variable = (Real::IndentationRate, contact);
+            quiet(|| what("set"), || instance.check_real(variable, rate));
+            instance.set_real(variable, rate);
+            if instance.check_input_derivative(variable, 1, -9.81).is_ok() && step % 3 == 0 {
+                let acceleration = [0.0, -9.81, 3e4, -1e-3][step / 3 % 4];
+                quiet(|| what("derivative"), || instance.check_input_derivative(variable, 1, acceleration));
+                instance.set_input_derivative(contact, 1, acceleration);
+            }
+        }
+        let time = instance.time();
+        quiet(|| what("step"), || instance.do_step(time, length));
+        for output in OUTPUTS {
+            for contact in 0..S::CONTACTS {
+                let (_, flags) = raised(|| instance.real((output, contact)));
+                assert_eq!(flags, 0, "{}", what(&format!("{output:?}")));
+                for order in [1, 2] {
+                    let derivative = || instance.output_derivative((output, contact), order);
+                    quiet(|| what(&format!("derivative {order} of {output:?}")), derivative);
+                }
+                let by_input = || instance.derivative_by_input((output, contact), (Real::IndentationRate, 0));
+                quiet(|| what(&format!("{output:?} by the input")), by_input);
+            }
+        }
+        let (_, flags) = raised(|| words(&instance));
+        assert_eq!(flags, 0, "{}", what("saved"));
+    }
+}
+
+#[test]
+fn the_flags_are_seen() {
+    let division = |by: f64| raised(|| std::hint::black_box(1.0) / std::hint::black_box(by)).1;
+    assert_eq!((division(0.0), division(2.0)), (DIVISION_BY_ZERO, 0));
+}
+
+#[test]
+fn elastoplastic_instances_raise_none() {
+    for (name, model) in all_models(mild()) {
+        for surface in [Surface::Dented, Surface::Fresh] {
+            for initial_gap in [0.0, 1e-6, -3e-5] {
+                choose(Choice { surface, initial_gap, ..Choice::of(model.loading, model.unloading) });
+                live::<One>(&name);
+            }
+        }
+        choose(Choice { target_radius: f64::INFINITY, ..Choice::of(model.loading, model.unloading) });
+        live::<Several>(&name);
+    }
+}
+
+#[test]
+fn rate_dependent_instances_raise_none() {
+    let (_, model) = all_models(mild()).swap_remove(0);
+    for (name, damped) in AnyDamped::ALL {
+        for restitution in [1e-3, 0.5, 1.0] {
+            for initial_gap in [0.0, 1e-6, -3e-5] {
+                choose(Choice { damped, restitution, initial_gap, ..Choice::of(model.loading, model.unloading) });
+                live::<DampedOne>(name);
+            }
+        }
+    }
+}
+
+#[test]
+fn instances_that_know_the_mass_raise_none() {
+    for (name, model) in all_models(mild()) {
+        for surface in [Surface::Dented, Surface::Fresh] {
+            choose(Choice { surface, ..Choice::of(model.loading, model.unloading) });
+            live::<MassiveOne>(&name);
+        }
+    }
+}
