@@ -104,6 +104,48 @@ fn valgrind_finds_no_wrong_access_and_no_leak() {
     assert!(checks >= CHECKS - 2 * COUNTS, "only {checks} checks:\n{}", String::from_utf8_lossy(&output.stdout));
 }
 
+/// Every scene of the project, and each rate-dependent law and a law without segments with every output, in a host that traps.
+#[test]
+fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_unit() {
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("exceptions");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/c/exceptions.c");
+    let mut compiler = Command::new("cc");
+    compiler.args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"]).arg(headers()).arg(source);
+    let output = compiler.arg("-o").arg(&program).args(["-ldl", "-lm"]).output().expect("there is a C compiler");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let bodies = "impactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n";
+    let momentum = "\"indentation\", \"stiffness\", \"mean_pressure\", \"elastic_energy\", \"dissipated_energy\", \
+                    \"impulse\", \"mean_force\", \"predicted_force\"";
+    let mut scenes = unit::scenes();
+    for law in ["hunt-crossley", "kelvin-voigt", "tsuji", "kuwabara-kono", "adams-impact", "jackson-green"] {
+        let asked = ["hunt-crossley", "kelvin-voigt", "tsuji"].contains(&law);
+        let restitution = if asked { "restitution = 0.7\n" } else { "" };
+        let text = format!(
+            "name = \"trapped\"\n{bodies}law = {{ loading = \"{law}\" }}\nfmu = {{ outputs = [{momentum}] }}\n\
+             impact = {{ mass = 4e-3, speed = 1.0 }}\n"
+        );
+        let text = text.replace("law = {", &format!("law = {{ {}", restitution.trim().replace("0.7", "0.7,")));
+        scenes.push(unit::write_scene(&format!("trapped_{}", law.replace('-', "_")), &text));
+    }
+    for scene in scenes {
+        let library = unit::library(&unit::export(&scene));
+        let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+        let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
+        let elements = || description.split("<ScalarVariable").skip(1);
+        let of = |causality: &'static str| {
+            elements().filter(move |element| attribute(element, "causality") == Some(causality))
+        };
+        let outputs = of("output").filter(|element| element.contains("<Real"));
+        let outputs = outputs.filter_map(|element| attribute(element, "valueReference").map(str::to_string));
+        let derivatives = description.contains("canInterpolateInputs=\"true\"");
+        let mut run = Command::new(&program);
+        run.arg(&library).arg(attribute(&description, "guid").unwrap()).arg(of("input").count().to_string());
+        run.arg(if derivatives { "d" } else { "-" }).args(outputs.take(40));
+        let output = run.output().expect("the program was compiled");
+        assert!(output.status.success(), "{}: {}", scene.display(), output.status);
+    }
+}
+
 /// The program must be able to fail: here the library is another one than its arguments say.
 #[test]
 fn the_c_program_fails_for_a_wrong_guid_and_a_wrong_reference() {

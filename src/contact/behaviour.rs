@@ -79,7 +79,9 @@ pub trait Contact<M>: Copy {
     /// Force over contact area [Pa]; 0 while apart.
     fn mean_pressure(&self, model: &M, rate: f64) -> f64 {
         let radius = self.contact_radius(model);
-        if radius > 0.0 { self.force(rate) / (PI * radius * radius) } else { 0.0 }
+        // a compiler may divide before it compares: then by one
+        let area = if radius > 0.0 { PI * radius * radius } else { 1.0 };
+        if radius > 0.0 { self.force(rate) / area } else { 0.0 }
     }
 
     /// What unloading would give back [J].
@@ -121,8 +123,9 @@ pub trait Contact<M>: Copy {
     fn load(words: &mut impl Iterator<Item = u64>, model: &M) -> Option<Self>;
 }
 
-/// Room for the factors of stiffness and pressure beside force over indentation: exponents, and a radius of 1e-12 m.
-const ROOM: f64 = 1e14;
+/// The largest force over indentation [N/m], with room for the factors of stiffness and pressure beside it: exponents, and a
+/// radius of 1e-12 m.
+const STIFFEST: f64 = 1e294;
 
 /// Whether force, stiffness and pressure of `contact` are numbers with `rate` [m/s]. A contact that was touched at next to no
 /// speed can have more damping than there are numbers.
@@ -132,8 +135,10 @@ pub fn is_finite_at<M, C: Contact<M>>(contact: &C, rate: f64) -> bool {
         return true;
     }
     let indentation = contact.indentation();
-    // pressure and stiffness are forces over lengths, and these are their sizes
-    indentation <= 0.0 || contact.force(rate) * ROOM / indentation < f64::INFINITY
+    // pressure and stiffness are forces over lengths, and these are their sizes; no division, which would raise an exception
+    // wherever a compiler makes it before the comparison
+    let length = if indentation < 1.0 { indentation } else { 1.0 };
+    indentation <= 0.0 || contact.force(rate) < STIFFEST * length
 }
 
 /// First and second derivative of `of` a contact by the indentation [1/m, 1/m^2], on the smooth piece that the contact is on.
