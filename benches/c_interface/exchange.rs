@@ -32,3 +32,10 @@ pub fn timed(work: impl FnOnce() -> Status) -> Duration {
     ok(status);
     time
 }
+
+/// Moves an instance that starts at time zero by `increments` [m], one in each step of length `step` [s].
+pub fn follow(instance: &Instance, increments: &[f64], step: f64) {
+    for (index, increment) in increments.iter().enumerate() {
+        ok(instance.set(INPUT, increment / step) | instance.step(index as f64 * step, step));
+    }
+}

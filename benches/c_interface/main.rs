@@ -6,6 +6,8 @@
 //! [`PARTS`] only.
 
 mod build;
+mod changes;
+mod corners;
 mod crowds;
 mod cycles;
 mod exchange;
@@ -33,10 +35,11 @@ struct Part {
 }
 
 /// Everything that there is to be printed, in this order.
-const PARTS: [Part; 7] = [
+const PARTS: [Part; 8] = [
     Part { name: "cycles", is_rows: false, print: cycles::print },
     Part { name: "impact", is_rows: true, print: crowds::print },
     Part { name: "instructions", is_rows: true, print: crowds::print_instructions },
+    Part { name: "branch", is_rows: true, print: changes::print },
     Part { name: "states", is_rows: true, print: states::print },
     Part { name: "life", is_rows: true, print: life::print },
     Part { name: "contacts", is_rows: true, print: many::print },
