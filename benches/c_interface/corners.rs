@@ -22,6 +22,20 @@ pub struct Place {
     regimes: [i32; 2],
 }
 
+/// Places whose steps stay on the branch that they are on.
+pub fn on_branches() -> Vec<Place> {
+    const WAY: f64 = 0.1;
+    place_all([
+        ("elastic", [0.3, 0.2], WAY, [1, 1]),
+        ("first region", [3.0, 2.0], WAY, [2, 2]),
+        ("second region", [30.0, 10.0], WAY, [3, 3]),
+        ("fully plastic", [130.0, 20.0], WAY, [4, 4]),
+        ("unloading", [150.0, -10.0], -WAY, [5, 5]),
+        ("reloading", [150.0, -10.0], WAY, [5, 5]),
+        ("apart", [150.0, -100.0], -WAY, [0, 0]),
+    ])
+}
+
 /// Places whose steps end on another branch. The dent is that of an indentation to 150 yield indentations, which `trio` tells.
 pub fn before_corners(trio: &Trio) -> Vec<Place> {
     const DEPTH: f64 = 150.0;
@@ -50,6 +64,13 @@ fn place_all<const N: usize>(places: [(&'static str, [f64; STEPS_BEFORE], f64, [
         regimes,
     };
     places.map(place).into_iter().collect()
+}
+
+impl Place {
+    /// Whether the step leaves the loading curve backwards.
+    pub fn turns_back(&self) -> bool {
+        self.step < 0.0 && self.regimes == [4, 5]
+    }
 }
 
 /// Each place is what it is said to be, if `step` is made from there.

@@ -17,6 +17,16 @@ impl<'unit> Fleet<'unit> {
         Fleet { instances, places }
     }
 
+    /// Instances that `prepare` has moved, each to a place of its own.
+    pub fn placed(unit: &'unit Unit, size: usize, prepare: impl Fn(usize, &Instance)) -> Fleet<'unit> {
+        let instances: Vec<_> = (0..size).map(|_| unit.instance()).collect();
+        for (index, instance) in instances.iter().enumerate() {
+            prepare(index, instance);
+        }
+        let places = instances.iter().map(saved).collect();
+        Fleet { instances, places }
+    }
+
     /// Brings all instances back to their places.
     pub fn restore(&self) {
         for (instance, &place) in self.instances.iter().zip(self.places.iter().cycle()) {

@@ -10,6 +10,7 @@ mod changes;
 mod corners;
 mod crowds;
 mod cycles;
+mod derivatives;
 mod exchange;
 mod fleet;
 mod heap;
@@ -35,11 +36,12 @@ struct Part {
 }
 
 /// Everything that there is to be printed, in this order.
-const PARTS: [Part; 8] = [
+const PARTS: [Part; 9] = [
     Part { name: "cycles", is_rows: false, print: cycles::print },
     Part { name: "impact", is_rows: true, print: crowds::print },
     Part { name: "instructions", is_rows: true, print: crowds::print_instructions },
     Part { name: "branch", is_rows: true, print: changes::print },
+    Part { name: "derivatives", is_rows: true, print: derivatives::print },
     Part { name: "states", is_rows: true, print: states::print },
     Part { name: "life", is_rows: true, print: life::print },
     Part { name: "contacts", is_rows: true, print: many::print },

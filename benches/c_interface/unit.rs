@@ -46,7 +46,10 @@ struct Functions {
     free_state: unsafe extern "C" fn(Component, *mut State) -> Status,
     // the units in C have only what they are compared by
     get_integer: Option<unsafe extern "C" fn(Component, *const c_uint, usize, *mut c_int) -> Status>,
+    set_derivatives: Option<SetDerivatives>,
 }
+
+type SetDerivatives = unsafe extern "C" fn(Component, *const c_uint, usize, *const c_int, *const f64) -> Status;
 
 impl Functions {
     fn of(library: &Library) -> Functions {
@@ -78,6 +81,7 @@ impl Functions {
                 set_state: get(library, c"fmi2SetFMUstate"),
                 free_state: get(library, c"fmi2FreeFMUstate"),
                 get_integer: find(library, c"fmi2GetInteger"),
+                set_derivatives: find(library, c"fmi2SetRealInputDerivatives"),
             }
         }
     }
@@ -158,6 +162,14 @@ impl Instance<'_> {
         let mut value = f64::NAN;
         ok(self.get(reference, &mut value));
         value
+    }
+
+    /// Sets the first two derivatives of an input.
+    #[inline]
+    pub fn set_derivatives(&self, reference: c_uint, derivatives: &[f64; 2]) -> Status {
+        let Some(set) = self.functions.set_derivatives else { return -1 };
+        // SAFETY: the unit's component, and arrays of two elements.
+        unsafe { set(self.component, [reference; 2].as_ptr(), 2, [1, 2].as_ptr(), derivatives.as_ptr()) }
     }
 
     /// Sets as many variables as there are.
