@@ -19,6 +19,7 @@ mod life;
 mod many;
 mod mass;
 mod paths;
+mod phases;
 mod sampling;
 mod states;
 mod table;
@@ -37,13 +38,14 @@ struct Part {
 }
 
 /// Everything that there is to be printed, in this order.
-const PARTS: [Part; 10] = [
+const PARTS: [Part; 11] = [
     Part { name: "cycles", is_rows: false, print: cycles::print },
     Part { name: "impact", is_rows: true, print: crowds::print },
     Part { name: "instructions", is_rows: true, print: crowds::print_instructions },
     Part { name: "branch", is_rows: true, print: changes::print },
     Part { name: "derivatives", is_rows: true, print: derivatives::print },
     Part { name: "mass", is_rows: true, print: mass::print },
+    Part { name: "phases", is_rows: true, print: phases::print },
     Part { name: "states", is_rows: true, print: states::print },
     Part { name: "life", is_rows: true, print: life::print },
     Part { name: "contacts", is_rows: true, print: many::print },
