@@ -21,7 +21,7 @@ struct Crowd {
 }
 
 const CROWDS: [Crowd; 3] = [
-    Crowd { instances: 1, impacts: 10, rounds: 2000, goals: [Goal::OverEmpty(1.4, 1.25), Goal::OverEmpty(1.25, 1.2)] },
+    Crowd { instances: 1, impacts: 10, rounds: 8000, goals: [Goal::OverEmpty(1.4, 1.25), Goal::OverEmpty(1.25, 1.2)] },
     Crowd { instances: 100, impacts: 1, rounds: 200, goals: [Goal::OverEmpty(1.6, 1.25); 2] },
     Crowd { instances: 10_000, impacts: 1, rounds: 40, goals: [Goal::OverEmpty(2.3, 1.6); 2] },
 ];

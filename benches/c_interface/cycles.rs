@@ -10,7 +10,7 @@ use super::trio::Trio;
 use super::unit::{INPUT, ok};
 
 /// Samples of each unit; one is all cycles.
-const ROUNDS: usize = 1000;
+const ROUNDS: usize = 5000;
 
 /// Goals of the time over the empty unit and over the one in C.
 fn goals(steps_per_cycle: usize) -> [Goal; 2] {
@@ -66,10 +66,12 @@ fn print_instructions(trio: &Trio) {
 fn print_times(trio: &Trio) {
     let columns = ["time at steps per cycle", "Brinell", "C", "empty", "Brinell / empty"];
     table::head(&[&columns[..], &GOALS, &["Brinell / C"], &GOALS].concat());
-    for steps_per_cycle in STEPS_PER_CYCLE {
-        let rates = cycles(steps_per_cycle);
-        let fleets = trio.units.each_ref().map(|unit| Fleet::of(unit, 1));
-        let times: [f64; 3] = interleaved(ROUNDS, |unit, _| time_of_exchange(&fleets[unit], &rates, CYCLE_STEP));
+    let fleets = trio.units.each_ref().map(|unit| Fleet::of(unit, 1));
+    let rates = STEPS_PER_CYCLE.map(cycles);
+    // all in turns, so that no row has a bad time for itself
+    let sample = |number: usize, _| time_of_exchange(&fleets[number % 3], &rates[number / 3], CYCLE_STEP);
+    let times: [f64; 3 * STEPS_PER_CYCLE.len()] = interleaved(ROUNDS, sample);
+    for (steps_per_cycle, &times) in STEPS_PER_CYCLE.into_iter().zip(times.as_chunks::<3>().0) {
         let [over_empty, over_c] = goals(steps_per_cycle).map(|goal| goal.cells(times.map(Some), "", 2));
         let [brinell, c, empty] = times;
         let measured = times.map(|time| format!("{time:.2} ns"));

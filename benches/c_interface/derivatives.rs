@@ -15,7 +15,7 @@ use std::hint::black_box;
 const INSTANCES: usize = 16;
 
 /// Samples.
-const ROUNDS: usize = 2000;
+const ROUNDS: usize = 5000;
 
 /// The rate at the beginning of a step [m/s], and its derivatives.
 struct Course {

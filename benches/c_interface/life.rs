@@ -12,7 +12,7 @@ use std::fs;
 use std::time::Instant;
 
 /// Samples of a life; each is so many.
-const ROUNDS: usize = 500;
+const ROUNDS: usize = 2000;
 const LIVES: usize = 100;
 
 /// Samples of the load time, which needs a file each.

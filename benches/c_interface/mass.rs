@@ -19,7 +19,7 @@ const SPEED: f64 = 1.0;
 const INSTANCES: usize = 16;
 
 /// Samples.
-const ROUNDS: usize = 300;
+const ROUNDS: usize = 1000;
 
 /// The bodies meet so late, and are followed for so long, in contact times.
 const FLIGHT: f64 = 0.1;

@@ -18,7 +18,7 @@ const STEPS_PER_CYCLE: usize = 64;
 const STEPS_OF_EACH: usize = 50;
 
 /// Samples.
-const ROUNDS: usize = 100;
+const ROUNDS: usize = 200;
 
 /// The number of steps that an instance has made: neighbours are far apart.
 fn phase(index: usize) -> usize {

@@ -10,7 +10,7 @@ use super::unit::{FORCE, INPUT, Instance, State, Status, ok};
 use std::ptr::null_mut;
 
 /// Samples; each is so many operations.
-const ROUNDS: usize = 2000;
+const ROUNDS: usize = 5000;
 const OPERATIONS: usize = 10_000;
 
 /// The contact is in the middle of its loading.
