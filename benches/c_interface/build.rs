@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 pub struct Exported {
     pub library: PathBuf,
     pub guid: CString,
+    /// Names of the variables, in the order of their references.
+    variables: Vec<String>,
     /// Size of the archive [bytes].
     pub archive: u64,
     /// Size of the model description [bytes].
@@ -18,11 +20,16 @@ pub struct Exported {
     pub time: Duration,
 }
 
+impl Exported {
+    /// The reference of a variable.
+    pub fn reference(&self, name: &str) -> u32 {
+        let place = self.variables.iter().position(|variable| variable == name);
+        u32::try_from(place.unwrap_or_else(|| panic!("the unit has no {name}"))).expect("a number of variables")
+    }
+}
+
 /// Exports `scene` and unpacks it.
-///
-/// # Errors
-/// What the program says if it refuses the scene.
-pub fn export(scene: &Path, folder: &Path) -> Result<Exported, String> {
+pub fn export(scene: &Path, folder: &Path) -> Exported {
     let name = scene.file_stem().expect("a scene has a name");
     let folder = folder.join(name);
     fs::create_dir_all(&folder).expect("the folder can be written to");
@@ -33,25 +40,31 @@ pub fn export(scene: &Path, folder: &Path) -> Result<Exported, String> {
     let start = Instant::now();
     let output = brinell.output().unwrap_or_else(|error| panic!("{brinell:?}: {error}"));
     let time = start.elapsed();
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
+    assert!(output.status.success(), "{brinell:?}: {}", String::from_utf8_lossy(&output.stderr));
     let exported: serde_json::Value = serde_json::from_slice(&output.stdout).expect("the program prints JSON");
     let guid = CString::new(exported["guid"].as_str().expect("a unit has a GUID")).expect("a GUID is plain text");
     let archive = fs::File::open(&unit).expect("the unit was written");
     zip::ZipArchive::new(archive).expect("it is a zip").extract(&folder).expect("it can be unpacked");
     let platform = only_one_in(&folder.join("binaries"));
-    Ok(Exported {
+    Exported {
         library: only_one_in(&platform),
         guid,
+        variables: serde_json::from_value(exported["variables"].clone()).expect("a list of names"),
         archive: size(&unit),
         xml: size(&folder.join("modelDescription.xml")),
         time,
-    })
+    }
 }
 
 fn only_one_in(folder: &Path) -> PathBuf {
     fs::read_dir(folder).expect("a unit has a binary").next().expect("of one platform").expect("to be read").path()
+}
+
+/// Exports the scene `text`, in a file of this `name`.
+pub fn export_text(name: &str, text: &str, folder: &Path) -> Exported {
+    let path = folder.join(name).with_extension("toml");
+    fs::write(&path, text).expect("the folder can be written to");
+    export(&path, folder)
 }
 
 /// Compiles `units/<name>.c` for so many contacts with the GUID of `exported`; the path of the library.

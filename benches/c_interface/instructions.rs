@@ -1,30 +1,73 @@
 //! How many instructions the calls have: this program runs itself under callgrind, which counts inside of them only.
 
-use super::figure::{Figure, STEPS, rates};
-use super::unit::{Fleet, Unit};
+use super::exchange::exchange;
+use super::unit::{Unit, ok};
+use serde_json::{Value, json};
 use std::ffi::CString;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::ptr::null_mut;
 
 /// The first argument of a run that is counted.
 const COUNTED: &str = "--counted";
 
-/// Impacts in a run.
-const IMPACTS: u64 = 10;
+/// The calls of an exchange.
+pub const EXCHANGE: &[&str] = &["fmi2SetReal", "fmi2DoStep", "fmi2GetReal"];
+
+/// The step alone.
+pub const STEP: &[&str] = &["fmi2DoStep"];
+
+/// What an instance does in a run that is counted.
+pub struct Work {
+    /// Rates that lead to a place [m/s]. They are counted too.
+    pub before: Vec<f64>,
+    /// Rates from there [m/s].
+    pub rates: Vec<f64>,
+    /// Length of each step [s].
+    pub step: f64,
+    /// How often it starts from that place.
+    pub times: usize,
+}
+
+impl Work {
+    /// `rates` [m/s] in steps of length `step` [s], once.
+    pub fn along(rates: &[f64], step: f64) -> Work {
+        Work { before: Vec::new(), rates: rates.to_vec(), step, times: 1 }
+    }
+
+    fn to_json(&self) -> Value {
+        json!([self.before, self.rates, self.step, self.times])
+    }
+
+    fn from_json(value: Value) -> Work {
+        let (before, rates, step, times) = serde_json::from_value(value).expect("what was written");
+        Work { before, rates, step, times }
+    }
+
+    fn run(&self, unit: &Unit) {
+        let instance = unit.instance();
+        let mut place = null_mut();
+        ok(exchange(&instance, &self.before, self.step, 0));
+        ok(instance.save(&mut place));
+        for _ in 0..self.times {
+            ok(instance.restore(place));
+            ok(exchange(&instance, &self.rates, self.step, self.before.len()));
+        }
+        instance.free(&mut place);
+    }
+}
 
 /// Whether this process is one to be counted; if so the work is done already.
 pub fn was_counted() -> bool {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [first, library, guid, figure] = arguments.as_slice() else { return false };
+    let [first, library, guid, work] = arguments.as_slice() else { return false };
     if first != COUNTED {
         return false;
     }
-    let figure = Figure::ALL.into_iter().find(|candidate| candidate.name() == figure).expect("a figure by its name");
     let guid = CString::new(guid.as_str()).expect("a GUID is plain text");
-    let unit = Unit::open(Path::new(library), &guid);
-    let fleet = Fleet::of(&unit, 1);
-    figure.measure(&fleet, &rates(), IMPACTS);
+    let work = fs::read_to_string(work).expect("the work was written down");
+    Work::from_json(serde_json::from_str(&work).expect("as JSON")).run(&Unit::open(Path::new(library), &guid));
     true
 }
 
@@ -33,17 +76,18 @@ pub fn can_be_counted() -> bool {
     Command::new("valgrind").arg("--version").stdout(Stdio::null()).status().is_ok_and(|status| status.success())
 }
 
-/// Instructions of `functions` for each step of `figure`, on average over whole impacts.
-pub fn count(figure: Figure, functions: &[&str], library: &Path, guid: &str, folder: &Path) -> f64 {
-    let counts = folder.join("callgrind.out");
+/// Instructions of `functions` in all of `work`.
+pub fn count(work: &Work, functions: &[&str], library: &Path, guid: &str, folder: &Path) -> f64 {
+    let [counts, task] = ["callgrind.out", "work.json"].map(|name| folder.join(name));
+    fs::write(&task, work.to_json().to_string()).expect("the folder can be written to");
     let mut valgrind = Command::new("valgrind");
     valgrind.arg("--tool=callgrind").arg(format!("--callgrind-out-file={}", counts.display()));
     valgrind.args(functions.iter().map(|function| format!("--toggle-collect={function}")));
     valgrind.arg(std::env::current_exe().expect("this program has a path"));
-    valgrind.arg(COUNTED).arg(library).args([guid, figure.name()]);
+    valgrind.arg(COUNTED).arg(library).arg(guid).arg(task);
     let output = valgrind.output().expect("valgrind was found");
     assert!(output.status.success(), "{valgrind:?}:\n{}", String::from_utf8_lossy(&output.stderr));
     let text = fs::read_to_string(&counts).expect("callgrind has written its counts");
     let total = text.lines().find_map(|line| line.strip_prefix("totals: ")).expect("callgrind writes a total");
-    total.trim().parse::<f64>().expect("a number") / (IMPACTS * STEPS as u64) as f64
+    total.trim().parse().expect("a number")
 }

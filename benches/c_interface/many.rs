@@ -1,15 +1,27 @@
 //! One unit with many contacts.
 
-use super::build::{Exported, compile, export};
-use super::figure::{STEP, STEPS, share};
+use super::build::{Exported, compile, export_text, size};
+use super::exchange::time_of_exchange;
+use super::fleet::Fleet;
 use super::heap;
+use super::paths::{STEP, STEPS, impact, share};
 use super::sampling::interleaved;
-use super::unit::{Instance, State, Unit, ok};
-use std::fs;
+use super::table::{self, Goal, NOTHING, Row, number};
+use super::trio::{Trio, check_force};
+use super::unit::{FORCE, INPUT, Instance, State, Unit, ok};
 use std::hint::black_box;
 use std::path::Path;
 use std::ptr::null_mut;
 use std::time::{Duration, Instant};
+
+/// Contacts in the one unit of the first table.
+const CONTACTS: usize = 10_000;
+
+/// Contacts in the unit in C whose contacts are checked first: whole blocks of its arrays, and a rest.
+const FEW: usize = 37;
+
+/// Contacts in the units of the second table.
+const GROWTH: [usize; 6] = [1, 10, 100, 1000, 10_000, 100_000];
 
 /// Contact steps in all samples of a unit together.
 const WORK: usize = 50_000_000;
@@ -24,29 +36,25 @@ fn scene(count: usize) -> String {
 }
 
 /// A unit with many contacts, and the one that is written by hand in C.
-pub struct ManyUnits {
-    pub exported: Exported,
-    pub units: [Unit; 2],
+struct ManyUnits {
+    exported: Exported,
+    units: [Unit; 2],
 }
 
 impl ManyUnits {
-    /// # Errors
-    /// What the program says if it refuses the scene.
-    pub fn build(count: usize, folder: &Path) -> Result<ManyUnits, String> {
-        let path = folder.join(format!("contacts_of_{count}.toml"));
-        fs::write(&path, scene(count)).expect("the folder can be written to");
-        let exported = export(&path, folder)?;
+    fn build(count: usize, folder: &Path) -> ManyUnits {
+        let exported = export_text(&format!("contacts_of_{count}"), &scene(count), folder);
         let c = compile("contacts", count, &exported, folder);
         let units = [&exported.library, &c].map(|library| Unit::open(library, &exported.guid));
-        Ok(ManyUnits { exported, units })
+        ManyUnits { exported, units }
     }
 }
 
 /// An instance with what its importer keeps for it: references and values, side by side.
-pub struct Many<'unit> {
+struct Many<'unit> {
     instance: Instance<'unit>,
     /// Memory that the instance has taken [bytes].
-    pub heap: Option<usize>,
+    heap: Option<usize>,
     untouched: State,
     inputs: Vec<u32>,
     forces: Vec<u32>,
@@ -56,7 +64,7 @@ pub struct Many<'unit> {
 }
 
 impl<'unit> Many<'unit> {
-    pub fn of(unit: &'unit Unit, count: usize) -> Many<'unit> {
+    fn of(unit: &'unit Unit, count: usize) -> Many<'unit> {
         let before = heap::in_use();
         let instance = unit.instance();
         let heap = heap::in_use().zip(before).map(|(after, before)| after - before);
@@ -76,13 +84,13 @@ impl<'unit> Many<'unit> {
         }
     }
 
-    pub fn contacts(&self) -> usize {
+    fn contacts(&self) -> usize {
         self.inputs.len()
     }
 
     /// Time of an impact in [`STEPS`] steps of all contacts: set all rates, step, get all forces. Writing the rates down
     /// is part of it. `look` sees the forces of the first and of the last contact after each step.
-    pub fn impact(&mut self, rates: &[f64], mut look: impl FnMut([f64; 2])) -> Duration {
+    fn impact(&mut self, rates: &[f64], mut look: impl FnMut([f64; 2])) -> Duration {
         ok(self.instance.restore(self.untouched));
         let mut status = 0;
         let start = Instant::now();
@@ -102,15 +110,76 @@ impl<'unit> Many<'unit> {
     }
 }
 
+impl Drop for Many<'_> {
+    fn drop(&mut self) {
+        self.instance.free(&mut self.untouched);
+    }
+}
+
 /// Times for each contact and step [ns].
-pub fn times(units: &mut [Many; 2], rates: &[f64]) -> [f64; 2] {
+fn times(units: &mut [Many; 2], rates: &[f64]) -> [f64; 2] {
     let steps = units[0].contacts() * STEPS;
     let rounds = (WORK / steps).clamp(ROUNDS[0], ROUNDS[1]);
     interleaved(rounds, |number, _| units[number].impact(rates, |_| ()).as_nanos() as f64 / steps as f64)
 }
 
-impl Drop for Many<'_> {
-    fn drop(&mut self) {
-        self.instance.free(&mut self.untouched);
+/// A contact among many is the contact that it would be alone.
+fn check_among(many: &mut Many, alone: &Unit, rates: &[f64]) {
+    let last = share(many.contacts() - 1);
+    let expected = [1.0, last].map(|share| (alone.instance(), share));
+    let (mut index, mut peak) = (0, 0.0);
+    many.impact(rates, |forces| {
+        for ((instance, share), force) in expected.iter().zip(forces) {
+            ok(instance.set(INPUT, rates[index] * share) | instance.step(index as f64 * STEP, STEP));
+            let value = instance.value(FORCE);
+            peak = value.max(peak);
+            check_force(index, force, value, peak);
+        }
+        index += 1;
+    });
+}
+
+/// Whole blocks of the arrays in C and a rest are right.
+pub fn check(trio: &Trio) {
+    let c = Unit::open(&compile("contacts", FEW, &trio.exported, &trio.folder), &trio.exported.guid);
+    check_among(&mut Many::of(&c, FEW), &trio.units[0], &impact());
+}
+
+/// One unit with many contacts beside one contact of the default scene.
+pub fn print(trio: &Trio) {
+    let rates = impact();
+    let ManyUnits { units, .. } = ManyUnits::build(CONTACTS, &trio.folder);
+    let mut many = units.each_ref().map(|unit| Many::of(unit, CONTACTS));
+    for unit in &mut many {
+        check_among(unit, &trio.units[0], &rates);
+    }
+    let [brinell, c] = times(&mut many, &rates);
+    let alone = Fleet::of(&trio.units[0], 1);
+    let [one_contact] = interleaved(ROUNDS[1], |_, _| time_of_exchange(&alone, &rates, STEP));
+    let name = format!("one unit with {} contacts, per contact", number(CONTACTS as f64, 0));
+    let goal = Goal::Value(one_contact, 0.25 * one_contact);
+    Row { name: &name, unit: "ns", decimals: 2, goal }.print([Some(brinell), Some(c), None]);
+}
+
+/// What grows with the number of contacts in a unit.
+pub fn print_growth(trio: &Trio) {
+    let rates = impact();
+    table::head(&["contacts", "step", "per contact", "in C", "heap per contact", "XML", "library", ".fmu", "export"]);
+    for contacts in GROWTH {
+        let ManyUnits { exported, units } = ManyUnits::build(contacts, &trio.folder);
+        let mut many = units.each_ref().map(|unit| Many::of(unit, contacts));
+        let [time, c] = times(&mut many, &rates);
+        let bytes = |size: u64| format!("{} B", number(size as f64, 0));
+        table::row(&[
+            number(contacts as f64, 0),
+            format!("{} us", number(time * contacts as f64 / 1e3, 3)),
+            format!("{} ns", number(time, 2)),
+            format!("{} ns", number(c, 2)),
+            many[0].heap.map_or(NOTHING.to_owned(), |heap| format!("{} B", number(heap as f64 / contacts as f64, 0))),
+            bytes(exported.xml),
+            bytes(size(&exported.library)),
+            bytes(exported.archive),
+            format!("{} s", number(exported.time.as_secs_f64(), 1)),
+        ]);
     }
 }

@@ -27,25 +27,73 @@ pub fn number(value: f64, decimals: usize) -> String {
     text + fraction
 }
 
+/// `value` as [`number`] writes it, if there is one.
+pub fn cell(value: Option<f64>, decimals: usize) -> String {
+    value.map_or(NOTHING.to_owned(), |value| number(value, decimals))
+}
+
+/// What a figure shall be: what it must not exceed, and what it aims at.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Goal {
+    /// There is none.
+    None,
+    /// In the unit of the figure.
+    Value(f64, f64),
+    /// Over the same figure of the empty unit.
+    OverEmpty(f64, f64),
+    /// Over the same figure of the unit in C.
+    OverC(f64, f64),
+}
+
+/// The columns of goals.
+pub const GOALS: [&str; 3] = ["must", "aim", "met"];
+
+impl Goal {
+    /// What must be, the aim, and which of the two `brinell` meets beside the other two units.
+    pub fn cells(self, [brinell, c, empty]: [Option<f64>; 3], unit: &str, decimals: usize) -> [String; 3] {
+        let over = |other: Option<f64>| brinell.zip(other).map(|(brinell, other)| brinell / other);
+        let (value, must, aim, write): (_, _, _, &dyn Fn(f64) -> String) = match self {
+            Goal::None => return [NOTHING; 3].map(str::to_owned),
+            Goal::Value(must, aim) => {
+                (brinell, must, aim, &|limit| format!("{} {unit}", number(limit, decimals)).trim().to_owned())
+            }
+            Goal::OverEmpty(must, aim) => (over(empty), must, aim, &|limit| format!("{limit} x empty")),
+            Goal::OverC(must, aim) => (over(c), must, aim, &|limit| format!("{limit} x C")),
+        };
+        let limit = |limit: f64| if limit.is_finite() { write(limit) } else { NOTHING.to_owned() };
+        let met = match value {
+            None => NOTHING,
+            Some(value) if value <= aim => "aim",
+            Some(value) if value <= must => "must",
+            Some(_) => "no",
+        };
+        [limit(must), limit(aim), met.to_owned()]
+    }
+}
+
 /// A figure of the three units, beside what it shall be.
 pub struct Row<'text> {
     pub name: &'text str,
     pub unit: &'text str,
     pub decimals: usize,
-    pub must: &'text str,
-    pub aim: &'text str,
+    pub goal: Goal,
 }
 
 impl Row<'_> {
-    pub fn print(&self, [brinell, c, empty]: [Option<f64>; 3]) {
-        let cell = |value: Option<f64>| {
-            value.map_or(NOTHING.to_owned(), |value| format!("{} {}", number(value, self.decimals), self.unit))
+    /// The head of a table of such rows.
+    pub fn head() {
+        let columns = ["figure", "Brinell", "C", "empty", "Brinell / C", "Brinell / empty"];
+        head(&[&columns[..], &GOALS].concat());
+    }
+
+    pub fn print(&self, values: [Option<f64>; 3]) {
+        let [brinell, c, empty] = values;
+        let measured = |value: Option<f64>| match value {
+            Some(_) => format!("{} {}", cell(value, self.decimals), self.unit).trim().to_owned(),
+            None => NOTHING.to_owned(),
         };
-        let ratio = |other: Option<f64>| {
-            brinell.zip(other).map_or(NOTHING.to_owned(), |(brinell, other)| format!("{:.2}", brinell / other))
-        };
-        let limits = [self.must, self.aim].map(str::to_owned);
-        let measured = [cell(brinell), cell(c), cell(empty), ratio(c), ratio(empty)].map(|cell| cell.trim().to_owned());
-        row(&[&[self.name.to_owned()], &measured[..], &limits[..]].concat());
+        let ratio = |other: Option<f64>| cell(brinell.zip(other).map(|(brinell, other)| brinell / other), 2);
+        let measured = [measured(brinell), measured(c), measured(empty), ratio(c), ratio(empty)];
+        row(&[&[self.name.to_owned()], &measured[..], &self.goal.cells(values, self.unit, self.decimals)].concat());
     }
 }

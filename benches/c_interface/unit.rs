@@ -8,6 +8,9 @@ use std::ptr::{null, null_mut};
 /// Reference of the input of the first contact.
 pub const INPUT: c_uint = 0;
 
+/// Reference of the force of a unit with one contact.
+pub const FORCE: c_uint = 1;
+
 pub type State = *mut c_void;
 pub type Status = c_int;
 type Component = *mut c_void;
@@ -41,7 +44,12 @@ struct Functions {
     get_state: unsafe extern "C" fn(Component, *mut State) -> Status,
     set_state: unsafe extern "C" fn(Component, State) -> Status,
     free_state: unsafe extern "C" fn(Component, *mut State) -> Status,
+    // the units in C have only what they are compared by
+    get_integer: Option<unsafe extern "C" fn(Component, *const c_uint, usize, *mut c_int) -> Status>,
+    set_derivatives: Option<SetDerivatives>,
 }
+
+type SetDerivatives = unsafe extern "C" fn(Component, *const c_uint, usize, *const c_int, *const f64) -> Status;
 
 impl Functions {
     fn of(library: &Library) -> Functions {
@@ -50,6 +58,12 @@ impl Functions {
         unsafe fn get<T: Copy>(library: &Library, name: &CStr) -> T {
             // SAFETY: as the caller promises.
             unsafe { *library.get(name).unwrap_or_else(|error| panic!("{error}")) }
+        }
+        /// # Safety
+        /// As for `get`.
+        unsafe fn find<T: Copy>(library: &Library, name: &CStr) -> Option<T> {
+            // SAFETY: as the caller promises.
+            unsafe { library.get(name).ok().map(|function| *function) }
         }
         // SAFETY: the types are those of the standard.
         unsafe {
@@ -66,6 +80,8 @@ impl Functions {
                 get_state: get(library, c"fmi2GetFMUstate"),
                 set_state: get(library, c"fmi2SetFMUstate"),
                 free_state: get(library, c"fmi2FreeFMUstate"),
+                get_integer: find(library, c"fmi2GetInteger"),
+                set_derivatives: find(library, c"fmi2SetRealInputDerivatives"),
             }
         }
     }
@@ -87,6 +103,11 @@ impl Unit {
 
     /// An instance that is ready for its first step.
     pub fn instance(&self) -> Instance<'_> {
+        self.instance_with(&[])
+    }
+
+    /// An instance with these parameters, by reference, that is ready for its first step.
+    pub fn instance_with(&self, parameters: &[(c_uint, f64)]) -> Instance<'_> {
         const CO_SIMULATION: c_int = 1;
         let functions = &self.functions;
         let (name, guid) = (c"bench".as_ptr(), self.guid.as_ptr());
@@ -94,13 +115,17 @@ impl Unit {
         // SAFETY: strings end with 0, and callbacks are copied by the unit.
         let component = unsafe { (functions.instantiate)(name, CO_SIMULATION, guid, null(), &callbacks, 0, 0) };
         assert!(!component.is_null(), "no instance");
+        let instance = Instance { functions, component };
+        for &(reference, value) in parameters {
+            ok(instance.set(reference, value));
+        }
         // SAFETY: a component of this library, in the order of the standard.
         unsafe {
             ok((functions.setup_experiment)(component, 0, 0.0, 0.0, 0, 0.0));
             ok((functions.enter_initialization)(component));
             ok((functions.exit_initialization)(component));
         }
-        Instance { functions, component }
+        instance
     }
 }
 
@@ -121,6 +146,30 @@ impl Instance<'_> {
     pub fn get(&self, reference: c_uint, value: &mut f64) -> Status {
         // SAFETY: the unit's component, and arrays of one element.
         unsafe { (self.functions.get_real)(self.component, &reference, 1, value) }
+    }
+
+    /// Reads one Integer variable.
+    pub fn integer(&self, reference: c_uint) -> c_int {
+        let get = self.functions.get_integer.expect("a unit with Integer variables");
+        let mut value = -1;
+        // SAFETY: the unit's component, and arrays of one element.
+        ok(unsafe { get(self.component, &reference, 1, &mut value) });
+        value
+    }
+
+    /// Reads one variable, of which it is certain that it is there.
+    pub fn value(&self, reference: c_uint) -> f64 {
+        let mut value = f64::NAN;
+        ok(self.get(reference, &mut value));
+        value
+    }
+
+    /// Sets the first two derivatives of an input.
+    #[inline]
+    pub fn set_derivatives(&self, reference: c_uint, derivatives: &[f64; 2]) -> Status {
+        let Some(set) = self.functions.set_derivatives else { return -1 };
+        // SAFETY: the unit's component, and arrays of two elements.
+        unsafe { set(self.component, [reference; 2].as_ptr(), 2, [1, 2].as_ptr(), derivatives.as_ptr()) }
     }
 
     /// Sets as many variables as there are.
@@ -167,33 +216,6 @@ impl Drop for Instance<'_> {
             ok((self.functions.terminate)(self.component));
             (self.functions.free)(self.component);
         }
-    }
-}
-
-/// Several instances of a unit, each with an untouched surface to begin with, to which all can be brought back.
-pub struct Fleet<'unit> {
-    pub instances: Vec<Instance<'unit>>,
-    untouched: State,
-}
-
-impl<'unit> Fleet<'unit> {
-    pub fn of(unit: &'unit Unit, size: usize) -> Fleet<'unit> {
-        let instances: Vec<_> = (0..size).map(|_| unit.instance()).collect();
-        let mut untouched = null_mut();
-        ok(instances[0].save(&mut untouched));
-        Fleet { instances, untouched }
-    }
-
-    pub fn restore(&self) {
-        for instance in &self.instances {
-            ok(instance.restore(self.untouched));
-        }
-    }
-}
-
-impl Drop for Fleet<'_> {
-    fn drop(&mut self) {
-        self.instances[0].free(&mut self.untouched);
     }
 }
 

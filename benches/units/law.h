@@ -1,23 +1,18 @@
-/* The law of Brinell's first scene, and one contact that follows it. */
+/*
+ * The law of Brinell's first scene, and one contact that follows it: loading after Big-Alabo, Harrison and Cartmell (2015),
+ * unloading by contact radius, and the dent stays.
+ *
+ * What depends on parameters alone is computed when they are set: borders in metres, factors of the branches, and what the
+ * unloading needs. A step that leaves its branch finds the next one from the present one.
+ */
 #ifndef UNITS_LAW_H
 #define UNITS_LAW_H
 
-#include <float.h>
-#include <math.h>
-#include <stdbool.h>
-
-#define LIKELY(condition) __builtin_expect(!!(condition), 1)
-#define COLD __attribute__((cold, noinline))
+#include "clock.h"
 
 static const double PI = 3.14159265358979323846;
 
-/* material */
-static const double RADIUS = 5e-3;          /* [m] */
-static const double YOUNGS_MODULUS = 206e9; /* [Pa] */
-static const double POISSONS_RATIO = 0.3;
-static const double YIELD_STRENGTH = 300e6; /* [Pa] */
-
-/* loading law, in yield indentations and yield strengths */
+/* in yield indentations and yield strengths */
 static const double SECOND_REGION = 13.93;
 static const double FULLY_PLASTIC = 82.5;
 static const double YIELD_PRESSURE = 1.1;
@@ -25,123 +20,186 @@ static const double PLASTIC_PRESSURE = 2.8;
 
 static const double LARGEST_INDENTATION = 1e100; /* [m] */
 
-/* F = constant + z (linear + power sqrt(z)), z = indentation - origin >= 0, for lower <= indentation < upper */
+/* the least increment of a branch that is followed both ways [m] */
+static const double EITHER_WAY = -DBL_MAX;
+
+/* a dent shallower than this, relative to the largest indentation, is rounding */
+static const double SHALLOWEST_DENT = 8.0 * DBL_EPSILON;
+
+typedef struct {
+    double radius;         /* of the rigid impactor [m] */
+    double modulus;        /* Young's, of the target [Pa] */
+    double poissons_ratio; /* of the target */
+    double strength;       /* yield strength of the target [Pa] */
+    double gap;            /* before any motion [m] */
+} Parameters;
+
+#define PARAMETERS_OF_THE_SCENE ((Parameters){5e-3, 206e9, 0.3, 300e6, 0.0})
+
+typedef enum { ELASTIC, FIRST, SECOND, PLASTIC, APART, UNLOADED } Kind;
+
+/* F = constant + z (linear + power sqrt(z)), z = indentation - origin, for lower < indentation < upper */
 typedef struct {
     double lower, upper, origin, constant, linear, power;
+    double least; /* the smallest increment that stays on the branch [m]: zero on the loading curve beyond yield */
 } Branch;
 
-/* apart */
-#define OPEN ((Branch){-LARGEST_INDENTATION, DBL_TRUE_MIN, -LARGEST_INDENTATION, 0.0, 0.0, 0.0})
-
+/*
+ * What a contact remembers. A step stores sum and rest; they are apart, so that no compiler makes one wide store of them,
+ * which the narrow loads of the next step would wait for.
+ */
 typedef struct {
-    double sum, rest; /* the indentation, and what the roundings of the sum have lost (Neumaier) */
-    double least;     /* the smallest increment that stays on the branch: zero on the loading curve */
+    double sum; /* the indentation [m] */
     Branch branch;
-    double largest; /* not kept on the loading curve, where it is the present indentation */
+    double rest;    /* what the roundings of the sum have lost (Neumaier) [m] */
+    double largest; /* where the last unloading began [m]; 0: nothing has yielded */
+    double power;   /* of that unloading */
+    Kind kind, from; /* the branch, and the one that the last unloading began on */
 } Contact;
 
-/* before any motion */
-#define UNTOUCHED ((Contact){.least = -DBL_MAX, .branch = OPEN})
-
-/* constants of the law, computed once for an instance */
+/* what follows from the parameters */
 typedef struct {
-    double modulus;
-    double yield_indentation;
-    double residual_rounding;
-    Branch elastic, first, second, plastic;
+    Branch loading[4];     /* by kind */
+    double yield;          /* indentation at yield [m] */
+    double saturated;      /* from here the mean pressure is the plastic one [m] */
+    double recovery;       /* its square over force and mean pressure, which is in yield strengths [m^2/N] */
+    double recovery_yield; /* recovery over force while the contact radius is that of yield [m/N] */
 } Law;
 
-static double force_on(const Branch *branch, double indentation)
+/* apart, up to `upper` */
+static inline Branch apart(double upper)
+{
+    return (Branch){-LARGEST_INDENTATION, upper, -LARGEST_INDENTATION, 0.0, 0.0, 0.0, EITHER_WAY};
+}
+
+static inline double force_on(const Branch *branch, double indentation)
 {
     double z = indentation - branch->origin;
     return branch->constant + z * (branch->linear + branch->power * sqrt(z));
 }
 
-static Law make_law(void)
+/* whether a step to this indentation is on the branch; a NaN isn't above the lower end */
+static inline bool stays(const Contact *contact, double indentation, double increment)
 {
-    Law law;
-    law.modulus = YOUNGS_MODULUS / (1.0 - POISSONS_RATIO * POISSONS_RATIO);
-    double stiffness = 4.0 / 3.0 * law.modulus * sqrt(RADIUS);
-    double strain = 0.75 * PI * YIELD_PRESSURE * YIELD_STRENGTH / law.modulus;
-    double d_y = RADIUS * strain * strain, f_y = stiffness * (d_y * sqrt(d_y));
+    const Branch *branch = &contact->branch;
+    return indentation > branch->lower && !(indentation >= branch->upper) && increment >= branch->least;
+}
+
+/* inline, so that the compiler finds the law of the scene, and no instance has to */
+static inline __attribute__((always_inline)) Law make_law(const Parameters *given)
+{
+    double modulus = given->modulus / (1.0 - given->poissons_ratio * given->poissons_ratio);
+    double stiffness = 4.0 / 3.0 * modulus * sqrt(given->radius);
+    double strain = 0.75 * PI * YIELD_PRESSURE * given->strength / modulus;
+    double d_y = given->radius * strain * strain, f_y = stiffness * (d_y * sqrt(d_y)), slope = f_y / d_y;
     double from_yield = SECOND_REGION - 1.0;
     double second_slope = 1.5 * sqrt(from_yield), second_force = from_yield * sqrt(from_yield) + 1.0;
     double plastic_force = second_slope * (FULLY_PLASTIC - SECOND_REGION) + second_force;
     double plastic_slope = 2.0 * PLASTIC_PRESSURE / YIELD_PRESSURE;
-    double second = SECOND_REGION * d_y, plastic = FULLY_PLASTIC * d_y, slope = f_y / d_y;
-    law.yield_indentation = d_y;
-    law.residual_rounding = 8.0 * DBL_EPSILON;
-    law.elastic = (Branch){DBL_TRUE_MIN, d_y, 0.0, 0.0, 0.0, stiffness};
-    law.first = (Branch){d_y, second, d_y, f_y, 0.0, stiffness};
-    law.second = (Branch){second, plastic, second, second_force * f_y, second_slope * slope, 0.0};
-    law.plastic = (Branch){plastic, LARGEST_INDENTATION, plastic, plastic_force * f_y, plastic_slope * slope, 0.0};
-    return law;
+    double second = SECOND_REGION * d_y, plastic = FULLY_PLASTIC * d_y, none = -LARGEST_INDENTATION;
+    double springs_back = 0.75 / modulus;
+    return (Law){
+        .loading = {
+            [ELASTIC] = {0.0, d_y, 0.0, 0.0, 0.0, stiffness, EITHER_WAY},
+            [FIRST] = {none, second, d_y, f_y, 0.0, stiffness, 0.0},
+            [SECOND] = {none, plastic, second, second_force * f_y, second_slope * slope, 0.0, 0.0},
+            [PLASTIC] = {none, LARGEST_INDENTATION, plastic, plastic_force * f_y, plastic_slope * slope, 0.0, 0.0},
+        },
+        .yield = d_y,
+        .saturated = 0.5 * d_y * (exp(3.0 * (PLASTIC_PRESSURE - YIELD_PRESSURE)) + 1.0),
+        .recovery = springs_back * springs_back * PI * given->strength,
+        .recovery_yield = springs_back / sqrt(given->radius * d_y),
+    };
 }
 
-static const Branch *loading_branch(const Law *law, double indentation)
+static void unload(Contact *contact, double residual)
 {
-    if (indentation < law->first.lower)
-        return &law->elastic;
-    if (indentation < law->second.lower)
-        return &law->first;
-    return indentation < law->plastic.lower ? &law->second : &law->plastic;
+    contact->kind = UNLOADED;
+    contact->branch = (Branch){residual, contact->largest, residual, 0.0, 0.0, contact->power, EITHER_WAY};
 }
 
-/* from the largest indentation, beyond yield, down to the dent that remains */
-static Branch unloading_branch(const Law *law, double largest)
+static void part(Contact *contact, double upper)
 {
-    double force = force_on(loading_branch(law, largest), largest);
-    double pressure = YIELD_PRESSURE + log(2.0 * (largest / law->yield_indentation) - 1.0) / 3.0;
-    double area = force / (PI * fmin(pressure, PLASTIC_PRESSURE) * YIELD_STRENGTH);
-    double radius = sqrt(fmax(area, RADIUS * law->yield_indentation));
-    double residual = largest - 0.75 * force / (law->modulus * radius);
-    if (fabs(residual) < law->residual_rounding * largest)
+    contact->kind = APART;
+    contact->branch = apart(upper);
+}
+
+/* onto this branch of the loading curve, or a later one */
+static void load(Contact *contact, const Law *law, double indentation, Kind kind)
+{
+    while (indentation >= law->loading[kind].upper)
+        kind++;
+    contact->kind = kind;
+    contact->branch = law->loading[kind];
+}
+
+/* off the loading curve beyond yield, on which the contact is at `largest` */
+static __attribute__((noinline)) void turn(Contact *contact, const Law *law, double largest, double indentation)
+{
+    double force = force_on(&contact->branch, largest), pressure = PLASTIC_PRESSURE;
+    if (largest < law->saturated)
+        pressure = YIELD_PRESSURE + log(2.0 * (largest / law->yield) - 1.0) / 3.0;
+    /* of the two contact radii the larger one */
+    double recovery = sqrt(law->recovery * force * pressure), recovery_yield = law->recovery_yield * force;
+    if (recovery > recovery_yield)
+        recovery = recovery_yield;
+    double residual = largest - recovery;
+    if (fabs(residual) < SHALLOWEST_DENT * largest)
         residual = 0.0;
-    double recovery = largest - residual;
-    return (Branch){residual, largest, residual, 0.0, 0.0, force / (recovery * sqrt(recovery))};
-}
-
-/* finds the branch at `indentation`; at a corner the one in the direction of motion */
-COLD static bool enter(Contact *contact, const Law *law, double indentation, bool rising)
-{
-    if (!(indentation > -LARGEST_INDENTATION && indentation < LARGEST_INDENTATION))
-        return false;
-    double largest = fmax(fmax(contact->largest, contact->sum + contact->rest), indentation);
-    Branch branch = OPEN;
-    double least = -DBL_MAX;
-    if (indentation > 0.0 && indentation >= largest) {
-        branch = *loading_branch(law, indentation);
-        branch.lower = indentation;
-        least = 0.0;
-    } else if (largest <= law->yield_indentation) {
-        if (indentation > 0.0) {
-            branch = law->elastic;
-            branch.upper = largest;
-        }
-    } else {
-        Branch unloading = unloading_branch(law, largest);
-        double residual = unloading.lower;
-        if (indentation > residual || (rising && indentation == residual)) {
-            branch = unloading;
-            branch.lower = nextafter(residual, INFINITY);
-        } else {
-            branch.upper = residual;
-        }
-    }
+    recovery = largest - residual;
+    contact->from = contact->kind;
     contact->largest = largest;
-    contact->branch = branch;
-    contact->least = least;
-    return true;
+    contact->power = force / (recovery * sqrt(recovery));
+    if (indentation > residual)
+        unload(contact, residual);
+    else
+        part(contact, residual);
 }
 
-/* the step that may leave the branch; false if the indentation is out of range */
-COLD static bool advance(Contact *contact, const Law *law, double increment)
+/* before any motion; in contact already if the gap is negative */
+static inline __attribute__((always_inline)) void start(Contact *contact, const Law *law, double gap)
 {
-    double sum = contact->sum + increment, rest = contact->rest + (increment - (sum - contact->sum));
-    /* no motion, no other branch; what overflows has no rest */
-    double indentation = isfinite(sum) ? sum + rest : sum;
-    if (indentation != contact->sum + contact->rest && !enter(contact, law, indentation, increment > 0.0))
+    contact->sum = 0.0 - gap;
+    contact->rest = contact->largest = contact->power = 0.0;
+    contact->from = ELASTIC;
+    part(contact, DBL_TRUE_MIN);
+    if (gap < 0.0)
+        load(contact, law, contact->sum, ELASTIC);
+}
+
+/* a step that leaves the branch; false if the indentation is out of range */
+static bool leave(Contact *contact, const Law *law, double sum, double rest)
+{
+    double indentation = sum + rest, before = contact->sum + contact->rest;
+    /* written so that a NaN is refused, which is also the rest of what overflows */
+    if (!(fabs(indentation) < LARGEST_INDENTATION))
         return false;
+    switch (contact->kind) {
+    case APART:
+        if (indentation < contact->largest)
+            unload(contact, contact->branch.upper);
+        else
+            load(contact, law, indentation, contact->from);
+        break;
+    case UNLOADED:
+        if (indentation < contact->largest)
+            part(contact, contact->branch.lower);
+        else
+            load(contact, law, indentation, contact->from);
+        break;
+    case ELASTIC:
+        if (indentation > 0.0)
+            load(contact, law, indentation, FIRST);
+        else
+            part(contact, DBL_TRUE_MIN);
+        break;
+    default:
+        /* no motion, no other branch */
+        if (indentation > before)
+            load(contact, law, indentation, contact->kind + 1);
+        else if (indentation < before)
+            turn(contact, law, before, indentation);
+    }
     contact->sum = sum;
     contact->rest = rest;
     return true;

@@ -1,0 +1,47 @@
+//! What a change of branch costs beyond a step that stays on its branch, in instructions of the step alone.
+//!
+//! All instructions of the steps of some path, less those that as many steps take that stay where they are, over the number
+//! of changes. A change is a step after which `regime` is another one.
+
+use super::corners::{self, Place, STEP, STEPS_BEFORE, before_corners};
+use super::cycles;
+use super::instructions::{STEP as STEP_ALONE, Work};
+use super::paths::{CYCLE_STEP, CYCLE_STEPS};
+use super::table::{Goal, Row};
+use super::trio::Trio;
+use super::unit::INPUT;
+
+/// How often each kind of change is made; the steps that lead to it are counted once.
+const TIMES: usize = 10_000;
+
+/// Steps that stay where they are.
+const STILL: usize = 1000;
+
+/// The mean over those of cycles of 32 steps, and each kind by itself.
+pub fn print(trio: &Trio) {
+    const STEPS_PER_CYCLE: usize = 32;
+    let still = Work::along(&[0.0; STILL], STEP);
+    let plain = trio.count(&still, STEP_ALONE).map(|count| count.map(|all| all / STILL as f64));
+    let beyond = |work: &Work, steps: usize, changes: usize| {
+        let counts = trio.count(work, STEP_ALONE);
+        let [brinell, c, _] = [0, 1, 2].map(|unit| {
+            let (all, plain) = (counts[unit]?, plain[unit]?);
+            Some((all - plain * steps as f64) / changes as f64)
+        });
+        [brinell, c, None]
+    };
+    let name = format!("instructions of a change of branch, mean at {STEPS_PER_CYCLE} steps per cycle");
+    let work = Work::along(&super::paths::cycles(STEPS_PER_CYCLE), CYCLE_STEP);
+    let counts = beyond(&work, CYCLE_STEPS, cycles::changes(trio, STEPS_PER_CYCLE));
+    Row { name: &name, unit: "", decimals: 0, goal: Goal::Value(150.0, 60.0) }.print(counts);
+    let places = before_corners(trio);
+    corners::check(trio, &places, |instance, place| {
+        instance.set(INPUT, place.step / STEP) | instance.step(STEPS_BEFORE as f64 * STEP, STEP)
+    });
+    for Place { name, before, step, .. } in places {
+        let before = before.map(|increment| increment / STEP).to_vec();
+        let work = Work { before, rates: vec![step / STEP], step: STEP, times: TIMES };
+        let counts = beyond(&work, TIMES + STEPS_BEFORE, TIMES);
+        Row { name: &format!("- {name}"), unit: "", decimals: 0, goal: Goal::None }.print(counts);
+    }
+}

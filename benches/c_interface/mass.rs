@@ -1,0 +1,109 @@
+//! A unit that knows the mass: a whole impact in few steps, and the restitution that it finds.
+
+use super::build::export_text;
+use super::exchange::{time_of_exchange, timed};
+use super::fleet::Fleet;
+use super::paths;
+use super::sampling::interleaved;
+use super::table::{Goal, Row};
+use super::trio::Trio;
+use super::unit::{INPUT, Instance, Status, Unit, ok};
+use serde_json::Value;
+use std::process::Command;
+
+/// [kg] and [m/s]: the impact of the default scene.
+const MASS: f64 = 4.11e-3;
+const SPEED: f64 = 1.0;
+
+/// Instances that make an impact in a sample.
+const INSTANCES: usize = 16;
+
+/// Samples.
+const ROUNDS: usize = 1000;
+
+/// The bodies meet so late, and are followed for so long, in contact times.
+const FLIGHT: f64 = 0.1;
+const SPAN: f64 = 1.25;
+
+/// Largest error of the restitution for which a time means anything.
+const ALLOWED: f64 = 1e-12;
+
+/// What the program predicts by energy balance.
+struct Prediction {
+    restitution: f64,
+    /// [s]
+    contact_time: f64,
+}
+
+fn predict() -> Prediction {
+    let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    brinell.arg("predict").arg(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/steel_ball.toml")).arg("--json");
+    brinell.args(["--mass", &MASS.to_string(), "--speed", &SPEED.to_string()]);
+    let output = brinell.output().unwrap_or_else(|error| panic!("{brinell:?}: {error}"));
+    assert!(output.status.success(), "{brinell:?}: {}", String::from_utf8_lossy(&output.stderr));
+    let printed: Value = serde_json::from_slice(&output.stdout).expect("the program prints JSON");
+    let number = |name: &str| printed["laws"][0][name].as_f64().unwrap_or_else(|| panic!("{name} is predicted"));
+    Prediction { restitution: number("restitution"), contact_time: number("loading_time") + number("unloading_time") }
+}
+
+/// The default scene with bodies that the unit moves, so far apart.
+fn scene(gap: f64) -> String {
+    let one = include_str!("../../scenes/steel_ball.toml");
+    let one = one.replacen("outputs = [", &format!("initial_gap = {gap:e}\noutputs = [\"mean_force\", "), 1);
+    format!("{one}\n[coupling]\neffective_mass = {MASS:e}\n")
+}
+
+pub fn print(trio: &Trio) {
+    let Prediction { restitution, contact_time } = predict();
+    let exported = export_text("with_mass", &scene(FLIGHT * contact_time * SPEED), &trio.folder);
+    let unit = Unit::open(&exported.library, &exported.guid);
+    let mean_force = exported.reference("mean_force");
+    let [fleet, empty] = [Fleet::of(&unit, INSTANCES), Fleet::of(&trio.units[2], 1)];
+    for (steps, must, aim) in [(1, 1200.0, 400.0), (2, 1400.0, 500.0), (32, 2400.0, 1000.0)] {
+        let impact = Impact { steps, step: SPAN * contact_time / f64::from(steps), mean_force };
+        let (status, speed) = impact.run(&unit.instance());
+        ok(status);
+        let error = (-speed / SPEED / restitution - 1.0).abs();
+        let sample = |number: usize, _| match number {
+            0 => impact.time(&fleet),
+            _ => time_of_exchange(&empty, &paths::impact(), paths::STEP),
+        };
+        let [time, empty]: [f64; 2] = interleaved(ROUNDS, sample);
+        let steps = if steps == 1 { "one step".to_owned() } else { format!("{steps} steps") };
+        // how long something wrong takes is no figure
+        let is_right = error <= ALLOWED;
+        let verdict = if is_right { "restitution within" } else { "NO TIME: restitution wrong by" };
+        let name = format!("mass known, a whole impact in {steps} ({verdict} {error:.0e})");
+        let goal = Goal::OverEmpty(must, aim);
+        Row { name: &name, unit: "ns", decimals: 0, goal }.print([is_right.then_some(time), None, Some(empty)]);
+    }
+}
+
+/// An impact in so many steps of this length [s].
+struct Impact {
+    steps: u32,
+    step: f64,
+    /// Reference of that output.
+    mean_force: u32,
+}
+
+impl Impact {
+    /// As a master does it that moves the bodies by the momentum that they feel. The status of all calls together, and the
+    /// closing speed at the end [m/s].
+    fn run(&self, instance: &Instance) -> (Status, f64) {
+        let (mut status, mut speed, mut force) = (0, SPEED, 0.0);
+        for index in 0..self.steps {
+            status |= instance.set(INPUT, speed) | instance.step(f64::from(index) * self.step, self.step);
+            status |= instance.get(self.mean_force, &mut force);
+            speed -= self.step * force / MASS;
+        }
+        (status, speed)
+    }
+
+    /// On average over the instances [ns].
+    fn time(&self, fleet: &Fleet) -> f64 {
+        fleet.restore();
+        let time = timed(|| fleet.instances.iter().fold(0, |status, instance| status | self.run(instance).0));
+        time.as_nanos() as f64 / fleet.instances.len() as f64
+    }
+}

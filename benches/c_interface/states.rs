@@ -1,0 +1,67 @@
+//! States: saved over an older one, restored, and both around a step.
+
+use super::exchange::{exchange, timed};
+use super::fleet::Fleet;
+use super::paths::{STEP, STEPS, impact};
+use super::sampling::interleaved;
+use super::table::{Goal, Row};
+use super::trio::Trio;
+use super::unit::{FORCE, INPUT, Instance, State, Status, ok};
+use std::ptr::null_mut;
+
+/// Samples; each is so many operations.
+const ROUNDS: usize = 5000;
+const OPERATIONS: usize = 10_000;
+
+/// The contact is in the middle of its loading.
+const STEPS_BEFORE: usize = STEPS / 4;
+
+type Operation = fn(&Instance, &mut State) -> Status;
+
+const OPERATIONS_BY_NAME: [(&str, Operation, Goal); 4] = [
+    ("get state", |instance, state| instance.save(state), Goal::OverEmpty(1.5, 1.2)),
+    ("set state", |instance, state| instance.restore(*state), Goal::OverEmpty(1.5, 1.2)),
+    ("get + set state", |instance, state| instance.save(state) | instance.restore(*state), Goal::OverEmpty(1.5, 1.2)),
+    (
+        "save + step + restore",
+        |instance, state| {
+            let time = STEPS_BEFORE as f64 * STEP;
+            instance.save(state) | instance.step(time, STEP) | instance.restore(*state)
+        },
+        Goal::OverEmpty(1.7, 1.4),
+    ),
+];
+
+pub fn print(trio: &Trio) {
+    let rates = impact();
+    let fleets = trio.units.each_ref().map(|unit| Fleet::of(unit, 1));
+    let mut states = fleets.each_ref().map(|fleet| {
+        let mut state = null_mut();
+        ok(exchange(&fleet.instances[0], &rates[..STEPS_BEFORE], STEP, 0));
+        ok(fleet.instances[0].save(&mut state));
+        state
+    });
+    for (fleet, &mut state) in fleets.iter().zip(&mut states) {
+        check(&fleet.instances[0], state);
+    }
+    for (name, operation, goal) in OPERATIONS_BY_NAME {
+        let times = interleaved(ROUNDS, |unit: usize, _| {
+            let (instance, state) = (&fleets[unit].instances[0], &mut states[unit]);
+            let time = timed(|| (0..OPERATIONS).fold(0, |status, _| status | operation(instance, state)));
+            time.as_nanos() as f64 / OPERATIONS as f64
+        });
+        Row { name, unit: "ns", decimals: 2, goal }.print(times.map(Some));
+    }
+    for (fleet, state) in fleets.iter().zip(&mut states) {
+        fleet.instances[0].free(state);
+    }
+}
+
+/// A state that was saved is the one that is restored.
+fn check(instance: &Instance, state: State) {
+    let before = instance.value(FORCE);
+    ok(instance.set(INPUT, 1.0) | instance.step(STEPS_BEFORE as f64 * STEP, STEP));
+    assert_ne!(instance.value(FORCE), before, "the step leads elsewhere");
+    ok(instance.restore(state));
+    assert_eq!(instance.value(FORCE), before, "the state is restored");
+}

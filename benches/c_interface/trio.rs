@@ -1,0 +1,87 @@
+//! The three units that are compared: what the program exports for the default scene, and two in C.
+
+use super::build::{Exported, compile, export};
+use super::instructions::{self, Work};
+use super::paths::{self, CYCLE_STEP, STEP, STEPS_PER_CYCLE};
+use super::unit::{FORCE, INPUT, Instance, Unit, ok};
+use std::path::{Path, PathBuf};
+
+pub struct Trio {
+    /// Brinell's unit, the contact by hand in C, and the one without physics.
+    pub units: [Unit; 3],
+    pub libraries: [PathBuf; 3],
+    pub exported: Exported,
+    pub folder: PathBuf,
+}
+
+impl Trio {
+    pub fn build(folder: &Path) -> Trio {
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/steel_ball.toml");
+        let exported = export(&scene, folder);
+        let c = ["contact", "empty"].map(|name| compile(name, 1, &exported, folder));
+        let [contact, empty] = c;
+        let libraries = [exported.library.clone(), contact, empty];
+        let units = libraries.each_ref().map(|library| Unit::open(library, &exported.guid));
+        Trio { units, libraries, exported, folder: folder.to_owned() }
+    }
+
+    /// The comparison means something only if all calls succeed and both contacts are the same one.
+    pub fn check(&self) {
+        // full plasticity begins at 128 N
+        const PLASTIC: f64 = 200.0;
+        let [brinell, c, empty] = &self.units;
+        let paths = STEPS_PER_CYCLE.map(|steps_per_cycle| (paths::cycles(steps_per_cycle), CYCLE_STEP));
+        for (rates, step) in paths.iter().chain(&[(paths::impact(), STEP)]) {
+            let peak = check_along(&brinell.instance(), &c.instance(), rates, *step);
+            assert!(peak > PLASTIC, "the contact hardly touched: {peak} N");
+        }
+        let others = PARAMETERS.map(|(name, value)| (self.exported.reference(name), value));
+        let [brinell, c] = [brinell, c].map(|unit| unit.instance_with(&others));
+        check_along(&brinell, &c, &paths::impact(), STEP);
+        let empty = empty.instance();
+        ok(empty.set(INPUT, STEP) | empty.step(0.0, STEP));
+        assert_eq!(empty.value(FORCE), STEP, "the empty unit gives back its input");
+    }
+
+    /// Instructions of `functions` in all of `work`, by each unit; none without valgrind.
+    pub fn count(&self, work: &Work, functions: &[&str]) -> [Option<f64>; 3] {
+        let guid = self.exported.guid.to_str().expect("a GUID is plain text");
+        self.libraries.each_ref().map(|library| {
+            instructions::can_be_counted().then(|| instructions::count(work, functions, library, guid, &self.folder))
+        })
+    }
+}
+
+/// Other parameters than those of the scene; the contact begins pressed in.
+const PARAMETERS: [(&str, f64); 5] = [
+    ("impactor.radius", 4e-3),
+    ("target.youngs_modulus", 180e9),
+    ("target.poissons_ratio", 0.28),
+    ("target.yield_strength", 250e6),
+    ("initial_gap", -1e-6),
+];
+
+/// Two instances have the same force after each step; the largest one [N].
+fn check_along(instance: &Instance, other: &Instance, rates: &[f64], step: f64) -> f64 {
+    let mut peak: f64 = 0.0;
+    for (index, &rate) in rates.iter().enumerate() {
+        let [force, expected] = [instance, other].map(|instance| {
+            ok(instance.set(INPUT, rate) | instance.step(index as f64 * step, step));
+            instance.value(FORCE)
+        });
+        peak = peak.max(force);
+        check_force(index, force, expected, peak);
+    }
+    peak
+}
+
+/// Two contacts that shall be the same have the same force [N]. `peak` [N] is the largest so far.
+pub fn check_force(step: usize, force: f64, expected: f64, peak: f64) {
+    const AGREEMENT: f64 = 1e-12;
+    /// Of the depth of the dent.
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    // a contact about to part follows F ~ z^1.5: there the last digit of the dent decides over the digits of the force
+    let larger = force.max(expected);
+    let allowed = AGREEMENT * larger + ROUNDING * (peak * peak * larger).cbrt();
+    assert!((force - expected).abs() <= allowed, "step {step}: {force} N, and not {expected} N");
+}
