@@ -40,6 +40,13 @@ pub trait Contact<M>: Copy {
     /// [`TooDeep`] beyond the range of the law; the contact is then where it was.
     fn step(&mut self, model: &M, course: &Course, step: f64) -> Result<f64, TooDeep>;
 
+    /// [`Contact::step`] with `rate` [m/s] held, for a step that is not a [short](Contact::short_step) one. It asks for the model
+    /// only if it needs the law.
+    ///
+    /// # Errors
+    /// As for [`Contact::step`].
+    fn step_held(&mut self, rate: f64, step: f64, model: impl Fn() -> M) -> Result<(), TooDeep>;
+
     /// Mean force [N] of a step that has not been made yet.
     ///
     /// # Errors

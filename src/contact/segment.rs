@@ -6,7 +6,8 @@ use libm::sqrt;
 /// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5 + c3 z^2`, `z = indentation - origin`.
 ///
 /// Every branch of the project's own laws has this form: Hertz and its shifted copies by `c2`, the linear ones by `c1`, the
-/// unloading of the law `brinell` by `c2` and `c3`. It holds for `lower <= indentation < upper`, never below `origin`.
+/// unloading of the law `brinell` by `c2` and `c3`. It holds for `lower <= indentation < upper`. Below `origin` `z` counts as
+/// zero, and the force is `c0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// Smallest indentation on the branch [m].
@@ -54,8 +55,14 @@ impl Segment {
         indentation >= self.lower && indentation < self.upper
     }
 
-    /// `z` [m], and zero below the origin, where only an empty segment reaches.
+    /// Whether the branch begins at its origin, or just above it, with no force.
     #[inline]
+    pub fn begins_at_origin(&self) -> bool {
+        self.constant == 0.0 && (self.lower == self.origin || self.lower == self.origin.next_up())
+    }
+
+    /// `z` [m], and zero below the origin.
+    #[inline(always)]
     fn above_origin(&self, indentation: f64) -> f64 {
         let z = indentation - self.origin;
         if z > 0.0 { z } else { 0.0 }
@@ -68,17 +75,10 @@ impl Segment {
         self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
     }
 
-    /// Force at an `indentation` [m] that the branch [contains](Segment::contains), which is never below its origin [N].
-    #[inline(always)]
-    pub fn force_inside(&self, indentation: f64) -> f64 {
-        let z = indentation - self.origin;
-        self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
-    }
-
     /// The same for a branch without `c3`, which most laws never have [N].
     #[inline(always)]
     pub fn force_without_square(&self, indentation: f64) -> f64 {
-        let z = indentation - self.origin;
+        let z = self.above_origin(indentation);
         self.constant + z * (self.linear + self.power * sqrt(z))
     }
 

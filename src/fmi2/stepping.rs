@@ -45,7 +45,17 @@ pub unsafe fn do_step<S: Scene>(
 unsafe fn do_any_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
+        if let Some(component) = Component::<S>::behind(c)
+            && component.instance.do_branch_step(time, step)
+            && !component.instance.is_deep()
+        {
+            return fmi2OK;
+        }
         call::<S>(c, order::DO_STEP, |component| {
+            if component.instance.is_deep() {
+                component.warn_of_limits(order::DO_STEP);
+                return Ok(());
+            }
             component.instance.do_step(time, step)?;
             component.warn_of_guard(order::DO_STEP);
             component.warn_of_limits(order::DO_STEP);

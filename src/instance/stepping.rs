@@ -61,6 +61,34 @@ impl<S: Scene> Instance<S> {
         done
     }
 
+    /// The step that leaves its branch, and is plain otherwise: of one contact, with nothing to look for but the depth up to
+    /// which its law is valid. It does what [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result
+    /// is false.
+    #[inline]
+    pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
+        let end = time + step;
+        let quick = S::CONTACTS == 1 && Self::PLAIN && !S::Momentum::IS_PRESENT && S::GUARD.is_none();
+        if !quick || !self.clock.takes(time, end, step) {
+            return false;
+        }
+        let Contacts { histories, rates, last_step, .. } = &mut self.contacts;
+        let Settings { bodies, values, .. } = &self.settings;
+        let (Some(history), Some(&rate), Some(&bodies)) =
+            (histories.as_mut().first_mut(), rates.as_ref().first(), bodies.as_ref().first())
+        else {
+            return false;
+        };
+        if history.step_held(rate, step, || model_of::<S>(0, bodies, values)).is_err() {
+            return false;
+        }
+        if !history.stays_within(bodies.depth) {
+            self.deep = Deep { contact: 1, indentation: history.max_indentation() };
+        }
+        last_step.as_mut().fill(step);
+        self.clock.time = end;
+        true
+    }
+
     /// Moves all contacts over `step` [s], to the time `end` [s], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
@@ -99,7 +127,7 @@ impl<S: Scene> Instance<S> {
             let model = || model_of::<S>(group, bodies(), values);
             let course = Course::held(rate);
             if !short {
-                history.step(&model(), &course, step).map_err(|deep| too_deep(contact, deep))?;
+                history.step_held(rate, step, model).map_err(|deep| too_deep(contact, deep))?;
             }
             let allowed = bodies().depth;
             if (S::CONTACTS == 1 || !short) && !history.stays_within(allowed) {

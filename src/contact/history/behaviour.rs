@@ -45,6 +45,11 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         Ok(deepest)
     }
 
+    #[inline(always)]
+    fn step_held(&mut self, rate: f64, step: f64, model: impl Fn() -> Model<L, U>) -> Result<(), TooDeep> {
+        self.leave_branch(rate * step, model)
+    }
+
     fn mean_force(&self, model: &Model<L, U>, course: &Course, step: f64) -> Result<f64, TooDeep> {
         Ok(momentum::impulse(self, model, course, step)? / step)
     }
@@ -82,7 +87,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         let indentation = self.indentation.total();
         // most laws never have a quadratic term
         match Model::<L, U>::SQUARES {
-            true => self.segment.force_inside(indentation),
+            true => self.segment.force(indentation),
             false => self.segment.force_without_square(indentation),
         }
     }

@@ -9,10 +9,14 @@ use super::path::Sum;
 use super::segment::Segment;
 use super::unloading::Unloading;
 use super::{Model, Surface};
+use core::borrow::Borrow;
 
 /// The indentation up to which the laws are evaluated [m]: far beyond anything physical, and small enough that no force
 /// or energy overflows.
 pub const LARGEST_INDENTATION: f64 = 1e100;
+
+/// The largest force [N] and stiffness [N/m] of a law that is a fit: times any time and any indentation they are numbers.
+const LARGEST_FORCE: f64 = 1e200;
 
 /// The farthest that bodies can be apart [m].
 const FARTHEST: f64 = (-LARGEST_INDENTATION).next_up();
@@ -50,7 +54,8 @@ pub struct TooDeep {
 /// Everything a contact remembers.
 ///
 /// The branch it is on follows from the indentation, the largest indentation and the last direction of motion; it is
-/// kept so that a step that stays on it needs nothing else.
+/// kept so that a step that stays on it needs nothing else. While apart a contact keeps the path of its dent as well, if
+/// that begins at no force: bodies that part and meet again then need nothing of the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct History {
     indentation: Sum,
@@ -98,16 +103,28 @@ impl History {
     /// # Errors
     /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN; the history is left as it was.
     pub fn advance<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, increment: f64) -> Result<(), TooDeep> {
-        if !self.advance_on_branch(increment) {
-            let sum = self.indentation.plus(increment);
-            // what overflows has no rest
-            let indentation = if sum.value.is_finite() { sum.total() } else { sum.value };
-            // no motion, no other branch: at its very end a branch that was entered from below is still the right one
-            if indentation != self.indentation.total() {
-                self.enter(model, indentation, increment > 0.0)?;
+        if self.advance_on_branch(increment) { Ok(()) } else { self.leave_branch(increment, || model) }
+    }
+
+    /// Moves the contact by `increment` [m] to whatever branch holds there; the model is asked for only if the law is.
+    #[inline(always)]
+    fn leave_branch<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
+        &mut self,
+        increment: f64,
+        model: impl Fn() -> B,
+    ) -> Result<(), TooDeep> {
+        let sum = self.indentation.plus(increment);
+        // what overflows has no rest
+        let indentation = if sum.value.is_finite() { sum.total() } else { sum.value };
+        // no motion, no other branch: at its very end a branch that was entered from below is still the right one
+        if indentation != self.indentation.total() {
+            let rising = increment > 0.0;
+            let known = U::SEGMENTED && self.goes_on_path(indentation, rising, model().borrow().surface);
+            if !known {
+                self.enter(model().borrow(), indentation, rising)?;
             }
-            self.indentation = sum;
         }
+        self.indentation = sum;
         Ok(())
     }
 
@@ -162,7 +179,8 @@ impl History {
         let before = *self;
         // on the loading curve the largest indentation is the present one
         self.max_indentation = self.max_indentation();
-        if model.surface == Surface::Fresh && indentation <= 0.0 && self.has_parted(model, indentation) {
+        let forgets = model.surface == Surface::Fresh && indentation <= 0.0;
+        if forgets && self.has_parted(model, indentation) {
             self.left_behind += self.dissipated_in_dent(model);
             self.max_indentation = 0.0;
         }
@@ -177,7 +195,7 @@ impl History {
             self.least_increment = 0.0;
             // a law without segments may be a fit that ends before
             let Segment { constant: force, linear: stiffness, .. } = self.segment;
-            let shows_numbers = model.loading.is_segmented() || force.is_finite() && stiffness.is_finite();
+            let shows_numbers = model.loading.is_segmented() || force < LARGEST_FORCE && stiffness < LARGEST_FORCE;
             if !shows_numbers {
                 *self = before;
                 return Err(TooDeep { indentation });
@@ -191,21 +209,61 @@ impl History {
                 self.segment = Segment::apart(FARTHEST, TOUCHING);
             }
         } else {
-            let residual = model.unloading_path(largest).lower;
-            if indentation > residual || (rising && indentation == residual) {
-                self.regime = Regime::Unloaded;
-                let segment = model.unloading_segment(largest, indentation);
-                let lower = if segment.lower > residual { segment.lower } else { residual.next_up() };
-                self.segment = Segment { lower, ..segment };
+            let peak = model.peak(largest);
+            let path = model.unloading.path(&model.pair, &peak);
+            if indentation > path.lower || (rising && indentation == path.lower) {
+                let segment = match U::SEGMENTED {
+                    true => path,
+                    false => model.unloading.tangent(&model.pair, &peak, &path, indentation),
+                };
+                self.press(&path, segment);
             } else {
-                self.regime = Regime::Apart;
-                // a fresh surface forgets the dent at zero, so that the border must be noticed
-                let forgets = model.surface == Surface::Fresh && indentation > 0.0;
-                let lower = if forgets { TOUCHING } else { FARTHEST };
-                self.segment = Segment::apart(lower, residual);
+                self.part(&path, model, indentation);
             }
         }
         Ok(())
+    }
+
+    /// Parts from the path of the dent, or meets it again, if the contact knows it; otherwise nothing is done, and false.
+    #[inline]
+    fn goes_on_path(&mut self, indentation: f64, rising: bool, surface: Surface) -> bool {
+        let residual = self.segment.origin;
+        let meets = indentation > residual || (rising && indentation == residual);
+        // a fresh surface may forget its dent
+        let stays = surface == Surface::Dented || indentation > 0.0;
+        // written so that a NaN and what is too far away are left to the law
+        let below = stays && indentation < self.max_indentation && indentation > -LARGEST_INDENTATION;
+        match self.regime {
+            // an elastic contact knows no path: its origin is far away
+            Regime::Apart if below && meets && residual == self.segment.upper => {
+                (self.segment.lower, self.segment.upper) = (residual.next_up(), self.max_indentation);
+                self.regime = Regime::Unloaded;
+                true
+            }
+            Regime::Unloaded if below && !meets && self.segment.begins_at_origin() => {
+                (self.segment.lower, self.segment.upper) = (farthest(surface, indentation), residual);
+                self.regime = Regime::Apart;
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// On the `path` of a dent, or on a `segment` of it.
+    fn press(&mut self, path: &Segment, segment: Segment) {
+        self.regime = Regime::Unloaded;
+        let lower = if segment.lower > path.lower { segment.lower } else { path.lower.next_up() };
+        self.segment = Segment { lower, ..segment };
+    }
+
+    /// Apart at `indentation` [m], with the dent that `path` leads to.
+    fn part<L, U: Unloading>(&mut self, path: &Segment, model: &Model<L, U>, indentation: f64) {
+        self.regime = Regime::Apart;
+        let lower = farthest(model.surface, indentation);
+        self.segment = match U::SEGMENTED && path.begins_at_origin() {
+            true => Segment { lower, upper: path.origin, ..*path },
+            false => Segment::apart(lower, path.lower),
+        };
     }
 
     /// Whether there is no contact at `indentation` [m] <= 0. Laws that make energy may hold on beyond the original surface.
@@ -213,4 +271,10 @@ impl History {
         let largest = self.max_indentation();
         model.is_elastic_at(largest) || indentation <= model.unloading_path(largest).lower
     }
+}
+
+/// How far a contact can go from `indentation` [m] without another branch [m]. A fresh surface forgets its dent at zero, so that
+/// the border must be noticed.
+fn farthest(surface: Surface, indentation: f64) -> f64 {
+    if surface == Surface::Fresh && indentation > 0.0 { TOUCHING } else { FARTHEST }
 }

@@ -32,12 +32,15 @@ impl History {
     /// Normal force [N], compressive positive; exactly zero while apart.
     #[inline]
     pub fn force(&self) -> f64 {
-        self.segment.force_inside(self.indentation.total())
+        self.segment.force(self.indentation.total())
     }
 
     /// dF/d(indentation) on the present branch [N/m]; at a corner the one in the direction of the last motion.
     pub fn stiffness(&self) -> f64 {
-        self.segment.stiffness(self.indentation.total())
+        match self.regime {
+            Regime::Apart => 0.0,
+            _ => self.segment.stiffness(self.indentation.total()),
+        }
     }
 
     /// Depth of the dent that would remain if the load were taken off now [m].

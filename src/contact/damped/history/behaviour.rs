@@ -38,6 +38,10 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         Ok(self.max_indentation)
     }
 
+    fn step_held(&mut self, rate: f64, step: f64, _model: impl Fn() -> Model<D>) -> Result<(), TooDeep> {
+        self.advance(rate, step)
+    }
+
     fn mean_force(&self, _model: &Model<D>, course: &Course, step: f64) -> Result<f64, TooDeep> {
         debug_assert!(course.is_held());
         let mean = History::mean_force(self, course.rate, step);
