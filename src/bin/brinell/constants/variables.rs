@@ -56,3 +56,85 @@ pub fn add_integers(file: &mut File, entries: &[Entry]) {
     };
     file.add_method(&format!("integer({argument}: u32) -> Option<(Integer, usize)>"), &body);
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::table::{Causality, Type, VARIABLES, Variable};
+    use brinell::scene::{Integer, Parameter, Real};
+
+    /// The names that the table has for the variables that `wanted` lets through, in its order.
+    fn listed(wanted: impl Fn(&Variable) -> bool) -> Vec<&'static str> {
+        VARIABLES.iter().filter(|variable| wanted(variable)).map(|variable| variable.rust.as_str()).collect()
+    }
+
+    /// Every variant of `Real` but `Parameter`; the match fails to compile when there is a new one.
+    fn reals() -> Vec<String> {
+        use Real::*;
+        let all = [
+            IndentationRate,
+            Force,
+            Indentation,
+            MaxIndentation,
+            ResidualIndentation,
+            ContactRadius,
+            MeanPressure,
+            Stiffness,
+            Work,
+            ElasticEnergy,
+            DissipatedEnergy,
+            Impulse,
+            MeanForce,
+            PredictedForce,
+        ];
+        match all[0] {
+            IndentationRate | Force | Indentation | MaxIndentation | ResidualIndentation | ContactRadius
+            | MeanPressure | Stiffness | Work | ElasticEnergy | DissipatedEnergy | Impulse | MeanForce
+            | PredictedForce | Parameter(_) => {}
+        }
+        all.iter().map(|variable| format!("{variable:?}")).collect()
+    }
+
+    #[test]
+    fn the_library_and_the_table_have_the_same_variables_in_the_same_order() {
+        let is_real = |variable: &Variable| variable.r#type == Type::Real && variable.causality != Causality::Parameter;
+        assert_eq!(listed(is_real), reals());
+        assert_eq!(listed(|variable| variable.r#type == Type::Integer), [format!("{:?}", Integer::Regime)]);
+    }
+
+    #[test]
+    fn the_library_and_the_table_have_the_same_parameters_in_the_same_order() {
+        use Parameter::*;
+        let all = [
+            ImpactorRadius,
+            ImpactorYoungsModulus,
+            ImpactorPoissonsRatio,
+            TargetRadius,
+            TargetYoungsModulus,
+            TargetPoissonsRatio,
+            TargetYieldStrength,
+            Restitution,
+            EffectiveMass,
+            InitialGap,
+        ];
+        match all[0] {
+            ImpactorRadius
+            | ImpactorYoungsModulus
+            | ImpactorPoissonsRatio
+            | TargetRadius
+            | TargetYoungsModulus
+            | TargetPoissonsRatio
+            | TargetYieldStrength
+            | Restitution
+            | EffectiveMass
+            | InitialGap => {}
+        }
+        let names: Vec<_> = all.iter().map(|parameter| format!("{parameter:?}")).collect();
+        assert_eq!(listed(|variable| variable.causality == Causality::Parameter), names);
+    }
+
+    /// The C functions look for the input and the force at the first two places.
+    #[test]
+    fn the_input_comes_first_and_the_force_second() {
+        assert_eq!([VARIABLES[0].name.as_str(), VARIABLES[1].name.as_str()], ["indentation_rate", "force"]);
+    }
+}
