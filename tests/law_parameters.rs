@@ -3,6 +3,7 @@
 #[path = "support/command.rs"]
 mod command;
 
+use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::{AnyLoading, Power};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, Loading, Pair};
@@ -45,6 +46,39 @@ fn text<'a>(table: &'a toml::Table, key: &str) -> &'a str {
 
 fn number(table: &toml::Table, key: &str) -> f64 {
     table[key].as_float().unwrap_or_else(|| panic!("{key} of {table} is no number"))
+}
+
+/// The variant's value as Rust writes it, up to the first constant: `BigAlabo { yield_pressure_factor: 1.1, .. })`.
+fn type_in(debug: &str) -> &str {
+    let inside = debug.split_once('(').map_or(debug, |(_, inside)| inside);
+    inside.split([' ', ')']).next().unwrap()
+}
+
+#[test]
+fn the_lists_of_laws_are_those_of_the_table_in_its_order() {
+    let own = [
+        ("loading", AnyLoading::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
+        ("unloading", AnyUnloading::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
+        ("damped", AnyDamped::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
+    ];
+    for (kind, own) in own {
+        let table = laws();
+        let told: Vec<_> = table[kind].as_array().unwrap().iter().map(|law| law.as_table().unwrap()).collect();
+        let rust = |law: &toml::Table| text(law, "rust").split("::").next().unwrap().to_string();
+        let told: Vec<_> = told.into_iter().map(|law| (text(law, "name").to_string(), rust(law))).collect();
+        let own: Vec<_> = own.iter().map(|(name, law)| ((*name).to_string(), type_in(law).to_string())).collect();
+        assert_eq!(told, own, "{kind}");
+    }
+}
+
+#[test]
+fn the_laws_with_a_guarded_form_are_those_of_the_table() {
+    for (name, law) in AnyUnloading::ALL {
+        let table = laws();
+        let told = table["unloading"].as_array().unwrap().iter().find(|told| told["name"].as_str() == Some(name));
+        let guarded = told.unwrap().get("guarded").is_some_and(|guarded| guarded.as_bool().unwrap());
+        assert_eq!(law.guarded().is_some(), guarded, "{name}");
+    }
 }
 
 #[test]

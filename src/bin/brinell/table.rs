@@ -1,6 +1,7 @@
 //! The tables in `modelDescription/`, as data: variables, units, materials, laws.
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use std::sync::LazyLock;
 
 /// A variable that a unit can have; see `modelDescription/variables.toml`.
@@ -93,6 +94,11 @@ pub struct Material {
 #[serde(deny_unknown_fields)]
 pub struct Law {
     pub name: String,
+    /// What the law is in Rust, and whether it has a form with the passivity guard: for `build/laws.rs`.
+    #[serde(rename = "rust")]
+    _rust: IgnoredAny,
+    #[serde(default, rename = "guarded")]
+    _guarded: IgnoredAny,
     pub title: String,
     pub formulas: Vec<String>,
     pub notes: String,

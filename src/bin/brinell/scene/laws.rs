@@ -9,7 +9,7 @@ use crate::laws;
 use crate::model::Dampings;
 use crate::parameters;
 use crate::table;
-use brinell::contact::damped::AnyDamped;
+use brinell::contact::damped::{AnyDamped, Damped};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use toml::Spanned;
