@@ -112,7 +112,7 @@ pub fn write_for_units(root: &Path, out: &Path) -> Vec<(String, PathBuf)> {
         let line = format!("include!(concat!(env!(\"OUT_DIR\"), \"/{}\"));", kind.file());
         assert_eq!(text.matches(&line).count(), 1, "{name} has the line {line}");
         let path = out.join(format!("{}_mod.rs", kind.name));
-        write_file(&path, &text.replace(&line, &modules(&read(root, kind), |_| String::new())));
+        write_file(&path, &text.replace(&line, modules(&read(root, kind), |_| String::new()).trim_end()));
         (name, path)
     };
     KINDS.iter().map(write).collect()

@@ -2,22 +2,20 @@
 
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/laws.rs"]
+#[allow(dead_code)] // each test file uses a part of it
+mod laws;
 
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::{AnyLoading, Power};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, Loading, Pair};
 use command::{empty_folder, run};
+use laws::text;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
-
-/// `modelDescription/laws.toml`.
-fn laws() -> toml::Table {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription/laws.toml");
-    fs::read_to_string(path).unwrap().parse().unwrap()
-}
 
 /// What the file says of each law of a kind, beside the names and values of the law's own fields.
 fn told_and_own(kind: &str) -> Vec<(toml::Table, serde_json::Map<String, Value>)> {
@@ -28,20 +26,12 @@ fn told_and_own(kind: &str) -> Vec<(toml::Table, serde_json::Map<String, Value>)
     } else {
         AnyUnloading::ALL.iter().map(|(name, law)| (*name, serde_json::to_value(law).unwrap())).collect()
     };
-    let told = laws()[kind].as_array().unwrap().clone();
-    assert_eq!(told.len(), own.len(), "{kind}");
-    let find =
-        |name: &str| told.iter().find(|law| law["name"].as_str() == Some(name)).unwrap().as_table().unwrap().clone();
-    own.into_iter().map(|(name, law)| (find(name), fields(law))).collect()
+    own.into_iter().map(|(name, law)| (laws::entry(kind, name).clone(), fields(law))).collect()
 }
 
 fn parameters(told: &toml::Table) -> Vec<toml::Table> {
     let all = told.get("parameters").and_then(|all| all.as_array()).cloned().unwrap_or_default();
     all.iter().map(|parameter| parameter.as_table().unwrap().clone()).collect()
-}
-
-fn text<'a>(table: &'a toml::Table, key: &str) -> &'a str {
-    table.get(key).and_then(|value| value.as_str()).unwrap_or("")
 }
 
 fn number(table: &toml::Table, key: &str) -> f64 {
@@ -62,11 +52,9 @@ fn the_lists_of_laws_are_those_of_the_table_in_its_order() {
         ("damped", AnyDamped::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
     ];
     for (kind, own) in own {
-        let table = laws();
-        let told: Vec<_> = table[kind].as_array().unwrap().iter().map(|law| law.as_table().unwrap()).collect();
-        let rust = |law: &toml::Table| text(law, "rust").split("::").next().unwrap().to_string();
-        let told: Vec<_> = told.into_iter().map(|law| (text(law, "name").to_string(), rust(law))).collect();
-        let own: Vec<_> = own.iter().map(|(name, law)| ((*name).to_string(), type_in(law).to_string())).collect();
+        let rust = |law| text(law, "rust").split("::").next().unwrap();
+        let told: Vec<_> = laws::entries(kind).map(|law| (text(law, "name"), rust(law))).collect();
+        let own: Vec<_> = own.iter().map(|(name, law)| (*name, type_in(law))).collect();
         assert_eq!(told, own, "{kind}");
     }
 }
@@ -74,10 +62,7 @@ fn the_lists_of_laws_are_those_of_the_table_in_its_order() {
 #[test]
 fn the_laws_with_a_guarded_form_are_those_of_the_table() {
     for (name, law) in AnyUnloading::ALL {
-        let table = laws();
-        let told = table["unloading"].as_array().unwrap().iter().find(|told| told["name"].as_str() == Some(name));
-        let guarded = told.unwrap().get("guarded").is_some_and(|guarded| guarded.as_bool().unwrap());
-        assert_eq!(law.guarded().is_some(), guarded, "{name}");
+        assert_eq!(law.guarded().is_some(), laws::says(laws::entry("unloading", name), "guarded"), "{name}");
     }
 }
 

@@ -15,6 +15,7 @@ mod model;
 mod model_description;
 mod numbers;
 mod package;
+mod pairing;
 mod parameters;
 mod plot;
 mod predict;

@@ -106,12 +106,44 @@ pub struct Law {
     #[serde(default)]
     pub validity: String,
     pub reference: String,
+    /// The unloading law that a loading law was published with, if it was with one.
+    pub unloading: Option<String>,
+    /// Why a loading law goes with no other unloading law.
+    pub no_other_unloading: Option<String>,
+    /// Whether a loading law is above Hertz's curve in places.
+    #[serde(default)]
+    pub above_hertz: bool,
+    /// Whether an unloading law lowers Hertz's curve to the largest load.
+    #[serde(default)]
+    pub lowers_hertz: bool,
+    /// The one loading law that an unloading law goes with.
+    pub made_for: Option<MadeFor>,
+    /// Whether the force of a loading law jumps, and whether its normalised curve depends on `E*/S`: for the tests.
+    #[serde(default, rename = "jumps")]
+    _jumps: IgnoredAny,
+    #[serde(default, rename = "depends_on_modulus_ratio")]
+    _depends_on_modulus_ratio: IgnoredAny,
     /// What a scene can change.
     #[serde(default)]
     pub parameters: Vec<LawParameter>,
     /// Constants that belong together, so that a scene can't change them.
     #[serde(default)]
     pub fixed: Vec<String>,
+}
+
+/// The loading law that an unloading law was made for.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MadeFor {
+    pub loading: String,
+    /// What the unloading law did with it: "was fitted to".
+    pub because: String,
+    /// Constants that both have, and that must be the same.
+    #[serde(default)]
+    pub same: Vec<String>,
+    /// Constants of the loading law that the unloading law takes as published.
+    #[serde(default)]
+    pub as_published: Vec<String>,
 }
 
 /// A constant of a law that a scene can change.
