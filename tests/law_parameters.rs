@@ -189,15 +189,53 @@ fn a_scenes_constants_are_those_of_its_unit_and_the_unit_agrees_with_the_predict
     assert!((force / reference - 1.0).abs() > 0.02, "the constants make a difference");
 }
 
-#[test]
-fn the_page_of_a_unit_has_its_constants() {
+/// The documentation of the unit of a scene with these lines under `[law]`.
+fn page(law: &str) -> String {
     let folder = empty_folder();
-    let law = "loading = \"johnson\"\nloading_parameters = { plastic_pressure_factor = 3.0 }\nunloading = \"walton-braun\"\n\
-               unloading_parameters = { stiffness_ratio = 6.25 }";
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
     run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
     let mut unit = zip::ZipArchive::new(fs::File::open(folder.path().join("unit.fmu")).unwrap()).unwrap();
-    let page = std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap();
+    std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap()
+}
+
+#[test]
+fn the_formulas_on_the_page_of_a_unit_have_its_constants_and_what_follows_from_them() {
+    let law = "loading = \"big-alabo\"\nloading_parameters = { second_region = 10.0, fully_plastic = 50.0, plastic_slope = 4.0 }";
+    // by hand: k_l = 1.5 sqrt(9) = 4.5, f_tep = 9^1.5 + 1 = 28, f_p = 4.5 * 40 + 28 = 208
+    let page = page(law);
+    for formula in ["10 &lt;= x &lt; 50: f = 4.5 (x - 10) + 28<", "50 &lt;= x: f = 4 (x - 50) + 208<"] {
+        assert!(page.contains(formula), "nothing of {formula} in {page}");
+    }
+    assert!(page.contains("speaks of those of the reference"), "{page}");
+}
+
+#[test]
+fn the_texts_of_every_law_have_numbers_in_place_of_names() {
+    let folder = empty_folder();
+    let list = run(folder.path(), ["laws", "--json"]).with_status(0).json();
+    let laws = ["loading", "unloading", "damped"].iter().flat_map(|kind| list[kind].as_array().unwrap());
+    let mut formulas = 0;
+    for law in laws {
+        let texts = law["formulas"].as_array().unwrap().iter().chain([&law["notes"], &law["validity"]]);
+        for text in texts.filter_map(|text| text.as_str()) {
+            assert!(!text.contains(['{', '}']), "{text}");
+            formulas += 1;
+        }
+    }
+    assert!(formulas > 100, "{formulas}");
+    let of = |name: &str| {
+        let law = list["loading"].as_array().unwrap().iter().find(|law| law["name"] == name).unwrap();
+        law["formulas"].as_array().unwrap().last().unwrap().as_str().unwrap().to_string()
+    };
+    assert_eq!(of("big-alabo"), "fully plastic, 82.5 <= x: f = 5.0909 (x - 82.5) + 417.34");
+    assert_eq!(of("zhao-maietta-chang"), "fully plastic, 54 <= x: f = 2 (2.8/1.1) x, a^2 = 2 R d");
+}
+
+#[test]
+fn the_page_of_a_unit_has_its_constants() {
+    let law = "loading = \"johnson\"\nloading_parameters = { plastic_pressure_factor = 3.0 }\nunloading = \"walton-braun\"\n\
+               unloading_parameters = { stiffness_ratio = 6.25 }";
+    let page = page(law);
     for (name, value) in
         [("yield_pressure_factor", "1.1"), ("plastic_pressure_factor", "3"), ("stiffness_ratio", "6.25")]
     {

@@ -1,10 +1,10 @@
 //! `brinell laws`: what laws there are, and how good each is, measured when it is asked for.
 
+use crate::law_text::{self, LawText};
 use crate::laws::unloading_of;
 use crate::model::Dampings;
 use crate::parameters::{self, Constant};
 use crate::scene::Scene;
-use crate::table;
 use crate::truth;
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::history::LARGEST_INDENTATION;
@@ -41,9 +41,10 @@ pub struct Measured {
     pub worst_at: f64,
     /// Root mean square of that error.
     pub rms_error: f64,
+    pub formulas: Vec<String>,
     pub parameters: Vec<Constant>,
-    pub validity: &'static str,
-    pub notes: &'static str,
+    pub validity: String,
+    pub notes: String,
     pub reference: &'static str,
 }
 
@@ -52,8 +53,9 @@ pub struct Measured {
 pub struct Told {
     pub name: &'static str,
     pub title: &'static str,
+    pub formulas: Vec<String>,
     pub parameters: Vec<Constant>,
-    pub notes: &'static str,
+    pub notes: String,
     pub reference: &'static str,
 }
 
@@ -66,9 +68,10 @@ pub struct Rated {
     pub force_at_touch: f64,
     /// What an impact at 1 m/s gives when 0.5 is asked for; of laws with a damping of their own, what they give.
     pub restitution: f64,
+    pub formulas: Vec<String>,
     pub parameters: Vec<Constant>,
-    pub validity: &'static str,
-    pub notes: &'static str,
+    pub validity: String,
+    pub notes: String,
     pub reference: &'static str,
 }
 
@@ -97,23 +100,24 @@ fn rate(scene: &Scene, name: &str, variant: String, law: AnyDamped) -> Rated {
     let mut touched = damped::History::start(&model, 0.0).expect("zero is within range");
     let hardly = 1e-12 * prediction.max_indentation;
     touched.step(impact.speed, hardly / impact.speed, || model).expect("within range");
-    let told = table::damped_law(name);
+    let LawText { law: told, formulas, notes, validity, .. } = law_text::damped(name, &law);
     Rated {
         name: variant,
         title: &told.title,
         force_at_touch: touched.force_at_rate(impact.speed) / prediction.max_force,
         restitution: prediction.restitution,
+        formulas,
         parameters: parameters::constants(&law, told),
-        validity: &told.validity,
-        notes: &told.notes,
+        validity,
+        notes,
         reference: &told.reference,
     }
 }
 
 fn tell(name: &'static str, law: &AnyUnloading) -> Told {
-    let told = table::unloading_law(name);
+    let LawText { law: told, formulas, notes, .. } = law_text::unloading(name, law);
     let parameters = parameters::constants(law, told);
-    Told { name, title: &told.title, parameters, notes: &told.notes, reference: &told.reference }
+    Told { name, title: &told.title, formulas, parameters, notes, reference: &told.reference }
 }
 
 /// Jumps and surplus of energy up to this are rounding.
@@ -146,7 +150,7 @@ fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
     let depths = (0..=2000).map(|step| unit.indentation * 10f64.powf(f64::from(step) / 500.0 - 1.0));
     let returned = |d: f64| (model.recovered_work(d, d) / loading.work(&model.pair, d)).sqrt();
     let largest_restitution = depths.map(returned).fold(0.0, f64::max);
-    let told = table::loading_law(name);
+    let LawText { law: told, formulas, notes, validity, .. } = law_text::loading(name, &loading);
     Measured {
         name,
         title: &told.title,
@@ -158,9 +162,10 @@ fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
         worst_error,
         worst_at,
         rms_error: (squares / points.len() as f64).sqrt(),
+        formulas,
         parameters: parameters::constants(&loading, told),
-        validity: &told.validity,
-        notes: &told.notes,
+        validity,
+        notes,
         reference: &told.reference,
     }
 }
@@ -186,15 +191,15 @@ pub fn print(list: &List) {
     for law in &list.loading {
         println!("\n{}: {}", law.name, law.title);
         entry("parameters", &values(&law.parameters));
-        entry("validity", law.validity);
-        entry("notes", law.notes);
+        entry("validity", &law.validity);
+        entry("notes", &law.notes);
         entry("reference", law.reference);
     }
     println!("\nunloading laws; a scene changes their constants by law.unloading_parameters");
     for law in &list.unloading {
         println!("\n{}: {}", law.name, law.title);
         entry("parameters", &values(&law.parameters));
-        entry("notes", law.notes);
+        entry("notes", &law.notes);
         entry("reference", law.reference);
     }
     print_damped(&list.damped);
@@ -219,8 +224,8 @@ fn print_damped(laws: &[Rated]) {
     {
         println!("\n{}: {}", law.name.split('/').next().unwrap_or_default(), law.title);
         entry("parameters", &values(&law.parameters));
-        entry("validity", law.validity);
-        entry("notes", law.notes);
+        entry("validity", &law.validity);
+        entry("notes", &law.notes);
         entry("reference", law.reference);
     }
 }

@@ -10,6 +10,7 @@ mod importer;
 mod interface;
 mod law_check;
 mod law_list;
+mod law_text;
 mod laws;
 mod model;
 mod model_description;

@@ -39,6 +39,14 @@ pub fn value_of(law: &impl Serialize, name: &str) -> Option<f64> {
     fields(&mut serialized(law))?.get(name)?.as_f64()
 }
 
+/// The constant `name` of `law`, or all of it if it is a list; `None` if it has none of this name.
+pub fn numbers_of(law: &impl Serialize, name: &str) -> Option<Vec<f64>> {
+    match fields(&mut serialized(law))?.get(name)? {
+        Value::Array(list) => list.iter().map(Value::as_f64).collect(),
+        number => Some(vec![number.as_f64()?]),
+    }
+}
+
 /// `law` with the `given` constants in place of its own.
 ///
 /// # Errors

@@ -41,4 +41,8 @@ impl Loading for AnyLoading {
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
         self.law().regime(pair, indentation)
     }
+
+    fn derived(&self, name: &str) -> Option<f64> {
+        self.law().derived(name)
+    }
 }

@@ -182,4 +182,11 @@ impl Loading for Ghaednia {
             Regime::FullyPlastic
         }
     }
+
+    fn derived(&self, name: &str) -> Option<f64> {
+        match name {
+            "transition" => Some(JacksonGreen::REFERENCE.transition),
+            _ => None,
+        }
+    }
 }

@@ -49,6 +49,12 @@ pub trait Loading {
 
     /// The regime of the loading at `indentation` and just above it.
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime;
+
+    /// A number that follows from the constants, by the name under which the table of laws cites it; `None` if there is none
+    /// of this name.
+    fn derived(&self, _name: &str) -> Option<f64> {
+        None
+    }
 }
 
 /// The line `f = ratio (2x - 1)` from `lower` to `upper` [m]: a constant pressure, `ratio` times that at the yield `point`, on
