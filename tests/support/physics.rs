@@ -25,6 +25,18 @@ pub fn mild() -> Pair {
     Pair::new(&sphere, &steel, 300e6).expect("a sphere on a plane touches in one point")
 }
 
+/// Any bodies that a unit takes: Poisson's ratio from -0.99 to 0.5, `E*/S` from 0.1 to 1e9, an impactor that is rigid or softer
+/// than the target.
+pub fn random_bodies(random: &mut Random) -> Pair {
+    let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
+    let (radius, modulus) = (decades(-9.0, 3.0), decades(3.0, 15.0));
+    let yield_strength = modulus / decades(-1.0, 9.0);
+    let softness = decades(0.0, 2.0);
+    let poissons_ratio = -0.99 + 1.49 * random.next();
+    let youngs_modulus = softness * modulus * (1.0 - poissons_ratio * poissons_ratio);
+    Pair { radius, modulus, yield_strength, youngs_modulus, poissons_ratio }
+}
+
 /// A rigid sphere of effective radius `radius` [m] on a half-space of effective modulus `modulus` [Pa], nu = 0.3.
 pub fn pair_of(radius: f64, modulus: f64, yield_strength: f64) -> Pair {
     let poissons_ratio = 0.3;
@@ -61,33 +73,6 @@ pub fn model(loading_name: &str, unloading_name: &str) -> AnyModel {
     }
 }
 
-/// Loading laws that aren't passive, the unloading laws with which they are, and why.
-pub const NOT_PASSIVE: &[(&str, &[&str], &str)] = &[
-    (
-        "stronge",
-        &["walton-braun"],
-        "the slope jumps up at yield and the curve is above Hertz's up to 15.4 d_y; only a line four times as stiff isn't softer",
-    ),
-    (
-        "johnson",
-        &["walton-braun"],
-        "above Hertz's curve up to 2.618 d_y, where the cavity formula is still below the pressure at yield",
-    ),
-    ("kogut-etsion", &[], "force jumps up at its three borders, which needs no work; restitution up to 1.015"),
-    ("ghaednia", &[], "force jumps up by 0.44 % where Hertz's curve ends; restitution up to 1.0035"),
-    (
-        "jackson-green",
-        &["jackson"],
-        "force jumps up by 0.47 % where Hertz's curve ends, and only the fitted dent jumps with it",
-    ),
-    (
-        "brake-2012-tangent",
-        &[],
-        "the cubic of its two variants is above Hertz's curve in places; restitution up to 1.006 and 1.089",
-    ),
-    ("brake-2015", &[], "above Hertz's curve between 4 and 12 d_y; restitution up to 1.05"),
-];
-
 /// Whether the two laws make sense together, by the table of laws.
 pub fn belong_together(loading_name: &str, unloading_name: &str) -> bool {
     let (loading, unloading) = (laws::entry("loading", loading_name), laws::entry("unloading", unloading_name));
@@ -107,15 +92,22 @@ fn loading_entry(model: &AnyModel) -> &'static toml::Table {
     laws::entry("loading", found.expect("every law has a name").0)
 }
 
-/// Whether the laws of `model` never give back more than was put in, unload below the loading curve, and leave a dent that
-/// is not above the surface and deepens.
+/// From which Poisson's ratio of the target on two laws make no energy, by the table of laws; -1 if with all, and none if they
+/// always may.
+pub fn passive_from(loading_name: &str, unloading_name: &str) -> Option<f64> {
+    let Some(energy) = laws::entry("loading", loading_name).get("energy") else { return Some(-1.0) };
+    let mut passive = energy["passive"].as_array().expect("a list").iter();
+    let with = passive.find(|passive| passive["unloading"].as_str() == Some(unloading_name))?;
+    Some(with.get("from_poissons_ratio").map_or(-1.0, |from| from.as_float().expect("a number")))
+}
+
+/// Whether the laws of `model` never give back more than was put in, for its bodies. Then they unload below the loading curve, and
+/// leave a dent that is not above the surface and deepens.
 pub fn is_passive(model: &AnyModel) -> bool {
-    let loading = AnyLoading::ALL.iter().find(|(_, law)| discriminant(law) == discriminant(&model.loading));
-    let unloading = AnyUnloading::ALL.iter().find(|(_, law)| discriminant(law) == discriminant(&model.unloading));
-    let names = loading.zip(unloading).map(|(loading, unloading)| (loading.0, unloading.0));
-    let (loading, unloading) = names.expect("every law has a name");
-    let found = NOT_PASSIVE.iter().find(|(name, ..)| *name == loading);
-    found.is_none_or(|(_, with, _)| with.contains(&unloading))
+    let alike = |(_, law): &&(&str, AnyUnloading)| discriminant(law) == discriminant(&model.unloading);
+    let unloading = AnyUnloading::ALL.iter().find(alike).expect("every law has a name").0;
+    let loading = laws::text(loading_entry(model), "name");
+    passive_from(loading, unloading).is_some_and(|from| model.pair.poissons_ratio >= from)
 }
 
 /// Whether the loading law of `model` is one of the `names`.

@@ -1,5 +1,6 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
+use crate::energy;
 use crate::guard;
 use crate::interface::{Entry, experiment, prediction};
 use crate::law_text::{self, LawText};
@@ -60,6 +61,9 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
         let text = law_text::unloading(name, &unloading);
         law(page, "Unloading and reloading", &text)?;
         law_constants(page, &text, &parameters::constants(&unloading, text.law))?;
+    }
+    if scene.unloading.is_some() {
+        writeln!(page, "<p>{}</p>", escape(&energy::words(scene)))?;
     }
     if let Some(words) = guard::words(scene) {
         writeln!(

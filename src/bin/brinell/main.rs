@@ -5,6 +5,7 @@ mod check;
 mod constants;
 mod curve;
 mod documentation;
+mod energy;
 mod guard;
 mod importer;
 mod interface;

@@ -118,11 +118,14 @@ pub struct Law {
     pub lowers_hertz: bool,
     /// The one loading law that an unloading law goes with.
     pub made_for: Option<MadeFor>,
-    /// Whether the force of a loading law jumps, and whether its normalised curve depends on `E*/S`: for the tests.
+    /// Whether the force of a loading law jumps: for the tests.
     #[serde(default, rename = "jumps")]
     _jumps: IgnoredAny,
-    #[serde(default, rename = "depends_on_modulus_ratio")]
-    _depends_on_modulus_ratio: IgnoredAny,
+    /// Whether the normalised curve of a loading law depends on `E*/S`.
+    #[serde(default)]
+    pub depends_on_modulus_ratio: bool,
+    /// Of a loading law that makes energy.
+    pub energy: Option<MakesEnergy>,
     /// What a scene can change.
     #[serde(default)]
     pub parameters: Vec<LawParameter>,
@@ -144,6 +147,29 @@ pub struct MadeFor {
     /// Constants of the loading law that the unloading law takes as published.
     #[serde(default)]
     pub as_published: Vec<String>,
+}
+
+/// Where a loading law makes energy, and how much.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MakesEnergy {
+    pub why: String,
+    /// The largest with the unloading law that it was published with, or else contact-radius, of targets with a Poisson's
+    /// ratio from 0 on.
+    pub restitution: f64,
+    /// Of targets with a Poisson's ratio below 0.
+    pub auxetic_restitution: f64,
+    /// Unloading laws with which it makes none.
+    pub passive: Vec<PassiveWith>,
+}
+
+/// An unloading law with which a loading law makes no energy.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PassiveWith {
+    pub unloading: String,
+    /// From which Poisson's ratio of the target on; none if it is so for all.
+    pub from_poissons_ratio: Option<f64>,
 }
 
 /// A constant of a law that a scene can change.
