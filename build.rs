@@ -1,17 +1,28 @@
-//! Two things that the program carries inside itself: the library's source, and the C header of its functions.
-//!
-//! Without the exporter (a build of the library alone) there is nothing to do.
+//! The lists of laws, from the table of laws; and two things that the program carries inside itself: the library's source,
+//! and the C header of its functions.
+
+use std::env;
+use std::path::PathBuf;
+
+#[path = "build/laws.rs"]
+mod laws;
 
 fn main() {
+    let folder = |variable: &str| PathBuf::from(env::var_os(variable).expect("cargo sets it"));
+    let (root, out) = (folder("CARGO_MANIFEST_DIR"), folder("OUT_DIR"));
+    println!("cargo::rerun-if-changed=src");
+    println!("cargo::rerun-if-changed=build.rs");
+    laws::write(&root, &out);
     #[cfg(feature = "exporter")]
-    exporter::prepare();
+    exporter::prepare(&root, &out);
 }
 
 #[cfg(feature = "exporter")]
 mod exporter {
+    use crate::laws;
     use std::fmt::Write;
+    use std::fs;
     use std::path::{Path, PathBuf};
-    use std::{env, fs};
 
     /// The file with the exported functions.
     const INTERFACE: &str = "src/fmi2/exports.rs";
@@ -19,13 +30,9 @@ mod exporter {
     /// The exporter's own files, and the one that it writes anew for every scene.
     const NOT_EMBEDDED: [&str; 2] = ["src/bin", "src/scene/exported.rs"];
 
-    pub fn prepare() {
-        let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
-        let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-        println!("cargo::rerun-if-changed=src");
-        println!("cargo::rerun-if-changed=build.rs");
-        write_header(&root, &out.join("brinell.h"));
-        write_sources(&root, &out.join("library_source.rs"));
+    pub fn prepare(root: &Path, out: &Path) {
+        write_header(root, &out.join("brinell.h"));
+        write_sources(root, out);
     }
 
     /// The prototypes of the 34 functions. A C program that includes the standard's header and then this one compiles
@@ -47,8 +54,8 @@ mod exporter {
     }
 
     /// `LIBRARY_SOURCE`: path and text of every file of the library.
-    fn write_sources(root: &Path, list: &Path) {
-        let mut files = Vec::new();
+    fn write_sources(root: &Path, out: &Path) {
+        let mut files = laws::write_for_units(root, out);
         collect(&root.join("src"), root, &mut files);
         files.sort();
         let mut text = String::from("pub const LIBRARY_SOURCE: &[(&str, &str)] = &[\n");
@@ -56,7 +63,7 @@ mod exporter {
             writeln!(text, "    ({name:?}, include_str!({path:?})),").expect("a String takes everything");
         }
         text.push_str("];\n");
-        fs::write(list, text).expect("OUT_DIR can be written");
+        fs::write(out.join("library_source.rs"), text).expect("OUT_DIR can be written");
     }
 
     fn collect(folder: &Path, root: &Path, files: &mut Vec<(String, PathBuf)>) {
@@ -64,7 +71,8 @@ mod exporter {
             let path = entry.expect("src is readable").path();
             let inside = path.strip_prefix(root).expect("below the root");
             let name = inside.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/");
-            if NOT_EMBEDDED.contains(&name.as_str()) {
+            let is_there = files.iter().any(|(other, _)| *other == name);
+            if is_there || NOT_EMBEDDED.contains(&name.as_str()) || laws::is_left_out_of_units(&name) {
                 continue;
             }
             if path.is_dir() {

@@ -2,21 +2,20 @@
 
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/laws.rs"]
+#[allow(dead_code)] // each test file uses a part of it
+mod laws;
 
+use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::{AnyLoading, Power};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, Loading, Pair};
 use command::{empty_folder, run};
+use laws::text;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
-
-/// `modelDescription/laws.toml`.
-fn laws() -> toml::Table {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription/laws.toml");
-    fs::read_to_string(path).unwrap().parse().unwrap()
-}
 
 /// What the file says of each law of a kind, beside the names and values of the law's own fields.
 fn told_and_own(kind: &str) -> Vec<(toml::Table, serde_json::Map<String, Value>)> {
@@ -27,11 +26,7 @@ fn told_and_own(kind: &str) -> Vec<(toml::Table, serde_json::Map<String, Value>)
     } else {
         AnyUnloading::ALL.iter().map(|(name, law)| (*name, serde_json::to_value(law).unwrap())).collect()
     };
-    let told = laws()[kind].as_array().unwrap().clone();
-    assert_eq!(told.len(), own.len(), "{kind}");
-    let find =
-        |name: &str| told.iter().find(|law| law["name"].as_str() == Some(name)).unwrap().as_table().unwrap().clone();
-    own.into_iter().map(|(name, law)| (find(name), fields(law))).collect()
+    own.into_iter().map(|(name, law)| (laws::entry(kind, name).clone(), fields(law))).collect()
 }
 
 fn parameters(told: &toml::Table) -> Vec<toml::Table> {
@@ -39,12 +34,36 @@ fn parameters(told: &toml::Table) -> Vec<toml::Table> {
     all.iter().map(|parameter| parameter.as_table().unwrap().clone()).collect()
 }
 
-fn text<'a>(table: &'a toml::Table, key: &str) -> &'a str {
-    table.get(key).and_then(|value| value.as_str()).unwrap_or("")
-}
-
 fn number(table: &toml::Table, key: &str) -> f64 {
     table[key].as_float().unwrap_or_else(|| panic!("{key} of {table} is no number"))
+}
+
+/// The variant's value as Rust writes it, up to the first constant: `BigAlabo { yield_pressure_factor: 1.1, .. })`.
+fn type_in(debug: &str) -> &str {
+    let inside = debug.split_once('(').map_or(debug, |(_, inside)| inside);
+    inside.split([' ', ')']).next().unwrap()
+}
+
+#[test]
+fn the_lists_of_laws_are_those_of_the_table_in_its_order() {
+    let own = [
+        ("loading", AnyLoading::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
+        ("unloading", AnyUnloading::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
+        ("damped", AnyDamped::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
+    ];
+    for (kind, own) in own {
+        let rust = |law| text(law, "rust").split("::").next().unwrap();
+        let told: Vec<_> = laws::entries(kind).map(|law| (text(law, "name"), rust(law))).collect();
+        let own: Vec<_> = own.iter().map(|(name, law)| (*name, type_in(law))).collect();
+        assert_eq!(told, own, "{kind}");
+    }
+}
+
+#[test]
+fn the_laws_with_a_guarded_form_are_those_of_the_table() {
+    for (name, law) in AnyUnloading::ALL {
+        assert_eq!(law.guarded().is_some(), laws::says(laws::entry("unloading", name), "guarded"), "{name}");
+    }
 }
 
 #[test]
@@ -170,15 +189,53 @@ fn a_scenes_constants_are_those_of_its_unit_and_the_unit_agrees_with_the_predict
     assert!((force / reference - 1.0).abs() > 0.02, "the constants make a difference");
 }
 
-#[test]
-fn the_page_of_a_unit_has_its_constants() {
+/// The documentation of the unit of a scene with these lines under `[law]`.
+fn page(law: &str) -> String {
     let folder = empty_folder();
-    let law = "loading = \"johnson\"\nloading_parameters = { plastic_pressure_factor = 3.0 }\nunloading = \"walton-braun\"\n\
-               unloading_parameters = { stiffness_ratio = 6.25 }";
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
     run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
     let mut unit = zip::ZipArchive::new(fs::File::open(folder.path().join("unit.fmu")).unwrap()).unwrap();
-    let page = std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap();
+    std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap()
+}
+
+#[test]
+fn the_formulas_on_the_page_of_a_unit_have_its_constants_and_what_follows_from_them() {
+    let law = "loading = \"big-alabo\"\nloading_parameters = { second_region = 10.0, fully_plastic = 50.0, plastic_slope = 4.0 }";
+    // by hand: k_l = 1.5 sqrt(9) = 4.5, f_tep = 9^1.5 + 1 = 28, f_p = 4.5 * 40 + 28 = 208
+    let page = page(law);
+    for formula in ["10 &lt;= x &lt; 50: f = 4.5 (x - 10) + 28<", "50 &lt;= x: f = 4 (x - 50) + 208<"] {
+        assert!(page.contains(formula), "nothing of {formula} in {page}");
+    }
+    assert!(page.contains("speaks of those of the reference"), "{page}");
+}
+
+#[test]
+fn the_texts_of_every_law_have_numbers_in_place_of_names() {
+    let folder = empty_folder();
+    let list = run(folder.path(), ["laws", "--json"]).with_status(0).json();
+    let laws = ["loading", "unloading", "damped"].iter().flat_map(|kind| list[kind].as_array().unwrap());
+    let mut formulas = 0;
+    for law in laws {
+        let texts = law["formulas"].as_array().unwrap().iter().chain([&law["notes"], &law["validity"]]);
+        for text in texts.filter_map(|text| text.as_str()) {
+            assert!(!text.contains(['{', '}']), "{text}");
+            formulas += 1;
+        }
+    }
+    assert!(formulas > 100, "{formulas}");
+    let of = |name: &str| {
+        let law = list["loading"].as_array().unwrap().iter().find(|law| law["name"] == name).unwrap();
+        law["formulas"].as_array().unwrap().last().unwrap().as_str().unwrap().to_string()
+    };
+    assert_eq!(of("big-alabo"), "fully plastic, 82.5 <= x: f = 5.0909 (x - 82.5) + 417.34");
+    assert_eq!(of("zhao-maietta-chang"), "fully plastic, 54 <= x: f = 2 (2.8/1.1) x, a^2 = 2 R d");
+}
+
+#[test]
+fn the_page_of_a_unit_has_its_constants() {
+    let law = "loading = \"johnson\"\nloading_parameters = { plastic_pressure_factor = 3.0 }\nunloading = \"walton-braun\"\n\
+               unloading_parameters = { stiffness_ratio = 6.25 }";
+    let page = page(law);
     for (name, value) in
         [("yield_pressure_factor", "1.1"), ("plastic_pressure_factor", "3"), ("stiffness_ratio", "6.25")]
     {

@@ -11,8 +11,8 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{History, Loading, Regime};
 use physics::{
-    AnyModel, all_models, corners, go, has_jumps, is_one_of, is_passive, loading_force, logarithmic, mild, model,
-    pair_of, pressed, unit, unloading_force, unloading_stiffness,
+    AnyModel, all_models, corners, go, has_jumps, is_one_of, is_passive, is_scale_free, loading_force, logarithmic,
+    mild, model, pair_of, pressed, unit, unloading_force, unloading_stiffness,
 };
 
 const EPSILON: f64 = f64::EPSILON;
@@ -341,8 +341,7 @@ fn the_normalised_curve_is_the_same_for_every_pair() {
             dent / unit.indentation,
         ]
     };
-    let scale_free = |model: &AnyModel| !is_one_of(model, physics::NOT_SCALE_FREE);
-    for (name, reference) in all_models(mild()).into_iter().filter(|(_, model)| scale_free(model)) {
+    for (name, reference) in all_models(mild()).into_iter().filter(|(_, model)| is_scale_free(model)) {
         for x in logarithmic(0.01, 1e4, 61) {
             let expected = scaled(&reference, x);
             // one part in 1e12: a border that rounds to the other side moves the curve by no more, and dents are

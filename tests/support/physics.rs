@@ -2,11 +2,15 @@
 
 #![allow(dead_code)] // each test file uses a part of it
 
+#[path = "laws.rs"]
+pub mod laws;
+
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::material::YieldPoint;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, History, Loading, Model, Pair, Surface};
 use std::f64::consts::PI;
+use std::mem::discriminant;
 
 /// A model whose laws are chosen while the program runs.
 pub type AnyModel = Model<AnyLoading, AnyUnloading>;
@@ -19,6 +23,18 @@ pub fn mild() -> Pair {
     let sphere = Body { radius: 0.005, youngs_modulus: f64::INFINITY, poissons_ratio: 0.3 };
     let steel = Body { radius: f64::INFINITY, youngs_modulus: 206e9, poissons_ratio: 0.3 };
     Pair::new(&sphere, &steel, 300e6).expect("a sphere on a plane touches in one point")
+}
+
+/// Any bodies that a unit takes: Poisson's ratio from -0.99 to 0.5, `E*/S` from 0.1 to 1e9, an impactor that is rigid or softer
+/// than the target.
+pub fn random_bodies(random: &mut Random) -> Pair {
+    let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
+    let (radius, modulus) = (decades(-9.0, 3.0), decades(3.0, 15.0));
+    let yield_strength = modulus / decades(-1.0, 9.0);
+    let softness = decades(0.0, 2.0);
+    let poissons_ratio = -0.99 + 1.49 * random.next();
+    let youngs_modulus = softness * modulus * (1.0 - poissons_ratio * poissons_ratio);
+    Pair { radius, modulus, yield_strength, youngs_modulus, poissons_ratio }
 }
 
 /// A rigid sphere of effective radius `radius` [m] on a half-space of effective modulus `modulus` [Pa], nu = 0.3.
@@ -57,89 +73,41 @@ pub fn model(loading_name: &str, unloading_name: &str) -> AnyModel {
     }
 }
 
-/// Loading laws that make sense with these unloading laws only, and why.
-pub const MADE_FOR: &[(&str, &[&str], &str)] = &[
-    ("walton-braun", &["walton-braun"], "a line through zero is stiffer there than any recovery made from Hertz's law"),
-    ("luding", &["luding"], "beyond its limit it is elastic along a line that only its own unloading follows back"),
-];
-
-/// Loading laws that aren't passive, the unloading laws with which they are, and why.
-pub const NOT_PASSIVE: &[(&str, &[&str], &str)] = &[
-    (
-        "stronge",
-        &["walton-braun"],
-        "the slope jumps up at yield and the curve is above Hertz's up to 15.4 d_y; only a line four times as stiff isn't softer",
-    ),
-    (
-        "johnson",
-        &["walton-braun"],
-        "above Hertz's curve up to 2.618 d_y, where the cavity formula is still below the pressure at yield",
-    ),
-    ("kogut-etsion", &[], "force jumps up at its three borders, which needs no work; restitution up to 1.015"),
-    ("ghaednia", &[], "force jumps up by 0.44 % where Hertz's curve ends; restitution up to 1.0035"),
-    (
-        "jackson-green",
-        &["jackson"],
-        "force jumps up by 0.47 % where Hertz's curve ends, and only the fitted dent jumps with it",
-    ),
-    (
-        "brake-2012-tangent",
-        &[],
-        "the cubic of its two variants is above Hertz's curve in places; restitution up to 1.006 and 1.089",
-    ),
-    ("brake-2015", &[], "above Hertz's curve between 4 and 12 d_y; restitution up to 1.05"),
-];
-
-/// Unloading laws that were fitted to one loading law, in its units: elsewhere they may be softer than the loading.
-pub const FITTED_TO: &[(&str, &str)] = &[
-    ("etsion", "kogut-etsion"),
-    ("jackson", "jackson-green"),
-    ("vu-quoc-zhang", "vu-quoc-zhang"),
-    // its stiffness depends on the limit of the loading law
-    ("luding", "luding"),
-];
-
-/// Loading laws that are above Hertz's curve in places, which Hertz's curve lowered to their force never is.
-pub const ABOVE_HERTZ: &[&str] = &[
-    "stronge",
-    "johnson",
-    "kogut-etsion",
-    "jackson-green",
-    "ghaednia",
-    "brake-2012-tangent",
-    "brake-2012-line",
-    "brake-2015",
-];
-
-/// Loading laws whose force jumps where one fit ends and the next begins, as published.
-pub const WITH_JUMPS: &[&str] = &["kogut-etsion", "jackson-green", "ghaednia"];
-
-/// Loading laws whose normalised curve depends on `E*/S`, through the exponent `B` of the area and the contact radius
-/// over `R`, or through a limit that is a part of the radius.
-pub const NOT_SCALE_FREE: &[&str] = &["jackson-green", "ghaednia", "luding"];
-
-/// Whether the two laws make sense together.
+/// Whether the two laws make sense together, by the table of laws.
 pub fn belong_together(loading_name: &str, unloading_name: &str) -> bool {
-    if unloading_name == "hertz-shift" && ABOVE_HERTZ.contains(&loading_name) {
-        return false;
-    }
-    if FITTED_TO.iter().any(|&(unloading, loading)| unloading == unloading_name && loading != loading_name) {
-        return false;
-    }
-    let found = MADE_FOR.iter().find(|(name, ..)| *name == loading_name);
-    found.is_none_or(|(_, with, _)| with.contains(&unloading_name))
+    let (loading, unloading) = (laws::entry("loading", loading_name), laws::entry("unloading", unloading_name));
+    let own = loading.get("unloading").and_then(|own| own.as_str());
+    let has_another = loading.contains_key("no_other_unloading") && own != Some(unloading_name);
+    let made_for = unloading.get("made_for").map(|made| made["loading"].as_str().expect("a law's name"));
+    !has_another
+        && made_for.is_none_or(|made_for| made_for == loading_name)
+        && !(laws::says(loading, "above_hertz") && laws::says(unloading, "lowers_hertz"))
 }
 
-/// Whether the laws of `model` never give back more than was put in, unload below the loading curve, and leave a dent that
-/// is not above the surface and deepens.
+/// What the table says of the loading law of `model`; of laws of one type the first, if the constants are none of theirs.
+fn loading_entry(model: &AnyModel) -> &'static toml::Table {
+    let same = |(_, law): &&(&str, AnyLoading)| *law == model.loading;
+    let alike = |(_, law): &&(&str, AnyLoading)| discriminant(law) == discriminant(&model.loading);
+    let found = AnyLoading::ALL.iter().find(same).or(AnyLoading::ALL.iter().find(alike));
+    laws::entry("loading", found.expect("every law has a name").0)
+}
+
+/// From which Poisson's ratio of the target on two laws make no energy, by the table of laws; -1 if with all, and none if they
+/// always may.
+pub fn passive_from(loading_name: &str, unloading_name: &str) -> Option<f64> {
+    let Some(energy) = laws::entry("loading", loading_name).get("energy") else { return Some(-1.0) };
+    let mut passive = energy["passive"].as_array().expect("a list").iter();
+    let with = passive.find(|passive| passive["unloading"].as_str() == Some(unloading_name))?;
+    Some(with.get("from_poissons_ratio").map_or(-1.0, |from| from.as_float().expect("a number")))
+}
+
+/// Whether the laws of `model` never give back more than was put in, for its bodies. Then they unload below the loading curve, and
+/// leave a dent that is not above the surface and deepens.
 pub fn is_passive(model: &AnyModel) -> bool {
-    use std::mem::discriminant;
-    let loading = AnyLoading::ALL.iter().find(|(_, law)| discriminant(law) == discriminant(&model.loading));
-    let unloading = AnyUnloading::ALL.iter().find(|(_, law)| discriminant(law) == discriminant(&model.unloading));
-    let names = loading.zip(unloading).map(|(loading, unloading)| (loading.0, unloading.0));
-    let (loading, unloading) = names.expect("every law has a name");
-    let found = NOT_PASSIVE.iter().find(|(name, ..)| *name == loading);
-    found.is_none_or(|(_, with, _)| with.contains(&unloading))
+    let alike = |(_, law): &&(&str, AnyUnloading)| discriminant(law) == discriminant(&model.unloading);
+    let unloading = AnyUnloading::ALL.iter().find(alike).expect("every law has a name").0;
+    let loading = laws::text(loading_entry(model), "name");
+    passive_from(loading, unloading).is_some_and(|from| model.pair.poissons_ratio >= from)
 }
 
 /// Whether the loading law of `model` is one of the `names`.
@@ -147,9 +115,14 @@ pub fn is_one_of(model: &AnyModel, names: &[&str]) -> bool {
     AnyLoading::ALL.iter().any(|(name, law)| names.contains(name) && *law == model.loading)
 }
 
-/// Whether the force of the loading curve jumps.
+/// Whether the force of the loading curve jumps, as published, where one fit ends and the next begins.
 pub fn has_jumps(model: &AnyModel) -> bool {
-    is_one_of(model, WITH_JUMPS)
+    laws::says(loading_entry(model), "jumps")
+}
+
+/// Whether the normalised loading curve is the same for all `E*/S`.
+pub fn is_scale_free(model: &AnyModel) -> bool {
+    !laws::says(loading_entry(model), "depends_on_modulus_ratio")
 }
 
 /// Force on the unloading path from `largest` [m] at `indentation` [m], [N].

@@ -1,7 +1,9 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
+use crate::energy;
 use crate::guard;
 use crate::interface::{Entry, experiment, prediction};
+use crate::law_text::{self, LawText};
 use crate::numbers::digits;
 use crate::parameters::{self, Constant};
 use crate::plot::{Picture, Series};
@@ -46,18 +48,22 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
     writeln!(page, "<figure>\n{}</figure>", curve(scene))?;
     writeln!(page, "<h2>Law</h2>")?;
     if let Some((name, damped)) = scene.damped {
-        let told = table::damped_law(name);
-        law(page, "Rate-dependent", told)?;
-        law_constants(page, &parameters::constants(&damped, told))?;
+        let text = law_text::damped(name, &damped);
+        law(page, "Rate-dependent", &text)?;
+        law_constants(page, &text, &parameters::constants(&damped, text.law))?;
     } else {
-        let told = table::loading_law(scene.loading.0);
-        law(page, "Loading", told)?;
-        law_constants(page, &parameters::constants(&scene.loading.1, told))?;
+        let (name, loading) = scene.loading;
+        let text = law_text::loading(name, &loading);
+        law(page, "Loading", &text)?;
+        law_constants(page, &text, &parameters::constants(&loading, text.law))?;
     }
     if let Some((name, unloading)) = scene.unloading {
-        let told = table::unloading_law(name);
-        law(page, "Unloading and reloading", told)?;
-        law_constants(page, &parameters::constants(&unloading, told))?;
+        let text = law_text::unloading(name, &unloading);
+        law(page, "Unloading and reloading", &text)?;
+        law_constants(page, &text, &parameters::constants(&unloading, text.law))?;
+    }
+    if scene.unloading.is_some() {
+        writeln!(page, "<p>{}</p>", escape(&energy::words(scene)))?;
     }
     if let Some(words) = guard::words(scene) {
         writeln!(
@@ -117,20 +123,21 @@ fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
     )
 }
 
-fn law(page: &mut String, heading: &str, law: &table::Law) -> std::fmt::Result {
-    writeln!(page, "<h3>{heading}: {}</h3>\n<ul>", escape(&law.title))?;
-    for formula in &law.formulas {
+fn law(page: &mut String, heading: &str, text: &LawText) -> std::fmt::Result {
+    writeln!(page, "<h3>{heading}: {}</h3>\n<ul>", escape(&text.law.title))?;
+    for formula in &text.formulas {
         writeln!(page, "<li><code>{}</code></li>", escape(formula))?;
     }
-    writeln!(page, "</ul>\n<p>{} Reference: {}.</p>", escape(&law.notes), escape(&law.reference))
+    writeln!(page, "</ul>\n<p>{} Reference: {}.</p>", escape(&text.notes), escape(&text.law.reference))
 }
 
 /// The constants of a law as they are in this unit.
-fn law_constants(page: &mut String, constants: &[Constant]) -> std::fmt::Result {
+fn law_constants(page: &mut String, text: &LawText, constants: &[Constant]) -> std::fmt::Result {
     if constants.is_empty() {
         return Ok(());
     }
-    writeln!(page, "<p>Its constants in this unit (the text above has those of the reference):</p>\n<table>")?;
+    let others = if text.is_published { "" } else { " (the text above speaks of those of the reference)" };
+    writeln!(page, "<p>Its constants in this unit{others}:</p>\n<table>")?;
     for Constant { name, value, unit, description, .. } in constants {
         writeln!(
             page,

@@ -1,5 +1,7 @@
 //! `brinell laws`: what laws there are, and how good each is, measured when it is asked for.
 
+use crate::energy::{self, Balance};
+use crate::law_text::{self, LawText};
 use crate::laws::unloading_of;
 use crate::model::Dampings;
 use crate::parameters::{self, Constant};
@@ -32,18 +34,24 @@ pub struct Measured {
     pub continuous: bool,
     /// Largest jump of the force at a corner, relative to the force.
     pub largest_jump: f64,
+    /// Whether the law makes no energy with that unloading law, whatever the bodies.
     pub passive: bool,
-    /// Largest restitution over all depths: above 1 the law makes energy.
+    /// From which Poisson's ratio of the target on it makes none, where it does below.
+    pub passive_from_poissons_ratio: Option<f64>,
+    /// Largest restitution over all depths, of targets with a Poisson's ratio from 0 on.
     pub largest_restitution: f64,
+    /// Of targets with a Poisson's ratio below 0.
+    pub largest_auxetic_restitution: f64,
     /// Largest error of the loading force against the truth.
     pub worst_error: f64,
     /// Where, in yield indentations.
     pub worst_at: f64,
     /// Root mean square of that error.
     pub rms_error: f64,
+    pub formulas: Vec<String>,
     pub parameters: Vec<Constant>,
-    pub validity: &'static str,
-    pub notes: &'static str,
+    pub validity: String,
+    pub notes: String,
     pub reference: &'static str,
 }
 
@@ -52,8 +60,9 @@ pub struct Measured {
 pub struct Told {
     pub name: &'static str,
     pub title: &'static str,
+    pub formulas: Vec<String>,
     pub parameters: Vec<Constant>,
-    pub notes: &'static str,
+    pub notes: String,
     pub reference: &'static str,
 }
 
@@ -66,9 +75,10 @@ pub struct Rated {
     pub force_at_touch: f64,
     /// What an impact at 1 m/s gives when 0.5 is asked for; of laws with a damping of their own, what they give.
     pub restitution: f64,
+    pub formulas: Vec<String>,
     pub parameters: Vec<Constant>,
-    pub validity: &'static str,
-    pub notes: &'static str,
+    pub validity: String,
+    pub notes: String,
     pub reference: &'static str,
 }
 
@@ -97,27 +107,40 @@ fn rate(scene: &Scene, name: &str, variant: String, law: AnyDamped) -> Rated {
     let mut touched = damped::History::start(&model, 0.0).expect("zero is within range");
     let hardly = 1e-12 * prediction.max_indentation;
     touched.advance(impact.speed, hardly / impact.speed).expect("within range");
-    let told = table::damped_law(name);
+    let LawText { law: told, formulas, notes, validity, .. } = law_text::damped(name, &law);
     Rated {
         name: variant,
         title: &told.title,
         force_at_touch: touched.force(impact.speed) / prediction.max_force,
         restitution: prediction.restitution,
+        formulas,
         parameters: parameters::constants(&law, told),
-        validity: &told.validity,
-        notes: &told.notes,
+        validity,
+        notes,
         reference: &told.reference,
     }
 }
 
 fn tell(name: &'static str, law: &AnyUnloading) -> Told {
-    let told = table::unloading_law(name);
+    let LawText { law: told, formulas, notes, .. } = law_text::unloading(name, law);
     let parameters = parameters::constants(law, told);
-    Told { name, title: &told.title, parameters, notes: &told.notes, reference: &told.reference }
+    Told { name, title: &told.title, formulas, parameters, notes, reference: &told.reference }
 }
 
-/// Jumps and surplus of energy up to this are rounding.
+/// Jumps up to this are rounding.
 const ROUNDING: f64 = 1e-12;
+
+/// What a law does with energy on all bodies: those with a Poisson's ratio from 0 on, and the others.
+fn balances(name: &str, model: &Model<AnyLoading, AnyUnloading>) -> [Balance; 2] {
+    let depends = table::loading_law(name).depends_on_modulus_ratio;
+    let one = (energy::ANY_MODULUS_RATIO, energy::ANY_MODULUS_RATIO);
+    let modulus_ratio = if depends { energy::MODULUS_RATIO } else { one };
+    let (low, high) = energy::POISSONS_RATIO;
+    [(0.0, high), (low, 0.0_f64.next_down())].map(|poissons_ratio| {
+        let bodies = energy::bodies(&model.pair, poissons_ratio, modulus_ratio);
+        bodies.map(|pair| energy::balance(&Model { pair, ..*model })).fold(Balance::default(), Balance::and)
+    })
+}
 
 fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
     let (unloading_name, unloading) = unloading_of(name, scene);
@@ -142,25 +165,25 @@ fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
         corner = loading.next_corner(&model.pair, corner);
     }
     let continuous = largest_jump.abs() < ROUNDING;
-    // fine enough to see the narrow range just above yield where some laws make energy
-    let depths = (0..=2000).map(|step| unit.indentation * 10f64.powf(f64::from(step) / 500.0 - 1.0));
-    let returned = |d: f64| (model.recovered_work(d, d) / loading.work(&model.pair, d)).sqrt();
-    let largest_restitution = depths.map(returned).fold(0.0, f64::max);
-    let told = table::loading_law(name);
+    let [metals, auxetic] = balances(name, &model);
+    let LawText { law: told, formulas, notes, validity, .. } = law_text::loading(name, &loading);
     Measured {
         name,
         title: &told.title,
         unloading: unloading_name,
         continuous,
         largest_jump: if continuous { 0.0 } else { largest_jump },
-        passive: largest_restitution <= 1.0 + ROUNDING,
-        largest_restitution,
+        passive: !metals.and(auxetic).falls,
+        passive_from_poissons_ratio: energy::passive_from(name, unloading_name),
+        largest_restitution: metals.largest_restitution,
+        largest_auxetic_restitution: auxetic.largest_restitution,
         worst_error,
         worst_at,
         rms_error: (squares / points.len() as f64).sqrt(),
+        formulas,
         parameters: parameters::constants(&loading, told),
-        validity: &told.validity,
-        notes: &told.notes,
+        validity,
+        notes,
         reference: &told.reference,
     }
 }
@@ -168,14 +191,18 @@ fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
 /// The list for people: a table, then a paragraph for each law.
 pub fn print(list: &List) {
     println!("loading laws; error of the force against finite elements up to 1000 yield indentations d_y");
-    println!("(truth/README.md), on the bodies of the default scene\n");
+    println!(
+        "(truth/README.md), on the bodies of the default scene; energy for all bodies that a unit takes, the largest"
+    );
+    println!("restitution of those with a Poisson's ratio nu from 0 on\n");
     println!("{:<20}{:>22}{:>9}   {:<12}energy (with this unloading law)", "law", "worst error", "rms", "continuous");
     for law in &list.loading {
         let percent = |value: f64| format!("{:+.1} %", 100.0 * value);
         let jump = if law.continuous { "yes".into() } else { format!("{} jump", percent(law.largest_jump)) };
+        let below = law.passive_from_poissons_ratio.map(|ratio| format!(" (nu < {ratio})")).unwrap_or_default();
         let energy = match law.largest_restitution {
             _ if law.passive => format!("passive ({})", law.unloading),
-            e => format!("makes energy: restitution up to {e:.3} ({})", law.unloading),
+            e => format!("makes energy{below}: e up to {e:.3} ({})", law.unloading),
         };
         let worst_at: f64 = format!("{:.3e}", law.worst_at).parse().expect("a number");
         let worst = format!("{} at {worst_at} d_y", percent(law.worst_error));
@@ -186,15 +213,15 @@ pub fn print(list: &List) {
     for law in &list.loading {
         println!("\n{}: {}", law.name, law.title);
         entry("parameters", &values(&law.parameters));
-        entry("validity", law.validity);
-        entry("notes", law.notes);
+        entry("validity", &law.validity);
+        entry("notes", &law.notes);
         entry("reference", law.reference);
     }
     println!("\nunloading laws; a scene changes their constants by law.unloading_parameters");
     for law in &list.unloading {
         println!("\n{}: {}", law.name, law.title);
         entry("parameters", &values(&law.parameters));
-        entry("notes", law.notes);
+        entry("notes", &law.notes);
         entry("reference", law.reference);
     }
     print_damped(&list.damped);
@@ -219,8 +246,8 @@ fn print_damped(laws: &[Rated]) {
     {
         println!("\n{}: {}", law.name.split('/').next().unwrap_or_default(), law.title);
         entry("parameters", &values(&law.parameters));
-        entry("validity", law.validity);
-        entry("notes", law.notes);
+        entry("validity", &law.validity);
+        entry("notes", &law.notes);
         entry("reference", law.reference);
     }
 }

@@ -1,8 +1,9 @@
-//! Choosing laws by name, and which go together.
+//! Choosing laws by name.
 
 use crate::model::{AnyModel, Dampings};
-use crate::parameters;
+use crate::pairing;
 use crate::scene::Scene;
+use crate::table;
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
@@ -27,84 +28,16 @@ pub enum UnknownLaw {
     NoYieldStrength(String),
 }
 
-/// Unloading laws that were fitted to one loading law, in its units.
-const FITTED_TO: [(&str, &str); 3] =
-    [("etsion", "kogut-etsion"), ("jackson", "jackson-green"), ("vu-quoc-zhang", "vu-quoc-zhang")];
-
-/// Loading laws that go only with the unloading law of the same name, and why.
-const MADE_FOR_ITSELF: [(&str, &str); 2] = [
-    ("walton-braun", "it has no elastic part"),
-    ("luding", "it has no elastic part, and a limit beyond which it is elastic again"),
-];
-
-/// Loading laws that are above Hertz's curve in places, so that Hertz's curve can't be lowered to them.
-const ABOVE_HERTZ: [&str; 8] = [
-    "stronge",
-    "johnson",
-    "kogut-etsion",
-    "jackson-green",
-    "ghaednia",
-    "brake-2012-tangent",
-    "brake-2012-line",
-    "brake-2015",
-];
-
-/// Refuses two laws that don't make sense together.
-///
-/// # Errors
-/// Why they don't, and what does.
-pub fn check_pairing(loading: &str, unloading: &str) -> Result<(), String> {
-    let pair = format!("law.loading = \"{loading}\" doesn't go with law.unloading = \"{unloading}\"");
-    if let Some((own, why)) = MADE_FOR_ITSELF.iter().find(|(own, _)| *own == loading && loading != unloading) {
-        return Err(format!("{pair}: {why}, and unloads by \"{own}\""));
-    }
-    if loading != "luding" && unloading == "luding" {
-        return Err(format!("{pair}: that stiffens up to the limit of the loading law \"luding\""));
-    }
-    if unloading == "hertz-shift" && ABOVE_HERTZ.contains(&loading) {
-        return Err(format!("{pair}: its curve is above Hertz's in places, which can't be lowered to it"));
-    }
-    match FITTED_TO.iter().find(|(name, fitted)| *name == unloading && *fitted != loading) {
-        Some((_, fitted)) => Err(format!("{pair}: that was fitted to the loading law \"{fitted}\"")),
-        None => Ok(()),
-    }
-}
-
-/// Refuses two laws whose constants contradict each other.
-///
-/// # Errors
-/// What must be the same, or stay as published.
-pub fn check_ties(loading: (&str, AnyLoading), unloading: (&str, AnyUnloading)) -> Result<(), String> {
-    parameters::check_ties((loading.0, &loading.1, &published(loading.0)), (unloading.0, &unloading.1))
-}
-
 /// The loading law `name`, which there is, with its reference constants.
 pub fn published(name: &str) -> AnyLoading {
     let found = AnyLoading::ALL.into_iter().find(|(known, _)| *known == name);
     found.expect("a law that was found by its name").1
 }
 
-/// The unloading law of a scene that names none: "contact-radius", where it can be.
-pub fn default_unloading(loading: &str) -> &'static str {
-    MADE_FOR_ITSELF.iter().find(|(own, _)| *own == loading).map_or("contact-radius", |(own, _)| own)
-}
-
-/// Loading laws that were published with an unloading law of another name.
-const OWN_UNLOADING: [(&str, &str); 8] = [
-    ("yigit-christoforou", "hertz-shift"),
-    ("brake-2012-tangent", "thornton"),
-    ("brake-2012-line", "thornton"),
-    ("brake-2015", "thornton"),
-    ("ghaednia", "thornton"),
-    ("kogut-etsion", "etsion"),
-    ("jackson-green", "jackson"),
-    ("ma-liu", "thornton"),
-];
-
 /// The unloading that belongs to a loading law: the one it was published with, or the scene's.
 pub fn unloading_of(loading: &str, scene: &Scene) -> (&'static str, AnyUnloading) {
-    let published = OWN_UNLOADING.iter().find(|(name, _)| *name == loading).map_or(loading, |(_, own)| own);
-    let own = AnyUnloading::ALL.into_iter().find(|(name, _)| *name == published);
+    let published = table::loading_law(loading).unloading.as_deref();
+    let own = AnyUnloading::ALL.into_iter().find(|(name, _)| published == Some(*name));
     own.or(scene.unloading).unwrap_or(AnyUnloading::ALL[0])
 }
 
@@ -159,8 +92,8 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let asked = other_name.unwrap_or_default();
     let (chosen, unloading) = unloading.ok_or_else(|| unknown("unloading", asked, known()))?;
     if loading_name != "hertz" {
-        check_pairing(loading_name, chosen).map_err(UnknownLaw::Pairing)?;
-        check_ties((loading_name, loading), (chosen, unloading)).map_err(UnknownLaw::Pairing)?;
+        pairing::check(loading_name, chosen).map_err(UnknownLaw::Pairing)?;
+        pairing::check_ties((loading_name, loading), (chosen, unloading)).map_err(UnknownLaw::Pairing)?;
     }
     let yield_strength = scene.yield_strength.ok_or_else(|| UnknownLaw::NoYieldStrength(name.into()))?;
     let pair = Pair { yield_strength, ..scene.model().pair };

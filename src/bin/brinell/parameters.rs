@@ -39,6 +39,14 @@ pub fn value_of(law: &impl Serialize, name: &str) -> Option<f64> {
     fields(&mut serialized(law))?.get(name)?.as_f64()
 }
 
+/// The constant `name` of `law`, or all of it if it is a list; `None` if it has none of this name.
+pub fn numbers_of(law: &impl Serialize, name: &str) -> Option<Vec<f64>> {
+    match fields(&mut serialized(law))?.get(name)? {
+        Value::Array(list) => list.iter().map(Value::as_f64).collect(),
+        number => Some(vec![number.as_f64()?]),
+    }
+}
+
 /// `law` with the `given` constants in place of its own.
 ///
 /// # Errors
@@ -131,64 +139,4 @@ fn check_one(
         return Err(Mistake(value.span(), message.trim_end().into()));
     }
     Ok(number)
-}
-
-/// An unloading law that shares constants with its loading law.
-struct Tie {
-    loading: &'static str,
-    unloading: &'static str,
-    /// Constants that both have, and that must be the same.
-    same: &'static [&'static str],
-    /// Constants of the loading law that the unloading law takes as published.
-    published: &'static [&'static str],
-}
-
-const TIES: [Tie; 4] = [
-    Tie { loading: "luding", unloading: "luding", same: &["stiffness_ratio", "limit_depth"], published: &[] },
-    Tie {
-        loading: "kogut-etsion",
-        unloading: "etsion",
-        same: &[],
-        published: &["hardness_factor", "yield_constant", "yield_slope"],
-    },
-    Tie { loading: "jackson-green", unloading: "jackson", same: &[], published: &["yield_constant", "yield_growth"] },
-    Tie {
-        loading: "vu-quoc-zhang",
-        unloading: "vu-quoc-zhang",
-        same: &["curvature"],
-        published: &["peak_pressure_factor"],
-    },
-];
-
-/// Refuses two laws by `(name, law)` whose constants contradict each other.
-///
-/// # Errors
-/// What must be the same, or stay as published.
-pub fn check_ties<L: Serialize, U: Serialize>(
-    (loading_name, loading, reference): (&str, &L, &L),
-    (unloading_name, unloading): (&str, &U),
-) -> Result<(), String> {
-    let mut ties = TIES.iter().filter(|tie| tie.loading == loading_name && tie.unloading == unloading_name);
-    let Some(tie) = ties.next() else { return Ok(()) };
-    for name in tie.same {
-        let (one, other) = (value_of(loading, name), value_of(unloading, name));
-        if one != other {
-            return Err(format!(
-                "`{name}` must be the same in law.loading_parameters ({:?}) and law.unloading_parameters ({:?})",
-                one.unwrap_or(f64::NAN),
-                other.unwrap_or(f64::NAN)
-            ));
-        }
-    }
-    for name in tie.published {
-        let (one, published) = (value_of(loading, name), value_of(reference, name));
-        if one != published {
-            return Err(format!(
-                "law.unloading = \"{unloading_name}\" counts in the units of \"{loading_name}\" as published: with it \
-                 `{name}` must be {:?}",
-                published.unwrap_or(f64::NAN)
-            ));
-        }
-    }
-    Ok(())
 }

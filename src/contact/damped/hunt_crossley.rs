@@ -108,6 +108,10 @@ impl Damped for HuntCrossley {
         Factors { elastic, damping: elastic * self.damping_factor.chi(restitution) }
     }
 
+    fn needs_restitution(&self) -> bool {
+        true
+    }
+
     fn damping(&self, indentation: f64) -> Shape {
         power_three_halves(indentation)
     }

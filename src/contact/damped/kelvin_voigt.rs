@@ -35,6 +35,14 @@ impl Damped for KelvinVoigt {
         Factors { elastic, damping: 2.0 * ratio * sqrt(elastic * mass) }
     }
 
+    fn needs_restitution(&self) -> bool {
+        true
+    }
+
+    fn needs_mass(&self) -> bool {
+        true
+    }
+
     fn elastic(&self, d: f64) -> Shape {
         Shape { value: d, slope: 1.0, integral: 0.5 * d * d }
     }

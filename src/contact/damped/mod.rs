@@ -5,20 +5,13 @@
 //! faster than the surface follows. The force depends on the rate at the same instant, and so does its unit's
 //! `ModelStructure`.
 
-pub mod adams;
 pub mod history;
-pub mod hunt_crossley;
 pub mod impact;
-pub mod kelvin_voigt;
-pub mod kuwabara_kono;
-pub mod tsuji;
 
-pub use adams::Adams;
 pub use history::History;
-pub use hunt_crossley::HuntCrossley;
-pub use kelvin_voigt::KelvinVoigt;
-pub use kuwabara_kono::KuwabaraKono;
-pub use tsuji::Tsuji;
+
+// `pub mod tsuji; pub use tsuji::Tsuji;` and so on, of every law in modelDescription/laws.toml; see build/laws.rs
+include!(concat!(env!("OUT_DIR"), "/damped_laws.rs"));
 
 use super::material::Pair;
 use super::validity::LARGEST_RADIUS_RATIO;
@@ -78,6 +71,16 @@ pub trait Damped {
     /// `psi`, the shape of the damping.
     fn damping(&self, indentation: f64) -> Shape;
 
+    /// Whether the damping is made for a coefficient of restitution.
+    fn needs_restitution(&self) -> bool {
+        false
+    }
+
+    /// Whether the damping is made for a mass.
+    fn needs_mass(&self) -> bool {
+        false
+    }
+
     /// Whether the damping is divided by the closing speed at first touch.
     fn scaled_by_touch(&self) -> bool {
         false
@@ -93,74 +96,4 @@ pub trait Damped {
 fn power_three_halves(d: f64) -> Shape {
     let root = sqrt(d);
     Shape { value: d * root, slope: 1.5 * root, integral: 0.4 * d * d * root }
-}
-
-/// A rate-dependent law chosen while the program runs. The FMU doesn't need it: a scene names its law.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
-pub enum AnyDamped {
-    /// See [`HuntCrossley`].
-    HuntCrossley(HuntCrossley),
-    /// See [`KelvinVoigt`].
-    KelvinVoigt(KelvinVoigt),
-    /// See [`Tsuji`].
-    Tsuji(Tsuji),
-    /// See [`KuwabaraKono`].
-    KuwabaraKono(KuwabaraKono),
-    /// See [`Adams`].
-    Adams(Adams),
-}
-
-impl AnyDamped {
-    /// Every law under the name it has in a scene, with its reference constants.
-    pub const ALL: [(&'static str, AnyDamped); 5] = [
-        ("hunt-crossley", AnyDamped::HuntCrossley(HuntCrossley::REFERENCE)),
-        ("kelvin-voigt", AnyDamped::KelvinVoigt(KelvinVoigt::REFERENCE)),
-        ("tsuji", AnyDamped::Tsuji(Tsuji::REFERENCE)),
-        ("kuwabara-kono", AnyDamped::KuwabaraKono(KuwabaraKono::REFERENCE)),
-        ("adams-impact", AnyDamped::Adams(Adams::REFERENCE)),
-    ];
-
-    /// Whether the damping is made for a coefficient of restitution.
-    pub fn needs_restitution(&self) -> bool {
-        matches!(self, AnyDamped::HuntCrossley(_) | AnyDamped::KelvinVoigt(_) | AnyDamped::Tsuji(_))
-    }
-
-    /// Whether the damping is made for a mass.
-    pub fn needs_mass(&self) -> bool {
-        matches!(self, AnyDamped::KelvinVoigt(_) | AnyDamped::Tsuji(_))
-    }
-
-    /// The law itself.
-    pub fn law(&self) -> &dyn Damped {
-        match self {
-            AnyDamped::HuntCrossley(law) => law,
-            AnyDamped::KelvinVoigt(law) => law,
-            AnyDamped::Tsuji(law) => law,
-            AnyDamped::KuwabaraKono(law) => law,
-            AnyDamped::Adams(law) => law,
-        }
-    }
-}
-
-impl Damped for AnyDamped {
-    fn factors(&self, pair: &Pair, restitution: f64, mass: f64) -> Factors {
-        self.law().factors(pair, restitution, mass)
-    }
-
-    fn elastic(&self, indentation: f64) -> Shape {
-        self.law().elastic(indentation)
-    }
-
-    fn damping(&self, indentation: f64) -> Shape {
-        self.law().damping(indentation)
-    }
-
-    fn scaled_by_touch(&self) -> bool {
-        self.law().scaled_by_touch()
-    }
-
-    fn borders(&self) -> [f64; 2] {
-        self.law().borders()
-    }
 }

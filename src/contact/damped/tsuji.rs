@@ -75,6 +75,14 @@ impl Damped for Tsuji {
         Factors { elastic, damping: self.damping_factor.alpha(restitution) * sqrt(mass * elastic) }
     }
 
+    fn needs_restitution(&self) -> bool {
+        true
+    }
+
+    fn needs_mass(&self) -> bool {
+        true
+    }
+
     fn damping(&self, d: f64) -> Shape {
         let value = sqrt(sqrt(d));
         Shape { value, slope: if d > 0.0 { 0.25 * value / d } else { f64::MAX }, integral: 0.8 * d * value }

@@ -127,4 +127,13 @@ impl Loading for BigAlabo {
             Regime::FullyPlastic
         }
     }
+
+    fn derived(&self, name: &str) -> Option<f64> {
+        match name {
+            "second_force" => Some(self.normalised().second_force),
+            "second_slope" => Some(self.normalised().second_slope),
+            "plastic_force" => Some(self.normalised().plastic_force),
+            _ => None,
+        }
+    }
 }

@@ -17,10 +17,11 @@ use libm::{atan, sqrt};
 ///
 /// Yield is von Mises': `d_y = R (pi p_0/(2 E*))^2` with [`first_yield`]'s `p_0`. Force and slope are continuous everywhere. Rebuilt
 /// from descriptions of the paper. [`TANGENT`](Brake2012::TANGENT) has the plastic line begin where Hertz's slope is that of the line,
-/// `d_p = R (pi p_H/E*)^2`: practically Hertz's curve and then its tangent. In [`LINE`](Brake2012::LINE) it begins where Hertz's mean
-/// pressure is the hardness, `d_p = R (3 pi p_H/(4 E*))^2`: the curve bends upwards there, above Hertz's. With
-/// [`Thornton`](crate::contact::unloading::Thornton)'s closure neither is passive: restitution up to 1.006 and 1.089, and
-/// negative dents, where the cubic lies above Hertz's curve. The contact radius isn't in the descriptions: here `a^2 = R d`.
+/// `d_p = R (pi p_H/E*)^2`: Hertz's curve and then its tangent, but for 4 % that the cubic is below Hertz's in between (nu = 0.3). In
+/// [`LINE`](Brake2012::LINE) it begins where Hertz's mean pressure is the hardness, `d_p = R (3 pi p_H/(4 E*))^2`: the curve
+/// bends upwards there, above Hertz's, where [`Thornton`](crate::contact::unloading::Thornton)'s closure leaves negative dents. With
+/// that closure neither is passive: restitution up to 1.009 and 1.093 for a Poisson's ratio from 0 on. The contact radius isn't
+/// in the descriptions: here `a^2 = R d`.
 ///
 /// Reference: M. R. W. Brake, *Int. J. Solids Struct.* 49 (2012) 3129-3141.
 #[derive(Clone, Copy, Debug, PartialEq)]

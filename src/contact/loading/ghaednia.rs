@@ -29,7 +29,8 @@ use libm::{exp, expm1, log, sqrt};
 /// physical meaning of the law, it keeps its value at `a = R` (1.0 S), with continuous slope, instead of rising again.
 ///
 /// The contact radius is continuous. Force jumps up by 0.44 % at `y = 1.9` (nu = 0.3), as published, and with
-/// [`Thornton`](crate::contact::unloading::Thornton)'s closure an impact that just yields gains energy: restitution up to 1.0035.
+/// [`Thornton`](crate::contact::unloading::Thornton)'s closure an impact that just yields gains energy: restitution up to 1.0044,
+/// for `nu = 0` up to 1.070. From `nu = 0.323` on the force jumps down, and no energy is gained.
 ///
 /// Reference: H. Ghaednia, M. R. W. Brake, M. Berryhill, R. L. Jackson, *J. Tribol.* 141 (2019) 031402.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -180,6 +181,13 @@ impl Loading for Ghaednia {
             Regime::ElastoplasticFirst
         } else {
             Regime::FullyPlastic
+        }
+    }
+
+    fn derived(&self, name: &str) -> Option<f64> {
+        match name {
+            "transition" => Some(JacksonGreen::REFERENCE.transition),
+            _ => None,
         }
     }
 }

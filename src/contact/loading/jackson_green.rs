@@ -20,7 +20,9 @@ use libm::{exp, pow, sqrt};
 /// but nothing shows up to 1.9, and until then the contact counts as elastic here.
 ///
 /// The contact radius is continuous. Force jumps up by 0.47 % at `y = 1.9` (nu = 0.3), as published, which needs no work: an
-/// unloading from just beyond may give back 0.47 % too much. The fit is for a deformable sphere under a rigid flat.
+/// unloading from just beyond may give back 0.47 % too much. From `nu = 0.323` on it jumps down; with the fitted dent
+/// [`Jackson`](crate::contact::unloading::Jackson), which jumps too, no energy is made from `nu = 0.02` on. The fit is for a
+/// deformable sphere under a rigid flat.
 ///
 /// Reference: R. L. Jackson, I. Green, *J. Tribol.* 127 (2005) 343-354.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -142,4 +142,12 @@ impl Loading for Johnson {
             Regime::FullyPlastic
         }
     }
+
+    fn derived(&self, name: &str) -> Option<f64> {
+        match name {
+            "second_region" => Some(self.borders().0),
+            "fully_plastic" => Some(self.borders().1),
+            _ => None,
+        }
+    }
 }

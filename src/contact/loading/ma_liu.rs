@@ -136,4 +136,13 @@ impl Loading for MaLiu {
             Regime::FullyPlastic
         }
     }
+
+    fn derived(&self, name: &str) -> Option<f64> {
+        match name {
+            "logarithmic_slope" => Some(self.logarithmic_slope()),
+            "plastic_force" => Some(self.mixed_force(self.fully_plastic)),
+            "plastic_slope" => Some(1.5 * self.slope_ratio()),
+            _ => None,
+        }
+    }
 }

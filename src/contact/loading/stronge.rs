@@ -120,4 +120,11 @@ impl Loading for Stronge {
             Regime::FullyPlastic
         }
     }
+
+    fn derived(&self, name: &str) -> Option<f64> {
+        match name {
+            "fully_plastic" => Some(self.fully_plastic()),
+            _ => None,
+        }
+    }
 }

@@ -153,4 +153,11 @@ impl Loading for ZhaoMaiettaChang {
             Regime::FullyPlastic
         }
     }
+
+    fn derived(&self, name: &str) -> Option<f64> {
+        match name {
+            "logarithmic_slope" => Some(self.logarithmic_slope()),
+            _ => None,
+        }
+    }
 }

@@ -3,31 +3,13 @@
 //! All are closures: from the point of the loading curve where the load begins to come off they give the elastic recovery
 //! `d_e = d_m - d_f`, and with it the whole path. Reloading follows the same path back.
 
-pub mod brinell;
-pub mod contact_radius;
-pub mod deformed_radius;
-pub mod etsion;
 pub mod guarded;
-pub mod hertz_shift;
-pub mod jackson;
-pub mod luding;
-pub mod original_radius;
-pub mod thornton;
-pub mod vu_quoc_zhang;
-pub mod walton_braun;
 
-pub use brinell::Brinell;
-pub use contact_radius::ContactRadius;
-pub use deformed_radius::DeformedRadius;
-pub use etsion::Etsion;
 pub use guarded::Guarded;
-pub use hertz_shift::HertzShift;
-pub use jackson::Jackson;
-pub use luding::Luding;
-pub use original_radius::OriginalRadius;
-pub use thornton::Thornton;
-pub use vu_quoc_zhang::VuQuocZhang;
-pub use walton_braun::WaltonBraun;
+
+// `pub mod contact_radius; pub use contact_radius::ContactRadius;` and so on, of every law in modelDescription/laws.toml; see
+// build/laws.rs
+include!(concat!(env!("OUT_DIR"), "/unloading_laws.rs"));
 
 use super::material::Pair;
 use super::segment::Segment;
@@ -127,143 +109,5 @@ fn straight(peak: &Peak, residual: f64) -> Segment {
         origin: residual,
         linear: peak.force / (peak.indentation - residual),
         ..Segment::NOTHING
-    }
-}
-
-/// An unloading law chosen while the program runs. The FMU doesn't need it: a scene names its law.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
-pub enum AnyUnloading {
-    /// See [`ContactRadius`].
-    ContactRadius(ContactRadius),
-    /// See [`Thornton`].
-    Thornton(Thornton),
-    /// See [`OriginalRadius`].
-    OriginalRadius(OriginalRadius),
-    /// See [`DeformedRadius`].
-    DeformedRadius(DeformedRadius),
-    /// See [`HertzShift`].
-    HertzShift(HertzShift),
-    /// See [`Brinell`].
-    Brinell(Brinell),
-    /// See [`WaltonBraun`].
-    WaltonBraun(WaltonBraun),
-    /// See [`Etsion`].
-    Etsion(Etsion),
-    /// See [`Jackson`].
-    Jackson(Jackson),
-    /// See [`VuQuocZhang`].
-    VuQuocZhang(VuQuocZhang),
-    /// See [`Luding`].
-    Luding(Luding),
-    /// See [`Guarded`].
-    GuardedContactRadius(Guarded<ContactRadius>),
-    /// See [`Guarded`].
-    GuardedThornton(Guarded<Thornton>),
-    /// See [`Guarded`].
-    GuardedOriginalRadius(Guarded<OriginalRadius>),
-    /// See [`Guarded`].
-    GuardedDeformedRadius(Guarded<DeformedRadius>),
-}
-
-impl AnyUnloading {
-    /// Every law under the name it has in a scene, with its reference constants.
-    pub const ALL: [(&'static str, AnyUnloading); 11] = [
-        ("contact-radius", AnyUnloading::ContactRadius(ContactRadius)),
-        ("thornton", AnyUnloading::Thornton(Thornton)),
-        ("original-radius", AnyUnloading::OriginalRadius(OriginalRadius)),
-        ("deformed-radius", AnyUnloading::DeformedRadius(DeformedRadius::REFERENCE)),
-        ("hertz-shift", AnyUnloading::HertzShift(HertzShift)),
-        ("brinell", AnyUnloading::Brinell(Brinell::REFERENCE)),
-        ("walton-braun", AnyUnloading::WaltonBraun(WaltonBraun::REFERENCE)),
-        ("etsion", AnyUnloading::Etsion(Etsion::REFERENCE)),
-        ("jackson", AnyUnloading::Jackson(Jackson::REFERENCE)),
-        ("vu-quoc-zhang", AnyUnloading::VuQuocZhang(VuQuocZhang::REFERENCE)),
-        ("luding", AnyUnloading::Luding(Luding::REFERENCE)),
-    ];
-}
-
-impl AnyUnloading {
-    /// The law with the passivity guard; none for a law that has no guarded form.
-    pub fn guarded(self) -> Option<AnyUnloading> {
-        match self {
-            AnyUnloading::ContactRadius(law) => Some(AnyUnloading::GuardedContactRadius(Guarded(law))),
-            AnyUnloading::Thornton(law) => Some(AnyUnloading::GuardedThornton(Guarded(law))),
-            AnyUnloading::OriginalRadius(law) => Some(AnyUnloading::GuardedOriginalRadius(Guarded(law))),
-            AnyUnloading::DeformedRadius(law) => Some(AnyUnloading::GuardedDeformedRadius(Guarded(law))),
-            _ => None,
-        }
-    }
-}
-
-impl Unloading for AnyUnloading {
-    // some are, some aren't; of those that are, the tangent and the work are the path's own
-    const SEGMENTED: bool = false;
-    const SQUARES: bool = true;
-
-    fn needs_work(&self) -> bool {
-        match self {
-            AnyUnloading::GuardedContactRadius(law) => law.needs_work(),
-            AnyUnloading::GuardedThornton(law) => law.needs_work(),
-            AnyUnloading::GuardedOriginalRadius(law) => law.needs_work(),
-            AnyUnloading::GuardedDeformedRadius(law) => law.needs_work(),
-            _ => false,
-        }
-    }
-
-    fn holds_back(&self, pair: &Pair, peak: &Peak) -> bool {
-        match self {
-            AnyUnloading::GuardedContactRadius(law) => law.holds_back(pair, peak),
-            AnyUnloading::GuardedThornton(law) => law.holds_back(pair, peak),
-            AnyUnloading::GuardedOriginalRadius(law) => law.holds_back(pair, peak),
-            AnyUnloading::GuardedDeformedRadius(law) => law.holds_back(pair, peak),
-            _ => false,
-        }
-    }
-
-    fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
-        match self {
-            AnyUnloading::ContactRadius(law) => law.path(pair, peak),
-            AnyUnloading::Thornton(law) => law.path(pair, peak),
-            AnyUnloading::OriginalRadius(law) => law.path(pair, peak),
-            AnyUnloading::DeformedRadius(law) => law.path(pair, peak),
-            AnyUnloading::HertzShift(law) => law.path(pair, peak),
-            AnyUnloading::Brinell(law) => law.path(pair, peak),
-            AnyUnloading::WaltonBraun(law) => law.path(pair, peak),
-            AnyUnloading::Etsion(law) => law.path(pair, peak),
-            AnyUnloading::Jackson(law) => law.path(pair, peak),
-            AnyUnloading::VuQuocZhang(law) => law.path(pair, peak),
-            AnyUnloading::Luding(law) => law.path(pair, peak),
-            AnyUnloading::GuardedContactRadius(law) => law.path(pair, peak),
-            AnyUnloading::GuardedThornton(law) => law.path(pair, peak),
-            AnyUnloading::GuardedOriginalRadius(law) => law.path(pair, peak),
-            AnyUnloading::GuardedDeformedRadius(law) => law.path(pair, peak),
-        }
-    }
-
-    fn contact_radius(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
-        match self {
-            AnyUnloading::Brinell(law) => law.contact_radius(pair, peak, path, indentation),
-            AnyUnloading::Etsion(law) => law.contact_radius(pair, peak, path, indentation),
-            AnyUnloading::VuQuocZhang(law) => law.contact_radius(pair, peak, path, indentation),
-            // the others have the radius of a Hertzian recovery
-            _ => ContactRadius.contact_radius(pair, peak, path, indentation),
-        }
-    }
-
-    fn tangent(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> Segment {
-        match self {
-            AnyUnloading::Etsion(law) => law.tangent(pair, peak, path, indentation),
-            AnyUnloading::VuQuocZhang(law) => law.tangent(pair, peak, path, indentation),
-            _ => *path,
-        }
-    }
-
-    fn work(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
-        match self {
-            AnyUnloading::Etsion(law) => law.work(pair, peak, path, indentation),
-            AnyUnloading::VuQuocZhang(law) => law.work(pair, peak, path, indentation),
-            _ => path.work(indentation),
-        }
     }
 }

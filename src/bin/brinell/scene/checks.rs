@@ -5,6 +5,7 @@ use super::file::{CouplingTable, File, ImpactTable};
 use super::laws;
 use super::{Mistake, Parameter, Scene};
 use crate::table::{self, Causality, VARIABLES};
+use brinell::contact::damped::Damped;
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::{AnyLoading, Hertz};
 use std::collections::HashSet;

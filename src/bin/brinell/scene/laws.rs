@@ -7,9 +7,10 @@ use super::{Mistake, Scene};
 use crate::law_check;
 use crate::laws;
 use crate::model::Dampings;
+use crate::pairing;
 use crate::parameters;
 use crate::table;
-use brinell::contact::damped::AnyDamped;
+use brinell::contact::damped::{AnyDamped, Damped};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use toml::Spanned;
@@ -101,7 +102,7 @@ pub fn check_unloading(
     let name = given.unloading.as_ref();
     let parameters = given.unloading_parameters.as_ref();
     let span = name.map_or(0..0, Spanned::span);
-    let asked = name.map_or(laws::default_unloading(loading), |name| name.get_ref().as_str());
+    let asked = name.map_or(pairing::default_unloading(loading), |name| name.get_ref().as_str());
     if elastic {
         let message = format!("law.unloading = \"{asked}\" has no meaning here: hertz unloads along the loading curve");
         return match (name, parameters) {
@@ -117,7 +118,7 @@ pub fn check_unloading(
         let names = AnyUnloading::ALL.iter().map(|(name, _)| *name);
         Mistake(span.clone(), unknown("law.unloading", asked, names))
     })?;
-    laws::check_pairing(loading, asked).map_err(|message| Mistake(span, message))?;
+    pairing::check(loading, asked).map_err(|message| Mistake(span, message))?;
     Ok(Some((law.0, parameters::apply(law.1, "law.unloading", parameters, table::unloading_law(law.0))?)))
 }
 
@@ -133,7 +134,7 @@ pub fn check_parameters(
     unloading: Option<&(&'static str, AnyUnloading)>,
 ) -> Result<(), Mistake> {
     let (Some(span), Some(unloading)) = (parameters_span(given), unloading) else { return Ok(()) };
-    laws::check_ties(*loading, *unloading).map_err(|message| Mistake(span, message))
+    pairing::check_ties(*loading, *unloading).map_err(|message| Mistake(span, message))
 }
 
 /// Refuses laws that the scene's constants have made useless on the bodies of `group`.

@@ -1,0 +1,239 @@
+//! Whether a law makes energy: whether what it has dissipated falls again when it is pressed in deeper.
+//!
+//! Where it does, an impact into the dent gives back more than it brought; where more than everything comes back, so does an
+//! impact on an untouched surface, with a restitution above 1. The table of laws says it of the published constants, for all
+//! bodies; tests hold it to that. Of other constants it is found by looking.
+
+use crate::scene::Scene;
+use crate::{laws, table};
+use brinell::contact::history::LARGEST_INDENTATION;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Loading, Model, Pair};
+
+/// Whether the unit of a scene can give back energy that nobody put in, whatever its settable parameters are set to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Energy {
+    /// What is dissipated never falls.
+    Passive,
+    /// The guard sees to it that a contact gives back no more than it took. What is dissipated may fall.
+    Guarded,
+    /// What is dissipated may fall.
+    MayBeMade {
+        /// The laws make none where Poisson's ratio of the target is not below this; none if they may always.
+        below_poissons_ratio: Option<f64>,
+    },
+}
+
+/// What the unit of `scene` can do.
+pub fn of(scene: &Scene) -> Energy {
+    // neither a rate-dependent law has one nor Hertz's
+    let Some((unloading, _)) = scene.unloading else { return Energy::Passive };
+    let below = if is_published(scene) { told(scene.loading.0, unloading) } else { found(scene) };
+    let lowest = (0..scene.contacts.len()).map(|group| lowest_poissons_ratio(scene, group)).fold(0.5, f64::min);
+    match below {
+        Below::Never => Energy::Passive,
+        Below::Ratio(below) if lowest >= below => Energy::Passive,
+        _ if scene.passivity_guard => Energy::Guarded,
+        Below::Ratio(below) => Energy::MayBeMade { below_poissons_ratio: Some(below) },
+        Below::Any => Energy::MayBeMade { below_poissons_ratio: None },
+    }
+}
+
+/// What the unit of `scene` can do, in words.
+pub fn words(scene: &Scene) -> String {
+    match of(scene) {
+        Energy::Passive => "Together these laws make no energy: dissipated energy never falls.".into(),
+        Energy::Guarded => {
+            "With the guard no contact gives back more than it took. Dissipated energy may fall all the same, \
+            where a deeper dent loses less."
+                .into()
+        }
+        Energy::MayBeMade { below_poissons_ratio } => {
+            let below = below_poissons_ratio.map(|ratio| format!(" below a Poisson's ratio of {ratio}"));
+            format!(
+                "Together these laws may make energy{}: dissipated energy may fall, and an impact on an untouched surface \
+                 may have a restitution above 1.{}",
+                below.unwrap_or_default(),
+                published_words(scene)
+            )
+        }
+    }
+}
+
+/// What the table says of the surplus of the laws of `scene`, if they are as published.
+fn published_words(scene: &Scene) -> String {
+    let law = table::loading_law(scene.loading.0);
+    let Some(energy) = law.energy.as_ref().filter(|_| is_published(scene)) else { return String::new() };
+    let partner = law.unloading.as_deref().unwrap_or("contact-radius");
+    let largest = match scene.unloading {
+        Some((unloading, _)) if unloading == partner => format!(
+            " The largest is {} ({} below a Poisson's ratio of 0).",
+            energy.restitution, energy.auxetic_restitution
+        ),
+        _ => String::new(),
+    };
+    format!("{largest} {}", energy.why)
+}
+
+/// Whether both laws of `scene` have their published constants.
+fn is_published(scene: &Scene) -> bool {
+    let (loading, unloading) = (scene.loading, scene.unloading);
+    laws::published(loading.0) == loading.1 && unloading.is_none_or(|unloading| AnyUnloading::ALL.contains(&unloading))
+}
+
+/// Below which Poisson's ratio laws may make energy.
+enum Below {
+    Never,
+    Ratio(f64),
+    Any,
+}
+
+/// What the table says of two laws.
+fn told(loading: &str, unloading: &str) -> Below {
+    let Some(energy) = &table::loading_law(loading).energy else { return Below::Never };
+    match energy.passive.iter().find(|passive| passive.unloading == unloading) {
+        Some(passive) => passive.from_poissons_ratio.map_or(Below::Never, Below::Ratio),
+        None => Below::Any,
+    }
+}
+
+/// From which Poisson's ratio of the target on two laws make no energy with their published constants, where they do below.
+pub fn passive_from(loading: &str, unloading: &str) -> Option<f64> {
+    match told(loading, unloading) {
+        Below::Ratio(ratio) => Some(ratio),
+        Below::Never | Below::Any => None,
+    }
+}
+
+/// What is found of the laws of `scene` on bodies that its unit can have.
+fn found(scene: &Scene) -> Below {
+    let everywhere = table::loading_law(scene.loading.0).depends_on_modulus_ratio;
+    let unloading = scene.unloading.expect("a law that yields").1;
+    let mut looked_at = Vec::new();
+    for group in 0..scene.contacts.len() {
+        let model = Model { unloading, ..scene.model_of(group) };
+        let settable = |names: &[&str]| names.iter().any(|name| is_settable(scene, group, name));
+        let one = |value: f64| (value, value);
+        let Pair { poissons_ratio, modulus, yield_strength, .. } = model.pair;
+        let ratios = if settable(&["target.poissons_ratio"]) { POISSONS_RATIO } else { one(poissons_ratio) };
+        let moduli = match modulus / yield_strength {
+            _ if !everywhere => one(ANY_MODULUS_RATIO),
+            _ if settable(&STIFFNESS) => MODULUS_RATIO,
+            own => one(own),
+        };
+        if looked_at.contains(&(ratios, moduli)) {
+            continue;
+        }
+        if bodies(&model.pair, ratios, moduli).any(|pair| balance(&Model { pair, ..model }).falls) {
+            return Below::Any;
+        }
+        looked_at.push((ratios, moduli));
+    }
+    Below::Never
+}
+
+/// The parameters that `E*/S` follows.
+const STIFFNESS: [&str; 4] =
+    ["target.youngs_modulus", "target.yield_strength", "impactor.youngs_modulus", "impactor.poissons_ratio"];
+
+fn is_settable(scene: &Scene, group: usize, name: &str) -> bool {
+    let mut all = scene.contacts[group].own.iter().chain(&scene.parameters);
+    all.find(|parameter| parameter.name == name).is_some_and(|parameter| parameter.settable)
+}
+
+/// The lowest Poisson's ratio that the target of `group` can have.
+fn lowest_poissons_ratio(scene: &Scene, group: usize) -> f64 {
+    const NAME: &str = "target.poissons_ratio";
+    let value = scene.group_value(group, NAME).unwrap_or(POISSONS_RATIO.0);
+    if is_settable(scene, group, NAME) { POISSONS_RATIO.0 } else { value }
+}
+
+/// Poisson's ratios that a unit takes.
+pub const POISSONS_RATIO: (f64, f64) = (-0.99, 0.5);
+
+/// `E*/S` that are looked at: far beyond every metal, on both sides.
+pub const MODULUS_RATIO: (f64, f64) = (1.0, 1e9);
+
+/// An `E*/S` for laws whose normalised curve is the same for all.
+pub const ANY_MODULUS_RATIO: f64 = 1e3;
+
+/// Bodies of the size and modulus of `pair`, over ranges of Poisson's ratio and `E*/S`; a rigid impactor.
+pub fn bodies(pair: &Pair, poissons_ratio: (f64, f64), modulus_ratio: (f64, f64)) -> impl Iterator<Item = Pair> {
+    const STEPS: u32 = 8;
+    let steps = |(low, high): (f64, f64)| 0..=if low == high { 0 } else { STEPS };
+    let part = |step: u32| f64::from(step) / f64::from(STEPS);
+    let pair = *pair;
+    steps(poissons_ratio).flat_map(move |first| {
+        let ratio = poissons_ratio.0 + (poissons_ratio.1 - poissons_ratio.0) * part(first);
+        steps(modulus_ratio).map(move |second| {
+            let modulus_ratio = modulus_ratio.0 * (modulus_ratio.1 / modulus_ratio.0).powf(part(second));
+            Pair {
+                yield_strength: pair.modulus / modulus_ratio,
+                youngs_modulus: pair.modulus * (1.0 - ratio * ratio),
+                poissons_ratio: ratio,
+                ..pair
+            }
+        })
+    })
+}
+
+/// What two laws do with energy on some bodies.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Balance {
+    /// Of an impact on an untouched surface.
+    pub largest_restitution: f64,
+    /// Whether what is dissipated falls somewhere as the largest indentation grows.
+    pub falls: bool,
+}
+
+impl Balance {
+    /// Of all bodies together.
+    pub fn and(self, other: Balance) -> Balance {
+        Balance {
+            largest_restitution: self.largest_restitution.max(other.largest_restitution),
+            falls: self.falls || other.falls,
+        }
+    }
+}
+
+/// A surplus up to this part of the work is rounding, and that of integrals.
+const ROUNDING: f64 = 1e-10;
+
+/// Mean pressure over the yield strength at the depth that is the unit of the looked-at range.
+const UNIT_PRESSURE_FACTOR: f64 = 1.1;
+
+/// The energy of unloadings from everywhere on the loading curve, as far as the law can be evaluated.
+pub fn balance(model: &Model<AnyLoading, AnyUnloading>) -> Balance {
+    let mut balance = Balance::default();
+    let (mut before, mut work, mut most_lost) = (0.0, 0.0, 0.0f64);
+    for depth in depths(model) {
+        // an integral goes on from the depth before
+        let more = model.loading.work_between(&model.pair, before, depth);
+        work = more.map_or_else(|| model.loading.work(&model.pair, depth), |more| work + more);
+        let recovered = model.recovered_work(depth, depth);
+        if !(work.is_finite() && recovered.is_finite()) {
+            break;
+        }
+        let lost = work - recovered;
+        balance.falls |= lost < most_lost - ROUNDING * work;
+        balance.largest_restitution = balance.largest_restitution.max((recovered / work).sqrt());
+        most_lost = most_lost.max(lost);
+        before = depth;
+    }
+    balance
+}
+
+/// Rising depths [m]: over the decades around yield, and close to the corners of the law, on both sides.
+fn depths(model: &Model<AnyLoading, AnyUnloading>) -> Vec<f64> {
+    let unit = model.pair.yield_point(UNIT_PRESSURE_FACTOR).indentation;
+    let mut depths: Vec<f64> = (0..=420).map(|step| unit * 10f64.powf(f64::from(step) / 60.0 - 2.0)).collect();
+    let mut corner = model.loading.next_corner(&model.pair, 0.0);
+    while corner < LARGEST_INDENTATION {
+        let near = (0..24).map(|step| 10f64.powf(f64::from(step) / 3.0 - 8.5));
+        depths.extend(near.flat_map(|part| [corner * (1.0 - part), corner * (1.0 + part)]).chain([corner]));
+        corner = model.loading.next_corner(&model.pair, corner);
+    }
+    depths.sort_by(f64::total_cmp);
+    depths
+}

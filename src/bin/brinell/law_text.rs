@@ -1,0 +1,77 @@
+//! What people are told of a law: the texts of the table, in which `{name}` is a number of the law itself.
+
+use crate::laws;
+use crate::numbers::significant;
+use crate::parameters::numbers_of;
+use crate::table::{self, Law};
+use brinell::contact::Loading;
+use brinell::contact::damped::AnyDamped;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use serde::Serialize;
+
+/// The texts of a law with its numbers.
+pub struct LawText {
+    pub law: &'static Law,
+    /// With the constants that the law has.
+    pub formulas: Vec<String>,
+    /// About the law with its reference constants.
+    pub notes: String,
+    /// As the notes.
+    pub validity: String,
+    /// Whether the law has its reference constants.
+    pub is_published: bool,
+}
+
+/// What is said of the loading law `name` with the constants of `law`.
+pub fn loading(name: &str, law: &AnyLoading) -> LawText {
+    let published = laws::published(name);
+    text(table::loading_law(name), law, &published, |law, name| law.derived(name))
+}
+
+/// What is said of the unloading law `name` with the constants of `law`.
+pub fn unloading(name: &str, law: &AnyUnloading) -> LawText {
+    let published = AnyUnloading::ALL.into_iter().find(|(known, _)| *known == name);
+    text(table::unloading_law(name), law, &published.expect("a law of the table").1, |_, _| None)
+}
+
+/// What is said of the rate-dependent law `name` with the constants of `law`.
+pub fn damped(name: &str, law: &AnyDamped) -> LawText {
+    let published = AnyDamped::ALL.into_iter().find(|(known, _)| *known == name);
+    text(table::damped_law(name), law, &published.expect("a law of the table").1, |_, _| None)
+}
+
+/// The texts of `told`; `derived` finds the numbers that are no constants.
+fn text<L: Serialize + PartialEq>(
+    told: &'static Law,
+    law: &L,
+    published: &L,
+    derived: impl Fn(&L, &str) -> Option<f64>,
+) -> LawText {
+    let fill = |text: &str, law: &L| {
+        filled(text, |name| {
+            let numbers = numbers_of(law, name).or_else(|| Some(vec![derived(law, name)?]));
+            numbers.unwrap_or_else(|| panic!("laws.toml: the law {} has no number {name}", told.name))
+        })
+    };
+    LawText {
+        law: told,
+        formulas: told.formulas.iter().map(|formula| fill(formula, law)).collect(),
+        notes: fill(&told.notes, published),
+        validity: fill(&told.validity, published),
+        is_published: law == published,
+    }
+}
+
+/// `text` with the numbers in place of their names in braces, to five digits; a list of numbers is separated by commas.
+fn filled(text: &str, numbers: impl Fn(&str) -> Vec<f64>) -> String {
+    let mut parts = text.split('{');
+    let mut result = parts.next().unwrap_or_default().to_string();
+    for part in parts {
+        let (name, rest) = part.split_once('}').expect("laws.toml closes its braces");
+        let numbers: Vec<_> = numbers(name).into_iter().map(|number| significant(number, 5)).collect();
+        result += &numbers.join(", ");
+        result += rest;
+    }
+    result
+}

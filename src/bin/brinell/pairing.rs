@@ -1,0 +1,69 @@
+//! Which loading and unloading laws make sense together, and with which constants: as the table of laws says.
+
+use crate::laws::published;
+use crate::parameters::value_of;
+use crate::table;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+
+/// The unloading law of a scene that names none: "contact-radius", where it can be.
+pub fn default_unloading(loading: &str) -> &'static str {
+    let law = table::loading_law(loading);
+    law.unloading.as_deref().filter(|_| law.no_other_unloading.is_some()).unwrap_or("contact-radius")
+}
+
+/// Refuses two laws that don't make sense together.
+///
+/// # Errors
+/// Why they don't, and what does.
+pub fn check(loading: &str, unloading: &str) -> Result<(), String> {
+    let (one, other) = (table::loading_law(loading), table::unloading_law(unloading));
+    let pair = format!("law.loading = \"{loading}\" doesn't go with law.unloading = \"{unloading}\"");
+    if let (Some(own), Some(why)) = (&one.unloading, &one.no_other_unloading)
+        && own != unloading
+    {
+        return Err(format!("{pair}: {why}, and unloads by \"{own}\""));
+    }
+    if one.above_hertz && other.lowers_hertz {
+        return Err(format!("{pair}: its curve is above Hertz's in places, which can't be lowered to it"));
+    }
+    match &other.made_for {
+        Some(made) if made.loading != loading => {
+            Err(format!("{pair}: that {} the loading law \"{}\"", made.because, made.loading))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses two laws by `(name, law)` whose constants contradict each other.
+///
+/// # Errors
+/// What must be the same, or stay as published.
+pub fn check_ties(
+    (loading_name, loading): (&str, AnyLoading),
+    (unloading_name, unloading): (&str, AnyUnloading),
+) -> Result<(), String> {
+    let made_for = table::unloading_law(unloading_name).made_for.as_ref();
+    let Some(made) = made_for.filter(|made| made.loading == loading_name) else { return Ok(()) };
+    for name in &made.same {
+        let (one, other) = (value_of(&loading, name), value_of(&unloading, name));
+        if one != other {
+            return Err(format!(
+                "`{name}` must be the same in law.loading_parameters ({:?}) and law.unloading_parameters ({:?})",
+                one.unwrap_or(f64::NAN),
+                other.unwrap_or(f64::NAN)
+            ));
+        }
+    }
+    for name in &made.as_published {
+        let (one, published) = (value_of(&loading, name), value_of(&published(loading_name), name));
+        if one != published {
+            return Err(format!(
+                "law.unloading = \"{unloading_name}\" counts in the units of \"{loading_name}\" as published: with it \
+                 `{name}` must be {:?}",
+                published.unwrap_or(f64::NAN)
+            ));
+        }
+    }
+    Ok(())
+}

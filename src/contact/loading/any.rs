@@ -1,0 +1,48 @@
+//! Every loading law in one type.
+
+use super::*;
+
+// the enum, the list of its laws by name, and the way to each; see build/laws.rs
+include!(concat!(env!("OUT_DIR"), "/any_loading.rs"));
+
+impl Loading for AnyLoading {
+    fn yield_point(&self, pair: &Pair) -> YieldPoint {
+        self.law().yield_point(pair)
+    }
+
+    fn can_yield(&self) -> bool {
+        self.law().can_yield()
+    }
+
+    fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
+        self.law().segment(pair, indentation)
+    }
+
+    fn is_segmented(&self) -> bool {
+        self.law().is_segmented()
+    }
+
+    fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.law().next_corner(pair, indentation)
+    }
+
+    fn work(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.law().work(pair, indentation)
+    }
+
+    fn work_between(&self, pair: &Pair, low: f64, high: f64) -> Option<f64> {
+        self.law().work_between(pair, low, high)
+    }
+
+    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.law().contact_radius(pair, indentation)
+    }
+
+    fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
+        self.law().regime(pair, indentation)
+    }
+
+    fn derived(&self, name: &str) -> Option<f64> {
+        self.law().derived(name)
+    }
+}

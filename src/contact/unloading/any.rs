@@ -1,0 +1,72 @@
+//! Every unloading law in one type.
+
+use super::*;
+
+// the enum, the list of its laws by name, and the way to each; see build/laws.rs
+include!(concat!(env!("OUT_DIR"), "/any_unloading.rs"));
+
+/// [`Unloading`] without its constants, which a law behind a pointer can't have.
+trait DynUnloading {
+    fn needs_work(&self) -> bool;
+    fn holds_back(&self, pair: &Pair, peak: &Peak) -> bool;
+    fn path(&self, pair: &Pair, peak: &Peak) -> Segment;
+    fn tangent(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> Segment;
+    fn contact_radius(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64;
+    fn work(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64;
+}
+
+impl<U: Unloading> DynUnloading for U {
+    fn needs_work(&self) -> bool {
+        Unloading::needs_work(self)
+    }
+
+    fn holds_back(&self, pair: &Pair, peak: &Peak) -> bool {
+        Unloading::holds_back(self, pair, peak)
+    }
+
+    fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
+        Unloading::path(self, pair, peak)
+    }
+
+    fn tangent(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> Segment {
+        Unloading::tangent(self, pair, peak, path, indentation)
+    }
+
+    fn contact_radius(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
+        Unloading::contact_radius(self, pair, peak, path, indentation)
+    }
+
+    fn work(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
+        Unloading::work(self, pair, peak, path, indentation)
+    }
+}
+
+impl Unloading for AnyUnloading {
+    // some are, some aren't; of those that are, the tangent and the work are the path's own
+    const SEGMENTED: bool = false;
+    const SQUARES: bool = true;
+
+    fn needs_work(&self) -> bool {
+        self.law().needs_work()
+    }
+
+    fn holds_back(&self, pair: &Pair, peak: &Peak) -> bool {
+        self.law().holds_back(pair, peak)
+    }
+
+    fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
+        self.law().path(pair, peak)
+    }
+
+    fn tangent(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> Segment {
+        self.law().tangent(pair, peak, path, indentation)
+    }
+
+    fn contact_radius(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
+        self.law().contact_radius(pair, peak, path, indentation)
+    }
+
+    fn work(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
+        self.law().work(pair, peak, path, indentation)
+    }
+}

@@ -1,0 +1,242 @@
+//! Whether a law makes energy: the table of laws says it for all bodies that a unit takes.
+
+#[path = "support/command.rs"]
+mod command;
+#[path = "support/physics.rs"]
+mod physics;
+
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Loading, Model, Pair, Surface};
+use command::{empty_folder, run};
+use physics::laws::{entries, entry, text};
+use physics::{AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit};
+use std::fs;
+
+/// A surplus up to this part of the work is rounding, and that of integrals.
+const ROUNDING: f64 = 1e-10;
+
+/// Rising indentations [m] from far below yield to far beyond it, and on both sides of each corner.
+fn indentations(model: &AnyModel) -> Vec<f64> {
+    let d_y = unit(&model.pair).indentation;
+    let mut points: Vec<f64> = logarithmic(1e-2 * d_y, 1e5 * d_y, 250).collect();
+    for corner in corners(model) {
+        let near = logarithmic(1e-9, 0.5, 30).flat_map(|part| [corner * (1.0 - part), corner * (1.0 + part)]);
+        points.extend(near.chain([corner.next_down(), corner, corner.next_up()]));
+    }
+    points.sort_by(f64::total_cmp);
+    points
+}
+
+/// The loading of a law on some bodies: indentations [m] with the work up to there [J], as far as the law goes.
+struct Loaded {
+    pair: Pair,
+    loading: AnyLoading,
+    points: Vec<(f64, f64)>,
+}
+
+/// What comes back of it.
+#[derive(Debug)]
+struct Returned {
+    largest_restitution: f64,
+    /// How far what is lost falls again, over the work.
+    fall: f64,
+}
+
+impl Loaded {
+    fn new(loading: AnyLoading, pair: Pair) -> Loaded {
+        let model = Model { pair, loading, unloading: AnyUnloading::ALL[0].1, surface: Surface::Dented };
+        let points = indentations(&model).into_iter().map(|depth| (depth, loading.work(&pair, depth)));
+        Loaded { pair, loading, points: points.take_while(|(_, work)| work.is_finite()).collect() }
+    }
+
+    fn returned(&self, unloading: AnyUnloading) -> Returned {
+        let model = Model { pair: self.pair, loading: self.loading, unloading, surface: Surface::Dented };
+        let mut most_lost = 0.0f64;
+        let mut returned = Returned { largest_restitution: 0.0, fall: 0.0 };
+        for &(depth, work) in &self.points {
+            let recovered = model.recovered_work(depth, depth);
+            let lost = work - recovered;
+            returned.largest_restitution = returned.largest_restitution.max((recovered / work).sqrt());
+            returned.fall = returned.fall.max((most_lost - lost) / work);
+            most_lost = most_lost.max(lost);
+        }
+        returned
+    }
+}
+
+/// The unloading laws with which a loading law makes sense.
+fn partners(loading: &str) -> impl Iterator<Item = (&'static str, AnyUnloading)> {
+    AnyUnloading::ALL.into_iter().filter(move |(unloading, _)| belong_together(loading, unloading))
+}
+
+#[test]
+fn laws_that_are_said_to_be_passive_are_it_for_any_bodies() {
+    let mut random = Random(2005);
+    let (mut passive, mut others) = (0, 0);
+    for (name, loading) in AnyLoading::ALL {
+        for _ in 0..40 {
+            let loaded = Loaded::new(loading, random_bodies(&mut random));
+            for (unloading_name, unloading) in partners(name) {
+                if passive_from(name, unloading_name).is_none_or(|from| loaded.pair.poissons_ratio < from) {
+                    others += 1;
+                    continue;
+                }
+                let Returned { largest_restitution, fall } = loaded.returned(unloading);
+                let what = format!("{name} with {unloading_name}, {:?}", loaded.pair);
+                assert!(largest_restitution <= 1.0 + ROUNDING, "{what}: restitution {largest_restitution}");
+                assert!(fall <= ROUNDING, "{what}: dissipated energy falls by {fall:e} of the work");
+                passive += 1;
+            }
+        }
+    }
+    assert!(passive > 2000 && others > 500, "{passive} and {others}");
+}
+
+#[test]
+fn laws_that_are_not_said_to_be_passive_make_energy_below_where_they_are() {
+    for (name, loading) in AnyLoading::ALL {
+        for (unloading_name, unloading) in partners(name) {
+            let from = passive_from(name, unloading_name).unwrap_or(0.5);
+            if from <= -0.99 {
+                continue;
+            }
+            // so that the border is no further off than 0.02
+            let makes_energy = [3.0, 1e3].into_iter().any(|modulus_ratio| {
+                let pair = pair_of(0.005, 2e11, 2e11 / modulus_ratio);
+                let loaded = Loaded::new(loading, Pair { poissons_ratio: from - 0.02, ..pair });
+                loaded.returned(unloading).fall > 1e-6
+            });
+            assert!(makes_energy, "{name} with {unloading_name} makes no energy below nu = {from}");
+        }
+    }
+}
+
+#[test]
+fn the_largest_restitution_with_the_own_unloading_law_is_the_one_that_is_said() {
+    let mut random = Random(1997);
+    for (name, loading) in AnyLoading::ALL {
+        let law = entry("loading", name);
+        let Some(energy) = law.get("energy").map(|energy| energy.as_table().unwrap()) else { continue };
+        let own = if text(law, "unloading").is_empty() { "contact-radius" } else { text(law, "unloading") };
+        let unloading = physics::unloading(own);
+        for (key, low, high) in [("restitution", 0.0, 0.5), ("auxetic_restitution", -0.99, -1e-9)] {
+            let said = energy[key].as_float().unwrap();
+            let mut largest = 0.0f64;
+            // the worst is at an end of the range, or nearly, for some of the moduli
+            for step in 0..24 {
+                let poissons_ratio = if step % 2 == 0 { low } else { low + (high - low) * random.next() };
+                let pair = Pair { poissons_ratio, ..random_bodies(&mut random) };
+                largest = largest.max(Loaded::new(loading, pair).returned(unloading).largest_restitution);
+            }
+            // three decimals, and what lies between the indentations that are looked at
+            assert!((largest - said).abs() < 1e-3, "{name} with {own}, {key}: {largest}, not {said}");
+        }
+    }
+}
+
+/// What the documentation of a unit says of energy, for a scene with these lines under `[law]`.
+fn said(law: &str, parameters: &str) -> String {
+    let folder = empty_folder();
+    let scene = format!(
+        "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[law]\n{law}\n\
+         [fmu]\nparameters = {parameters}\n"
+    );
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+    let mut unit = zip::ZipArchive::new(fs::File::open(folder.path().join("unit.fmu")).unwrap()).unwrap();
+    let page = std::io::read_to_string(unit.by_name("documentation/index.html").unwrap()).unwrap();
+    let paragraph = page.split("<p>").find(|paragraph| paragraph.contains("issipated energy"));
+    paragraph.unwrap_or_else(|| panic!("nothing of energy in {page}")).split("</p>").next().unwrap().to_string()
+}
+
+#[test]
+fn a_unit_says_whether_its_law_may_make_energy_with_any_value_of_its_parameters() {
+    let none = "make no energy: dissipated energy never falls";
+    // law, settable parameters, what is said
+    let cases = [
+        ("loading = \"big-alabo\"", "[]", none),
+        ("loading = \"stronge\"", "[]", "may make energy: dissipated energy may fall"),
+        ("loading = \"stronge\"", "[]", "The largest is 1.154 (1.154 below"),
+        ("loading = \"stronge\"\nunloading = \"walton-braun\"", "[]", none),
+        (
+            "loading = \"stronge\"\npassivity_guard = true",
+            "[]",
+            "With the guard no contact gives back more than it took",
+        ),
+        // steel has 0.3; a unit whose Poisson's ratio can be set is another matter
+        ("loading = \"jackson-green\"\nunloading = \"jackson\"", "[\"target.yield_strength\"]", none),
+        (
+            "loading = \"jackson-green\"\nunloading = \"jackson\"",
+            "[\"target.poissons_ratio\"]",
+            "may make energy below a Poisson's ratio of 0.02",
+        ),
+        // constants of the scene's own
+        ("loading = \"big-alabo\"\nloading_parameters = { fully_plastic = 80.0 }", "[]", none),
+        ("loading = \"power\"\nloading_parameters = { coefficient = 2.5 }", "[]", "may make energy"),
+        (
+            "loading = \"jackson-green\"\nloading_parameters = { hardness_factor = 2.9 }",
+            "[\"impactor.radius\"]",
+            "may make energy",
+        ),
+    ];
+    for (law, parameters, words) in cases {
+        let said = said(law, parameters);
+        assert!(said.contains(words), "{law} with {parameters}: {said}");
+    }
+}
+
+#[test]
+fn laws_are_listed_with_what_was_measured_of_them() {
+    let folder = empty_folder();
+    let list = run(folder.path(), ["laws", "--json"]).with_status(0).json();
+    for law in list["loading"].as_array().unwrap() {
+        let (name, unloading) = (law["name"].as_str().unwrap(), law["unloading"].as_str().unwrap());
+        let from = passive_from(name, unloading);
+        assert_eq!(law["passive"], from == Some(-1.0), "{law}");
+        assert_eq!(law["passive_from_poissons_ratio"].as_f64(), from.filter(|from| *from > -1.0), "{law}");
+        let Some(energy) = entry("loading", name).get("energy") else {
+            assert!(law["largest_restitution"].as_f64().unwrap() <= 1.0 + ROUNDING, "{law}");
+            continue;
+        };
+        for (measured, said) in
+            [("largest_restitution", "restitution"), ("largest_auxetic_restitution", "auxetic_restitution")]
+        {
+            let (measured, said) = (law[measured].as_f64().unwrap(), energy[said].as_float().unwrap());
+            assert!((measured - said).abs() < 1e-3, "{name}: {measured}, not {said}");
+        }
+    }
+    assert_eq!(list["loading"].as_array().unwrap().len(), entries("loading").count());
+}
+
+/// A row of the README's table, as `brinell laws` measures it.
+fn row(law: &serde_json::Value) -> String {
+    let number = |key: &str| law[key].as_f64().unwrap();
+    let word = |key: &str| law[key].as_str().unwrap();
+    let worst_at: f64 = format!("{:.2e}", number("worst_at")).parse().unwrap();
+    let jump = match number("largest_jump") {
+        0.0 => "none".into(),
+        jump => format!("{:+.1} %", 100.0 * jump),
+    };
+    let below = law["passive_from_poissons_ratio"].as_f64().map(|ratio| format!(" for nu < {ratio}"));
+    let energy = match law["passive"].as_bool().unwrap() {
+        true => "passive".into(),
+        false => format!("restitution up to {:.3}{}", number("largest_restitution"), below.unwrap_or_default()),
+    };
+    let (name, unloading) = (word("name"), word("unloading"));
+    let (worst, rms) = (100.0 * number("worst_error"), 100.0 * number("rms_error"));
+    format!("| `{name}` | {worst:+.1} % at {worst_at} d_y | {rms:.1} % | {jump} | {energy} (with `{unloading}`) |")
+}
+
+#[test]
+fn the_rows_of_the_readme_are_those_that_are_measured() {
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    let list = run(empty_folder().path(), ["laws", "--json"]).with_status(0).json();
+    let rows: Vec<String> = list["loading"].as_array().unwrap().iter().map(row).collect();
+    let table = readme.lines().skip_while(|line| !line.starts_with("| law | worst error"));
+    let shown: Vec<&str> = table.skip(2).take_while(|line| line.starts_with('|')).collect();
+    assert!(shown.len() >= 19, "{shown:?}");
+    for line in shown {
+        assert!(rows.iter().any(|row| row == line), "{line}\nis not measured; rather\n{}", rows.join("\n"));
+    }
+}
