@@ -1,6 +1,7 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
 use crate::guard;
+use crate::html::{TEXT_STYLE, begin, escape};
 use crate::interface::{Entry, experiment, prediction};
 use crate::numbers::digits;
 use crate::parameters::{self, Constant};
@@ -9,15 +10,6 @@ use crate::scene::Scene;
 use crate::table::{self, Causality};
 use crate::validity;
 use std::fmt::Write;
-
-const STYLE: &str = "\
-:root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 50rem; margin: 0 auto; padding: 1rem; }
-table { border-collapse: collapse; display: block; overflow-x: auto; }
-th, td { text-align: left; padding: .25rem .75rem .25rem 0; border-bottom: 1px solid #8886; vertical-align: top; }
-td.n { text-align: right; white-space: nowrap; }
-figure { margin: 1rem 0; } svg { max-width: 100%; height: auto; background: #fff; }
-code { font-size: .95em; }";
 
 /// The page of the scene's unit with the variables `entries`.
 pub fn write(scene: &Scene, entries: &[Entry]) -> String {
@@ -28,11 +20,7 @@ pub fn write(scene: &Scene, entries: &[Entry]) -> String {
 
 fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result {
     let (name, description) = (escape(&scene.name), escape(&scene.description));
-    writeln!(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>")?;
-    writeln!(
-        page,
-        "<meta name=\"viewport\" content=\"width=device-width\">\n<style>\n{STYLE}\n</style>\n</head>\n<body>"
-    )?;
+    begin(page, &name, TEXT_STYLE)?;
     writeln!(page, "<h1>{name}</h1>\n<p>{description}</p>")?;
     writeln!(
         page,
@@ -184,11 +172,6 @@ fn constants(page: &mut String, scene: &Scene) -> std::fmt::Result {
         writeln!(page, "<tr><td><code>{}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>", parameter.name)?;
     }
     writeln!(page, "</table>")
-}
-
-/// `text` as HTML has it.
-pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// Force against indentation over the scene's impact.

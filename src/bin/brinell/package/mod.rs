@@ -2,14 +2,15 @@
 
 mod library;
 
+use crate::files::{FileError, write_whole};
 use crate::interface::{Entry, entries};
+use crate::platform::{self, NoPlatform, Platform};
 use crate::scene::Scene;
 use crate::symbols::{self, SymbolError};
 use crate::{constants, documentation, model_description};
 use sha2::{Digest, Sha256};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::{env, fs, io};
 use zip::CompressionMethod;
 use zip::write::SimpleFileOptions;
 
@@ -22,8 +23,8 @@ const ICON: &[u8] = include_bytes!("../../../../modelDescription/model.png");
 /// A unit that couldn't be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    #[error("{path}: {source}", path = path.display())]
-    File { path: PathBuf, source: io::Error },
+    #[error("{0}")]
+    File(#[from] FileError),
     #[error("cargo can't be started ({0}): exporting needs a Rust toolchain on PATH, see rustup.rs")]
     NoCargo(io::Error),
     #[error("cargo didn't build the library:\n{0}")]
@@ -32,8 +33,8 @@ pub enum ExportError {
     Symbols(#[from] SymbolError),
     #[error("the archive can't be written: {0}")]
     Zip(#[from] zip::result::ZipError),
-    #[error("units for {0} can't be made here: FMI 2.0 has no folder for this platform")]
-    Platform(String),
+    #[error("{0}")]
+    Platform(#[from] NoPlatform),
 }
 
 /// What was exported.
@@ -47,24 +48,12 @@ pub struct Exported {
     pub imports: Vec<String>,
 }
 
-/// Folder of the binaries for this machine, and how libraries are called there.
-pub fn platform() -> Result<(&'static str, &'static str), ExportError> {
-    match (env::consts::OS, env::consts::ARCH) {
-        ("linux", "x86_64") => Ok(("linux64", "so")),
-        ("linux", "aarch64") => Ok(("aarch64-linux", "so")),
-        ("windows", "x86_64") => Ok(("win64", "dll")),
-        ("macos", "x86_64") => Ok(("darwin64", "dylib")),
-        ("macos", "aarch64") => Ok(("aarch64-darwin", "dylib")),
-        (os, arch) => Err(ExportError::Platform(format!("{os} on {arch}"))),
-    }
-}
-
 /// Builds the unit of `scene` and writes it to `path`, which is replaced only when everything has gone well.
 ///
 /// # Errors
 /// [`ExportError`]; nothing is then written.
 pub fn export(scene: &Scene, path: &Path) -> Result<Exported, ExportError> {
-    let (folder, extension) = platform()?;
+    let Platform { folder, extension } = platform::here()?;
     let entries = entries(scene);
     let guid = identification(scene, &entries);
     let library = library::build(scene, &constants::write(scene, &entries, &guid), &guid)?;
@@ -110,23 +99,4 @@ fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
         archive.write_all(bytes).map_err(zip::result::ZipError::from)?;
     }
     Ok(archive.finish()?.into_inner())
-}
-
-/// Writes beside the goal and renames, so that no half of a unit is ever found there.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    let file_error = |source| ExportError::File { path: path.into(), source };
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let mut file = tempfile::Builder::new().prefix(".brinell-").tempfile_in(folder).map_err(file_error)?;
-    file.write_all(bytes).map_err(file_error)?;
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let readable = fs::Permissions::from_mode(0o644);
-        fs::set_permissions(file.path(), readable).map_err(file_error)?;
-    }
-    file.persist(path).map_err(|error| file_error(error.error))?;
-    Ok(())
 }

@@ -1,8 +1,9 @@
 //! `brinell predict`: what an impact will do, by energy balance, and the same turned round.
 
-pub mod inverse;
-pub mod page;
-pub mod rebound;
+pub mod command;
+mod inverse;
+mod page;
+mod rebound;
 pub mod sweep;
 
 use crate::laws::Choice;

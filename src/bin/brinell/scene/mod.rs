@@ -15,6 +15,8 @@ use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, Model, Pair, Surface};
 use std::path::{Path, PathBuf};
 
+const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
+
 /// A scene that has been checked.
 #[derive(Debug)]
 pub struct Scene {
@@ -81,6 +83,14 @@ pub enum SceneError {
 pub struct Mistake(pub std::ops::Range<usize>, pub String);
 
 impl Scene {
+    /// The scene of a program that was told of none.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn default_scene() -> Result<Scene, SceneError> {
+        Scene::parse(DEFAULT_SCENE.into(), Path::new("scenes/steel_ball.toml"))
+    }
+
     /// Reads and checks the scene at `path`.
     ///
     /// # Errors
