@@ -6,7 +6,7 @@ use crate::laws::{self, Choice};
 use crate::model::AnyModel;
 use crate::plot::{Picture, Series};
 use crate::scene::Scene;
-use crate::{interface, predict, truth};
+use crate::{predict, truth};
 use brinell::contact::damped::{self, AnyDamped, Damped};
 use brinell::contact::impact::Impact;
 use brinell::contact::{History, Loading, TooDeep};
@@ -21,8 +21,7 @@ const POINTS: u32 = 200;
 pub fn run(arguments: &CurveArguments) -> Result<(), Box<dyn Error>> {
     let scene = Scene::read(&arguments.scene)?;
     let choices = laws::choose(&scene, &arguments.laws)?;
-    let predicted = || interface::prediction(&scene).max_indentation;
-    let largest = predict::positive("to", arguments.to.unwrap_or_else(predicted))?;
+    let largest = predict::positive("to", arguments.to.unwrap_or(scene.predictions[0].max_indentation))?;
     let output = arguments.output.as_deref();
     let picture = ending(output, &["csv", "svg"])? == "svg";
     let impact = &scene.impact;

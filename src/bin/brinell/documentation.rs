@@ -1,24 +1,23 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
-use crate::guard;
 use crate::html::{TEXT_STYLE, begin, escape};
-use crate::interface::{Entry, experiment, prediction};
+use crate::interface::Entry;
 use crate::numbers::digits;
 use crate::parameters::{self, Constant};
+use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
-use crate::scene::Scene;
 use crate::table::{self, Causality};
-use crate::validity;
 use std::fmt::Write;
 
-/// The page of the scene's unit with the variables `entries`.
-pub fn write(scene: &Scene, entries: &[Entry]) -> String {
+/// The page of the planned unit.
+pub fn write(plan: &Plan) -> String {
     let mut page = String::new();
-    body(&mut page, scene, entries).expect("a String takes everything");
+    body(&mut page, plan).expect("a String takes everything");
     page
 }
 
-fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result {
+fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
+    let scene = plan.scene;
     let (name, description) = (escape(&scene.name), escape(&scene.description));
     begin(page, &name, TEXT_STYLE)?;
     writeln!(page, "<h1>{name}</h1>\n<p>{description}</p>")?;
@@ -30,8 +29,8 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
         if scene.damped.is_some() { " The force follows the rate at the same instant." } else { "" }
     )?;
     writeln!(page, "<h2>The scene&#8217;s impact</h2>")?;
-    impact(page, scene)?;
-    writeln!(page, "<figure>\n{}</figure>", curve(scene))?;
+    impact(page, plan)?;
+    writeln!(page, "<figure>\n{}</figure>", curve(plan))?;
     writeln!(page, "<h2>Law</h2>")?;
     if let Some((name, damped)) = scene.damped {
         let told = table::damped_law(name);
@@ -47,18 +46,18 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
         law(page, "Unloading and reloading", told)?;
         law_constants(page, &parameters::constants(&unloading, told))?;
     }
-    if let Some(words) = guard::words(scene) {
+    if let Some(guard) = &plan.guard {
         writeln!(
             page,
             "<h3>Passivity guard</h3>\n<ul>\n<li><code>d_e &lt;= 2.5 W/F_m</code></li>\n</ul>\n<p>Unloading gives back no \
              more than loading took: where it would, the elastic recovery is shortened and the dent deeper than the \
              law says. The guard {}. When it first acts this is logged (category logStatusWarning).</p>",
-            escape(&words)
+            escape(&guard.words())
         )?;
     }
     writeln!(page, "<h2>Variables</h2>")?;
-    variables(page, entries)?;
-    constants(page, scene)?;
+    variables(page, &plan.variables)?;
+    constants(page, &plan.constants)?;
     writeln!(
         page,
         "<p>Brinell {}. Licenses: <a href=\"licenses/license.txt\">license.txt</a></p>",
@@ -68,9 +67,9 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
 }
 
 /// What the energy balance says of the impact, and which step suits it.
-fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
-    let prediction = prediction(scene);
-    let experiment = experiment(scene);
+fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
+    let Plan { scene, experiment, .. } = plan;
+    let prediction = plan.prediction();
     let assumed = if scene.impact_is_assumed { " (the scene names none; a solid steel ball is assumed)" } else { "" };
     writeln!(
         page,
@@ -79,8 +78,7 @@ fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
         scene.impact.speed,
         scene.any_model().method()
     )?;
-    let (model, density) = (scene.any_model(), scene.contacts[0].density);
-    let stiffness = model.stiffness(prediction.max_indentation);
+    let stiffness = scene.any_model().stiffness(prediction.max_indentation);
     let rows = [
         ("Largest force", prediction.max_force, "N"),
         ("Largest indentation", prediction.max_indentation, "m"),
@@ -95,13 +93,13 @@ fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
         writeln!(page, "<tr><td>{quantity}</td><td class=\"n\">{}</td><td>{unit}</td></tr>", digits(value))?;
     }
     writeln!(page, "</table>")?;
-    for warning in validity::warnings(&model.pair(), density, &prediction, scene.impact.speed) {
+    for warning in &plan.warnings {
         writeln!(page, "<p><strong>Beyond the validity of the law:</strong> {warning}.</p>")?;
     }
     writeln!(
         page,
         "<p>The law is valid {}. A simulation that leaves this goes on, and it is logged once (category logStatusWarning).</p>",
-        validity::limits(&model.pair(), density, model.valid_depth())
+        plan.valid
     )
 }
 
@@ -160,24 +158,24 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
 }
 
 /// The parameters that can't be set in this unit.
-fn constants(page: &mut String, scene: &Scene) -> std::fmt::Result {
-    let constants: Vec<_> = scene.parameters.iter().filter(|parameter| !parameter.settable).collect();
+fn constants(page: &mut String, constants: &[plan::Constant]) -> std::fmt::Result {
     if constants.is_empty() {
         return Ok(());
     }
     writeln!(page, "<p>Constants of this unit:</p>\n<table>")?;
-    for parameter in constants {
-        let unit = table::variable(parameter.name).unit.as_deref().unwrap_or("");
-        let value = digits(parameter.value);
-        writeln!(page, "<tr><td><code>{}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>", parameter.name)?;
+    for plan::Constant { name, value, unit, .. } in constants {
+        let value = digits(*value);
+        writeln!(page, "<tr><td><code>{name}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>")?;
     }
     writeln!(page, "</table>")
 }
 
 /// Force against indentation over the scene's impact.
-fn curve(scene: &Scene) -> String {
+fn curve(plan: &Plan) -> String {
+    let scene = plan.scene;
     let micrometres = |points: Vec<(f64, f64)>| points.into_iter().map(|(d, force)| (1e6 * d, force)).collect();
-    let branches = scene.any_model().branches(&scene.impact).expect("a checked scene has a prediction");
+    let branches =
+        scene.any_model().branches(&scene.impact, plan.prediction()).expect("a checked scene has a prediction");
     let named = branches.into_iter().zip(["loading", "unloading"]);
     let series = named.map(|(points, label)| Series { label: label.into(), points: micrometres(points), dots: false });
     let picture = Picture {

@@ -1,6 +1,7 @@
 //! `brinell export`: builds the unit of a scene and says what is in it.
 
 use crate::package::{self, ExportError};
+use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::summary::Summary;
 use std::path::{Path, PathBuf};
@@ -9,8 +10,9 @@ use std::path::{Path, PathBuf};
 pub fn run(scene: &Scene, output: Option<&Path>, as_json: bool) -> Result<PathBuf, ExportError> {
     let path = output.map_or_else(|| format!("{}.fmu", scene.name).into(), Path::to_path_buf);
     eprintln!("building {} ...", path.display());
-    let exported = package::export(scene, &path)?;
-    let summary = Summary::of(scene);
+    let plan = Plan::of(scene);
+    let exported = package::export(&plan, &path)?;
+    let summary = Summary::of(&plan);
     if as_json {
         println!("{}", summary.json(&exported));
     } else {

@@ -1,11 +1,9 @@
 //! The variables that a scene's unit has, in order: the one list from which XML, constants and documentation are made.
 
+use crate::nominal;
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, Follows, VARIABLES, Variable};
 use brinell::contact::damped::Damped;
-use brinell::contact::impact::Prediction;
-use std::collections::HashMap;
-use std::f64::consts::PI;
 
 /// Variables of one kind: that of each contact of a group, or a parameter. Value references count them all in the order of the
 /// list, and so do the places in the model description.
@@ -58,8 +56,7 @@ pub fn entries(scene: &Scene) -> Vec<Entry<'_>> {
     };
     let kinds: Vec<_> = VARIABLES.iter().filter(shown).collect();
     let parameters = Parameters::of(scene, kinds.len() * scene.contact_count());
-    let mut nominals = Nominals::default();
-    let nominals: Vec<_> = (0..scene.contacts.len()).map(|group| nominals.of(scene, group)).collect();
+    let nominals = nominal::of(scene);
     // a damping that waits for the first touch is none before the first step
     let damped_from_the_start = scene.damped.is_some_and(|(_, law)| !law.scaled_by_touch());
     let mut entries = Vec::new();
@@ -142,88 +139,4 @@ impl<'a> Parameters<'a> {
         all.sort_by_key(|settable| settable.reference);
         all.into_iter().map(|settable| settable.reference).collect()
     }
-}
-
-/// What the scene's impact will do to its first contact.
-pub fn prediction(scene: &Scene) -> Prediction {
-    prediction_of(scene, 0)
-}
-
-/// What the scene's impact will do to the contacts of `group`.
-fn prediction_of(scene: &Scene, group: usize) -> Prediction {
-    scene.any_model_of(group).predict(&scene.impact).expect("a checked scene has a prediction")
-}
-
-/// The typical sizes of bodies that have been seen: many groups may be alike.
-#[derive(Default)]
-struct Nominals(HashMap<Vec<(&'static str, u64)>, Nominal>);
-
-/// Typical sizes, for solvers that scale by them.
-#[derive(Clone, Copy)]
-struct Nominal {
-    prediction: Prediction,
-    stiffness: f64,
-    /// Of the scene's impact [m/s].
-    speed: f64,
-}
-
-impl Nominals {
-    fn of(&mut self, scene: &Scene, group: usize) -> Nominal {
-        let bodies = scene.contacts[group].own.iter().map(|own| (own.name, own.value.to_bits())).collect();
-        *self.0.entry(bodies).or_insert_with(|| {
-            let prediction = prediction_of(scene, group);
-            let stiffness = scene.any_model_of(group).stiffness(prediction.max_indentation);
-            Nominal { prediction, stiffness, speed: scene.impact.speed }
-        })
-    }
-}
-
-impl Nominal {
-    fn get(&self, variable: &Variable) -> Option<f64> {
-        let Prediction { max_force, max_indentation, max_contact_radius, energy, .. } = self.prediction;
-        let size = match variable.nominal_from.as_deref()? {
-            "max_force" => max_force,
-            "max_indentation" => max_indentation,
-            "max_contact_radius" => max_contact_radius,
-            "max_mean_pressure" => max_force / (PI * max_contact_radius * max_contact_radius),
-            "max_stiffness" => self.stiffness,
-            "energy" => energy,
-            "momentum" => 2.0 * energy / self.speed,
-            other => unreachable!("variables.toml names the nominal size {other}, which nobody computes"),
-        };
-        Some(one_digit(size, f64::round))
-    }
-}
-
-/// `value` > 0 with one significant digit, its mantissa rounded by `round`.
-pub fn one_digit(value: f64, round: fn(f64) -> f64) -> f64 {
-    let exponent = value.log10().floor() as i32;
-    let mantissa = round(value / 10f64.powi(exponent));
-    // through text, so that the result is the number that a person would write
-    format!("{mantissa}e{exponent}").parse().expect("a number and an exponent")
-}
-
-/// Step and stop time that suit the scene.
-pub struct Experiment {
-    /// [s]
-    pub step: f64,
-    /// [s]
-    pub stop: f64,
-}
-
-/// How many steps of a contact the suggested step makes: of the default scene's impact the restitution is then right to 2 % if
-/// the force comes a step late, and to 1e-5 by leap-frog.
-const STEPS_PER_CONTACT: f64 = 256.0;
-
-/// Step and stop time that suit the scene's impact: the contact takes 256 steps, and ends before the stop.
-pub fn experiment(scene: &Scene) -> Experiment {
-    let contact_time = prediction(scene).contact_time();
-    let step = one_digit(contact_time / STEPS_PER_CONTACT, |mantissa| match mantissa {
-        m if m >= 5.0 => 5.0,
-        m if m >= 2.0 => 2.0,
-        _ => 1.0,
-    });
-    let gap = scene.group_value(0, "initial_gap").unwrap_or(0.0).max(0.0);
-    let stop = one_digit(2.0 * contact_time + gap / scene.impact.speed, f64::ceil);
-    Experiment { step, stop }
 }

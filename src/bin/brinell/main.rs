@@ -18,9 +18,11 @@ mod laws;
 mod materials;
 mod model;
 mod model_description;
+mod nominal;
 mod numbers;
 mod package;
 mod parameters;
+mod plan;
 mod platform;
 mod plot;
 mod predict;
@@ -34,6 +36,7 @@ mod validity;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
+use plan::Plan;
 use scene::Scene;
 use std::error::Error;
 use std::process::ExitCode;
@@ -80,8 +83,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Laws { output }) => law_list::run(output.as_deref(), json)?,
         Some(Command::Materials) => materials::run(json),
         Some(Command::Constants { scene }) => {
-            let scene = Scene::read(scene)?;
-            print!("{}", constants::write(&scene, &interface::entries(&scene), "unpacked"));
+            print!("{}", constants::write(&Plan::of(&Scene::read(scene)?), "unpacked"));
         }
     }
     Ok(true)

@@ -4,12 +4,13 @@ mod groups;
 mod parameters;
 mod variables;
 
-use crate::interface::Entry;
+use crate::plan::Plan;
 use crate::scene::Scene;
 use brinell::contact::damped::AnyDamped;
 
-/// The constants of `scene` with the variables `entries`, under the identification `guid`.
-pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
+/// The constants of the planned unit, under the identification `guid`.
+pub fn write(plan: &Plan, guid: &str) -> String {
+    let (scene, entries) = (plan.scene, plan.variables.as_slice());
     let mut text = String::from(HEAD);
     let uses = if scene.damped.is_some() { "self, Pair, damped" } else { "self, Pair, Surface, loading, unloading" };
     let several = parameters::differing(scene).next().is_some();
@@ -33,12 +34,12 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
         };
         let value = value_of(law).replace("damping_factor: ", &format!("damping_factor: {path}"));
         add_law(&mut text, "Law", "LAW", "damped", &value);
-        add_guard(&mut text, scene);
+        add_guard(&mut text, plan);
         add(&mut text, DAMPED_MODEL);
     } else {
         add_law(&mut text, "Loading", "LOADING", "loading", &loading);
         add_law(&mut text, "Unloading", "UNLOADING", "unloading", &unloading);
-        add_guard(&mut text, scene);
+        add_guard(&mut text, plan);
         groups::add_surface(&mut text, scene);
         add(&mut text, MODEL);
     }
@@ -150,8 +151,8 @@ fn add_coupling(text: &mut String, scene: &Scene) {
     );
 }
 
-fn add_guard(text: &mut String, scene: &Scene) {
-    let guard = crate::guard::words(scene).map(|words| format!("the passivity guard {words}"));
+fn add_guard(text: &mut String, plan: &Plan) {
+    let guard = plan.guard.as_ref().map(|guard| format!("the passivity guard {}", guard.words()));
     let guard = format!("pub const GUARD: Option<&str> = {guard:?};\n");
     add(text, &format!("/// Where the passivity guard acts, if there is one.\n{guard}"));
 }

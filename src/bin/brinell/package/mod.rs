@@ -3,9 +3,8 @@
 mod library;
 
 use crate::files::{FileError, write_whole};
-use crate::interface::{Entry, entries};
+use crate::plan::Plan;
 use crate::platform::{self, NoPlatform, Platform};
-use crate::scene::Scene;
 use crate::symbols::{self, SymbolError};
 use crate::{constants, documentation, model_description};
 use sha2::{Digest, Sha256};
@@ -38,6 +37,7 @@ pub enum ExportError {
 }
 
 /// What was exported.
+#[derive(Default)]
 pub struct Exported {
     pub path: PathBuf,
     pub guid: String,
@@ -48,19 +48,18 @@ pub struct Exported {
     pub imports: Vec<String>,
 }
 
-/// Builds the unit of `scene` and writes it to `path`, which is replaced only when everything has gone well.
+/// Builds the planned unit and writes it to `path`, which is replaced only when everything has gone well.
 ///
 /// # Errors
 /// [`ExportError`]; nothing is then written.
-pub fn export(scene: &Scene, path: &Path) -> Result<Exported, ExportError> {
+pub fn export(plan: &Plan, path: &Path) -> Result<Exported, ExportError> {
     let Platform { folder, extension } = platform::here()?;
-    let entries = entries(scene);
-    let guid = identification(scene, &entries);
-    let library = library::build(scene, &constants::write(scene, &entries, &guid), &guid)?;
+    let scene = plan.scene;
+    let Identified { guid, description, constants } = Identified::of(plan);
+    let library = library::build(scene, &constants, &guid)?;
     let imports = symbols::check(&library)?;
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
-    let page = documentation::write(scene, &entries);
-    let description = model_description::write(scene, &entries, &guid);
+    let page = documentation::write(plan);
     let files: [(String, &[u8]); 6] = [
         ("modelDescription.xml".into(), description.as_bytes()),
         ("model.png".into(), ICON),
@@ -74,16 +73,35 @@ pub fn export(scene: &Scene, path: &Path) -> Result<Exported, ExportError> {
     Ok(Exported { path: path.into(), guid, size: archive.len(), library_size: library.len(), imports })
 }
 
-/// Hash of all that the unit is made of: description, constants, source of the library.
-fn identification(scene: &Scene, entries: &[Entry]) -> String {
-    let mut hash = Sha256::new();
-    hash.update(model_description::write(scene, entries, ""));
-    hash.update(constants::write(scene, entries, ""));
-    for (name, text) in LIBRARY_SOURCE {
-        hash.update(name);
-        hash.update(text);
+/// The two texts that the unit recognises itself by, and what they have in common.
+struct Identified {
+    guid: String,
+    description: String,
+    constants: String,
+}
+
+/// What stands for the GUID until it is known. In quotes it can't be in any other place: those of a scene's texts are written
+/// as `&quot;` and `\"`.
+const GUID_TO_COME: &str = "GUID to come";
+
+impl Identified {
+    /// The GUID is a hash of all that the unit is made of: description, constants, source of the library.
+    fn of(plan: &Plan) -> Identified {
+        let description = model_description::write(plan, GUID_TO_COME);
+        let constants = constants::write(plan, GUID_TO_COME);
+        let mut hash = Sha256::new();
+        hash.update(&description);
+        hash.update(&constants);
+        for (name, text) in LIBRARY_SOURCE {
+            hash.update(name);
+            hash.update(text);
+        }
+        let guid: String = hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect();
+        let quoted = |text: &str| format!("\"{text}\"");
+        let identified = |text: String| text.replacen(&quoted(GUID_TO_COME), &quoted(&guid), 1);
+        let (description, constants) = (identified(description), identified(constants));
+        Identified { guid, description, constants }
     }
-    hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The files as a zip archive: the same bytes for the same files.

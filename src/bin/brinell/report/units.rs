@@ -7,6 +7,7 @@ use super::ways::{Needs, WAYS, Way};
 use crate::files::FileError;
 use crate::importer::{Archive, ImportError, Unit};
 use crate::package;
+use crate::plan::Plan;
 use crate::scene::Scene;
 
 /// The units, loaded.
@@ -50,7 +51,7 @@ impl Units {
         for (needs, name) in kinds(scene) {
             progress.say(&format!("building {name}"));
             let path = folder.path().join("unit.fmu");
-            package::export(&unit::first_contact(scene, needs), &path)?;
+            package::export(&Plan::of(&unit::first_contact(scene, needs)), &path)?;
             let archive = Archive::open(&path)?;
             loaded.push(Loaded { needs, unit: archive.load()?, archive });
             progress.done(Work::Building);

@@ -9,7 +9,7 @@ use brinell::contact::impact::Impact;
 use brinell::contact::loading::{AnyLoading, Hertz};
 use std::collections::HashSet;
 use std::f64::consts::PI;
-use std::ops::{Range, RangeInclusive};
+use std::ops::RangeInclusive;
 use toml::Spanned;
 
 /// The scene of `file`, without its text.
@@ -63,6 +63,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         yield_strength,
         knows_mass,
         impact,
+        predictions: Vec::new(),
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),
     };
@@ -71,8 +72,12 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         let of_contact = |Mistake(span, message)| Mistake(span, contacts.said(group, &message));
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
         laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
-        check_depth(&scene, group, file.impact.as_ref().map_or(0..0, Spanned::span)).map_err(of_contact)?;
     }
+    let span = file.impact.as_ref().map_or(0..0, Spanned::span);
+    let no_prediction = |group| Mistake(span.clone(), contacts.said(group, &too_hard(&scene)));
+    let predictions = scene.by_bodies(|group| scene.any_model_of(group).predict(&scene.impact)).into_iter().enumerate();
+    let predictions = predictions.map(|(group, prediction)| prediction.ok_or_else(|| no_prediction(group)));
+    scene.predictions = predictions.collect::<Result<_, _>>()?;
     Ok(scene)
 }
 
@@ -147,18 +152,14 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
     Err(Mistake(socket.span(), message))
 }
 
-/// Refuses an impact beyond what the law can be evaluated for.
-fn check_depth(scene: &Scene, group: usize, span: Range<usize>) -> Result<(), Mistake> {
-    if scene.any_model_of(group).predict(&scene.impact).is_some() {
-        return Ok(());
-    }
+/// What is said of an impact beyond what the law can be evaluated for.
+fn too_hard(scene: &Scene) -> String {
     let Impact { mass, speed } = scene.impact;
     let what = match scene.damped {
         None => "drives the bodies deeper than the law can be evaluated",
         Some(_) => "drives the bodies deeper than the law can be evaluated, or is damped so much that it has no end",
     };
-    let message = format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}");
-    Err(Mistake(span, message))
+    format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}")
 }
 
 /// What there is instead of a name that was asked for.

@@ -1,5 +1,6 @@
 //! The scene file: what is in contact, by which laws, and what the unit shows of it.
 
+mod bodies;
 mod checks;
 mod contacts;
 mod file;
@@ -9,10 +10,10 @@ pub use checks::unknown;
 
 use crate::model::AnyModel;
 use brinell::contact::damped::{self, AnyDamped};
-use brinell::contact::impact::Impact;
+use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, Model, Pair, Surface};
+use brinell::contact::{Model, Surface};
 use std::path::{Path, PathBuf};
 
 const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
@@ -41,6 +42,8 @@ pub struct Scene {
     /// The unit moves the bodies through a step by their mass.
     pub knows_mass: bool,
     pub impact: Impact,
+    /// What the impact will do to the contacts of each group.
+    pub predictions: Vec<Prediction>,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
     pub impact_is_assumed: bool,
     /// The file as it is.
@@ -136,23 +139,6 @@ impl Scene {
     /// How many contacts the unit has.
     pub fn contact_count(&self) -> usize {
         self.contacts.iter().map(Group::len).sum()
-    }
-
-    /// The bodies of the contacts of `group`; none if they don't fit.
-    fn pair_of(&self, group: usize) -> Option<Pair> {
-        let value = |name| self.group_value(group, name);
-        let impactor = Body {
-            radius: value("impactor.radius").unwrap_or(f64::NAN),
-            youngs_modulus: value("impactor.youngs_modulus").unwrap_or(f64::INFINITY),
-            poissons_ratio: value("impactor.poissons_ratio").unwrap_or(0.0),
-        };
-        let target = Body {
-            radius: value("target.radius").unwrap_or(f64::INFINITY),
-            youngs_modulus: value("target.youngs_modulus").unwrap_or(f64::NAN),
-            poissons_ratio: value("target.poissons_ratio").unwrap_or(f64::NAN),
-        };
-        let strength = value("target.yield_strength").unwrap_or(f64::INFINITY);
-        Pair::new(&impactor, &target, strength)
     }
 
     /// The first contact as the physics sees it.
