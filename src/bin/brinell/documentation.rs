@@ -6,6 +6,7 @@ use crate::numbers::digits;
 use crate::parameters::{self, Constant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
+use crate::scene::Scene;
 use crate::table::{self, Causality};
 use std::fmt::Write;
 
@@ -24,9 +25,8 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(
         page,
         "<p>FMI 2.0 co-simulation unit of the normal contact of a sphere and a half-space: the closing speed of the \
-         bodies goes in, the contact force comes out. The rate is held over a step, and the law is followed exactly: the \
-         result doesn't depend on how time is cut.{}</p>",
-        if scene.damped.is_some() { " The force follows the rate at the same instant." } else { "" }
+         bodies goes in, the contact force comes out. {}</p>",
+        coupling(scene)
     )?;
     writeln!(page, "<h2>The scene&#8217;s impact</h2>")?;
     impact(page, plan)?;
@@ -46,6 +46,13 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
         law(page, "Unloading and reloading", told)?;
         law_constants(page, &parameters::constants(&unloading, told))?;
     }
+    if plan.makes_energy {
+        writeln!(
+            page,
+            "<p><strong>These laws can give back more than they took</strong>, on bodies that the parameters of this unit \
+             allow: <code>dissipated_energy</code> then falls, and may be negative.</p>"
+        )?;
+    }
     if let Some(guard) = &plan.guard {
         writeln!(
             page,
@@ -64,6 +71,25 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
         env!("CARGO_PKG_VERSION")
     )?;
     writeln!(page, "</body>\n</html>")
+}
+
+/// How the unit and its master work together.
+fn coupling(scene: &Scene) -> &'static str {
+    if scene.knows_mass {
+        "The unit knows the mass that the contact force accelerates, <code>effective_mass</code>, and moves the bodies through \
+         each step itself. Before a step set <code>indentation_rate</code> to the closing speed of the bodies at its start, and \
+         its first input derivative to the acceleration by all other forces, such as gravity \
+         (<code>fmi2SetRealInputDerivatives</code>, for every step anew; without it they have none during the step). After the \
+         step apply <code>mean_force</code> to the bodies over that step: they end it with the speed that the unit has found, \
+         however short an impact was within it. <code>force</code> and the other outputs are those at the end of the step."
+    } else if scene.damped.is_some() {
+        "The rate is held over a step, and the law is followed exactly: the result doesn't depend on how time is cut. The \
+         force follows the rate at the same instant: set the rate again before the force is read, or solve that loop."
+    } else {
+        "The rate is held over a step, or is a polynomial in time if its first and second derivative are set \
+         (<code>fmi2SetRealInputDerivatives</code>, for one step). The law is followed exactly: the result doesn't depend on how \
+         time is cut."
+    }
 }
 
 /// What the energy balance says of the impact, and which step suits it.
@@ -134,7 +160,7 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
         "<table>\n<tr><th>Name</th><th></th><th>Start</th><th>Allowed</th><th>Unit</th><th>Meaning</th></tr>"
     )?;
     for entry in entries {
-        let Entry { variable, start, .. } = entry;
+        let Entry { variable, description, start, .. } = entry;
         let causality = match variable.causality {
             Causality::Input => "input",
             Causality::Output => "output",
@@ -151,7 +177,7 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
             "<tr><td><code>{}</code></td><td>{causality}</td><td class=\"n\">{start}</td><td class=\"n\">{allowed}</td>\
              <td>{unit}</td><td>{}</td></tr>",
             entry.label(),
-            escape(&variable.description)
+            escape(description)
         )?;
     }
     writeln!(page, "</table>")

@@ -2,13 +2,15 @@
 
 use crate::nominal;
 use crate::scene::{Group, Parameter, Scene};
-use crate::table::{self, Causality, Follows, VARIABLES, Variable};
+use crate::table::{self, Causality, Follows, Kind, VARIABLES, Variable};
 use brinell::contact::damped::Damped;
 
 /// Variables of one kind: that of each contact of a group, or a parameter. Value references count them all in the order of the
 /// list, and so do the places in the model description.
 pub struct Entry<'a> {
     pub variable: &'static Variable,
+    /// What is said of it in this unit.
+    pub description: &'static str,
     /// The group that it belongs to; none for a parameter of all contacts.
     pub group: Option<&'a Group>,
     /// Value reference of the first.
@@ -21,8 +23,8 @@ pub struct Entry<'a> {
     pub dependencies: Vec<usize>,
     /// Reference of the input that the first one follows at the same instant, the second one the next, and so on.
     pub follows: Option<usize>,
-    /// Whether they follow it before the first step, too.
-    pub follows_from_the_start: bool,
+    /// The same before the first step.
+    pub follows_at_start: Option<usize>,
     pub nominal: Option<f64>,
 }
 
@@ -47,41 +49,40 @@ impl Entry<'_> {
     }
 }
 
-/// The variables of the scene's unit.
-pub fn entries(scene: &Scene) -> Vec<Entry<'_>> {
+/// The variables of the scene's unit, which is of these `kinds`.
+pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     let shown = |variable: &&'static Variable| match variable.causality {
         Causality::Input => true,
         Causality::Output => variable.name == "force" || scene.outputs.contains(&variable.name),
         Causality::Parameter => false,
     };
-    let kinds: Vec<_> = VARIABLES.iter().filter(shown).collect();
-    let parameters = Parameters::of(scene, kinds.len() * scene.contact_count());
+    let shown: Vec<_> = VARIABLES.iter().filter(shown).collect();
+    let parameters = Parameters::of(scene, shown.len() * scene.contact_count());
     let nominals = nominal::of(scene);
-    // a damping that waits for the first touch is none before the first step
-    let damped_from_the_start = scene.damped.is_some_and(|(_, law)| !law.scaled_by_touch());
     let mut entries = Vec::new();
     let mut reference = 0;
-    for variable in kinds {
+    for variable in shown {
         let mut first = 0;
+        let follows = follows(variable, scene);
+        let follows_at_start = follows && is_damped_at_start(variable, scene);
+        let is_listed = |name: &str| variable.depends_on.iter().any(|other| other == "*" || other == name);
+        let depends = |name: &str| match name {
+            // all that it makes is the damping
+            "restitution" => follows_at_start,
+            "effective_mass" => follows_at_start || is_listed(name) && elastic_part_follows_mass(scene),
+            _ => is_listed(name),
+        };
         for (index, group) in scene.contacts.iter().enumerate() {
-            let depends = |name: &str| {
-                (damped_from_the_start || !["restitution", "effective_mass"].contains(&name))
-                    && variable.depends_on.iter().any(|other| other == "*" || other == name)
-            };
-            let follows = match variable.follows_rate {
-                Follows::Never => false,
-                Follows::WithLaw => scene.damped.is_some(),
-                Follows::Always => true,
-            };
             entries.push(Entry {
                 variable,
+                description: variable.description(kinds),
                 group: Some(group),
                 reference,
                 count: group.len(),
                 start: (variable.causality == Causality::Input).then_some(0.0),
                 dependencies: parameters.of_group(index, depends),
                 follows: follows.then_some(first),
-                follows_from_the_start: damped_from_the_start,
+                follows_at_start: follows_at_start.then_some(first),
                 nominal: nominals[index].get(variable),
             });
             reference += group.len();
@@ -90,16 +91,39 @@ pub fn entries(scene: &Scene) -> Vec<Entry<'_>> {
     }
     entries.extend(parameters.0.iter().map(|settable| Entry {
         variable: table::variable(settable.parameter.name),
+        description: table::variable(settable.parameter.name).description(kinds),
         group: settable.group.map(|group| &scene.contacts[group]),
         reference: settable.reference,
         count: 1,
         start: Some(settable.parameter.value),
         dependencies: Vec::new(),
         follows: None,
-        follows_from_the_start: false,
+        follows_at_start: None,
         nominal: None,
     }));
     entries
+}
+
+/// Whether `variable` follows the rate at the same instant.
+fn follows(variable: &Variable, scene: &Scene) -> bool {
+    match variable.follows_rate {
+        Follows::Never => false,
+        Follows::WithLaw => scene.damped.is_some(),
+        Follows::Always => true,
+    }
+}
+
+/// Whether `variable`, which follows the rate, has to do with the damping of the law before the first step. A damping that waits
+/// for the first touch is none then; the next step begins with the touch.
+fn is_damped_at_start(variable: &Variable, scene: &Scene) -> bool {
+    let looks_ahead = variable.follows_rate == Follows::Always;
+    scene.damped.is_some_and(|(_, law)| looks_ahead || !law.scaled_by_touch())
+}
+
+/// Whether the elastic part of a rate-dependent law is made for the mass, too.
+fn elastic_part_follows_mass(scene: &Scene) -> bool {
+    let pair = scene.model().pair;
+    scene.damped.is_some_and(|(_, law)| law.factors(&pair, 0.5, 1.0).elastic != law.factors(&pair, 0.5, 2.0).elastic)
 }
 
 /// A parameter that can be set.

@@ -6,6 +6,7 @@ mod check;
 mod constants;
 mod curve;
 mod documentation;
+mod energy;
 mod export;
 mod files;
 mod guard;

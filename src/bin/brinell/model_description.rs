@@ -73,7 +73,7 @@ fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
-        ("providesDirectionalDerivative", "false"),
+        ("providesDirectionalDerivative", "true"),
     ];
     xml.create_element("CoSimulation").with_attributes(attributes).write_empty()?;
     Ok(())
@@ -131,7 +131,7 @@ fn scalar_variable(xml: &mut Xml, entry: &Entry, index: usize) -> io::Result<()>
     let attributes = [
         ("name", name.as_str()),
         ("valueReference", &reference),
-        ("description", &variable.description),
+        ("description", entry.description),
         ("causality", causality),
         ("variability", variability),
         ("initial", initial),
@@ -170,7 +170,7 @@ fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
         })?;
         xml.create_element("InitialUnknowns").write_inner_content(|xml| {
             for (entry, index) in outputs() {
-                let input = entry.follows.filter(|_| entry.follows_from_the_start).map(|first| first + index);
+                let input = entry.follows_at_start.map(|first| first + index);
                 unknown(xml, entry.reference + index, input, &entry.dependencies)?;
             }
             Ok(())

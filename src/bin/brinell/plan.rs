@@ -1,10 +1,11 @@
 //! All that the files of a unit are made from, found once: model description, constants, documentation and summary say the same.
 
+use crate::energy::{self, Losses};
 use crate::guard::Guard;
 use crate::interface::{Entry, entries};
 use crate::nominal::{Experiment, experiment};
 use crate::scene::{Group, Parameter, Scene};
-use crate::table;
+use crate::table::{self, Kind};
 use crate::validity;
 use brinell::contact::impact::Prediction;
 
@@ -15,6 +16,8 @@ pub struct Plan<'a> {
     pub variables: Vec<Entry<'a>>,
     /// The parameters that can't be set.
     pub constants: Vec<Constant>,
+    /// Whether its laws can give back more than they took.
+    pub makes_energy: bool,
     /// Step and stop time that suit the scene.
     pub experiment: Experiment,
     /// Where the passivity guard acts, if the scene has one.
@@ -39,10 +42,12 @@ impl Plan<'_> {
     /// The plan of the unit of `scene`.
     pub fn of(scene: &Scene) -> Plan<'_> {
         let (model, density) = (scene.any_model(), scene.contacts[0].density);
+        let losses = energy::losses(scene);
         Plan {
             scene,
-            variables: entries(scene),
+            variables: entries(scene, &kinds(scene, losses)),
             constants: constants(scene),
+            makes_energy: losses == Losses::BelowZero,
             experiment: experiment(scene),
             guard: Guard::of(scene),
             warnings: validity::warnings(&model.pair(), density, &scene.predictions[0], scene.impact.speed),
@@ -54,6 +59,17 @@ impl Plan<'_> {
     pub fn prediction(&self) -> &Prediction {
         &self.scene.predictions[0]
     }
+}
+
+/// The kinds of unit that the unit of `scene`, whose laws have these `losses`, is one of.
+fn kinds(scene: &Scene, losses: Losses) -> Vec<Kind> {
+    let kinds = [
+        (Kind::RateDependent, scene.damped.is_some()),
+        (Kind::MassKnown, scene.knows_mass),
+        (Kind::MakesEnergy, losses == Losses::BelowZero),
+        (Kind::LosesLess, losses == Losses::Fall),
+    ];
+    kinds.into_iter().filter_map(|(kind, is)| is.then_some(kind)).collect()
 }
 
 /// The parameters of `scene` that can't be set: those of all contacts, then group by group.

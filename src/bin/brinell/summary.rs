@@ -71,7 +71,7 @@ impl Summary<'_> {
         let mut object = json!({
             "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
             "imports": exported.imports, "warnings": warnings,
-            "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
+            "makes_energy": self.plan.makes_energy, "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
             "variables": variables.iter().map(Entry::label).collect::<Vec<_>>(), "variable_count": self.variable_count(),
             "constants": constants.iter().map(|constant| &constant.name).collect::<Vec<_>>(),
             "left_out": left_out, "absent": self.absent, "left_out_features": self.features,
@@ -105,6 +105,9 @@ impl Summary<'_> {
         println!("  law        {}", law(scene));
         if let Some(guard) = guard {
             println!("  guard      {}", guard.words());
+        }
+        if self.plan.makes_energy {
+            println!("  energy     these laws can give back more than they took");
         }
         for warning in warnings {
             println!("  warning    {warning}");
