@@ -197,6 +197,13 @@ fn an_impact_without_motion_or_mass_is_refused() {
     }
 }
 
+/// The law was blamed: "drives the bodies deeper than the law can be evaluated".
+#[test]
+fn an_impact_with_next_to_no_energy_is_refused_without_blaming_the_law() {
+    let parts = ["kinetic energy", "mass = 1e-30 kg", "speed = 1e-150 m/s", "can't be computed with"];
+    refused_with("§[impact]\nmass = 1e-30\nspeed = 1e-150", &parts);
+}
+
 #[test]
 fn an_impact_too_hard_for_the_law_is_refused_with_its_numbers() {
     refused_with("§[impact]\nmass = 1e300\nspeed = 1e200", &["impact", "mass = 1e300", "speed = 1e200", "deep"]);

@@ -122,6 +122,27 @@ fn every_kind_of_unit_provides_directional_derivatives() {
     }
 }
 
+/// The bodies that only a contact gives were described as a rigid sphere and a half-space, and their constants were missing.
+#[test]
+fn the_page_of_a_unit_knows_the_bodies_and_constants_of_each_contact() {
+    let text = "name = \"own_bodies\"\ntarget = { material = \"mild steel\" }\nfmu = { parameters = [] }\n\
+                [[contact]]\nname = \"left\"\nimpactor = { radius = 4e-3, youngs_modulus = 7e10, poissons_ratio = 0.22 }\n\
+                [[contact]]\nname = \"bead\"\ncount = 3\nimpactor = { radius = 2e-3 }\ntarget = { radius = -0.5 }\n";
+    let (_, page) = texts(&write_scene("own_bodies", text));
+    let rows = [
+        "<code>left</code></td><td>an elastic sphere and a half-space</td><td>impactor.radius = 0.004 m",
+        "<code>bead[1..3]</code></td><td>a rigid sphere and a spherical socket</td><td>impactor.radius = 0.002 m",
+        "<code>left.impactor.youngs_modulus</code></td><td class=\"n\">7e10</td><td>Pa",
+        "<code>bead.target.radius</code></td><td class=\"n\">-0.5</td><td>m",
+        "on the first contact, <code>left</code>",
+    ];
+    for row in rows {
+        assert!(page.contains(row), "nothing of {row} in {page}");
+    }
+    let (_, page) = texts(&unit::scene("everything"));
+    assert!(page.contains("contact of an elastic sphere and a spherical socket"), "{page}");
+}
+
 /// The variables that `output` depends on before the first step, as the model description has it.
 fn listed(xml: &str, output: &str) -> BTreeSet<String> {
     let names: Vec<&str> =

@@ -1,5 +1,6 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
+use crate::bodies;
 use crate::html::{TEXT_STYLE, begin, escape};
 use crate::interface::Entry;
 use crate::numbers::digits;
@@ -8,6 +9,7 @@ use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
 use crate::scene::Scene;
 use crate::table::{self, Causality};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// The page of the planned unit.
@@ -24,10 +26,12 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(page, "<h1>{name}</h1>\n<p>{description}</p>")?;
     writeln!(
         page,
-        "<p>FMI 2.0 co-simulation unit of the normal contact of a sphere and a half-space: the closing speed of the \
-         bodies goes in, the contact force comes out. {}</p>",
+        "<p>FMI 2.0 co-simulation unit of the normal contact of {}: the closing speed of the bodies goes in, the contact \
+         force comes out. {}</p>",
+        contact(scene),
         coupling(scene)
     )?;
+    contacts(page, scene)?;
     writeln!(page, "<h2>The scene&#8217;s impact</h2>")?;
     impact(page, plan)?;
     writeln!(page, "<figure>\n{}</figure>", curve(plan))?;
@@ -73,6 +77,36 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(page, "</body>\n</html>")
 }
 
+/// What is in contact.
+fn contact(scene: &Scene) -> String {
+    let pairs: BTreeSet<_> = (0..scene.contacts.len()).map(|group| bodies::words(scene, group)).collect();
+    match pairs.first() {
+        Some((impactor, target)) if pairs.len() == 1 => format!("{impactor} and {target}"),
+        _ => "two bodies".into(),
+    }
+}
+
+/// The bodies of each group of contacts.
+fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
+    if scene.contacts[0].name.is_none() {
+        return Ok(());
+    }
+    writeln!(page, "<h2>Contacts</h2>\n<table>\n<tr><th>Name</th><th>Bodies</th><th>Their own numbers</th></tr>")?;
+    for (index, group) in scene.contacts.iter().enumerate() {
+        let (impactor, target) = bodies::words(scene, index);
+        let unit =
+            |name: &str| table::variable(name).unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
+        let own = group.own.iter().map(|own| format!("{} = {}{}", own.name, digits(own.value), unit(own.name)));
+        let own = own.collect::<Vec<_>>().join(", ");
+        writeln!(
+            page,
+            "<tr><td><code>{}</code></td><td>{impactor} and {target}</td><td>{own}</td></tr>",
+            group.label()
+        )?;
+    }
+    writeln!(page, "</table>")
+}
+
 /// How the unit and its master work together.
 fn coupling(scene: &Scene) -> &'static str {
     if scene.knows_mass {
@@ -99,9 +133,10 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     let assumed = if scene.impact_is_assumed { " (the scene names none; a solid steel ball is assumed)" } else { "" };
     writeln!(
         page,
-        "<p>{} kg at {} m/s{assumed}; {}:</p>\n<table>",
+        "<p>{} kg at {} m/s{assumed}{}; {}:</p>\n<table>",
         scene.impact.mass,
         scene.impact.speed,
+        bodies::first_contact(scene).map(|contact| format!(" on {contact}")).unwrap_or_default(),
         scene.any_model().method()
     )?;
     let stiffness = scene.any_model().stiffness(prediction.max_indentation);

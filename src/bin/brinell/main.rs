@@ -2,6 +2,7 @@
 #![deny(unsafe_code)]
 
 mod arguments;
+mod bodies;
 mod check;
 mod constants;
 mod curve;

@@ -179,20 +179,12 @@ fn shows(plan: &Plan, name: &str) -> bool {
     plan.variables.iter().any(|entry| entry.variable.name == name)
 }
 
-/// What stands before the variables of all contacts of the group.
-fn prefixes(group: &Group) -> String {
-    match (&group.name, group.count) {
-        (Some(name), Some(count @ 2..)) => format!("{name}[1..{count}]."),
-        _ => group.prefix(0),
-    }
-}
-
 /// One line about a group: what differs in it.
 fn group_line(group: &Group) -> String {
     let own = group.own.iter().map(|Parameter { name, value, .. }| format!("{name} = {value:?}"));
     let own = own.collect::<Vec<_>>().join(", ");
     let own = if own.is_empty() { "as the scene".into() } else { own };
-    format!("{:<20} {:>6}  {own}", prefixes(group).trim_end_matches('.'), group.len())
+    format!("{:<20} {:>6}  {own}", group.label(), group.len())
 }
 
 fn law(scene: &Scene) -> String {

@@ -49,7 +49,9 @@ fn impact(scene: &Scene, arguments: &PredictArguments) -> Result<Impact, Predict
         (.., Some(height)) => super::speed_of_height(super::positive("drop-height", height)?),
         _ => scene.impact.speed,
     };
-    Ok(Impact { mass, speed })
+    let impact = Impact { mass, speed };
+    super::check_energy(&impact)?;
+    Ok(impact)
 }
 
 /// Impacts over a range of speeds, as a table, a picture or a page.
@@ -65,7 +67,7 @@ fn sweep(
     let ending = ending(output, &["csv", "svg", "html"])?;
     let sweep = Sweep::of(choices, mass, range)?;
     let text = match ending {
-        "html" => page::write(scene, &sweep),
+        "html" => page::write(scene, choices, &sweep),
         "svg" => sweep.svg(),
         _ => sweep.csv(),
     };

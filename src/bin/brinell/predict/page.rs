@@ -1,32 +1,33 @@
 //! A sweep as a page that needs nothing else: the scene in words, the pictures, the numbers.
 
-use super::quantities;
 use super::sweep::{STEPS, Sweep};
+use super::{methods, quantities};
+use crate::bodies;
 use crate::html::{PICTURE_STYLE, begin, escape};
+use crate::laws::Choice;
 use crate::numbers::digits;
 use crate::plot::css_line;
 use crate::scene::Scene;
-use crate::table;
 use std::fmt::Write;
 
 /// Every how manyth speed the tables show; the others are in the CSV.
 const STRIDE: usize = STEPS as usize / 20;
 
-/// The page of `sweep` on the bodies of `scene`.
-pub fn write(scene: &Scene, sweep: &Sweep) -> String {
+/// The page of `sweep`, by the laws of `choices` on the bodies of the first contact of `scene`.
+pub fn write(scene: &Scene, choices: &[Choice], sweep: &Sweep) -> String {
     let mut page = String::new();
-    body(&mut page, scene, sweep).expect("a String takes everything");
+    body(&mut page, scene, choices, sweep).expect("a String takes everything");
     page
 }
 
-fn body(page: &mut String, scene: &Scene, sweep: &Sweep) -> std::fmt::Result {
+fn body(page: &mut String, scene: &Scene, choices: &[Choice], sweep: &Sweep) -> std::fmt::Result {
     let name = escape(&scene.name);
     begin(page, &format!("{name}: impacts"), PICTURE_STYLE)?;
     writeln!(page, "<h1>{name}: impacts over speed</h1>")?;
     if !scene.description.is_empty() {
         writeln!(page, "<p>{}</p>", escape(&scene.description))?;
     }
-    words(page, scene, sweep)?;
+    words(page, scene, choices, sweep)?;
     legend(page, sweep)?;
     writeln!(page, "<div class=\"panels\">")?;
     for panel in sweep.panels() {
@@ -47,29 +48,32 @@ fn body(page: &mut String, scene: &Scene, sweep: &Sweep) -> std::fmt::Result {
     writeln!(page, "<p>Brinell {}</p>\n</body>\n</html>", env!("CARGO_PKG_VERSION"))
 }
 
-/// What meets what.
-fn words(page: &mut String, scene: &Scene, sweep: &Sweep) -> std::fmt::Result {
+/// What meets what, and how the impacts were found.
+fn words(page: &mut String, scene: &Scene, choices: &[Choice], sweep: &Sweep) -> std::fmt::Result {
     let (from, to) = sweep.range;
-    let rigid = scene.value("impactor.youngs_modulus").is_none();
-    let impactor = if rigid { "A rigid sphere" } else { "An elastic sphere" };
-    let target = match scene.value("target.radius") {
-        None => "a half-space",
-        Some(radius) if radius < 0.0 => "a spherical socket",
-        Some(_) => "a sphere",
+    let (impactor, target) = bodies::words(scene, 0);
+    let begin = match bodies::first_contact(scene) {
+        Some(contact) => format!("In {contact}, {impactor}"),
+        None => capitalized(impactor),
     };
     writeln!(
         page,
-        "<p>{impactor} meets {target} with an effective mass of {} kg and closing speeds from {} to {} m/s. By energy \
-         balance: what loading takes from the motion and unloading gives back.</p>\n<table class=\"scene\">",
+        "<p>{begin} meets {target} with an effective mass of {} kg and closing speeds from {} to {} m/s. The impacts are \
+         predicted {}.</p>\n<table class=\"scene\">",
         digits(sweep.mass),
         digits(from),
-        digits(to)
+        digits(to),
+        methods(choices)
     )?;
-    for parameter in scene.parameters.iter().filter(|parameter| parameter.name != "initial_gap") {
-        let unit = table::variable(parameter.name).unit.as_deref().unwrap_or("");
-        writeln!(page, "<tr><th>{}</th><td>{} {unit}</td></tr>", parameter.name, digits(parameter.value))?;
+    for (name, value, unit) in bodies::numbers(scene, 0).into_iter().filter(|(name, ..)| *name != "initial_gap") {
+        writeln!(page, "<tr><th>{name}</th><td>{} {unit}</td></tr>", digits(value))?;
     }
     writeln!(page, "</table>")
+}
+
+/// `words` as the beginning of a sentence.
+fn capitalized(words: &str) -> String {
+    words[..1].to_uppercase() + &words[1..]
 }
 
 fn legend(page: &mut String, sweep: &Sweep) -> std::fmt::Result {

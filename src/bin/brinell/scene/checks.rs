@@ -4,6 +4,7 @@ use super::contacts::Contacts;
 use super::file::{CouplingTable, File, ImpactTable};
 use super::laws;
 use super::{Mistake, Parameter, Scene};
+use crate::predict;
 use crate::table::{self, Causality, VARIABLES};
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::{AnyLoading, Hertz};
@@ -35,6 +36,8 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     let coupling = check_coupling(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
     let knows_mass = coupling.is_some();
     let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), coupling.as_ref(), &contacts)?;
+    let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
+    predict::check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let (mut parameters, groups) = contacts.parameters();
     let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
     let span = file.impact.as_ref().map(|table| table.get_ref().mass.span());
@@ -73,8 +76,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
         laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
     }
-    let span = file.impact.as_ref().map_or(0..0, Spanned::span);
-    let no_prediction = |group| Mistake(span.clone(), contacts.said(group, &too_hard(&scene)));
+    let no_prediction = |group| Mistake(impact_span.clone(), contacts.said(group, &too_hard(&scene)));
     let predictions = scene.by_bodies(|group| scene.any_model_of(group).predict(&scene.impact)).into_iter().enumerate();
     let predictions = predictions.map(|(group, prediction)| prediction.ok_or_else(|| no_prediction(group)));
     scene.predictions = predictions.collect::<Result<_, _>>()?;

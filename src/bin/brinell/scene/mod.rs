@@ -187,6 +187,14 @@ impl Group {
         }
     }
 
+    /// One name for all contacts of the group: "left", or "bead\[1..1000]".
+    pub fn label(&self) -> String {
+        match (&self.name, self.count) {
+            (Some(name), Some(count @ 2..)) => format!("{name}[1..{count}]"),
+            _ => self.prefix(0).trim_end_matches('.').into(),
+        }
+    }
+
     /// What the group's own parameter `name` is called in the unit.
     pub fn variable(&self, name: &str) -> String {
         self.name.as_ref().map_or(name.into(), |own| format!("{own}.{name}"))
