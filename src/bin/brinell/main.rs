@@ -35,6 +35,7 @@ mod symbols;
 mod table;
 mod truth;
 mod validity;
+mod xml;
 
 use arguments::{Arguments, Command};
 use clap::Parser;

@@ -6,6 +6,7 @@ use super::laws;
 use super::{Mistake, Parameter, Scene};
 use crate::predict;
 use crate::table::{self, Causality, VARIABLES};
+use crate::xml;
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::{AnyLoading, Hertz};
 use std::collections::HashSet;
@@ -19,6 +20,7 @@ use toml::Spanned;
 /// The first mistake.
 pub fn check(file: File) -> Result<Scene, Mistake> {
     let name = check_identifier(&file.name)?;
+    let description = check_description(file.description.as_ref())?;
     let mut contacts = Contacts::of(&file)?;
     let damped = laws::find_damped(&file.law)?;
     let loading = match damped {
@@ -55,7 +57,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     }
     let mut scene = Scene {
         name,
-        description: file.description,
+        description,
         parameters,
         contacts: groups,
         outputs,
@@ -97,6 +99,20 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
         "name = {text:?} is not a C identifier of at most 100 letters, digits and `_`, not beginning with a digit"
     );
     Err(Mistake(name.span(), message))
+}
+
+/// Text that the model description can hold.
+fn check_description(given: Option<&Spanned<String>>) -> Result<String, Mistake> {
+    let Some(text) = given else { return Ok(String::new()) };
+    match xml::forbidden(text.get_ref()) {
+        None => Ok(text.get_ref().clone()),
+        Some((place, character)) => {
+            let number = text.get_ref()[..place].chars().count() + 1;
+            let character = xml::name(character);
+            let message = format!("description has {character} as its character {number}, which no XML can have");
+            Err(Mistake(text.span(), message))
+        }
+    }
 }
 
 /// The impact that the scene names, or one at 1 m/s of the mass that the unit knows, or else of a solid steel ball with the
