@@ -116,6 +116,24 @@ fn a_name_that_is_no_identifier_is_refused() {
     }
 }
 
+/// The unit was exported and checked, and no reader of XML could read it.
+#[test]
+fn a_character_that_xml_cannot_have_is_refused_by_its_key() {
+    for (escape, said) in [
+        ("\\u0001", "U+0001"),
+        ("\\u001B", "U+001B"),
+        ("\\uFFFE", "U+FFFE"),
+        ("\\uFFFF", "U+FFFF"),
+        ("\u{fffe}", "U+FFFE"),
+    ] {
+        let description = format!("description = §\"steel{escape} ball\"\nname");
+        refused("name", &description, &["description has ", said, "character 6", "no XML"]);
+        refused("\"ball\"", &format!("§\"ball{escape}\""), &["name = ", "letters, digits and `_`"]);
+        let contact = format!("[[contact]]\nname = §\"left{escape}\"");
+        refused_with(&contact, &["name = ", "letters, digits and `_`"]);
+    }
+}
+
 #[test]
 fn a_number_out_of_range_is_refused_with_the_range() {
     for (from, to, key, value) in [
@@ -195,6 +213,13 @@ fn an_impact_without_motion_or_mass_is_refused() {
     for speed in ["0.0", "-1.0", "nan", "inf"] {
         refused_with(&format!("[impact]\nmass = 1\nspeed = §{speed}"), &["impact.speed = ", "positive and finite"]);
     }
+}
+
+/// The law was blamed: "drives the bodies deeper than the law can be evaluated".
+#[test]
+fn an_impact_with_next_to_no_energy_is_refused_without_blaming_the_law() {
+    let parts = ["kinetic energy", "mass = 1e-30 kg", "speed = 1e-150 m/s", "can't be computed with"];
+    refused_with("§[impact]\nmass = 1e-30\nspeed = 1e-150", &parts);
 }
 
 #[test]

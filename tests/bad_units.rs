@@ -104,6 +104,28 @@ fn a_model_description_that_is_no_xml_is_refused() {
     contains(&message(&changed(change)), &["modelDescription.xml can't be read"]);
 }
 
+/// Control characters, and the two numbers that are no characters, as they are and as references: no other reader takes them.
+#[test]
+fn a_character_that_xml_cannot_have_is_told_with_its_place() {
+    let description = "description=\"5 mm steel ball on a mild-steel block";
+    for (bytes, said) in
+        [("\\x01", "U+0001"), ("\\x0b", "U+000B"), ("\\xef\\xbf\\xbe", "U+FFFE"), ("\\xef\\xbf\\xbf", "U+FFFF")]
+    {
+        let change =
+            format!("data.replace(b'{description}', b'{description}{bytes}') if name.endswith('.xml') else data");
+        contains(&message(&changed(&change)), &["modelDescription.xml can't be read", said, " at 2:"]);
+    }
+    for reference in ["&#1;", "&#x1F;", "&#xFFFE;", "&#65535;"] {
+        let attribute =
+            format!("data.replace(b'{description}', b'{description}{reference}') if name.endswith('.xml') else data");
+        contains(&message(&changed(&attribute)), &["modelDescription.xml can't be read", "U+", "steel ball"]);
+        let text = format!(
+            "data.replace(b'<LogCategories>', b'<LogCategories>{reference}') if name.endswith('.xml') else data"
+        );
+        contains(&message(&changed(&text)), &["modelDescription.xml can't be read", "U+"]);
+    }
+}
+
 /// There is a folder for each platform; without any, the sentence must not end in the air.
 #[test]
 fn a_unit_without_library_says_so() {

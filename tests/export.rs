@@ -202,6 +202,18 @@ fn what_a_unit_has_and_what_was_left_out_of_it_is_everything_there_is() {
     assert!(list(&elastic["constants"]).contains("impactor.radius"), "{elastic}");
 }
 
+/// Letters of any language, quotation marks, tabs and line ends, and the words that stand for the GUID until it is known.
+#[test]
+fn a_description_of_any_other_characters_is_exported_and_checked() {
+    let folder = empty_folder();
+    let description = r#"Kugelsto\u00df \u2014 \u7403 \U0001f600 \ufffd <&>' \t\r\n \"GUID to come\""#;
+    let text = fs::read_to_string(scene("elastic")).unwrap();
+    let (before, after) = text.split_once("glass bead on a glass plate, elastic").expect("its description");
+    fs::write(folder.path().join("scene.toml"), format!("{before}{description}{after}")).unwrap();
+    run(folder.path(), ["export", "scene.toml"]).with_status(0);
+    run(folder.path(), ["check", "elastic.fmu"]).with_status(0);
+}
+
 #[test]
 fn json_has_the_keys_that_programs_read() {
     let folder = empty_folder();

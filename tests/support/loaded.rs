@@ -121,12 +121,17 @@ impl Instance<'_> {
     }
 
     pub fn initialize(&mut self) {
+        self.enter_initialization();
+        self.call("fmi2ExitInitializationMode");
+    }
+
+    /// From here on outputs can be read.
+    pub fn enter_initialization(&mut self) {
         type Setup = unsafe extern "C" fn(*mut c_void, c_int, f64, f64, c_int, f64) -> c_int;
         // SAFETY: the component lives
         let status = unsafe { self.unit.function::<Setup>("fmi2SetupExperiment")(self.component, 0, 0.0, 0.0, 0, 0.0) };
         assert_eq!(status, OK);
         self.call("fmi2EnterInitializationMode");
-        self.call("fmi2ExitInitializationMode");
     }
 
     pub fn reset(&mut self) {

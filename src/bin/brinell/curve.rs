@@ -1,17 +1,37 @@
 //! `brinell curve`: force, radius, pressure and energies along a path that loads, unloads, and loads again.
 
-use crate::laws::Choice;
+use crate::arguments::CurveArguments;
+use crate::files::{deliver, ending};
+use crate::laws::{self, Choice};
 use crate::model::AnyModel;
 use crate::plot::{Picture, Series};
-use crate::truth;
+use crate::scene::Scene;
+use crate::{predict, truth};
 use brinell::contact::damped::{self, AnyDamped, Damped};
 use brinell::contact::impact::Impact;
 use brinell::contact::{History, Loading, TooDeep};
+use std::error::Error;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
 /// Points of each branch of the path.
 const POINTS: u32 = 200;
+
+/// The command: draws or tabulates the curve that the arguments ask for.
+pub fn run(arguments: &CurveArguments) -> Result<(), Box<dyn Error>> {
+    let scene = Scene::read(&arguments.scene)?;
+    let choices = laws::choose(&scene, &arguments.laws)?;
+    let largest = predict::positive("to", arguments.to.unwrap_or(scene.predictions[0].max_indentation))?;
+    let output = arguments.output.as_deref();
+    let picture = ending(output, &["csv", "svg"])? == "svg";
+    let impact = &scene.impact;
+    let drawn = match picture {
+        true => svg(&choices, largest, impact, arguments.truth),
+        false => csv(&choices, largest, impact),
+    };
+    let too_deep = |_: TooDeep| format!("to = {largest:e} m is too deep for the law");
+    Ok(deliver(&drawn.map_err(too_deep)?, output)?)
+}
 
 /// A point of the curve, in SI units.
 struct Row {
@@ -89,7 +109,7 @@ fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<Row> {
 ///
 /// # Errors
 /// [`TooDeep`] if `largest` [m] is beyond what the laws can be evaluated for.
-pub fn csv(choices: &[Choice], largest: f64, impact: &Impact) -> Result<String, TooDeep> {
+fn csv(choices: &[Choice], largest: f64, impact: &Impact) -> Result<String, TooDeep> {
     let mut text = String::from(
         "law,indentation_m,force_N,contact_radius_m,mean_pressure_Pa,stiffness_N_per_m,work_J,elastic_energy_J,\
          dissipated_energy_J,regime\n",

@@ -1,51 +1,42 @@
 //! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
 
+use crate::bodies;
 use crate::energy;
-use crate::guard;
-use crate::interface::{Entry, experiment, prediction};
+use crate::html::{TEXT_STYLE, begin, escape};
+use crate::interface::Entry;
 use crate::law_text::{self, LawText};
 use crate::numbers::digits;
 use crate::parameters::{self, Constant};
+use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
 use crate::scene::Scene;
 use crate::table::{self, Causality};
-use crate::validity;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
-const STYLE: &str = "\
-:root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 50rem; margin: 0 auto; padding: 1rem; }
-table { border-collapse: collapse; display: block; overflow-x: auto; }
-th, td { text-align: left; padding: .25rem .75rem .25rem 0; border-bottom: 1px solid #8886; vertical-align: top; }
-td.n { text-align: right; white-space: nowrap; }
-figure { margin: 1rem 0; } svg { max-width: 100%; height: auto; background: #fff; }
-code { font-size: .95em; }";
-
-/// The page of the scene's unit with the variables `entries`.
-pub fn write(scene: &Scene, entries: &[Entry]) -> String {
+/// The page of the planned unit.
+pub fn write(plan: &Plan) -> String {
     let mut page = String::new();
-    body(&mut page, scene, entries).expect("a String takes everything");
+    body(&mut page, plan).expect("a String takes everything");
     page
 }
 
-fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result {
+fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
+    let scene = plan.scene;
     let (name, description) = (escape(&scene.name), escape(&scene.description));
-    writeln!(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>")?;
-    writeln!(
-        page,
-        "<meta name=\"viewport\" content=\"width=device-width\">\n<style>\n{STYLE}\n</style>\n</head>\n<body>"
-    )?;
+    begin(page, &name, TEXT_STYLE)?;
     writeln!(page, "<h1>{name}</h1>\n<p>{description}</p>")?;
     writeln!(
         page,
-        "<p>FMI 2.0 co-simulation unit of the normal contact of a sphere and a half-space: the closing speed of the \
-         bodies goes in, the contact force comes out. The rate is held over a step, and the law is followed exactly: the \
-         result doesn't depend on how time is cut.{}</p>",
-        if scene.damped.is_some() { " The force follows the rate at the same instant." } else { "" }
+        "<p>FMI 2.0 co-simulation unit of the normal contact of {}: the closing speed of the bodies goes in, the contact \
+         force comes out. {}</p>",
+        contact(scene),
+        coupling(scene)
     )?;
+    contacts(page, scene)?;
     writeln!(page, "<h2>The scene&#8217;s impact</h2>")?;
-    impact(page, scene)?;
-    writeln!(page, "<figure>\n{}</figure>", curve(scene))?;
+    impact(page, plan)?;
+    writeln!(page, "<figure>\n{}</figure>", curve(plan))?;
     writeln!(page, "<h2>Law</h2>")?;
     if let Some((name, damped)) = scene.damped {
         let text = law_text::damped(name, &damped);
@@ -65,18 +56,18 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
     if scene.unloading.is_some() {
         writeln!(page, "<p>{}</p>", escape(&energy::words(scene)))?;
     }
-    if let Some(words) = guard::words(scene) {
+    if let Some(guard) = &plan.guard {
         writeln!(
             page,
             "<h3>Passivity guard</h3>\n<ul>\n<li><code>d_e &lt;= 2.5 W/F_m</code></li>\n</ul>\n<p>Unloading gives back no \
              more than loading took: where it would, the elastic recovery is shortened and the dent deeper than the \
              law says. The guard {}. When it first acts this is logged (category logStatusWarning).</p>",
-            escape(&words)
+            escape(&guard.words())
         )?;
     }
     writeln!(page, "<h2>Variables</h2>")?;
-    variables(page, entries)?;
-    constants(page, scene)?;
+    variables(page, &plan.variables)?;
+    constants(page, &plan.constants)?;
     writeln!(
         page,
         "<p>Brinell {}. Licenses: <a href=\"licenses/license.txt\">license.txt</a></p>",
@@ -85,20 +76,69 @@ fn body(page: &mut String, scene: &Scene, entries: &[Entry]) -> std::fmt::Result
     writeln!(page, "</body>\n</html>")
 }
 
+/// What is in contact.
+fn contact(scene: &Scene) -> String {
+    let pairs: BTreeSet<_> = (0..scene.contacts.len()).map(|group| bodies::words(scene, group)).collect();
+    match pairs.first() {
+        Some((impactor, target)) if pairs.len() == 1 => format!("{impactor} and {target}"),
+        _ => "two bodies".into(),
+    }
+}
+
+/// The bodies of each group of contacts.
+fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
+    if scene.contacts[0].name.is_none() {
+        return Ok(());
+    }
+    writeln!(page, "<h2>Contacts</h2>\n<table>\n<tr><th>Name</th><th>Bodies</th><th>Their own numbers</th></tr>")?;
+    for (index, group) in scene.contacts.iter().enumerate() {
+        let (impactor, target) = bodies::words(scene, index);
+        let unit =
+            |name: &str| table::variable(name).unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
+        let own = group.own.iter().map(|own| format!("{} = {}{}", own.name, digits(own.value), unit(own.name)));
+        let own = own.collect::<Vec<_>>().join(", ");
+        writeln!(
+            page,
+            "<tr><td><code>{}</code></td><td>{impactor} and {target}</td><td>{own}</td></tr>",
+            group.label()
+        )?;
+    }
+    writeln!(page, "</table>")
+}
+
+/// How the unit and its master work together.
+fn coupling(scene: &Scene) -> &'static str {
+    if scene.knows_mass {
+        "The unit knows the mass that the contact force accelerates, <code>effective_mass</code>, and moves the bodies through \
+         each step itself. Before a step set <code>indentation_rate</code> to the closing speed of the bodies at its start, and \
+         its first input derivative to the acceleration by all other forces, such as gravity \
+         (<code>fmi2SetRealInputDerivatives</code>, for every step anew; without it they have none during the step). After the \
+         step apply <code>mean_force</code> to the bodies over that step: they end it with the speed that the unit has found, \
+         however short an impact was within it. <code>force</code> and the other outputs are those at the end of the step."
+    } else if scene.damped.is_some() {
+        "The rate is held over a step, and the law is followed exactly: the result doesn't depend on how time is cut. The \
+         force follows the rate at the same instant: set the rate again before the force is read, or solve that loop."
+    } else {
+        "The rate is held over a step, or is a polynomial in time if its first and second derivative are set \
+         (<code>fmi2SetRealInputDerivatives</code>, for one step). The law is followed exactly: the result doesn't depend on how \
+         time is cut."
+    }
+}
+
 /// What the energy balance says of the impact, and which step suits it.
-fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
-    let prediction = prediction(scene);
-    let experiment = experiment(scene);
+fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
+    let Plan { scene, experiment, .. } = plan;
+    let prediction = plan.prediction();
     let assumed = if scene.impact_is_assumed { " (the scene names none; a solid steel ball is assumed)" } else { "" };
     writeln!(
         page,
-        "<p>{} kg at {} m/s{assumed}; {}:</p>\n<table>",
+        "<p>{} kg at {} m/s{assumed}{}; {}:</p>\n<table>",
         scene.impact.mass,
         scene.impact.speed,
+        bodies::first_contact(scene).map(|contact| format!(" on {contact}")).unwrap_or_default(),
         scene.any_model().method()
     )?;
-    let (model, density) = (scene.any_model(), scene.contacts[0].density);
-    let stiffness = model.stiffness(prediction.max_indentation);
+    let stiffness = scene.any_model().stiffness(prediction.max_indentation);
     let rows = [
         ("Largest force", prediction.max_force, "N"),
         ("Largest indentation", prediction.max_indentation, "m"),
@@ -113,13 +153,13 @@ fn impact(page: &mut String, scene: &Scene) -> std::fmt::Result {
         writeln!(page, "<tr><td>{quantity}</td><td class=\"n\">{}</td><td>{unit}</td></tr>", digits(value))?;
     }
     writeln!(page, "</table>")?;
-    for warning in validity::warnings(&model.pair(), density, &prediction, scene.impact.speed) {
+    for warning in &plan.warnings {
         writeln!(page, "<p><strong>Beyond the validity of the law:</strong> {warning}.</p>")?;
     }
     writeln!(
         page,
         "<p>The law is valid {}. A simulation that leaves this goes on, and it is logged once (category logStatusWarning).</p>",
-        validity::limits(&model.pair(), density, model.valid_depth())
+        plan.valid
     )
 }
 
@@ -155,7 +195,7 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
         "<table>\n<tr><th>Name</th><th></th><th>Start</th><th>Allowed</th><th>Unit</th><th>Meaning</th></tr>"
     )?;
     for entry in entries {
-        let Entry { variable, start, .. } = entry;
+        let Entry { variable, description, start, .. } = entry;
         let causality = match variable.causality {
             Causality::Input => "input",
             Causality::Output => "output",
@@ -172,36 +212,31 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
             "<tr><td><code>{}</code></td><td>{causality}</td><td class=\"n\">{start}</td><td class=\"n\">{allowed}</td>\
              <td>{unit}</td><td>{}</td></tr>",
             entry.label(),
-            escape(&variable.description)
+            escape(description)
         )?;
     }
     writeln!(page, "</table>")
 }
 
 /// The parameters that can't be set in this unit.
-fn constants(page: &mut String, scene: &Scene) -> std::fmt::Result {
-    let constants: Vec<_> = scene.parameters.iter().filter(|parameter| !parameter.settable).collect();
+fn constants(page: &mut String, constants: &[plan::Constant]) -> std::fmt::Result {
     if constants.is_empty() {
         return Ok(());
     }
     writeln!(page, "<p>Constants of this unit:</p>\n<table>")?;
-    for parameter in constants {
-        let unit = table::variable(parameter.name).unit.as_deref().unwrap_or("");
-        let value = digits(parameter.value);
-        writeln!(page, "<tr><td><code>{}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>", parameter.name)?;
+    for plan::Constant { name, value, unit, .. } in constants {
+        let value = digits(*value);
+        writeln!(page, "<tr><td><code>{name}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>")?;
     }
     writeln!(page, "</table>")
 }
 
-/// `text` as HTML has it.
-pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
-}
-
 /// Force against indentation over the scene's impact.
-fn curve(scene: &Scene) -> String {
+fn curve(plan: &Plan) -> String {
+    let scene = plan.scene;
     let micrometres = |points: Vec<(f64, f64)>| points.into_iter().map(|(d, force)| (1e6 * d, force)).collect();
-    let branches = scene.any_model().branches(&scene.impact).expect("a checked scene has a prediction");
+    let branches =
+        scene.any_model().branches(&scene.impact, plan.prediction()).expect("a checked scene has a prediction");
     let named = branches.into_iter().zip(["loading", "unloading"]);
     let series = named.map(|(points, label)| Series { label: label.into(), points: micrometres(points), dots: false });
     let picture = Picture {

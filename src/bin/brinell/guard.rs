@@ -9,27 +9,56 @@ const DEEPEST: f64 = 1e6;
 /// Depths that are looked at in each decade.
 const DEPTHS_PER_DECADE: u32 = 200;
 
-/// The ranges of the largest indentation in which the guard acts on the bodies of any contact of `scene`, in yield
-/// indentations of its law; none if the scene has no guard.
-pub fn ranges(scene: &Scene) -> Option<Vec<(f64, f64)>> {
-    let groups = (0..scene.contacts.len()).map(|group| ranges_of(scene, group));
-    let mut all = groups.collect::<Option<Vec<_>>>()?.concat();
-    all.sort_by(|one, other| one.0.total_cmp(&other.0));
-    all.dedup_by(|next, last| {
-        let overlap = next.0 <= last.1;
-        if overlap {
-            last.1 = last.1.max(next.1);
-        }
-        overlap
-    });
-    Some(all)
+/// Ranges of the largest indentation, in yield indentations of the law.
+pub type Ranges = Vec<(f64, f64)>;
+
+/// Where the guard of a scene acts.
+pub struct Guard {
+    /// On the bodies of any contact.
+    pub ranges: Ranges,
+    /// On those of each group.
+    pub by_group: Vec<Ranges>,
 }
 
-/// The same for the contacts of `group` alone.
-pub fn ranges_of(scene: &Scene, group: usize) -> Option<Vec<(f64, f64)>> {
-    if !scene.passivity_guard {
-        return None;
+impl Guard {
+    /// None if the scene has no guard.
+    pub fn of(scene: &Scene) -> Option<Guard> {
+        if !scene.passivity_guard {
+            return None;
+        }
+        let by_group = scene.by_bodies(|group| ranges_of(scene, group));
+        let mut ranges = by_group.concat();
+        ranges.sort_by(|one, other| one.0.total_cmp(&other.0));
+        ranges.dedup_by(|next, last| {
+            let overlap = next.0 <= last.1;
+            if overlap {
+                last.1 = last.1.max(next.1);
+            }
+            overlap
+        });
+        Some(Guard { ranges, by_group })
     }
+
+    /// Where the guard acts, in words.
+    pub fn words(&self) -> String {
+        let range = |&(from, to): &(f64, f64)| {
+            // the last depth that was looked at is no end
+            let end = if to >= DEEPEST { "on".into() } else { format!("to {to:.4}") };
+            format!("from {from:.4} {end}")
+        };
+        let words = match self.ranges.as_slice() {
+            [] => format!("nowhere up to {DEEPEST:e} yield indentations"),
+            some => {
+                let ranges = some.iter().map(range).collect::<Vec<_>>().join(" and ");
+                format!("at largest indentations {ranges} yield indentations")
+            }
+        };
+        format!("acts {words} (bodies of the scene)")
+    }
+}
+
+/// Where the guard acts on the contacts of `group`.
+fn ranges_of(scene: &Scene, group: usize) -> Ranges {
     let model = scene.model_of(group);
     let d_y = model.loading.yield_point(&model.pair).indentation;
     let acts = |x: f64| model.is_held_back_at(x * d_y);
@@ -43,7 +72,7 @@ pub fn ranges_of(scene: &Scene, group: usize) -> Option<Vec<(f64, f64)>> {
     };
     let steps = DEPTHS_PER_DECADE * DEEPEST.log10() as u32;
     let depth = |step| DEEPEST.powf(f64::from(step) / f64::from(steps));
-    let mut ranges: Vec<(f64, f64)> = Vec::new();
+    let mut ranges = Ranges::new();
     let mut before = (1.0, false);
     for step in 0..=steps {
         let now = (depth(step), acts(depth(step)));
@@ -55,23 +84,5 @@ pub fn ranges_of(scene: &Scene, group: usize) -> Option<Vec<(f64, f64)>> {
         }
         before = now;
     }
-    Some(ranges)
-}
-
-/// Where the guard acts, in words; none if the scene has no guard.
-pub fn words(scene: &Scene) -> Option<String> {
-    let ranges = ranges(scene)?;
-    let range = |&(from, to): &(f64, f64)| {
-        // the last depth that was looked at is no end
-        let end = if to >= DEEPEST { "on".into() } else { format!("to {to:.4}") };
-        format!("from {from:.4} {end}")
-    };
-    let words = match ranges.as_slice() {
-        [] => format!("nowhere up to {DEEPEST:e} yield indentations"),
-        some => {
-            let ranges = some.iter().map(range).collect::<Vec<_>>().join(" and ");
-            format!("at largest indentations {ranges} yield indentations")
-        }
-    };
-    Some(format!("acts {words} (bodies of the scene)"))
+    ranges
 }

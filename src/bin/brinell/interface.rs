@@ -1,16 +1,16 @@
 //! The variables that a scene's unit has, in order: the one list from which XML, constants and documentation are made.
 
+use crate::nominal;
 use crate::scene::{Group, Parameter, Scene};
-use crate::table::{self, Causality, Follows, VARIABLES, Variable};
+use crate::table::{self, Causality, Follows, Kind, VARIABLES, Variable};
 use brinell::contact::damped::Damped;
-use brinell::contact::impact::Prediction;
-use std::collections::HashMap;
-use std::f64::consts::PI;
 
 /// Variables of one kind: that of each contact of a group, or a parameter. Value references count them all in the order of the
 /// list, and so do the places in the model description.
 pub struct Entry<'a> {
     pub variable: &'static Variable,
+    /// What is said of it in this unit.
+    pub description: &'static str,
     /// The group that it belongs to; none for a parameter of all contacts.
     pub group: Option<&'a Group>,
     /// Value reference of the first.
@@ -23,8 +23,8 @@ pub struct Entry<'a> {
     pub dependencies: Vec<usize>,
     /// Reference of the input that the first one follows at the same instant, the second one the next, and so on.
     pub follows: Option<usize>,
-    /// Whether they follow it before the first step, too.
-    pub follows_from_the_start: bool,
+    /// The same before the first step.
+    pub follows_at_start: Option<usize>,
     pub nominal: Option<f64>,
 }
 
@@ -49,42 +49,40 @@ impl Entry<'_> {
     }
 }
 
-/// The variables of the scene's unit.
-pub fn entries(scene: &Scene) -> Vec<Entry<'_>> {
+/// The variables of the scene's unit, which is of these `kinds`.
+pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     let shown = |variable: &&'static Variable| match variable.causality {
         Causality::Input => true,
         Causality::Output => variable.name == "force" || scene.outputs.contains(&variable.name),
         Causality::Parameter => false,
     };
-    let kinds: Vec<_> = VARIABLES.iter().filter(shown).collect();
-    let parameters = Parameters::of(scene, kinds.len() * scene.contact_count());
-    let mut nominals = Nominals::default();
-    let nominals: Vec<_> = (0..scene.contacts.len()).map(|group| nominals.of(scene, group)).collect();
-    // a damping that waits for the first touch is none before the first step
-    let damped_from_the_start = scene.damped.is_some_and(|(_, law)| !law.scaled_by_touch());
+    let shown: Vec<_> = VARIABLES.iter().filter(shown).collect();
+    let parameters = Parameters::of(scene, shown.len() * scene.contact_count());
+    let nominals = nominal::of(scene);
     let mut entries = Vec::new();
     let mut reference = 0;
-    for variable in kinds {
+    for variable in shown {
         let mut first = 0;
+        let follows = follows(variable, scene);
+        let follows_at_start = follows && is_damped_at_start(variable, scene);
+        let is_listed = |name: &str| variable.depends_on.iter().any(|other| other == "*" || other == name);
+        let depends = |name: &str| match name {
+            // all that it makes is the damping
+            "restitution" => follows_at_start,
+            "effective_mass" => follows_at_start || is_listed(name) && elastic_part_follows_mass(scene),
+            _ => is_listed(name),
+        };
         for (index, group) in scene.contacts.iter().enumerate() {
-            let depends = |name: &str| {
-                (damped_from_the_start || !["restitution", "effective_mass"].contains(&name))
-                    && variable.depends_on.iter().any(|other| other == "*" || other == name)
-            };
-            let follows = match variable.follows_rate {
-                Follows::Never => false,
-                Follows::WithLaw => scene.damped.is_some(),
-                Follows::Always => true,
-            };
             entries.push(Entry {
                 variable,
+                description: variable.description(kinds),
                 group: Some(group),
                 reference,
                 count: group.len(),
                 start: (variable.causality == Causality::Input).then_some(0.0),
                 dependencies: parameters.of_group(index, depends),
                 follows: follows.then_some(first),
-                follows_from_the_start: damped_from_the_start,
+                follows_at_start: follows_at_start.then_some(first),
                 nominal: nominals[index].get(variable),
             });
             reference += group.len();
@@ -93,16 +91,39 @@ pub fn entries(scene: &Scene) -> Vec<Entry<'_>> {
     }
     entries.extend(parameters.0.iter().map(|settable| Entry {
         variable: table::variable(settable.parameter.name),
+        description: table::variable(settable.parameter.name).description(kinds),
         group: settable.group.map(|group| &scene.contacts[group]),
         reference: settable.reference,
         count: 1,
         start: Some(settable.parameter.value),
         dependencies: Vec::new(),
         follows: None,
-        follows_from_the_start: false,
+        follows_at_start: None,
         nominal: None,
     }));
     entries
+}
+
+/// Whether `variable` follows the rate at the same instant.
+fn follows(variable: &Variable, scene: &Scene) -> bool {
+    match variable.follows_rate {
+        Follows::Never => false,
+        Follows::WithLaw => scene.damped.is_some(),
+        Follows::Always => true,
+    }
+}
+
+/// Whether `variable`, which follows the rate, has to do with the damping of the law before the first step. A damping that waits
+/// for the first touch is none then; the next step begins with the touch.
+fn is_damped_at_start(variable: &Variable, scene: &Scene) -> bool {
+    let looks_ahead = variable.follows_rate == Follows::Always;
+    scene.damped.is_some_and(|(_, law)| looks_ahead || !law.scaled_by_touch())
+}
+
+/// Whether the elastic part of a rate-dependent law is made for the mass, too.
+fn elastic_part_follows_mass(scene: &Scene) -> bool {
+    let pair = scene.model().pair;
+    scene.damped.is_some_and(|(_, law)| law.factors(&pair, 0.5, 1.0).elastic != law.factors(&pair, 0.5, 2.0).elastic)
 }
 
 /// A parameter that can be set.
@@ -142,88 +163,4 @@ impl<'a> Parameters<'a> {
         all.sort_by_key(|settable| settable.reference);
         all.into_iter().map(|settable| settable.reference).collect()
     }
-}
-
-/// What the scene's impact will do to its first contact.
-pub fn prediction(scene: &Scene) -> Prediction {
-    prediction_of(scene, 0)
-}
-
-/// What the scene's impact will do to the contacts of `group`.
-fn prediction_of(scene: &Scene, group: usize) -> Prediction {
-    scene.any_model_of(group).predict(&scene.impact).expect("a checked scene has a prediction")
-}
-
-/// The typical sizes of bodies that have been seen: many groups may be alike.
-#[derive(Default)]
-struct Nominals(HashMap<Vec<(&'static str, u64)>, Nominal>);
-
-/// Typical sizes, for solvers that scale by them.
-#[derive(Clone, Copy)]
-struct Nominal {
-    prediction: Prediction,
-    stiffness: f64,
-    /// Of the scene's impact [m/s].
-    speed: f64,
-}
-
-impl Nominals {
-    fn of(&mut self, scene: &Scene, group: usize) -> Nominal {
-        let bodies = scene.contacts[group].own.iter().map(|own| (own.name, own.value.to_bits())).collect();
-        *self.0.entry(bodies).or_insert_with(|| {
-            let prediction = prediction_of(scene, group);
-            let stiffness = scene.any_model_of(group).stiffness(prediction.max_indentation);
-            Nominal { prediction, stiffness, speed: scene.impact.speed }
-        })
-    }
-}
-
-impl Nominal {
-    fn get(&self, variable: &Variable) -> Option<f64> {
-        let Prediction { max_force, max_indentation, max_contact_radius, energy, .. } = self.prediction;
-        let size = match variable.nominal_from.as_deref()? {
-            "max_force" => max_force,
-            "max_indentation" => max_indentation,
-            "max_contact_radius" => max_contact_radius,
-            "max_mean_pressure" => max_force / (PI * max_contact_radius * max_contact_radius),
-            "max_stiffness" => self.stiffness,
-            "energy" => energy,
-            "momentum" => 2.0 * energy / self.speed,
-            other => unreachable!("variables.toml names the nominal size {other}, which nobody computes"),
-        };
-        Some(one_digit(size, f64::round))
-    }
-}
-
-/// `value` > 0 with one significant digit, its mantissa rounded by `round`.
-pub fn one_digit(value: f64, round: fn(f64) -> f64) -> f64 {
-    let exponent = value.log10().floor() as i32;
-    let mantissa = round(value / 10f64.powi(exponent));
-    // through text, so that the result is the number that a person would write
-    format!("{mantissa}e{exponent}").parse().expect("a number and an exponent")
-}
-
-/// Step and stop time that suit the scene.
-pub struct Experiment {
-    /// [s]
-    pub step: f64,
-    /// [s]
-    pub stop: f64,
-}
-
-/// How many steps of a contact the suggested step makes: of the default scene's impact the restitution is then right to 2 % if
-/// the force comes a step late, and to 1e-5 by leap-frog.
-const STEPS_PER_CONTACT: f64 = 256.0;
-
-/// Step and stop time that suit the scene's impact: the contact takes 256 steps, and ends before the stop.
-pub fn experiment(scene: &Scene) -> Experiment {
-    let contact_time = prediction(scene).contact_time();
-    let step = one_digit(contact_time / STEPS_PER_CONTACT, |mantissa| match mantissa {
-        m if m >= 5.0 => 5.0,
-        m if m >= 2.0 => 2.0,
-        _ => 1.0,
-    });
-    let gap = scene.group_value(0, "initial_gap").unwrap_or(0.0).max(0.0);
-    let stop = one_digit(2.0 * contact_time + gap / scene.impact.speed, f64::ceil);
-    Experiment { step, stop }
 }

@@ -1,8 +1,10 @@
 //! `brinell laws`: what laws there are, and how good each is, measured when it is asked for.
 
+use crate::curve;
 use crate::energy::{self, Balance};
+use crate::files::{deliver, ending};
 use crate::law_text::{self, LawText};
-use crate::laws::unloading_of;
+use crate::laws::{self, unloading_of};
 use crate::model::Dampings;
 use crate::parameters::{self, Constant};
 use crate::scene::Scene;
@@ -15,6 +17,27 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model};
 use serde::Serialize;
+use std::error::Error;
+use std::path::Path;
+
+/// The command: lists the laws, or draws their loading curves into the file `output`.
+pub fn run(output: Option<&Path>, as_json: bool) -> Result<(), Box<dyn Error>> {
+    let scene = Scene::default_scene()?;
+    if output.is_some() {
+        if ending(output, &["csv", "svg"])? == "csv" {
+            return Err("the loading curves are a picture: the name must end in .svg".into());
+        }
+        let choices = laws::choose(&scene, &["all".to_string()])?;
+        return Ok(deliver(&curve::over_hertz(&choices), output)?);
+    }
+    let list = all(&scene);
+    if as_json {
+        println!("{}", serde_json::to_string(&list)?);
+    } else {
+        print(&list);
+    }
+    Ok(())
+}
 
 /// Every law.
 #[derive(Debug, Serialize)]

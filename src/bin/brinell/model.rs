@@ -8,6 +8,10 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model, Pair};
 
+// how many predictions this thread has made
+#[cfg(test)]
+thread_local!(pub static PREDICTIONS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) });
+
 /// Bodies with laws, of either kind.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there are a few of them at a time")]
@@ -21,6 +25,8 @@ pub enum AnyModel {
 impl AnyModel {
     /// What an impact will do; `None` beyond what the law can be evaluated for.
     pub fn predict(&self, impact: &Impact) -> Option<Prediction> {
+        #[cfg(test)]
+        PREDICTIONS.set(PREDICTIONS.get() + 1);
         match self {
             AnyModel::Elastoplastic(model) => impact::predict(model, impact),
             AnyModel::Damped(model) => damped::impact::predict(model, impact),
@@ -84,11 +90,11 @@ impl AnyModel {
         }
     }
 
-    /// Indentation [m] and force [N] over an impact: to the largest indentation, and back if the way back is another.
-    pub fn branches(&self, impact: &Impact) -> Option<Vec<Vec<(f64, f64)>>> {
+    /// Indentation [m] and force [N] over an impact with its `prediction`: to the largest indentation, and back if the way back
+    /// is another.
+    pub fn branches(&self, impact: &Impact, prediction: &Prediction) -> Option<Vec<Vec<(f64, f64)>>> {
         match self {
             AnyModel::Elastoplastic(model) => {
-                let prediction = impact::predict(model, impact)?;
                 let (dent, largest) = (prediction.residual_indentation, prediction.max_indentation);
                 let way = |from: f64, to: f64| {
                     (0..=POINTS).map(move |point| from + (to - from) * f64::from(point) / f64::from(POINTS))

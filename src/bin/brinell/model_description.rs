@@ -1,6 +1,7 @@
 //! `modelDescription.xml`.
 
-use crate::interface::{Entry, experiment};
+use crate::interface::Entry;
+use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::table::{Causality, Type, UNITS, Unit};
 use quick_xml::Writer;
@@ -18,16 +19,17 @@ const LOG_CATEGORIES: [(&str, &str); 4] = [
     ("logAll", "all of them"),
 ];
 
-/// The model description of `scene` with the variables `entries`, under the identification `guid`.
-pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
+/// The model description of the planned unit, under the identification `guid`.
+pub fn write(plan: &Plan, guid: &str) -> String {
     let mut xml = Writer::new_with_indent(Cursor::new(Vec::new()), b' ', 2);
-    document(&mut xml, scene, entries, guid).expect("memory takes everything");
+    document(&mut xml, plan, guid).expect("memory takes everything");
     let mut text = String::from_utf8(xml.into_inner().into_inner()).expect("XML is written as UTF-8");
     text.push('\n');
     text
 }
 
-fn document(xml: &mut Xml, scene: &Scene, entries: &[Entry], guid: &str) -> io::Result<()> {
+fn document(xml: &mut Xml, plan: &Plan, guid: &str) -> io::Result<()> {
+    let Plan { scene, variables: entries, experiment, .. } = plan;
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let tool = concat!("Brinell ", env!("CARGO_PKG_VERSION"));
     let attributes = [
@@ -49,7 +51,6 @@ fn document(xml: &mut Xml, scene: &Scene, entries: &[Entry], guid: &str) -> io::
             }
             Ok(())
         })?;
-        let experiment = experiment(scene);
         let times = [("startTime", 0.0), ("stopTime", experiment.stop), ("stepSize", experiment.step)];
         let times = times.map(|(name, value)| (name, number(value)));
         let times = times.iter().map(|(name, value)| (*name, value.as_str()));
@@ -72,7 +73,7 @@ fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
-        ("providesDirectionalDerivative", "false"),
+        ("providesDirectionalDerivative", "true"),
     ];
     xml.create_element("CoSimulation").with_attributes(attributes).write_empty()?;
     Ok(())
@@ -130,7 +131,7 @@ fn scalar_variable(xml: &mut Xml, entry: &Entry, index: usize) -> io::Result<()>
     let attributes = [
         ("name", name.as_str()),
         ("valueReference", &reference),
-        ("description", &variable.description),
+        ("description", entry.description),
         ("causality", causality),
         ("variability", variability),
         ("initial", initial),
@@ -169,7 +170,7 @@ fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
         })?;
         xml.create_element("InitialUnknowns").write_inner_content(|xml| {
             for (entry, index) in outputs() {
-                let input = entry.follows.filter(|_| entry.follows_from_the_start).map(|first| first + index);
+                let input = entry.follows_at_start.map(|first| first + index);
                 unknown(xml, entry.reference + index, input, &entry.dependencies)?;
             }
             Ok(())

@@ -1,11 +1,10 @@
 //! What `brinell export` says: what the unit has, and what was left out of it.
 
-use crate::guard;
-use crate::interface::prediction;
+use crate::interface::Entry;
 use crate::package::Exported;
+use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
-use crate::table::{Causality, VARIABLES, Variable};
-use crate::validity;
+use crate::table::{Causality, VARIABLES};
 use brinell::contact::Surface;
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
@@ -14,11 +13,7 @@ use serde_json::{Value, json};
 
 /// Inputs and outputs, parameters, and what there could be besides.
 pub struct Summary<'a> {
-    scene: &'a Scene,
-    /// Names of the variables, those of a counted group as one: `contact[1..1000].force`.
-    variables: Vec<String>,
-    /// Names of the constants.
-    constants: Vec<String>,
+    plan: &'a Plan<'a>,
     /// Outputs that weren't chosen.
     outputs: Vec<&'static str>,
     /// Parameters that no contact has.
@@ -35,58 +30,66 @@ struct OtherLaws {
 }
 
 impl Summary<'_> {
-    pub fn of(scene: &Scene) -> Summary<'_> {
-        let (parameters, constants) = parameters(scene);
-        let has_parameter = |name: &str| all_parameters(scene).any(|(_, parameter)| parameter.name == name);
-        let absent = of_kind(Causality::Parameter).filter(|name| !has_parameter(name)).collect();
-        let outputs = of_kind(Causality::Output).filter(|name| !shows(scene, name)).collect();
-        let shown = |causality| of_kind(causality).filter(|name| shows(scene, name));
-        let all = shown(Causality::Input).chain(shown(Causality::Output));
-        let names = all.flat_map(|name| scene.contacts.iter().map(move |group| format!("{}{name}", prefixes(group))));
-        let variables = names.chain(parameters).collect();
-        Summary { scene, variables, constants, outputs, absent, laws: OtherLaws::of(scene), features: features(scene) }
+    pub fn of<'a>(plan: &'a Plan<'a>) -> Summary<'a> {
+        let scene = plan.scene;
+        let parameters = scene.parameters.iter().chain(scene.contacts.iter().flat_map(|group| &group.own));
+        let absent = of_kind(Causality::Parameter).filter(|name| !parameters.clone().any(|other| other.name == *name));
+        let outputs = of_kind(Causality::Output).filter(|name| !shows(plan, name));
+        let (outputs, absent) = (outputs.collect(), absent.collect());
+        Summary { plan, outputs, absent, laws: OtherLaws::of(scene), features: features(scene) }
     }
 
     /// How many variables the unit has.
     fn variable_count(&self) -> usize {
-        let shown = VARIABLES.iter().filter(|variable| shows(self.scene, &variable.name)).count();
-        let settable = all_parameters(self.scene).filter(|(_, parameter)| parameter.settable).count();
-        shown * self.scene.contact_count() + settable
+        self.plan.variables.iter().map(|entry| entry.count).sum()
     }
 
     /// The variables, those of all contacts together.
     fn variables_by_kind(&self) -> Vec<String> {
-        let kinds = VARIABLES.iter().filter(|variable| shows(self.scene, &variable.name));
-        let named = self.scene.contacts[0].name.is_some();
-        let kind = |variable: &Variable| format!("{}{}", if named { "*." } else { "" }, variable.name);
-        kinds.map(kind).chain(parameters(self.scene).0).collect()
+        let named = self.plan.scene.contacts[0].name.is_some();
+        let mut names: Vec<String> = Vec::new();
+        for entry in &self.plan.variables {
+            let name = match entry.variable.causality {
+                Causality::Parameter => entry.name(0),
+                _ if named => format!("*.{}", entry.variable.name),
+                _ => entry.variable.name.clone(),
+            };
+            if names.last() != Some(&name) {
+                names.push(name);
+            }
+        }
+        names
     }
 
     /// For programs.
     pub fn json(&self, exported: &Exported) -> Value {
+        let Plan { scene, variables, constants, guard, warnings, .. } = self.plan;
         // every variable there can be that this unit doesn't show
-        let settable = |name: &str| all_parameters(self.scene).any(|(_, p)| p.name == name && p.settable);
         let left_out = VARIABLES.iter().map(|variable| variable.name.as_str());
-        let left_out: Vec<_> = left_out.filter(|name| !shows(self.scene, name) && !settable(name)).collect();
+        let left_out: Vec<_> = left_out.filter(|name| !shows(self.plan, name)).collect();
         let OtherLaws { loading, unloading, damped } = &self.laws;
         let mut object = json!({
             "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
-            "imports": exported.imports, "warnings": warnings(self.scene), "passivity_guard": guard::ranges(self.scene),
-            "variables": self.variables, "variable_count": self.variable_count(), "constants": self.constants,
+            "imports": exported.imports, "warnings": warnings,
+            "makes_energy": self.plan.makes_energy, "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
+            "variables": variables.iter().map(Entry::label).collect::<Vec<_>>(), "variable_count": self.variable_count(),
+            "constants": constants.iter().map(|constant| &constant.name).collect::<Vec<_>>(),
             "left_out": left_out, "absent": self.absent, "left_out_features": self.features,
             "left_out_laws": { "loading": loading, "unloading": unloading, "damped": damped },
         });
-        if self.scene.contacts[0].name.is_some() {
-            let groups = 0..self.scene.contacts.len();
+        if scene.contacts[0].name.is_some() {
+            let groups = 0..scene.contacts.len();
             object["contacts"] = groups.map(|group| self.group_json(group)).collect();
         }
         object
     }
 
     fn group_json(&self, group: usize) -> Value {
-        let Group { name, count, own, .. } = &self.scene.contacts[group];
+        let Plan { scene, guard, .. } = self.plan;
+        let Group { name, count, own, .. } = &scene.contacts[group];
         let own: Value = own.iter().map(|parameter| (parameter.name.to_string(), json!(parameter.value))).collect();
-        json!({ "name": name, "count": count, "own": own, "passivity_guard": guard::ranges_of(self.scene, group) })
+        let ranges = guard.as_ref().map(|guard| &guard.by_group[group]);
+        json!({ "name": name, "count": count, "own": own, "passivity_guard": ranges })
     }
 
     /// For people.
@@ -98,20 +101,24 @@ impl Summary<'_> {
             exported.library_size,
             exported.imports.join(", ")
         );
-        println!("  law        {}", law(self.scene));
-        if let Some(words) = guard::words(self.scene) {
-            println!("  guard      {words}");
+        let Plan { scene, constants, guard, warnings, .. } = self.plan;
+        println!("  law        {}", law(scene));
+        if let Some(guard) = guard {
+            println!("  guard      {}", guard.words());
         }
-        for warning in warnings(self.scene) {
+        if self.plan.makes_energy {
+            println!("  energy     these laws can give back more than they took");
+        }
+        for warning in warnings {
             println!("  warning    {warning}");
         }
-        if self.scene.contacts[0].name.is_some() {
-            println!("  contacts   {}", self.scene.contact_count());
-            self.scene.contacts.iter().for_each(|group| println!("    {}", group_line(group)));
+        if scene.contacts[0].name.is_some() {
+            println!("  contacts   {}", scene.contact_count());
+            scene.contacts.iter().for_each(|group| println!("    {}", group_line(group)));
         }
         println!("  variables  {}: {}", self.variable_count(), self.variables_by_kind().join(", "));
         // what a group has of its own stands in its line
-        for Parameter { name, value, .. } in self.scene.parameters.iter().filter(|parameter| !parameter.settable) {
+        for Constant { name, value, .. } in constants.iter().filter(|constant| constant.shared) {
             println!("  constant   {name} = {value:?}");
         }
         let OtherLaws { loading, unloading, damped } = &self.laws;
@@ -128,11 +135,6 @@ impl Summary<'_> {
             println!("    {heading:<12}{}", names.join(", "));
         }
     }
-}
-
-/// Where the scene's impact leaves the validity of its law, on the first contact.
-fn warnings(scene: &Scene) -> Vec<String> {
-    validity::warnings(&scene.any_model().pair(), scene.contacts[0].density, &prediction(scene), scene.impact.speed)
 }
 
 impl OtherLaws {
@@ -172,39 +174,9 @@ fn of_kind(causality: Causality) -> impl Iterator<Item = &'static str> {
     VARIABLES.iter().filter(move |variable| variable.causality == causality).map(|variable| variable.name.as_str())
 }
 
-/// Whether every contact has the input or output `name`.
-fn shows(scene: &Scene, name: &str) -> bool {
-    let is_input = |variable: &Variable| variable.name == name && variable.causality == Causality::Input;
-    name == "force" || VARIABLES.iter().any(is_input) || scene.outputs.iter().any(|output| output == name)
-}
-
-/// Every parameter with the group that it belongs to, if it doesn't belong to all.
-fn all_parameters(scene: &Scene) -> impl Iterator<Item = (Option<&Group>, &Parameter)> {
-    let shared = scene.parameters.iter().map(|parameter| (None, parameter));
-    let own = scene.contacts.iter().flat_map(|group| group.own.iter().map(move |parameter| (Some(group), parameter)));
-    shared.chain(own)
-}
-
-/// The names of the parameters that can be set, and of the others.
-fn parameters(scene: &Scene) -> (Vec<String>, Vec<String>) {
-    let (mut settable, mut constants) = (Vec::new(), Vec::new());
-    for (group, parameter) in all_parameters(scene) {
-        let name = group.map_or(parameter.name.into(), |group| group.variable(parameter.name));
-        if parameter.settable {
-            settable.push(name);
-        } else {
-            constants.push(name);
-        }
-    }
-    (settable, constants)
-}
-
-/// What stands before the variables of all contacts of the group.
-fn prefixes(group: &Group) -> String {
-    match (&group.name, group.count) {
-        (Some(name), Some(count @ 2..)) => format!("{name}[1..{count}]."),
-        _ => group.prefix(0),
-    }
+/// Whether the unit has the variable `name`, in one contact at least.
+fn shows(plan: &Plan, name: &str) -> bool {
+    plan.variables.iter().any(|entry| entry.variable.name == name)
 }
 
 /// One line about a group: what differs in it.
@@ -212,7 +184,7 @@ fn group_line(group: &Group) -> String {
     let own = group.own.iter().map(|Parameter { name, value, .. }| format!("{name} = {value:?}"));
     let own = own.collect::<Vec<_>>().join(", ");
     let own = if own.is_empty() { "as the scene".into() } else { own };
-    format!("{:<20} {:>6}  {own}", prefixes(group).trim_end_matches('.'), group.len())
+    format!("{:<20} {:>6}  {own}", group.label(), group.len())
 }
 
 fn law(scene: &Scene) -> String {

@@ -25,6 +25,39 @@ pub struct Variable {
     #[serde(default)]
     pub follows_rate: Follows,
     pub description: String,
+    /// What is said instead in units of another kind.
+    #[serde(default)]
+    pub instead: Vec<Instead>,
+}
+
+/// What is said of a variable in units of one kind.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Instead {
+    pub of: Kind,
+    pub description: String,
+}
+
+/// A kind of unit in which variables mean something else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// The force depends on the rate.
+    RateDependent,
+    /// The unit knows the mass.
+    MassKnown,
+    /// Its laws can give back more than they took.
+    MakesEnergy,
+    /// Its laws lose less where the dent is deeper.
+    LosesLess,
+}
+
+impl Variable {
+    /// What is said of the variable in a unit of these `kinds`.
+    pub fn description(&self, kinds: &[Kind]) -> &str {
+        let instead = self.instead.iter().find(|instead| kinds.contains(&instead.of));
+        instead.map_or(&self.description, |instead| &instead.description)
+    }
 }
 
 /// Whether an output follows the rate at the same instant.

@@ -6,6 +6,7 @@ mod trial;
 use crate::importer::{Archive, Description, ImportError, Instance};
 use crate::scene::{Scene, SceneError};
 use serde::Serialize;
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use trial::{STEPS_PER_CONTACT, Trial};
 
@@ -21,6 +22,17 @@ pub enum CheckError {
     NoScene(PathBuf),
     #[error("{}: its scene can't be read: {source}", path.display())]
     Scene { path: PathBuf, source: SceneError },
+}
+
+/// The command: checks the unit at `path` and says what came out; whether it passed.
+pub fn run(path: &Path, as_json: bool) -> Result<bool, Box<dyn Error>> {
+    let outcome = check(path)?;
+    if as_json {
+        println!("{}", serde_json::to_string(&outcome)?);
+    } else {
+        print!("{outcome}");
+    }
+    Ok(outcome.passed)
 }
 
 /// What came out.
@@ -58,16 +70,16 @@ pub struct ImpactNumbers {
 ///
 /// # Errors
 /// [`CheckError`] if it can't be loaded or a call fails; numbers that differ are in the outcome.
-pub fn check(path: &Path) -> Result<Outcome, CheckError> {
+fn check(path: &Path) -> Result<Outcome, CheckError> {
     let import_error = |source| CheckError::Import { path: path.into(), source };
     let archive = Archive::open(path).map_err(import_error)?;
     let text = archive.scene.clone().ok_or_else(|| CheckError::NoScene(path.into()))?;
     let scene = Scene::parse(text, &path.join("resources/scene.toml"));
     let scene = scene.map_err(|source| CheckError::Scene { path: path.into(), source })?;
-    run(&archive, &scene, path).map_err(import_error)
+    try_out(&archive, &scene, path).map_err(import_error)
 }
 
-fn run(archive: &Archive, scene: &Scene, path: &Path) -> Result<Outcome, ImportError> {
+fn try_out(archive: &Archive, scene: &Scene, path: &Path) -> Result<Outcome, ImportError> {
     let description = &archive.description;
     let unit = archive.load()?;
     let trial = |group| Trial::run(&mut unit.instantiate()?, description, scene, group);

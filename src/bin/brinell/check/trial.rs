@@ -49,7 +49,7 @@ impl Trial {
     ) -> Result<Trial, ImportError> {
         let given = &scene.contacts[group];
         let prefix = given.prefix(0);
-        let prediction = scene.any_model_of(group).predict(&scene.impact).expect("a checked scene has a prediction");
+        let prediction = &scene.predictions[group];
         let step = prediction.contact_time() / f64::from(STEPS_PER_CONTACT);
         let contact = given.name.is_some().then(|| prefix.trim_end_matches('.').to_string());
         let mut trial =
@@ -78,7 +78,7 @@ impl Trial {
         let mean_force = if scene.knows_mass { Some(description.real(&mean_force)?) } else { None };
         let mut master = Master { instance: &mut *instance, rate, force, time: 0.0, follows, mean_force };
         let simulated = master.impact(&scene.impact, gap, step)?;
-        trial.rows = compare(&prediction, &simulated);
+        trial.rows = compare(prediction, &simulated);
         if follows {
             // nothing remains, and where the force ends says nothing
             trial.rows.retain(|row| row.quantity != "dent");

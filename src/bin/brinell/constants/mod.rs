@@ -4,13 +4,14 @@ mod groups;
 mod parameters;
 mod variables;
 
-use crate::interface::Entry;
+use crate::plan::Plan;
 use crate::scene::Scene;
 use brinell::contact::damped::AnyDamped;
 use std::fmt::Write;
 
-/// The scene as Rust with the variables `entries`, under the identification `guid`.
-pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
+/// The planned unit's scene as Rust, under the identification `guid`.
+pub fn write(plan: &Plan, guid: &str) -> String {
+    let (scene, entries) = (plan.scene, plan.variables.as_slice());
     let mut file = File::default();
     file.add_item(&format!(
         "/// What the model description and the binary recognise each other by.\nconst GUID: &str = {guid:?};\n"
@@ -24,7 +25,7 @@ pub fn write(scene: &Scene, entries: &[Entry], guid: &str) -> String {
     groups::add_density(&mut file, scene);
     variables::add_reals(&mut file, entries);
     variables::add_integers(&mut file, entries);
-    file.text(scene)
+    file.text(plan)
 }
 
 /// The parts of the file: what stands by itself, and the methods of the scene.
@@ -51,7 +52,8 @@ impl File {
     }
 
     /// The whole file.
-    fn text(&self, scene: &Scene) -> String {
+    fn text(&self, plan: &Plan) -> String {
+        let scene = plan.scene;
         let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
         let presence = |is: bool| if is { "Present" } else { "Absent" };
         let follows_rate = scene.damped.is_some();
@@ -62,7 +64,7 @@ impl File {
             true => "\n    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(follow);\n",
             false => "",
         };
-        let guard = match crate::guard::words(scene).map(|words| format!("the passivity guard {words}")) {
+        let guard = match plan.guard.as_ref().map(|guard| format!("the passivity guard {}", guard.words())) {
             Some(words) => format!(
                 "\n    const GUARD: Option<Guard<Self>> =\n        Some(Guard {{ words: {words:?}, acts: contact::History::is_held_back }});\n"
             ),

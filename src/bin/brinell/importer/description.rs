@@ -1,6 +1,7 @@
 //! What a model description says.
 
 use super::ImportError;
+use crate::xml;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::HashMap;
 
@@ -30,6 +31,10 @@ pub struct Description {
 
 impl Description {
     pub fn parse(text: &str) -> Result<Description, ImportError> {
+        if let Some((place, character)) = xml::forbidden(text) {
+            let (line, column) = place_of(&text[..place]);
+            return Err(not_xml(character, &format!(" at {line}:{column}")));
+        }
         let mut reader = quick_xml::Reader::from_str(text);
         let mut description = Description::default();
         let mut current = None;
@@ -65,6 +70,10 @@ impl Description {
                         _ => {}
                     }
                 }
+                Event::GeneralRef(reference) => {
+                    let character = reference.resolve_char_ref().map_err(|error| wrong(&error))?;
+                    check_characters(&character.map(String::from).unwrap_or_default())?;
+                }
                 _ => {}
             }
         }
@@ -83,7 +92,23 @@ fn attributes(element: &BytesStart) -> Result<HashMap<String, String>, ImportErr
         let attribute = attribute.map_err(|error| ImportError::Xml(error.to_string()))?;
         let name = attribute.key.as_ref().to_string();
         let value = attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0);
-        map.insert(name, value.map_err(|error| ImportError::Xml(error.to_string()))?.into_owned());
+        let value = value.map_err(|error| ImportError::Xml(error.to_string()))?.into_owned();
+        check_characters(&value)?;
+        map.insert(name, value);
     }
     Ok(map)
+}
+
+/// Refuses what references like `&#1;` may have brought.
+fn check_characters(text: &str) -> Result<(), ImportError> {
+    xml::forbidden(text).map_or(Ok(()), |(_, character)| Err(not_xml(character, &format!(" in {text:?}"))))
+}
+
+fn not_xml(character: char, place: &str) -> ImportError {
+    ImportError::Xml(format!("the character {}{place} is none that XML can have", xml::name(character)))
+}
+
+/// Line and column behind the text `before`.
+fn place_of(before: &str) -> (usize, usize) {
+    (before.matches('\n').count() + 1, before.chars().rev().take_while(|&c| c != '\n').count() + 1)
 }

@@ -1,8 +1,11 @@
 //! An importer of FMI 2.0 co-simulation units: it knows of a unit what the archive and the C interface say, no more.
 
+#![allow(unsafe_code, reason = "units are called through the C interface")]
+
 mod description;
 mod unit;
 
+use crate::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
 use std::ffi::c_int;
 use std::path::Path;
@@ -25,7 +28,9 @@ pub enum ImportError {
     #[error("modelDescription.xml can't be read: {0}")]
     Xml(String),
     #[error("there is no binary for this platform ({wanted}), {present}")]
-    Platform { wanted: String, present: String },
+    Binary { wanted: String, present: String },
+    #[error("{0}")]
+    Platform(#[from] NoPlatform),
     #[error("the library can't be loaded: {}", chain(.0))]
     Library(libloading::Error),
     #[error("the library has no function {name}: {}", chain(.source))]
@@ -73,7 +78,7 @@ impl Archive {
 
     /// Loads the binary for this machine.
     pub fn load(&self) -> Result<Unit, ImportError> {
-        let (folder, extension) = crate::package::platform().map_err(|error| ImportError::Xml(error.to_string()))?;
+        let Platform { folder, extension } = platform::here()?;
         let name = format!("{}.{extension}", self.description.identifier);
         let path = self.folder.path().join("binaries").join(folder).join(name);
         if !path.exists() {
@@ -81,7 +86,7 @@ impl Archive {
                 none if none.is_empty() => "nor for any other".into(),
                 some => format!("only for {some}"),
             };
-            return Err(ImportError::Platform { wanted: folder.into(), present });
+            return Err(ImportError::Binary { wanted: folder.into(), present });
         }
         Unit::load(&path, self.folder.path(), &self.description.guid)
     }

@@ -1,6 +1,7 @@
 //! The library of a unit: what cargo is given, and how it is called.
 
 use super::{ExportError, LIBRARY_SOURCE};
+use crate::files::FileError;
 use crate::scene::Scene;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -122,7 +123,7 @@ struct Target {
 /// Compiles the library with `constants` as its scene and gives its bytes.
 pub fn build(scene: &Scene, constants: &str, guid: &str) -> Result<Vec<u8>, ExportError> {
     let folder = tempfile::Builder::new().prefix("brinell-").tempdir();
-    let folder = folder.map_err(|source| ExportError::File { path: env::temp_dir(), source })?;
+    let folder = folder.map_err(FileError::at(&env::temp_dir()))?;
     let root = folder.path();
     let (manifest, lock_file) = (manifest(guid), lock_file(guid));
     let own =
@@ -150,7 +151,7 @@ pub fn build(scene: &Scene, constants: &str, guid: &str) -> Result<Vec<u8>, Expo
     };
     let missing = || ExportError::Build(format!("cargo named no library for {}", scene.name));
     let path = built.filter(is_library).flat_map(|message| message.filenames).next().ok_or_else(missing)?;
-    let library = fs::read(&path).map_err(|source| ExportError::File { path, source })?;
+    let library = fs::read(&path).map_err(FileError::at(&path))?;
     cache.forget(guid);
     Ok(library)
 }
@@ -181,12 +182,11 @@ struct Cache {
 }
 
 impl Cache {
-    fn lock() -> Result<Cache, ExportError> {
+    fn lock() -> Result<Cache, FileError> {
         let folder = cache_folder();
-        let file_error = |source| ExportError::File { path: folder.clone(), source };
-        fs::create_dir_all(&folder).map_err(file_error)?;
-        let lock = fs::File::create(folder.join("lock")).map_err(file_error)?;
-        lock.lock().map_err(file_error)?;
+        fs::create_dir_all(&folder).map_err(FileError::at(&folder))?;
+        let lock = fs::File::create(folder.join("lock")).map_err(FileError::at(&folder))?;
+        lock.lock().map_err(FileError::at(&folder))?;
         Ok(Cache { folder, _lock: lock })
     }
 
@@ -215,10 +215,10 @@ fn cache_folder() -> PathBuf {
     base.unwrap_or_else(env::temp_dir).join("brinell")
 }
 
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    let file_error = |source| ExportError::File { path: path.into(), source };
+fn write_file(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let file_error = FileError::at(path);
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(file_error)?;
+        fs::create_dir_all(folder).map_err(&file_error)?;
     }
-    fs::write(path, bytes).map_err(file_error)
+    fs::write(path, bytes).map_err(&file_error)
 }

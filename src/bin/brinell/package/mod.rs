@@ -2,14 +2,14 @@
 
 mod library;
 
-use crate::interface::{Entry, entries};
-use crate::scene::Scene;
+use crate::files::{FileError, write_whole};
+use crate::plan::Plan;
+use crate::platform::{self, NoPlatform, Platform};
 use crate::symbols::{self, SymbolError};
 use crate::{constants, documentation, model_description};
 use sha2::{Digest, Sha256};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::{env, fs, io};
 use zip::CompressionMethod;
 use zip::write::SimpleFileOptions;
 
@@ -22,8 +22,8 @@ const ICON: &[u8] = include_bytes!("../../../../modelDescription/model.png");
 /// A unit that couldn't be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    #[error("{path}: {source}", path = path.display())]
-    File { path: PathBuf, source: io::Error },
+    #[error("{0}")]
+    File(#[from] FileError),
     #[error("cargo can't be started ({0}): exporting needs a Rust toolchain on PATH, see rustup.rs")]
     NoCargo(io::Error),
     #[error("cargo didn't build the library:\n{0}")]
@@ -32,11 +32,12 @@ pub enum ExportError {
     Symbols(#[from] SymbolError),
     #[error("the archive can't be written: {0}")]
     Zip(#[from] zip::result::ZipError),
-    #[error("units for {0} can't be made here: FMI 2.0 has no folder for this platform")]
-    Platform(String),
+    #[error("{0}")]
+    Platform(#[from] NoPlatform),
 }
 
 /// What was exported.
+#[derive(Default)]
 pub struct Exported {
     pub path: PathBuf,
     pub guid: String,
@@ -47,31 +48,18 @@ pub struct Exported {
     pub imports: Vec<String>,
 }
 
-/// Folder of the binaries for this machine, and how libraries are called there.
-pub fn platform() -> Result<(&'static str, &'static str), ExportError> {
-    match (env::consts::OS, env::consts::ARCH) {
-        ("linux", "x86_64") => Ok(("linux64", "so")),
-        ("linux", "aarch64") => Ok(("aarch64-linux", "so")),
-        ("windows", "x86_64") => Ok(("win64", "dll")),
-        ("macos", "x86_64") => Ok(("darwin64", "dylib")),
-        ("macos", "aarch64") => Ok(("aarch64-darwin", "dylib")),
-        (os, arch) => Err(ExportError::Platform(format!("{os} on {arch}"))),
-    }
-}
-
-/// Builds the unit of `scene` and writes it to `path`, which is replaced only when everything has gone well.
+/// Builds the planned unit and writes it to `path`, which is replaced only when everything has gone well.
 ///
 /// # Errors
 /// [`ExportError`]; nothing is then written.
-pub fn export(scene: &Scene, path: &Path) -> Result<Exported, ExportError> {
-    let (folder, extension) = platform()?;
-    let entries = entries(scene);
-    let guid = identification(scene, &entries);
-    let library = library::build(scene, &constants::write(scene, &entries, &guid), &guid)?;
+pub fn export(plan: &Plan, path: &Path) -> Result<Exported, ExportError> {
+    let Platform { folder, extension } = platform::here()?;
+    let scene = plan.scene;
+    let Identified { guid, description, constants } = Identified::of(plan);
+    let library = library::build(scene, &constants, &guid)?;
     let imports = symbols::check(&library)?;
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
-    let page = documentation::write(scene, &entries);
-    let description = model_description::write(scene, &entries, &guid);
+    let page = documentation::write(plan);
     let files: [(String, &[u8]); 6] = [
         ("modelDescription.xml".into(), description.as_bytes()),
         ("model.png".into(), ICON),
@@ -85,16 +73,35 @@ pub fn export(scene: &Scene, path: &Path) -> Result<Exported, ExportError> {
     Ok(Exported { path: path.into(), guid, size: archive.len(), library_size: library.len(), imports })
 }
 
-/// Hash of all that the unit is made of: description, constants, source of the library.
-fn identification(scene: &Scene, entries: &[Entry]) -> String {
-    let mut hash = Sha256::new();
-    hash.update(model_description::write(scene, entries, ""));
-    hash.update(constants::write(scene, entries, ""));
-    for (name, text) in LIBRARY_SOURCE {
-        hash.update(name);
-        hash.update(text);
+/// The two texts that the unit recognises itself by, and what they have in common.
+struct Identified {
+    guid: String,
+    description: String,
+    constants: String,
+}
+
+/// What stands for the GUID until it is known. In quotes it can't be in any other place: those of a scene's texts are written
+/// as `&quot;` and `\"`.
+const GUID_TO_COME: &str = "GUID to come";
+
+impl Identified {
+    /// The GUID is a hash of all that the unit is made of: description, constants, source of the library.
+    fn of(plan: &Plan) -> Identified {
+        let description = model_description::write(plan, GUID_TO_COME);
+        let constants = constants::write(plan, GUID_TO_COME);
+        let mut hash = Sha256::new();
+        hash.update(&description);
+        hash.update(&constants);
+        for (name, text) in LIBRARY_SOURCE {
+            hash.update(name);
+            hash.update(text);
+        }
+        let guid: String = hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect();
+        let quoted = |text: &str| format!("\"{text}\"");
+        let identified = |text: String| text.replacen(&quoted(GUID_TO_COME), &quoted(&guid), 1);
+        let (description, constants) = (identified(description), identified(constants));
+        Identified { guid, description, constants }
     }
-    hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The files as a zip archive: the same bytes for the same files.
@@ -110,23 +117,4 @@ fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
         archive.write_all(bytes).map_err(zip::result::ZipError::from)?;
     }
     Ok(archive.finish()?.into_inner())
-}
-
-/// Writes beside the goal and renames, so that no half of a unit is ever found there.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
-    let file_error = |source| ExportError::File { path: path.into(), source };
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let mut file = tempfile::Builder::new().prefix(".brinell-").tempfile_in(folder).map_err(file_error)?;
-    file.write_all(bytes).map_err(file_error)?;
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        let readable = fs::Permissions::from_mode(0o644);
-        fs::set_permissions(file.path(), readable).map_err(file_error)?;
-    }
-    file.persist(path).map_err(|error| file_error(error.error))?;
-    Ok(())
 }

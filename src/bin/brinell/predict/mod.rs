@@ -1,11 +1,13 @@
 //! `brinell predict`: what an impact will do, by energy balance, and the same turned round.
 
-pub mod inverse;
-pub mod page;
-pub mod rebound;
+pub mod command;
+mod inverse;
+mod page;
+mod rebound;
 pub mod sweep;
 
 use crate::laws::Choice;
+use crate::numbers::digits;
 use crate::validity;
 use brinell::contact::Loading;
 use brinell::contact::impact::{Impact, Prediction};
@@ -20,8 +22,10 @@ const GRAVITY: f64 = 9.80665;
 pub enum PredictError {
     #[error("{name} = {value} must be positive and finite")]
     NotPositive { name: &'static str, value: f64 },
-    #[error("the impact of {mass} kg at {speed} m/s is beyond what the law {law} can be evaluated for")]
+    #[error("the impact of {} kg at {} m/s is beyond what the law {law} can be evaluated for", digits(*.mass), digits(*.speed))]
     Beyond { law: String, mass: f64, speed: f64 },
+    #[error("{0}")]
+    Energy(#[from] NoEnergy),
     #[error("no {what} between {low:e} and {high:e} explains {name} = {value}")]
     NoSolution { what: &'static str, low: f64, high: f64, name: &'static str, value: f64 },
     #[error("restitution = {0} must be above 0 and at most 1")]
@@ -37,6 +41,27 @@ pub enum PredictError {
 /// Refuses what isn't positive and finite.
 pub fn positive(name: &'static str, value: f64) -> Result<f64, PredictError> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(PredictError::NotPositive { name, value }) }
+}
+
+/// A kinetic energy so small that it has lost digits already.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "the kinetic energy of mass = {} kg at speed = {} m/s is {} J: it can't be computed with below {} J",
+    digits(.0.mass), digits(.0.speed), digits(energy(.0)), digits(f64::MIN_POSITIVE)
+)]
+pub struct NoEnergy(Impact);
+
+/// Kinetic energy [J].
+fn energy(impact: &Impact) -> f64 {
+    0.5 * impact.mass * impact.speed * impact.speed
+}
+
+/// Refuses an impact for which no law is to blame: its energy is too small a number.
+///
+/// # Errors
+/// [`NoEnergy`]
+pub fn check_energy(impact: &Impact) -> Result<(), NoEnergy> {
+    if energy(impact) < f64::MIN_POSITIVE { Err(NoEnergy(*impact)) } else { Ok(()) }
 }
 
 /// The speed [m/s] of `mass` [kg] with a kinetic energy [J].
@@ -91,17 +116,20 @@ fn onsets(choice: &Choice, mass: f64) -> Vec<(i32, f64)> {
     onsets
 }
 
-/// The predictions as a table for people, with warnings; `density` is that of the target [kg/m^3], if it is known.
-pub fn text(choices: &[Choice], impact: &Impact, density: Option<f64>) -> Result<String, PredictError> {
-    let mut text = format!("impact of {} kg at {} m/s", impact.mass, impact.speed);
+/// How the predictions by these laws are made, in words.
+fn methods(choices: &[Choice]) -> &'static str {
     let mut methods: Vec<_> = choices.iter().map(|choice| choice.model.method()).collect();
     methods.dedup();
-    // of two kinds of laws: which is which
     match methods.as_slice() {
-        [method] => text.push_str(&format!(", {method}")),
-        _ => text.push_str(", by energy balance; of rate-dependent laws by integrating the motion"),
+        [method] => method,
+        // of two kinds of laws: which is which
+        _ => "by energy balance; of rate-dependent laws by integrating the motion",
     }
-    text.push_str("\n\n");
+}
+
+/// The predictions as a table for people, with warnings; `density` is that of the target [kg/m^3], if it is known.
+pub fn text(choices: &[Choice], impact: &Impact, density: Option<f64>) -> Result<String, PredictError> {
+    let mut text = format!("impact of {} kg at {} m/s, {}\n\n", impact.mass, impact.speed, methods(choices));
     let predictions = choices.iter().map(|choice| one(choice, impact)).collect::<Result<Vec<_>, _>>()?;
     let add = |text: &mut String, line: std::fmt::Arguments| text.write_fmt(line).expect("a String takes everything");
     add(&mut text, format_args!("{:<24}", ""));

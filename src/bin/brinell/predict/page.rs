@@ -1,62 +1,33 @@
 //! A sweep as a page that needs nothing else: the scene in words, the pictures, the numbers.
 
-use super::quantities;
 use super::sweep::{STEPS, Sweep};
-use crate::documentation::escape;
+use super::{methods, quantities};
+use crate::bodies;
+use crate::html::{PICTURE_STYLE, begin, escape};
+use crate::laws::Choice;
 use crate::numbers::digits;
 use crate::plot::css_line;
 use crate::scene::Scene;
-use crate::table;
 use std::fmt::Write;
 
 /// Every how manyth speed the tables show; the others are in the CSV.
 const STRIDE: usize = STEPS as usize / 20;
 
-/// In the dark the pictures are inverted and their hues turned back, so that every line keeps its colour and its contrast.
-const STYLE: &str = "\
-:root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 76rem; margin: 0 auto; padding: 1rem; }
-.panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(20rem, 100%), 1fr)); gap: .5rem; }
-.panels.wide { grid-template-columns: repeat(auto-fit, minmax(min(30rem, 100%), 1fr)); }
-figure { margin: 0; max-width: 46rem; } figure svg { width: 100%; height: auto; }
-.legend { display: flex; flex-wrap: wrap; gap: 0 1.5rem; list-style: none; padding: 0; }
-.legend i { display: inline-block; width: 1.25rem; margin-right: .4rem; vertical-align: middle; }
-.table { overflow: auto; max-height: 30rem; font-size: .9rem; } table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-th, td { text-align: right; padding: .2rem .6rem; border-bottom: 1px solid #8886; white-space: nowrap; }
-th { vertical-align: bottom; white-space: normal; }
-th button { all: unset; cursor: pointer; } th button:focus-visible { outline: 2px solid; }
-[aria-sort=ascending] button::after { content: \" \\2191\"; } [aria-sort=descending] button::after { content: \" \\2193\"; }
-.copy { font: inherit; } .scene th, .scene td, .words { text-align: left; } .lead { font-size: 1.15rem; }
-@media screen and (prefers-color-scheme: dark) { figure svg, .legend i { filter: invert(1) hue-rotate(180deg); } }
-@media print {
-  body { max-width: none; padding: 0; font-size: 9pt; } .csv { display: none; } .table { overflow: visible; max-height: none; font-size: inherit; }
-  .panels { grid-template-columns: repeat(3, 1fr); } h2 { break-after: avoid; } tr, figure { break-inside: avoid; }
-  .legend i { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  th, td { padding: .1rem .35rem; } .words { white-space: normal; }
-}";
-
-/// The page of `sweep` on the bodies of `scene`.
-pub fn write(scene: &Scene, sweep: &Sweep) -> String {
+/// The page of `sweep`, by the laws of `choices` on the bodies of the first contact of `scene`.
+pub fn write(scene: &Scene, choices: &[Choice], sweep: &Sweep) -> String {
     let mut page = String::new();
-    body(&mut page, scene, sweep).expect("a String takes everything");
+    body(&mut page, scene, choices, sweep).expect("a String takes everything");
     page
 }
 
-/// What a page begins with, up to its heading.
-pub fn begin(page: &mut String, title: &str) -> std::fmt::Result {
-    writeln!(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">")?;
-    writeln!(page, "<title>{title}</title>\n<meta name=\"viewport\" content=\"width=device-width\">")?;
-    writeln!(page, "<style>\n{STYLE}\n</style>\n</head>\n<body>")
-}
-
-fn body(page: &mut String, scene: &Scene, sweep: &Sweep) -> std::fmt::Result {
+fn body(page: &mut String, scene: &Scene, choices: &[Choice], sweep: &Sweep) -> std::fmt::Result {
     let name = escape(&scene.name);
-    begin(page, &format!("{name}: impacts"))?;
+    begin(page, &format!("{name}: impacts"), PICTURE_STYLE)?;
     writeln!(page, "<h1>{name}: impacts over speed</h1>")?;
     if !scene.description.is_empty() {
         writeln!(page, "<p>{}</p>", escape(&scene.description))?;
     }
-    words(page, scene, sweep)?;
+    words(page, scene, choices, sweep)?;
     legend(page, sweep)?;
     writeln!(page, "<div class=\"panels\">")?;
     for panel in sweep.panels() {
@@ -77,29 +48,32 @@ fn body(page: &mut String, scene: &Scene, sweep: &Sweep) -> std::fmt::Result {
     writeln!(page, "<p>Brinell {}</p>\n</body>\n</html>", env!("CARGO_PKG_VERSION"))
 }
 
-/// What meets what.
-fn words(page: &mut String, scene: &Scene, sweep: &Sweep) -> std::fmt::Result {
+/// What meets what, and how the impacts were found.
+fn words(page: &mut String, scene: &Scene, choices: &[Choice], sweep: &Sweep) -> std::fmt::Result {
     let (from, to) = sweep.range;
-    let rigid = scene.value("impactor.youngs_modulus").is_none();
-    let impactor = if rigid { "A rigid sphere" } else { "An elastic sphere" };
-    let target = match scene.value("target.radius") {
-        None => "a half-space",
-        Some(radius) if radius < 0.0 => "a spherical socket",
-        Some(_) => "a sphere",
+    let (impactor, target) = bodies::words(scene, 0);
+    let begin = match bodies::first_contact(scene) {
+        Some(contact) => format!("In {contact}, {impactor}"),
+        None => capitalized(impactor),
     };
     writeln!(
         page,
-        "<p>{impactor} meets {target} with an effective mass of {} kg and closing speeds from {} to {} m/s. By energy \
-         balance: what loading takes from the motion and unloading gives back.</p>\n<table class=\"scene\">",
+        "<p>{begin} meets {target} with an effective mass of {} kg and closing speeds from {} to {} m/s. The impacts are \
+         predicted {}.</p>\n<table class=\"scene\">",
         digits(sweep.mass),
         digits(from),
-        digits(to)
+        digits(to),
+        methods(choices)
     )?;
-    for parameter in scene.parameters.iter().filter(|parameter| parameter.name != "initial_gap") {
-        let unit = table::variable(parameter.name).unit.as_deref().unwrap_or("");
-        writeln!(page, "<tr><th>{}</th><td>{} {unit}</td></tr>", parameter.name, digits(parameter.value))?;
+    for (name, value, unit) in bodies::numbers(scene, 0).into_iter().filter(|(name, ..)| *name != "initial_gap") {
+        writeln!(page, "<tr><th>{name}</th><td>{} {unit}</td></tr>", digits(value))?;
     }
     writeln!(page, "</table>")
+}
+
+/// `words` as the beginning of a sentence.
+fn capitalized(words: &str) -> String {
+    words[..1].to_uppercase() + &words[1..]
 }
 
 fn legend(page: &mut String, sweep: &Sweep) -> std::fmt::Result {

@@ -1,6 +1,6 @@
 //! `brinell predict --sweep`: predictions over a range of speeds, as a table and as a picture.
 
-use super::{PredictError, one, quantities};
+use super::{PredictError, check_energy, one, quantities};
 use crate::laws::Choice;
 use crate::plot::{Picture, Series, side_by_side};
 use brinell::contact::impact::{Impact, Prediction};
@@ -49,8 +49,11 @@ impl Sweep {
     /// The impacts of `mass` [kg] at the speeds of `range` [m/s].
     ///
     /// # Errors
-    /// [`PredictError::Beyond`] for a speed that a law can't be evaluated for.
+    /// [`PredictError::Beyond`] for a speed that a law can't be evaluated for, [`PredictError::Energy`] for one that no law can.
     pub fn of(choices: &[Choice], mass: f64, range: (f64, f64)) -> Result<Sweep, PredictError> {
+        for speed in [range.0, range.1] {
+            check_energy(&Impact { mass, speed })?;
+        }
         let law = |choice: &Choice| Ok((choice.name.clone(), points(choice, mass, range).collect::<Result<_, _>>()?));
         Ok(Sweep { mass, range, laws: choices.iter().map(law).collect::<Result<_, PredictError>>()? })
     }

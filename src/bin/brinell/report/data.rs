@@ -1,6 +1,6 @@
 //! Tables with a unit for every column: the page, the CSV files and the JSON say the same.
 
-use crate::documentation::escape;
+use crate::html::escape;
 use crate::numbers::digits;
 use serde_json::{Map, Value, json};
 

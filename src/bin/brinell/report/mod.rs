@@ -13,8 +13,9 @@ mod unit;
 mod units;
 mod ways;
 
+use crate::files::{FileError, write_whole};
 use crate::importer::ImportError;
-use crate::package::{ExportError, write_whole};
+use crate::package::ExportError;
 use crate::plot::Picture;
 use crate::scene::Scene;
 use crate::validity;
@@ -36,8 +37,27 @@ pub enum ReportError {
     Import(#[from] ImportError),
     #[error("the other unit {}: {reason}", path.display())]
     Peer { path: PathBuf, reason: String },
-    #[error("{}: {source}", path.display())]
-    Folder { path: PathBuf, source: std::io::Error },
+    #[error("{0}")]
+    File(#[from] FileError),
+}
+
+/// The command: measures the unit of `scene` beside those at `peers` and writes the page into `folder`; whether no case has failed.
+pub fn run(
+    scene: &Scene,
+    peers: &[PathBuf],
+    folder: Option<&Path>,
+    quick: bool,
+    as_json: bool,
+) -> Result<bool, ReportError> {
+    let folder = folder.map_or_else(|| format!("{}_report", scene.name).into(), Path::to_path_buf);
+    let report = Report::of(scene, peers, quick)?;
+    let page = report.write_into(&folder)?;
+    if as_json {
+        println!("{}", report.json());
+    } else {
+        println!("{}\n{}", report.summary.join("\n"), page.display());
+    }
+    Ok(report.all_right)
 }
 
 /// All that was measured.
@@ -48,6 +68,7 @@ pub struct Report {
     pub summary: Vec<String>,
     recommendations: Value,
     parts: Vec<Part>,
+    /// No case has failed.
     all_right: bool,
 }
 
@@ -69,7 +90,7 @@ impl Report {
         let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
         let alone = unit::first_contact(scene, Needs::Force);
         let (model, impact) = (alone.any_model(), alone.impact);
-        let prediction = model.predict(&impact).expect("a checked scene has a prediction");
+        let prediction = alone.predictions[0];
         let (most, phases) = if quick { (256, 8) } else { (4096, 16) };
         let progress = &Progress::new();
         let follows_rate = scene.damped.is_some();
@@ -106,11 +127,6 @@ impl Report {
         Ok(Report { name: scene.name.clone(), summary, recommendations, parts, all_right: failed == 0 })
     }
 
-    /// Whether no case has failed.
-    pub fn passed(&self) -> bool {
-        self.all_right
-    }
-
     /// All tables as one document.
     pub fn json(&self) -> Value {
         let mut document = json!({ "scene": self.name, "summary": self.summary, "use": self.recommendations });
@@ -125,7 +141,7 @@ impl Report {
     /// # Errors
     /// [`ReportError`] if the folder can't be written to.
     pub fn write_into(&self, folder: &Path) -> Result<PathBuf, ReportError> {
-        std::fs::create_dir_all(folder).map_err(|source| ReportError::Folder { path: folder.into(), source })?;
+        std::fs::create_dir_all(folder).map_err(FileError::at(folder))?;
         for table in self.parts.iter().flat_map(|part| &part.tables) {
             write_whole(&folder.join(table.name).with_extension("csv"), table.csv().as_bytes())?;
         }

@@ -1,8 +1,7 @@
 //! The report as a page that needs nothing else.
 
 use super::Report;
-use crate::documentation::escape;
-use crate::predict::page::begin;
+use crate::html::{PICTURE_STYLE, begin, escape};
 use std::fmt::Write;
 
 /// The page of `report`.
@@ -14,7 +13,7 @@ pub fn write(report: &Report) -> String {
 
 fn body(page: &mut String, report: &Report) -> std::fmt::Result {
     let name = escape(&report.name);
-    begin(page, &format!("{name}: report"))?;
+    begin(page, &format!("{name}: report"), PICTURE_STYLE)?;
     writeln!(page, "<h1>{name}: step, coupling and law</h1>")?;
     let (lead, others) = report.summary.split_first().expect("there is something to say");
     writeln!(page, "<p class=\"lead\"><strong>{}</strong></p>\n<ul>", escape(lead))?;

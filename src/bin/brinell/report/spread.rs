@@ -3,7 +3,7 @@
 use super::Part;
 use super::data::{Cell, Table, number, text};
 use crate::curve;
-use crate::documentation::escape;
+use crate::html::escape;
 use crate::laws::{Choice, UnknownLaw, choose};
 use crate::model::AnyModel;
 use crate::numbers::digits;

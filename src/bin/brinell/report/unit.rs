@@ -42,6 +42,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         yield_strength: scene.yield_strength,
         knows_mass: mass.is_some(),
         impact: Impact { ..scene.impact },
+        predictions: vec![scene.predictions[0]],
         impact_is_assumed: scene.impact_is_assumed,
         text: scene.text.clone(),
     }

@@ -4,8 +4,10 @@ use super::ReportError;
 use super::progress::{Progress, Work};
 use super::unit::{self, Contact};
 use super::ways::{Needs, WAYS, Way};
+use crate::files::FileError;
 use crate::importer::{Archive, ImportError, Unit};
 use crate::package;
+use crate::plan::Plan;
 use crate::scene::Scene;
 
 /// The units, loaded.
@@ -44,12 +46,12 @@ impl Units {
     /// [`ReportError`] if one can't be built or loaded.
     pub fn build(scene: &Scene, progress: &Progress) -> Result<Units, ReportError> {
         let folder = tempfile::Builder::new().prefix("brinell-report-").tempdir();
-        let folder = folder.map_err(|source| ReportError::Folder { path: std::env::temp_dir(), source })?;
+        let folder = folder.map_err(FileError::at(&std::env::temp_dir()))?;
         let mut loaded = Vec::new();
         for (needs, name) in kinds(scene) {
             progress.say(&format!("building {name}"));
             let path = folder.path().join("unit.fmu");
-            package::export(&unit::first_contact(scene, needs), &path)?;
+            package::export(&Plan::of(&unit::first_contact(scene, needs)), &path)?;
             let archive = Archive::open(&path)?;
             loaded.push(Loaded { needs, unit: archive.load()?, archive });
             progress.done(Work::Building);

@@ -4,13 +4,15 @@ use super::contacts::Contacts;
 use super::file::{CouplingTable, File, ImpactTable};
 use super::laws;
 use super::{Mistake, Parameter, Scene};
+use crate::predict;
 use crate::table::{self, Causality, VARIABLES};
+use crate::xml;
 use brinell::contact::damped::Damped;
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::{AnyLoading, Hertz};
 use std::collections::HashSet;
 use std::f64::consts::PI;
-use std::ops::{Range, RangeInclusive};
+use std::ops::RangeInclusive;
 use toml::Spanned;
 
 /// The scene of `file`, without its text.
@@ -19,6 +21,7 @@ use toml::Spanned;
 /// The first mistake.
 pub fn check(file: File) -> Result<Scene, Mistake> {
     let name = check_identifier(&file.name)?;
+    let description = check_description(file.description.as_ref())?;
     let mut contacts = Contacts::of(&file)?;
     let damped = laws::find_damped(&file.law)?;
     let loading = match damped {
@@ -36,6 +39,8 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     let coupling = check_coupling(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
     let knows_mass = coupling.is_some();
     let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), coupling.as_ref(), &contacts)?;
+    let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
+    predict::check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let (mut parameters, groups) = contacts.parameters();
     let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
     let span = file.impact.as_ref().map(|table| table.get_ref().mass.span());
@@ -53,7 +58,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     }
     let mut scene = Scene {
         name,
-        description: file.description,
+        description,
         parameters,
         contacts: groups,
         outputs,
@@ -64,6 +69,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         yield_strength,
         knows_mass,
         impact,
+        predictions: Vec::new(),
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),
     };
@@ -72,8 +78,11 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         let of_contact = |Mistake(span, message)| Mistake(span, contacts.said(group, &message));
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
         laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
-        check_depth(&scene, group, file.impact.as_ref().map_or(0..0, Spanned::span)).map_err(of_contact)?;
     }
+    let no_prediction = |group| Mistake(impact_span.clone(), contacts.said(group, &too_hard(&scene)));
+    let predictions = scene.by_bodies(|group| scene.any_model_of(group).predict(&scene.impact)).into_iter().enumerate();
+    let predictions = predictions.map(|(group, prediction)| prediction.ok_or_else(|| no_prediction(group)));
+    scene.predictions = predictions.collect::<Result<_, _>>()?;
     Ok(scene)
 }
 
@@ -91,6 +100,20 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
         "name = {text:?} is not a C identifier of at most 100 letters, digits and `_`, not beginning with a digit"
     );
     Err(Mistake(name.span(), message))
+}
+
+/// Text that the model description can hold.
+fn check_description(given: Option<&Spanned<String>>) -> Result<String, Mistake> {
+    let Some(text) = given else { return Ok(String::new()) };
+    match xml::forbidden(text.get_ref()) {
+        None => Ok(text.get_ref().clone()),
+        Some((place, character)) => {
+            let number = text.get_ref()[..place].chars().count() + 1;
+            let character = xml::name(character);
+            let message = format!("description has {character} as its character {number}, which no XML can have");
+            Err(Mistake(text.span(), message))
+        }
+    }
 }
 
 /// The impact that the scene names, or one at 1 m/s of the mass that the unit knows, or else of a solid steel ball with the
@@ -148,18 +171,14 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
     Err(Mistake(socket.span(), message))
 }
 
-/// Refuses an impact beyond what the law can be evaluated for.
-fn check_depth(scene: &Scene, group: usize, span: Range<usize>) -> Result<(), Mistake> {
-    if scene.any_model_of(group).predict(&scene.impact).is_some() {
-        return Ok(());
-    }
+/// What is said of an impact beyond what the law can be evaluated for.
+fn too_hard(scene: &Scene) -> String {
     let Impact { mass, speed } = scene.impact;
     let what = match scene.damped {
         None => "drives the bodies deeper than the law can be evaluated",
         Some(_) => "drives the bodies deeper than the law can be evaluated, or is damped so much that it has no end",
     };
-    let message = format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}");
-    Err(Mistake(span, message))
+    format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}")
 }
 
 /// What there is instead of a name that was asked for.

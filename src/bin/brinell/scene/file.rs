@@ -10,8 +10,7 @@ use toml::Spanned;
 #[serde(deny_unknown_fields)]
 pub struct File {
     pub name: Spanned<String>,
-    #[serde(default)]
-    pub description: String,
+    pub description: Option<Spanned<String>>,
     pub impactor: Option<Spanned<Impactor>>,
     pub target: Option<Spanned<Target>>,
     #[serde(default)]

@@ -1,5 +1,6 @@
 //! The scene file: what is in contact, by which laws, and what the unit shows of it.
 
+mod bodies;
 mod checks;
 mod contacts;
 mod file;
@@ -9,11 +10,13 @@ pub use checks::unknown;
 
 use crate::model::AnyModel;
 use brinell::contact::damped::{self, AnyDamped};
-use brinell::contact::impact::Impact;
+use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, Model, Pair, Surface};
+use brinell::contact::{Model, Surface};
 use std::path::{Path, PathBuf};
+
+const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
 
 /// A scene that has been checked.
 #[derive(Debug)]
@@ -39,6 +42,8 @@ pub struct Scene {
     /// The unit moves the bodies through a step by their mass.
     pub knows_mass: bool,
     pub impact: Impact,
+    /// What the impact will do to the contacts of each group.
+    pub predictions: Vec<Prediction>,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
     pub impact_is_assumed: bool,
     /// The file as it is.
@@ -81,6 +86,14 @@ pub enum SceneError {
 pub struct Mistake(pub std::ops::Range<usize>, pub String);
 
 impl Scene {
+    /// The scene of a program that was told of none.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn default_scene() -> Result<Scene, SceneError> {
+        Scene::parse(DEFAULT_SCENE.into(), Path::new("scenes/steel_ball.toml"))
+    }
+
     /// Reads and checks the scene at `path`.
     ///
     /// # Errors
@@ -128,23 +141,6 @@ impl Scene {
         self.contacts.iter().map(Group::len).sum()
     }
 
-    /// The bodies of the contacts of `group`; none if they don't fit.
-    fn pair_of(&self, group: usize) -> Option<Pair> {
-        let value = |name| self.group_value(group, name);
-        let impactor = Body {
-            radius: value("impactor.radius").unwrap_or(f64::NAN),
-            youngs_modulus: value("impactor.youngs_modulus").unwrap_or(f64::INFINITY),
-            poissons_ratio: value("impactor.poissons_ratio").unwrap_or(0.0),
-        };
-        let target = Body {
-            radius: value("target.radius").unwrap_or(f64::INFINITY),
-            youngs_modulus: value("target.youngs_modulus").unwrap_or(f64::NAN),
-            poissons_ratio: value("target.poissons_ratio").unwrap_or(f64::NAN),
-        };
-        let strength = value("target.yield_strength").unwrap_or(f64::INFINITY);
-        Pair::new(&impactor, &target, strength)
-    }
-
     /// The first contact as the physics sees it.
     pub fn any_model(&self) -> AnyModel {
         self.any_model_of(0)
@@ -188,6 +184,14 @@ impl Group {
             (None, _) => String::new(),
             (Some(name), None) => format!("{name}."),
             (Some(name), Some(_)) => format!("{name}[{}].", index + 1),
+        }
+    }
+
+    /// One name for all contacts of the group: "left", or "bead\[1..1000]".
+    pub fn label(&self) -> String {
+        match (&self.name, self.count) {
+            (Some(name), Some(count @ 2..)) => format!("{name}[1..{count}]"),
+            _ => self.prefix(0).trim_end_matches('.').into(),
         }
     }
 

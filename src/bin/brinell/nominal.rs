@@ -1,0 +1,76 @@
+//! Typical sizes of the variables, for solvers that scale by them, and the step that suits a scene.
+
+use crate::scene::Scene;
+use crate::table::Variable;
+use brinell::contact::impact::Prediction;
+use std::f64::consts::PI;
+
+/// Typical sizes of one group of contacts.
+#[derive(Clone, Copy)]
+pub struct Nominal {
+    prediction: Prediction,
+    /// [N/m]
+    stiffness: f64,
+    /// Of the scene's impact [m/s].
+    speed: f64,
+}
+
+/// The typical sizes of each group.
+pub fn of(scene: &Scene) -> Vec<Nominal> {
+    scene.by_bodies(|group| {
+        let prediction = scene.predictions[group];
+        let stiffness = scene.any_model_of(group).stiffness(prediction.max_indentation);
+        Nominal { prediction, stiffness, speed: scene.impact.speed }
+    })
+}
+
+impl Nominal {
+    /// The typical size of `variable`, if its entry in the table names one.
+    pub fn get(&self, variable: &Variable) -> Option<f64> {
+        let Prediction { max_force, max_indentation, max_contact_radius, energy, .. } = self.prediction;
+        let size = match variable.nominal_from.as_deref()? {
+            "max_force" => max_force,
+            "max_indentation" => max_indentation,
+            "max_contact_radius" => max_contact_radius,
+            "max_mean_pressure" => max_force / (PI * max_contact_radius * max_contact_radius),
+            "max_stiffness" => self.stiffness,
+            "energy" => energy,
+            "momentum" => 2.0 * energy / self.speed,
+            other => unreachable!("variables.toml names the nominal size {other}, which nobody computes"),
+        };
+        Some(one_digit(size, f64::round))
+    }
+}
+
+/// `value` > 0 with one significant digit, its mantissa rounded by `round`.
+fn one_digit(value: f64, round: fn(f64) -> f64) -> f64 {
+    let exponent = value.log10().floor() as i32;
+    let mantissa = round(value / 10f64.powi(exponent));
+    // through text, so that the result is the number that a person would write
+    format!("{mantissa}e{exponent}").parse().expect("a number and an exponent")
+}
+
+/// Step and stop time that suit the scene.
+pub struct Experiment {
+    /// [s]
+    pub step: f64,
+    /// [s]
+    pub stop: f64,
+}
+
+/// How many steps of a contact the suggested step makes: of the default scene's impact the restitution is then right to 2 % if
+/// the force comes a step late, and to 1e-5 by leap-frog.
+const STEPS_PER_CONTACT: f64 = 256.0;
+
+/// Step and stop time that suit the scene's impact on its first contact: that takes 256 steps, and ends before the stop.
+pub fn experiment(scene: &Scene) -> Experiment {
+    let contact_time = scene.predictions[0].contact_time();
+    let step = one_digit(contact_time / STEPS_PER_CONTACT, |mantissa| match mantissa {
+        m if m >= 5.0 => 5.0,
+        m if m >= 2.0 => 2.0,
+        _ => 1.0,
+    });
+    let gap = scene.group_value(0, "initial_gap").unwrap_or(0.0).max(0.0);
+    let stop = one_digit(2.0 * contact_time + gap / scene.impact.speed, f64::ceil);
+    Experiment { step, stop }
+}

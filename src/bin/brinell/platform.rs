@@ -1,0 +1,35 @@
+//! The platform that the program runs on, which is the one that it makes units for.
+
+use std::env;
+
+/// What FMI 2.0 and the operating system call things here.
+pub struct Platform {
+    /// Folder of the binaries in a unit.
+    pub folder: &'static str,
+    /// Ending of a library.
+    pub extension: &'static str,
+}
+
+/// A platform that has no units.
+#[derive(Debug, thiserror::Error)]
+#[error("units for {os} on {arch} can't be made here: FMI 2.0 has no folder for this platform")]
+pub struct NoPlatform {
+    os: &'static str,
+    arch: &'static str,
+}
+
+/// This platform.
+///
+/// # Errors
+/// [`NoPlatform`]
+pub fn here() -> Result<Platform, NoPlatform> {
+    let (folder, extension) = match (env::consts::OS, env::consts::ARCH) {
+        ("linux", "x86_64") => ("linux64", "so"),
+        ("linux", "aarch64") => ("aarch64-linux", "so"),
+        ("windows", "x86_64") => ("win64", "dll"),
+        ("macos", "x86_64") => ("darwin64", "dylib"),
+        ("macos", "aarch64") => ("aarch64-darwin", "dylib"),
+        (os, arch) => return Err(NoPlatform { os, arch }),
+    };
+    Ok(Platform { folder, extension })
+}

@@ -1,0 +1,40 @@
+//! The bodies of each contact, and what follows from them alone.
+
+use super::Scene;
+use brinell::contact::{Body, Pair};
+use std::collections::HashMap;
+
+impl Scene {
+    /// The bodies of the contacts of `group`; none if they don't fit.
+    pub(super) fn pair_of(&self, group: usize) -> Option<Pair> {
+        let value = |name| self.group_value(group, name);
+        let impactor = Body {
+            radius: value("impactor.radius").unwrap_or(f64::NAN),
+            youngs_modulus: value("impactor.youngs_modulus").unwrap_or(f64::INFINITY),
+            poissons_ratio: value("impactor.poissons_ratio").unwrap_or(0.0),
+        };
+        let target = Body {
+            radius: value("target.radius").unwrap_or(f64::INFINITY),
+            youngs_modulus: value("target.youngs_modulus").unwrap_or(f64::NAN),
+            poissons_ratio: value("target.poissons_ratio").unwrap_or(f64::NAN),
+        };
+        let strength = value("target.yield_strength").unwrap_or(f64::INFINITY);
+        Pair::new(&impactor, &target, strength)
+    }
+
+    /// What `of` finds for each group. Ten thousand groups may have the same bodies: what follows from the bodies and the laws
+    /// of the scene alone is found once for all of them.
+    pub fn by_bodies<T: Clone>(&self, mut of: impl FnMut(usize) -> T) -> Vec<T> {
+        let mut known: HashMap<Option<[u64; 5]>, T> = HashMap::new();
+        let groups = 0..self.contacts.len();
+        groups
+            .map(|group| {
+                let bodies = self.pair_of(group).map(|pair| {
+                    let Pair { radius, modulus, yield_strength, youngs_modulus, poissons_ratio } = pair;
+                    [radius, modulus, yield_strength, youngs_modulus, poissons_ratio].map(f64::to_bits)
+                });
+                known.entry(bodies).or_insert_with(|| of(group)).clone()
+            })
+            .collect()
+    }
+}

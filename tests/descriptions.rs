@@ -1,0 +1,197 @@
+//! What a unit says of itself, in its model description and on its documentation page: it must be true of this kind of unit.
+
+#[path = "support/loaded.rs"]
+mod loaded;
+#[path = "support/unit.rs"]
+mod unit;
+
+use loaded::{OK, Unit};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use unit::write_scene;
+
+/// A scene of a steel ball with these lines in addition.
+fn scene(name: &str, more: &str) -> PathBuf {
+    let text =
+        format!("name = \"{name}\"\nimpactor = {{ radius = 5e-3 }}\ntarget = {{ material = \"mild steel\" }}\n{more}");
+    write_scene(name, &text)
+}
+
+/// The model description and the page of the unit of `scene`.
+fn texts(scene: &Path) -> (String, String) {
+    let library = unit::library(&unit::export(scene));
+    let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+    let read = |name| fs::read_to_string(root.join(name)).expect("unpacked beside the library");
+    (read("modelDescription.xml"), read("documentation/index.html"))
+}
+
+/// The element of the variable `name` up to its end.
+fn variable<'a>(xml: &'a str, name: &str) -> &'a str {
+    let elements = xml.split("<ScalarVariable ").skip(1);
+    let mut named = elements.filter(|element| element.starts_with(&format!("name=\"{name}\"")));
+    named.next().unwrap_or_else(|| panic!("no {name} in {xml}")).split("</ScalarVariable>").next().unwrap()
+}
+
+/// The row of the variable `name` in the table of the page.
+fn row<'a>(page: &'a str, name: &str) -> &'a str {
+    let (_, row) = page.split_once(&format!("<tr><td><code>{name}</code>")).expect("a row for each variable");
+    row.split("</tr>").next().unwrap()
+}
+
+const MASS_KNOWN: &str =
+    "fmu = { outputs = [\"mean_force\", \"predicted_force\"] }\ncoupling = { effective_mass = 4e-3 }\n";
+
+#[test]
+fn a_unit_that_knows_the_mass_does_not_say_that_the_rate_is_held() {
+    let (xml, page) = texts(&scene("mass_words", MASS_KNOWN));
+    assert!(!xml.contains("held over a step"), "{}", variable(&xml, "indentation_rate"));
+    assert!(!page.contains("held over a step"), "{page}");
+    for text in [variable(&xml, "indentation_rate"), row(&page, "indentation_rate")] {
+        assert!(text.contains("at the start of a step") && text.contains("first input derivative"), "{text}");
+    }
+}
+
+#[test]
+fn a_unit_that_knows_the_mass_says_what_mean_force_and_the_derivative_are_for() {
+    let (xml, page) = texts(&scene("mass_words", MASS_KNOWN));
+    for text in [variable(&xml, "mean_force"), row(&page, "mean_force")] {
+        assert!(text.contains("applied to the bodies over that step"), "{text}");
+    }
+    for part in ["fmi2SetRealInputDerivatives", "acceleration by all other forces", "apply <code>mean_force</code>"] {
+        assert!(page.contains(part), "nothing of {part} in {page}");
+    }
+}
+
+#[test]
+fn a_plain_unit_says_that_the_rate_is_held_or_follows_its_derivatives() {
+    let (xml, page) = texts(&scene("plain_words", ""));
+    for text in [variable(&xml, "indentation_rate"), row(&page, "indentation_rate")] {
+        assert!(text.contains("held over a step, or a polynomial in time"), "{text}");
+    }
+    assert!(page.contains("fmi2SetRealInputDerivatives") && !page.contains("mean_force"), "{page}");
+}
+
+#[test]
+fn a_rate_dependent_unit_which_takes_no_derivatives_does_not_speak_of_them() {
+    let law = "law = { loading = \"tsuji\", restitution = 0.5 }\n";
+    let (xml, page) = texts(&scene("damped_words", law));
+    let rate = variable(&xml, "indentation_rate");
+    assert!(rate.contains("held over a step\"") && !xml.contains("derivative are set"), "{rate}");
+    assert!(!page.contains("fmi2SetRealInputDerivatives") && page.contains("follows the rate at the same instant"));
+    assert!(variable(&xml, "effective_mass").contains("the damping of the law is made for"), "{xml}");
+}
+
+/// Stronge's law is above Hertz's just after yield, and gives back more than it took.
+#[test]
+fn dissipated_energy_is_said_never_to_fall_only_where_it_does_not() {
+    let outputs = "fmu = { outputs = [\"dissipated_energy\", \"indentation\"] }\n";
+    let makes_energy = scene("energy_made", &format!("{outputs}law = {{ loading = \"stronge\" }}\n"));
+    let (xml, page) = texts(&makes_energy);
+    for text in [variable(&xml, "dissipated_energy"), row(&page, "dissipated_energy")] {
+        assert!(!text.contains("never falls") && text.contains("may be negative"), "{text}");
+    }
+    assert!(page.contains("give back more than they took"), "{page}");
+    let unit = Unit::load(&makes_energy);
+    let mut contact = unit.ready();
+    contact.set_one("indentation_rate", 1e-3);
+    let mut least = 0.0f64;
+    for step in 0..200 {
+        assert_eq!(contact.step(f64::from(step) * 1e-6, 1e-6), OK);
+        least = least.min(contact.real("dissipated_energy"));
+    }
+    assert!(least < 0.0, "the law makes energy: {least}");
+
+    for (name, law) in [("energy_kept", "loading = \"big-alabo\""), ("heat", "loading = \"tsuji\", restitution = 0.5")]
+    {
+        let (xml, page) = texts(&scene(name, &format!("{outputs}law = {{ {law} }}\n")));
+        for text in [variable(&xml, "dissipated_energy"), row(&page, "dissipated_energy")] {
+            assert!(text.contains("never falls"), "{name}: {text}");
+        }
+        assert!(!page.contains("give back more than they took"), "{name}: {page}");
+    }
+}
+
+/// The library answers for every pair of output and input.
+#[test]
+fn every_kind_of_unit_provides_directional_derivatives() {
+    let kinds = ["", MASS_KNOWN, "law = { loading = \"tsuji\", restitution = 0.5 }\n"];
+    for (name, more) in ["plain_words", "mass_words", "damped_words"].into_iter().zip(kinds) {
+        let (xml, _) = texts(&scene(name, more));
+        assert!(xml.contains(" providesDirectionalDerivative=\"true\""), "{name}");
+    }
+}
+
+/// The bodies that only a contact gives were described as a rigid sphere and a half-space, and their constants were missing.
+#[test]
+fn the_page_of_a_unit_knows_the_bodies_and_constants_of_each_contact() {
+    let text = "name = \"own_bodies\"\ntarget = { material = \"mild steel\" }\nfmu = { parameters = [] }\n\
+                [[contact]]\nname = \"left\"\nimpactor = { radius = 4e-3, youngs_modulus = 7e10, poissons_ratio = 0.22 }\n\
+                [[contact]]\nname = \"bead\"\ncount = 3\nimpactor = { radius = 2e-3 }\ntarget = { radius = -0.5 }\n";
+    let (_, page) = texts(&write_scene("own_bodies", text));
+    let rows = [
+        "<code>left</code></td><td>an elastic sphere and a half-space</td><td>impactor.radius = 0.004 m",
+        "<code>bead[1..3]</code></td><td>a rigid sphere and a spherical socket</td><td>impactor.radius = 0.002 m",
+        "<code>left.impactor.youngs_modulus</code></td><td class=\"n\">7e10</td><td>Pa",
+        "<code>bead.target.radius</code></td><td class=\"n\">-0.5</td><td>m",
+        "on the first contact, <code>left</code>",
+    ];
+    for row in rows {
+        assert!(page.contains(row), "nothing of {row} in {page}");
+    }
+    let (_, page) = texts(&unit::scene("everything"));
+    assert!(page.contains("contact of an elastic sphere and a spherical socket"), "{page}");
+}
+
+/// The variables that `output` depends on before the first step, as the model description has it.
+fn listed(xml: &str, output: &str) -> BTreeSet<String> {
+    let names: Vec<&str> =
+        xml.split("<ScalarVariable name=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    let (_, unknowns) = xml.split_once("<InitialUnknowns>").expect("every unit has outputs");
+    let place = names.iter().position(|name| *name == output).expect("an output of the unit") + 1;
+    let (_, unknown) = unknowns.split_once(&format!("index=\"{place}\" dependencies=\"")).expect("every output");
+    let dependencies = unknown.split('"').next().unwrap().split_whitespace();
+    dependencies.map(|index| names[index.parse::<usize>().expect("a place") - 1].to_string()).collect()
+}
+
+/// A damping that waits for the first touch is none before the first step, but the prediction looks past the touch.
+#[test]
+fn initial_unknowns_of_rate_dependent_units_name_restitution_and_mass_just_where_they_count() {
+    let outputs = ["force", "mean_pressure", "stiffness", "predicted_force", "mean_force", "elastic_energy"];
+    for (name, law) in [
+        ("touched", "loading = \"hunt-crossley\", restitution = 0.5"),
+        ("massive", "loading = \"tsuji\", restitution = 0.5"),
+        ("spring", "loading = \"kelvin-voigt\", restitution = 0.5"),
+        ("viscous", "loading = \"kuwabara-kono\""),
+        ("multibody", "loading = \"adams-impact\""),
+    ] {
+        let names = outputs.map(|output| format!("\"{output}\"")).join(", ");
+        let scene = scene(name, &format!("law = {{ {law} }}\nfmu = {{ outputs = [{names}] }}\n"));
+        let (xml, _) = texts(&scene);
+        let unit = Unit::load(&scene);
+        let values = |rate: f64, changed: &[(&str, f64)]| {
+            let mut instance = unit.instantiate();
+            for (name, value) in [("initial_gap", -1e-5), ("indentation_rate", rate)].iter().chain(changed) {
+                instance.set_one(name, *value);
+            }
+            instance.enter_initialization();
+            outputs.map(|output| instance.real(output))
+        };
+        let has = |parameter: &str| xml.contains(&format!("<ScalarVariable name=\"{parameter}\""));
+        // parting so fast that the surface doesn't follow, the damping decides whether there is a force at all
+        let rates: Vec<f64> = (0..24).map(|power| -1e-3 * 2f64.powi(power)).chain([0.5]).collect();
+        for (known, value) in [("restitution", 0.7), ("effective_mass", 8e-3), ("indentation_rate", 0.25)] {
+            if !has(known) {
+                continue;
+            }
+            let mut follows = BTreeSet::new();
+            for rate in &rates {
+                let changes = values(*rate, &[]).into_iter().zip(values(*rate, &[(known, value)]));
+                let changed = outputs.iter().zip(changes).filter(|(_, (before, after))| before != after);
+                follows.extend(changed.map(|(output, _)| *output));
+            }
+            let said: BTreeSet<_> = outputs.into_iter().filter(|output| listed(&xml, output).contains(known)).collect();
+            assert_eq!(follows, said, "{name}: what follows {known}");
+        }
+    }
+}
