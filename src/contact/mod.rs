@@ -75,13 +75,9 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The point of the loading curve at `indentation` [m], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {
-        Peak {
-            indentation,
-            force: self.loading.segment(&self.pair, indentation).force(indentation),
-            contact_radius: self.loading.contact_radius(&self.pair, indentation),
-            yield_force: self.loading.yield_point(&self.pair).force,
-            work: if self.unloading.needs_work() { self.loading.work(&self.pair, indentation) } else { f64::NAN },
-        }
+        let (force, contact_radius, yield_force) = self.loading.summit(&self.pair, indentation);
+        let work = if self.unloading.needs_work() { self.loading.work(&self.pair, indentation) } else { f64::NAN };
+        Peak { indentation, force, contact_radius, yield_force, work }
     }
 
     /// The path on which the load comes off from `max_indentation` [m] > 0, from the residual indentation (its lower end)

@@ -64,8 +64,9 @@ impl Segment {
     /// `z` [m], and zero below the origin.
     #[inline(always)]
     fn above_origin(&self, indentation: f64) -> f64 {
-        let z = indentation - self.origin;
-        if z > 0.0 { z } else { 0.0 }
+        // in this order the comparison and the difference have their second number in memory
+        let reached = if indentation > self.origin { indentation } else { self.origin };
+        reached - self.origin
     }
 
     /// Force [N].

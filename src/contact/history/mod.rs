@@ -177,6 +177,8 @@ impl History {
             return Err(TooDeep { indentation });
         }
         let before = *self;
+        // then the law needn't be asked for its yield point, unless a fresh surface forgets the dent
+        let has_yielded = self.regime as i32 >= Regime::ElastoplasticSecond as i32;
         // on the loading curve the largest indentation is the present one
         self.max_indentation = self.max_indentation();
         let forgets = model.surface == Surface::Fresh && indentation <= 0.0;
@@ -190,8 +192,9 @@ impl History {
         let largest = self.max_indentation;
         self.least_increment = ANY;
         if indentation > 0.0 && indentation >= largest {
-            self.regime = model.loading.regime(&model.pair, indentation);
-            self.segment = Segment { lower: indentation, ..model.loading.segment(&model.pair, indentation) };
+            let (segment, regime) = model.loading.branch(&model.pair, indentation);
+            self.regime = regime;
+            self.segment = Segment { lower: indentation, ..segment };
             self.least_increment = 0.0;
             // a law without segments may be a fit that ends before
             let Segment { constant: force, linear: stiffness, .. } = self.segment;
@@ -200,7 +203,7 @@ impl History {
                 *self = before;
                 return Err(TooDeep { indentation });
             }
-        } else if model.is_elastic_at(largest) {
+        } else if !(has_yielded && largest > 0.0) && model.is_elastic_at(largest) {
             if indentation > 0.0 {
                 self.regime = Regime::Elastic;
                 self.segment = Segment { lower: TOUCHING, upper: largest, ..model.loading.segment(&model.pair, 0.0) };

@@ -63,6 +63,46 @@ impl BigAlabo {
         let plastic_force = second_slope * (self.fully_plastic - self.second_region) + second_force;
         Normalised { second_force, second_slope, plastic_force }
     }
+
+    /// Segment and regime at `indentation` for a contact that yields at `point`.
+    #[inline]
+    fn branch_beyond(&self, pair: &Pair, point: &YieldPoint, indentation: f64) -> (Segment, Regime) {
+        let YieldPoint { indentation: d_y, force: f_y } = *point;
+        if indentation < d_y {
+            return (hertz::segment(pair, d_y), Regime::Elastic);
+        }
+        let (second, plastic) = (self.second_region * d_y, self.fully_plastic * d_y);
+        if indentation < second {
+            let power = pair.hertz_stiffness();
+            let segment = Segment { lower: d_y, upper: second, origin: d_y, constant: f_y, power, ..Segment::NOTHING };
+            return (segment, Regime::ElastoplasticFirst);
+        }
+        let Normalised { second_force, second_slope, plastic_force } = self.normalised();
+        let slope_unit = f_y / d_y;
+        // the two straight lines
+        let (origin, upper, force, slope, regime) = if indentation < plastic {
+            (second, plastic, second_force, second_slope, Regime::ElastoplasticSecond)
+        } else {
+            (plastic, LARGEST_INDENTATION, plastic_force, self.plastic_slope, Regime::FullyPlastic)
+        };
+        let (constant, linear) = (force * f_y, slope * slope_unit);
+        (Segment { lower: origin, upper, origin, constant, linear, ..Segment::NOTHING }, regime)
+    }
+
+    /// Contact radius at `indentation` with this `force`, for a contact that yields at `point`.
+    #[inline]
+    fn radius(&self, pair: &Pair, point: &YieldPoint, indentation: f64, force: f64) -> f64 {
+        let d_y = point.indentation;
+        if indentation <= d_y {
+            return sqrt(pair.radius * indentation);
+        }
+        let logarithmic = self.yield_pressure_factor + log(2.0 * (indentation / d_y) - 1.0) / 3.0;
+        let factor =
+            if logarithmic < self.plastic_pressure_factor { logarithmic } else { self.plastic_pressure_factor };
+        let area = force / (core::f64::consts::PI * factor * pair.yield_strength);
+        let area_at_yield = pair.radius * d_y;
+        sqrt(if area > area_at_yield { area } else { area_at_yield })
+    }
 }
 
 impl Loading for BigAlabo {
@@ -71,23 +111,7 @@ impl Loading for BigAlabo {
     }
 
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
-        let YieldPoint { indentation: d_y, force: f_y } = self.yield_point(pair);
-        if indentation < d_y {
-            return hertz::segment(pair, d_y);
-        }
-        let (second, plastic) = (self.second_region * d_y, self.fully_plastic * d_y);
-        if indentation < second {
-            let power = pair.hertz_stiffness();
-            return Segment { lower: d_y, upper: second, origin: d_y, constant: f_y, power, ..Segment::NOTHING };
-        }
-        let Normalised { second_force, second_slope, plastic_force } = self.normalised();
-        let slope_unit = f_y / d_y;
-        if indentation < plastic {
-            let (constant, linear) = (second_force * f_y, second_slope * slope_unit);
-            return Segment { lower: second, upper: plastic, origin: second, constant, linear, ..Segment::NOTHING };
-        }
-        let (constant, linear) = (plastic_force * f_y, self.plastic_slope * slope_unit);
-        Segment { lower: plastic, upper: LARGEST_INDENTATION, origin: plastic, constant, linear, ..Segment::NOTHING }
+        self.branch(pair, indentation).0
     }
 
     /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + (x-1) + 0.4 (x-1)^2.5`, then `w_tep + f_tep (x-x_tep) + k_l (x-x_tep)^2/2`,
@@ -102,30 +126,21 @@ impl Loading for BigAlabo {
     /// The paper's introduction gives no contact radius. The logarithm is Stronge's mean pressure (*Impact Mechanics*,
     /// 2000, section 6.3), which is 1.1 S at yield and 2.8 S at `x_p`.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
-        let d_y = self.yield_point(pair).indentation;
-        if indentation <= d_y {
-            return sqrt(pair.radius * indentation);
-        }
-        let logarithmic = self.yield_pressure_factor + log(2.0 * (indentation / d_y) - 1.0) / 3.0;
-        let factor =
-            if logarithmic < self.plastic_pressure_factor { logarithmic } else { self.plastic_pressure_factor };
-        let force = self.segment(pair, indentation).force(indentation);
-        let area = force / (core::f64::consts::PI * factor * pair.yield_strength);
-        let area_at_yield = pair.radius * d_y;
-        sqrt(if area > area_at_yield { area } else { area_at_yield })
+        self.summit(pair, indentation).1
     }
 
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
-        let d_y = self.yield_point(pair).indentation;
-        if indentation < d_y {
-            Regime::Elastic
-        } else if indentation < self.second_region * d_y {
-            Regime::ElastoplasticFirst
-        } else if indentation < self.fully_plastic * d_y {
-            Regime::ElastoplasticSecond
-        } else {
-            Regime::FullyPlastic
-        }
+        self.branch(pair, indentation).1
+    }
+
+    fn branch(&self, pair: &Pair, indentation: f64) -> (Segment, Regime) {
+        self.branch_beyond(pair, &self.yield_point(pair), indentation)
+    }
+
+    fn summit(&self, pair: &Pair, indentation: f64) -> (f64, f64, f64) {
+        let point = self.yield_point(pair);
+        let force = self.branch_beyond(pair, &point, indentation).0.force(indentation);
+        (force, self.radius(pair, &point, indentation, force), point.force)
     }
 
     fn derived(&self, name: &str) -> Option<f64> {
