@@ -1,4 +1,5 @@
-//! Two things that the program carries inside itself: the library's source, and the C header of its functions.
+//! What the program carries inside itself: the source of the library and of `libm`, which is all that a unit is made of, and
+//! the C header of its functions.
 //!
 //! Without the exporter (a build of the library alone) there is nothing to do.
 
@@ -9,8 +10,10 @@ fn main() {
 
 #[cfg(feature = "exporter")]
 mod exporter {
+    use serde_json::Value;
     use std::fmt::Write;
     use std::path::{Path, PathBuf};
+    use std::process::Command;
     use std::{env, fs};
 
     /// The files with exported functions.
@@ -25,8 +28,53 @@ mod exporter {
         let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
         println!("cargo::rerun-if-changed=src");
         println!("cargo::rerun-if-changed=build.rs");
+        println!("cargo::rerun-if-changed=Cargo.lock");
         write_header(&root, &out.join("brinell.h"));
-        write_sources(&root, &out.join("library_source.rs"));
+        let mut text = sources("LIBRARY_SOURCE", &root, "");
+        text.push_str(&sources("LIBM_SOURCE", &libm(&root, &out.join("libm")), "libm/"));
+        fs::write(out.join("library_source.rs"), text).expect("OUT_DIR can be written");
+    }
+
+    /// Where cargo keeps the `libm` of `Cargo.lock`: in its registry, or among vendored sources. A package that needs nothing else
+    /// is asked for it, so that nothing has to be fetched: this program itself needs `libm`.
+    fn libm(root: &Path, folder: &Path) -> PathBuf {
+        let lock = fs::read_to_string(root.join("Cargo.lock")).expect("Cargo.lock stands beside build.rs");
+        let entry = lock.split("[[package]]").find(|entry| entry.contains("\nname = \"libm\"\n"));
+        let entry = entry.expect("the library needs libm").trim();
+        let version =
+            entry.lines().find_map(|line| line.strip_prefix("version = ")).expect("every package has a version");
+        let package = "[package]\nname = \"where\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n";
+        let manifest = format!("{package}[dependencies.libm]\nversion = {}\n", version.replacen('"', "\"=", 1));
+        let locked = "[[package]]\nname = \"where\"\nversion = \"0.0.0\"\ndependencies = [\"libm\"]\n";
+        fs::create_dir_all(folder.join("src")).expect("OUT_DIR can be written");
+        let files = [
+            ("Cargo.toml", manifest),
+            ("Cargo.lock", format!("version = 4\n\n[[package]]\n{entry}\n\n{locked}")),
+            ("src/lib.rs", String::new()),
+        ];
+        for (name, text) in files {
+            fs::write(folder.join(name), text).expect("OUT_DIR can be written");
+        }
+        // installed without its lock file the program may have been compiled with a newer libm: then this one is fetched
+        let found = metadata(root, folder, &["--offline"]).or_else(|_| metadata(root, folder, &[]));
+        found.unwrap_or_else(|error| panic!("cargo doesn't say where libm {version} is:\n{error}"))
+    }
+
+    /// The folder of `libm`, as `cargo metadata` has it for the package in `folder`.
+    fn metadata(root: &Path, folder: &Path, more: &[&str]) -> Result<PathBuf, String> {
+        let mut cargo = Command::new(env::var_os("CARGO").expect("cargo sets it"));
+        cargo.args(["metadata", "--format-version=1", "--locked"]).args(more);
+        // settings in folders above the project hold for it, too
+        let output = cargo.arg("--manifest-path").arg(folder.join("Cargo.toml")).current_dir(root).output();
+        let output = output.map_err(|error| error.to_string())?;
+        if !output.status.success() {
+            return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+        }
+        let metadata: Value = serde_json::from_slice(&output.stdout).map_err(|error| error.to_string())?;
+        let packages = metadata["packages"].as_array().ok_or("no list of packages")?;
+        let libm = packages.iter().find(|package| package["name"] == "libm").ok_or("no libm among the packages")?;
+        let manifest = Path::new(libm["manifest_path"].as_str().ok_or("libm has no manifest")?);
+        Ok(manifest.parent().ok_or("libm has no folder")?.into())
     }
 
     /// The prototypes of the 34 functions. A C program that includes the standard's header and then this one compiles
@@ -50,22 +98,23 @@ mod exporter {
         builder.generate().expect("the interface has a C header").write_to_file(header);
     }
 
-    /// `LIBRARY_SOURCE`: path and text of every file of the library.
-    fn write_sources(root: &Path, list: &Path) {
+    /// A constant of this `name`: path, behind `prefix`, and text of every file of the library in `root`.
+    fn sources(name: &str, root: &Path, prefix: &str) -> String {
         let mut files = Vec::new();
         collect(&root.join("src"), root, &mut files);
         files.sort();
-        let mut text = String::from("pub const LIBRARY_SOURCE: &[(&str, &str)] = &[\n");
+        let mut text = format!("pub const {name}: &[(&str, &str)] = &[\n");
         for (name, path) in files {
-            writeln!(text, "    ({name:?}, include_str!({path:?})),").expect("a String takes everything");
+            writeln!(text, "    ({:?}, include_str!({path:?})),", format!("{prefix}{name}"))
+                .expect("a String takes everything");
         }
         text.push_str("];\n");
-        fs::write(list, text).expect("OUT_DIR can be written");
+        text
     }
 
     fn collect(folder: &Path, root: &Path, files: &mut Vec<(String, PathBuf)>) {
-        for entry in fs::read_dir(folder).expect("src is readable") {
-            let path = entry.expect("src is readable").path();
+        for entry in fs::read_dir(folder).expect("sources are readable") {
+            let path = entry.expect("sources are readable").path();
             let inside = path.strip_prefix(root).expect("below the root");
             let name = inside.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/");
             if NOT_EMBEDDED.contains(&name.as_str()) {
