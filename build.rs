@@ -1,5 +1,5 @@
-//! The lists of laws, from the table of laws; and two things that the program carries inside itself: the library's source,
-//! and the C header of its functions.
+//! The lists of laws, from the table of laws; and what the program carries inside itself: the source of the library
+//! and of `libm`, which is all that a unit is made of, and the C header of its functions.
 
 use std::env;
 use std::path::PathBuf;
@@ -20,9 +20,12 @@ fn main() {
 #[cfg(feature = "exporter")]
 mod exporter {
     use crate::laws;
+    use serde_json::Value;
+    use std::env;
     use std::fmt::Write;
     use std::fs;
     use std::path::{Path, PathBuf};
+    use std::process::Command;
 
     /// The file with the exported functions.
     const INTERFACE: &str = "src/fmi2/exports.rs";
@@ -31,8 +34,53 @@ mod exporter {
     const NOT_EMBEDDED: [&str; 2] = ["src/bin", "src/scene/exported.rs"];
 
     pub fn prepare(root: &Path, out: &Path) {
+        println!("cargo::rerun-if-changed=Cargo.lock");
         write_header(root, &out.join("brinell.h"));
-        write_sources(root, out);
+        let mut text = sources("LIBRARY_SOURCE", root, "", laws::write_for_units(root, out));
+        text.push_str(&sources("LIBM_SOURCE", &libm(root, &out.join("libm")), "libm/", Vec::new()));
+        fs::write(out.join("library_source.rs"), text).expect("OUT_DIR can be written");
+    }
+
+    /// Where cargo keeps the `libm` of `Cargo.lock`: in its registry, or among vendored sources. A package that needs nothing else
+    /// is asked for it, so that nothing has to be fetched: this program itself needs `libm`.
+    fn libm(root: &Path, folder: &Path) -> PathBuf {
+        let lock = fs::read_to_string(root.join("Cargo.lock")).expect("Cargo.lock stands beside build.rs");
+        let entry = lock.split("[[package]]").find(|entry| entry.contains("\nname = \"libm\"\n"));
+        let entry = entry.expect("the library needs libm").trim();
+        let version =
+            entry.lines().find_map(|line| line.strip_prefix("version = ")).expect("every package has a version");
+        let package = "[package]\nname = \"where\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n";
+        let manifest = format!("{package}[dependencies.libm]\nversion = {}\n", version.replacen('"', "\"=", 1));
+        let locked = "[[package]]\nname = \"where\"\nversion = \"0.0.0\"\ndependencies = [\"libm\"]\n";
+        fs::create_dir_all(folder.join("src")).expect("OUT_DIR can be written");
+        let files = [
+            ("Cargo.toml", manifest),
+            ("Cargo.lock", format!("version = 4\n\n[[package]]\n{entry}\n\n{locked}")),
+            ("src/lib.rs", String::new()),
+        ];
+        for (name, text) in files {
+            fs::write(folder.join(name), text).expect("OUT_DIR can be written");
+        }
+        // installed without its lock file the program may have been compiled with a newer libm: then this one is fetched
+        let found = metadata(root, folder, &["--offline"]).or_else(|_| metadata(root, folder, &[]));
+        found.unwrap_or_else(|error| panic!("cargo doesn't say where libm {version} is:\n{error}"))
+    }
+
+    /// The folder of `libm`, as `cargo metadata` has it for the package in `folder`.
+    fn metadata(root: &Path, folder: &Path, more: &[&str]) -> Result<PathBuf, String> {
+        let mut cargo = Command::new(env::var_os("CARGO").expect("cargo sets it"));
+        cargo.args(["metadata", "--format-version=1", "--locked"]).args(more);
+        // settings in folders above the project hold for it, too
+        let output = cargo.arg("--manifest-path").arg(folder.join("Cargo.toml")).current_dir(root).output();
+        let output = output.map_err(|error| error.to_string())?;
+        if !output.status.success() {
+            return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+        }
+        let metadata: Value = serde_json::from_slice(&output.stdout).map_err(|error| error.to_string())?;
+        let packages = metadata["packages"].as_array().ok_or("no list of packages")?;
+        let libm = packages.iter().find(|package| package["name"] == "libm").ok_or("no libm among the packages")?;
+        let manifest = Path::new(libm["manifest_path"].as_str().ok_or("libm has no manifest")?);
+        Ok(manifest.parent().ok_or("libm has no folder")?.into())
     }
 
     /// The prototypes of the 34 functions. A C program that includes the standard's header and then this one compiles
@@ -53,22 +101,23 @@ mod exporter {
         builder.generate().expect("the interface has a C header").write_to_file(header);
     }
 
-    /// `LIBRARY_SOURCE`: path and text of every file of the library.
-    fn write_sources(root: &Path, out: &Path) {
-        let mut files = laws::write_for_units(root, out);
+    /// A constant of this `name`: path, behind `prefix`, and text of every file of the library in `root`, and of the `files` that
+    /// stand for some of them.
+    fn sources(name: &str, root: &Path, prefix: &str, mut files: Vec<(String, PathBuf)>) -> String {
         collect(&root.join("src"), root, &mut files);
         files.sort();
-        let mut text = String::from("pub const LIBRARY_SOURCE: &[(&str, &str)] = &[\n");
+        let mut text = format!("pub const {name}: &[(&str, &str)] = &[\n");
         for (name, path) in files {
-            writeln!(text, "    ({name:?}, include_str!({path:?})),").expect("a String takes everything");
+            writeln!(text, "    ({:?}, include_str!({path:?})),", format!("{prefix}{name}"))
+                .expect("a String takes everything");
         }
         text.push_str("];\n");
-        fs::write(out.join("library_source.rs"), text).expect("OUT_DIR can be written");
+        text
     }
 
     fn collect(folder: &Path, root: &Path, files: &mut Vec<(String, PathBuf)>) {
-        for entry in fs::read_dir(folder).expect("src is readable") {
-            let path = entry.expect("src is readable").path();
+        for entry in fs::read_dir(folder).expect("sources are readable") {
+            let path = entry.expect("sources are readable").path();
             let inside = path.strip_prefix(root).expect("below the root");
             let name = inside.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/");
             let is_there = files.iter().any(|(other, _)| *other == name);

@@ -97,7 +97,9 @@ fn with_names(scene: &Path) -> Vec<u8> {
     for named in ["benches", "examples"] {
         std::os::unix::fs::symlink(root.join(named), folder.path().join(named)).unwrap();
     }
-    copy(&root.join("src"), &folder.path().join("src"));
+    for part in ["src", "build", "modelDescription"] {
+        copy(&root.join(part), &folder.path().join(part));
+    }
     fs::write(folder.path().join("src/scene/exported.rs"), constants(scene)).unwrap();
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("with_names");
     let settings = ["opt-level='s'", "lto='fat'", "codegen-units=1", "panic='abort'", "debug='line-tables-only'"];

@@ -5,31 +5,11 @@ mod command;
 #[path = "support/unit.rs"]
 mod unit;
 
-use command::{brinell, cache, contents, empty_folder, output, run, scene};
+use command::{assert_same, contents, empty_folder, exported, run, scene};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
-use std::thread;
-
-/// The bytes of a unit of the default scene, exported under other circumstances.
-#[track_caller]
-fn exported(circumstances: impl FnOnce(&mut Command) -> &mut Command) -> Vec<u8> {
-    let folder = empty_folder();
-    let mut command = brinell(folder.path());
-    command.arg("export").arg(scene("steel_ball"));
-    circumstances(&mut command);
-    output(&mut command).with_status(0);
-    fs::read(folder.path().join("steel_ball.fmu")).expect("NAME.fmu in the current folder")
-}
-
-/// `assert_eq` would print both archives.
-#[track_caller]
-fn assert_same(left: &[u8], right: &[u8]) {
-    let first = left.iter().zip(right).position(|(left, right)| left != right);
-    assert!(left == right, "{} and {} bytes, different from byte {first:?} on", left.len(), right.len());
-}
 
 #[test]
 fn a_wrong_call_ends_with_2_and_shows_the_usage() {
@@ -59,93 +39,6 @@ fn without_arguments_the_default_scene_is_exported_and_checked() {
     assert_eq!(contents(folder.path()), ["steel_ball.fmu"]);
     for part in ["steel_ball.fmu", "predicted", "simulated", "largest force", "restitution", "they agree"] {
         assert!(run.out.contains(part), "nothing of {part:?} in {run:#?}");
-    }
-}
-
-#[test]
-fn the_same_scene_gives_the_same_bytes() {
-    assert_same(&exported(|command| command), &exported(|command| command));
-}
-
-#[test]
-fn the_cache_does_not_show_in_the_unit() {
-    let other = empty_folder();
-    assert_same(
-        &exported(|command| command),
-        &exported(|command| command.env("BRINELL_CACHE", other.path().join("new"))),
-    );
-}
-
-#[test]
-fn the_folder_of_temporary_files_does_not_show_in_the_unit() {
-    let other = empty_folder();
-    assert_same(&exported(|command| command), &exported(|command| command.env("TMPDIR", other.path())));
-    assert!(contents(other.path()).is_empty(), "temporary files were left");
-}
-
-/// Whoever builds for the own processor, or without optimization, says so for the own programs, not for units.
-#[test]
-fn the_users_compiler_settings_do_not_show_in_the_unit() {
-    // a cache of its own, so that what these settings leave there meets no other test
-    let own = empty_folder();
-    let exported_with =
-        |name: &str, value: &str| exported(|command| command.env("BRINELL_CACHE", own.path()).env(name, value));
-    let plain = exported(|command| command);
-    let settings = [
-        ("RUSTFLAGS", "-Ctarget-cpu=native -Cdebuginfo=2"),
-        ("CARGO_BUILD_RUSTFLAGS", "-Copt-level=0"),
-        ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0"),
-        ("CARGO_PROFILE_RELEASE_DEBUG", "true"),
-        ("CARGO_INCREMENTAL", "1"),
-        ("CARGO_BUILD_INCREMENTAL", "true"),
-        ("RUSTC_BOOTSTRAP", "1"),
-    ];
-    let different: Vec<_> = settings.iter().filter(|(name, value)| exported_with(name, value) != plain).collect();
-    assert!(different.is_empty(), "these change the unit: {different:?}");
-}
-
-/// A user's own `.cargo/config.toml` stands before the profile of a package.
-#[test]
-fn the_users_cargo_configuration_does_not_show_in_the_unit() {
-    let (user, own) = (empty_folder(), empty_folder());
-    fs::create_dir_all(user.path().join("temporary")).unwrap();
-    fs::create_dir_all(user.path().join(".cargo")).unwrap();
-    let configuration = "[profile.release]\nopt-level = 1\nlto = false\n";
-    fs::write(user.path().join(".cargo/config.toml"), configuration).unwrap();
-    // cargo looks for it in all folders above the one that it works in
-    let temporary = user.path().join("temporary");
-    let unit = exported(|command| command.env("TMPDIR", temporary).env("BRINELL_CACHE", own.path()));
-    assert_same(&unit, &exported(|command| command));
-}
-
-/// One takes the library out of the cache, the other removes it there.
-#[test]
-fn exports_of_one_scene_at_the_same_time_do_not_disturb_each_other() {
-    let plain = exported(|command| command);
-    for _ in 0..3 {
-        thread::scope(|scope| {
-            let exports: Vec<_> = (0..4).map(|_| scope.spawn(|| exported(|command| command))).collect();
-            for export in exports {
-                assert_same(&plain, &export.join().expect("an export at the same time as others"));
-            }
-        });
-    }
-}
-
-/// A unit is some ten kilobytes, but every change of a parameter makes a new one.
-#[test]
-fn units_do_not_pile_up_in_the_cache() {
-    let own = empty_folder();
-    exported(|command| command.env("BRINELL_CACHE", own.path()));
-    let mut folders = vec![own.path().to_path_buf()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            assert_ne!(path.extension(), Some(OsStr::new("so")), "{} is left", path.display());
-            if path.is_dir() {
-                folders.push(path);
-            }
-        }
     }
 }
 
@@ -268,35 +161,4 @@ fn an_output_that_cannot_be_written_is_named() {
         assert!(run.err.contains(&format!("brinell: {path}: ")) && run.out.is_empty(), "{run:#?}");
         assert_eq!(contents(folder.path()), ["file", "folder.fmu"], "files were left");
     }
-}
-
-#[test]
-fn a_cache_that_is_a_file_is_named() {
-    let folder = empty_folder();
-    let file = folder.path().join("cache");
-    fs::write(&file, "").unwrap();
-    let mut command = brinell(folder.path());
-    let run = output(command.arg("export").arg(scene("steel_ball")).env("BRINELL_CACHE", &file)).with_status(1);
-    assert!(run.err.contains(file.to_str().unwrap()), "{run:#?}");
-    assert_eq!(contents(folder.path()), ["cache"], "files were left");
-}
-
-/// cargo runs in a folder of its own, so that a relative path would mean another place there.
-#[test]
-fn a_relative_cache_is_relative_to_the_current_folder() {
-    let folder = empty_folder();
-    let mut command = brinell(folder.path());
-    output(command.arg("export").arg(scene("elastic")).env("BRINELL_CACHE", "own cache")).with_status(0);
-    assert_eq!(contents(folder.path()), ["elastic.fmu", "own cache"]);
-}
-
-#[test]
-fn without_a_rust_toolchain_the_message_says_where_to_get_one() {
-    let folder = empty_folder();
-    let mut command = brinell(folder.path());
-    command.arg("export").arg(scene("steel_ball")).env_remove("CARGO").env("PATH", folder.path());
-    let run = output(&mut command).with_status(1);
-    assert!(run.err.contains("cargo") && run.err.contains("rustup.rs"), "{run:#?}");
-    assert!(contents(folder.path()).is_empty(), "files were left");
-    assert!(cache().ends_with("cache"), "the tests' own cache");
 }

@@ -41,6 +41,9 @@ const STOP_TOLERANCE: f64 = 1e-3;
 /// A limit before every time [s].
 const NOWHERE: f64 = f64::NEG_INFINITY;
 
+/// A [`Clock::lowest_rate`] that no rate is above.
+const NO_RATE: f64 = f64::INFINITY;
+
 /// Room for rounding of a time far from zero, as a fraction of it.
 const TIME_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
@@ -52,6 +55,9 @@ pub(super) struct Clock {
     pub time: f64,
     /// Where plain steps end [s]: at the stop time while stepping, and nowhere otherwise.
     limit: f64,
+    /// From here to its opposite [m/s] an input may be set without a further look: between steps, and beyond all otherwise.
+    /// Negative, so that the comparison has its second number in memory.
+    pub lowest_rate: f64,
     stop: f64,
     pub phase: Phase,
     pub experiment_defined: bool,
@@ -59,8 +65,14 @@ pub(super) struct Clock {
 
 impl Clock {
     /// Before anything is set.
-    pub const START: Clock =
-        Clock { time: 0.0, limit: NOWHERE, stop: f64::MAX, phase: Phase::Instantiated, experiment_defined: false };
+    pub const START: Clock = Clock {
+        time: 0.0,
+        limit: NOWHERE,
+        lowest_rate: NO_RATE,
+        stop: f64::MAX,
+        phase: Phase::Instantiated,
+        experiment_defined: false,
+    };
 
     /// Whether a step from `time` to `end`, `step` [s] long, is plainly in order.
     #[inline(always)]
@@ -113,8 +125,10 @@ impl Clock {
         Ok(())
     }
 
-    pub fn set_phase(&mut self, phase: Phase) {
+    /// Sets the phase; `lowest_rate` [m/s] holds where inputs may be set.
+    pub fn set_phase(&mut self, phase: Phase, lowest_rate: f64) {
         self.phase = phase;
+        self.lowest_rate = if phase == Phase::StepComplete { lowest_rate } else { NO_RATE };
         self.hold();
         self.release();
     }
@@ -140,7 +154,7 @@ impl Clock {
     pub fn of(time: f64, stop: f64, phase: Phase, experiment_defined: bool) -> Option<Clock> {
         // written positively, so that a NaN fails
         let in_range = time >= -LATEST && time <= LATEST && stop.is_finite();
-        let mut clock = Clock { time, stop, limit: NOWHERE, phase, experiment_defined };
+        let mut clock = Clock { time, stop, limit: NOWHERE, lowest_rate: NO_RATE, phase, experiment_defined };
         clock.release();
         in_range.then_some(clock)
     }

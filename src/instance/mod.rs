@@ -57,8 +57,7 @@ struct Contacts<S: Scene> {
 /// What follows from the parameters.
 #[repr(C)]
 struct Settings<S: Scene> {
-    /// From here to its opposite [m/s] an input needs no further look. Negative, so that the comparison has its second number
-    /// in memory.
+    /// From here to its opposite [m/s] an input needs no further look.
     lowest_rate: f64,
     /// A hash of all that: states with the same one have the same parameters, and needn't copy them.
     stamp: u64,
@@ -128,7 +127,7 @@ impl<S: Scene> Instance<S> {
     }
 
     fn set_phase(&mut self, phase: Phase) {
-        self.clock.set_phase(phase);
+        self.clock.set_phase(phase, self.settings.lowest_rate);
         if self.curved {
             self.clock.hold();
         }

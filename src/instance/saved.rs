@@ -139,6 +139,7 @@ impl<S: Scene> Instance<S> {
             self.settings.values = values;
             self.stamp_parameters();
             self.clock = clock;
+            self.clock.set_phase(phase, self.settings.lowest_rate);
             self.curved = flags & 2 != 0;
             self.contacts.last_step.as_mut().fill(last_step);
             // what came before is not known here

@@ -57,8 +57,7 @@ impl<S: Scene> Instance<S> {
             return false;
         };
         // a NaN is not
-        let slow = -rate.abs() >= self.settings.lowest_rate;
-        let plain = self.clock.phase == Phase::StepComplete && slow && is_finite_at(history, rate);
+        let plain = -rate.abs() >= self.clock.lowest_rate && is_finite_at(history, rate);
         if plain {
             *slot = rate;
         }
@@ -73,9 +72,9 @@ impl<S: Scene> Instance<S> {
         else {
             return false;
         };
-        let mut plain = self.clock.phase == Phase::StepComplete;
+        let mut plain = true;
         for (history, &rate) in histories.iter().zip(rates) {
-            plain &= -rate.abs() >= self.settings.lowest_rate && is_finite_at(history, rate);
+            plain &= -rate.abs() >= self.clock.lowest_rate && is_finite_at(history, rate);
         }
         if plain {
             for (slot, &rate) in slots.iter_mut().zip(rates) {

@@ -76,3 +76,21 @@ pub fn contents(folder: &Path) -> Vec<String> {
 pub fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml")
 }
+
+/// The bytes of a unit of the default scene, exported under other circumstances.
+#[track_caller]
+pub fn exported(circumstances: impl FnOnce(&mut Command) -> &mut Command) -> Vec<u8> {
+    let folder = empty_folder();
+    let mut command = brinell(folder.path());
+    command.arg("export").arg(scene("steel_ball"));
+    circumstances(&mut command);
+    output(&mut command).with_status(0);
+    fs::read(folder.path().join("steel_ball.fmu")).expect("NAME.fmu in the current folder")
+}
+
+/// `assert_eq` would print both archives.
+#[track_caller]
+pub fn assert_same(left: &[u8], right: &[u8]) {
+    let first = left.iter().zip(right).position(|(left, right)| left != right);
+    assert!(left == right, "{} and {} bytes, different from byte {first:?} on", left.len(), right.len());
+}

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
+use tempfile::TempDir;
 
 /// A file that can't be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -39,6 +40,17 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     }
     file.persist(path).map_err(|error| file_error(error.error))?;
     Ok(())
+}
+
+/// A new folder in `parent` that nobody else can read or write, its name begins with `prefix`; it goes when it is dropped.
+///
+/// # Errors
+/// [`FileError`]
+pub fn private_folder(prefix: &str, parent: &Path) -> Result<TempDir, FileError> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+    builder.prefix(prefix).tempdir_in(parent).map_err(FileError::at(parent))
 }
 
 /// Prints `text`, or writes it where the user wants it.

@@ -8,6 +8,9 @@ pub struct Platform {
     pub folder: &'static str,
     /// Ending of a library.
     pub extension: &'static str,
+    /// What rustc calls it. Given to it, so that no other target is a default: not even that of a toolchain made for another
+    /// C library.
+    pub target: &'static str,
 }
 
 /// A platform that has no units.
@@ -23,13 +26,13 @@ pub struct NoPlatform {
 /// # Errors
 /// [`NoPlatform`]
 pub fn here() -> Result<Platform, NoPlatform> {
-    let (folder, extension) = match (env::consts::OS, env::consts::ARCH) {
-        ("linux", "x86_64") => ("linux64", "so"),
-        ("linux", "aarch64") => ("aarch64-linux", "so"),
-        ("windows", "x86_64") => ("win64", "dll"),
-        ("macos", "x86_64") => ("darwin64", "dylib"),
-        ("macos", "aarch64") => ("aarch64-darwin", "dylib"),
+    let (folder, extension, target) = match (env::consts::OS, env::consts::ARCH) {
+        ("linux", "x86_64") => ("linux64", "so", "x86_64-unknown-linux-gnu"),
+        ("linux", "aarch64") => ("aarch64-linux", "so", "aarch64-unknown-linux-gnu"),
+        ("windows", "x86_64") => ("win64", "dll", "x86_64-pc-windows-msvc"),
+        ("macos", "x86_64") => ("darwin64", "dylib", "x86_64-apple-darwin"),
+        ("macos", "aarch64") => ("aarch64-darwin", "dylib", "aarch64-apple-darwin"),
         (os, arch) => return Err(NoPlatform { os, arch }),
     };
-    Ok(Platform { folder, extension })
+    Ok(Platform { folder, extension, target })
 }

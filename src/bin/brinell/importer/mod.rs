@@ -5,11 +5,12 @@
 mod description;
 mod unit;
 
+use crate::files::private_folder;
 use crate::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
 use std::ffi::c_int;
 use std::path::Path;
-use std::{fs, io};
+use std::{env, fs, io};
 
 pub use description::Description;
 pub use unit::{Instance, Unit};
@@ -65,7 +66,9 @@ impl Archive {
     /// Unpacks the unit at `path`.
     pub fn open(path: &Path) -> Result<Archive, ImportError> {
         let mut archive = zip::ZipArchive::new(fs::File::open(path).map_err(ImportError::Unreadable)?)?;
-        let folder = tempfile::Builder::new().prefix("brinell-check-").tempdir().map_err(ImportError::Unpack)?;
+        // the library in it is going to be loaded: nobody else may put one there
+        let folder =
+            private_folder("brinell-check-", &env::temp_dir()).map_err(|error| ImportError::Unpack(error.source))?;
         archive.extract(folder.path())?;
         let names = archive.file_names().map(|name| Ok(name?.into_owned())).collect::<Result<Vec<_>, ImportError>>()?;
         let platform = |name: &String| Some(name.strip_prefix("binaries/")?.split('/').next()?.to_string());
@@ -78,7 +81,7 @@ impl Archive {
 
     /// Loads the binary for this machine.
     pub fn load(&self) -> Result<Unit, ImportError> {
-        let Platform { folder, extension } = platform::here()?;
+        let Platform { folder, extension, .. } = platform::here()?;
         let name = format!("{}.{extension}", self.description.identifier);
         let path = self.folder.path().join("binaries").join(folder).join(name);
         if !path.exists() {

@@ -1,11 +1,17 @@
-//! From a scene to an `.fmu`: cargo builds the library, its symbols are checked, everything is zipped.
+//! From a plan to an `.fmu`: rustc builds the library, its symbols are checked, everything is zipped.
 
+mod diagnostics;
+mod error;
+mod folder;
 mod library;
+mod rustc;
 
-use crate::files::{FileError, write_whole};
+pub use error::ExportError;
+
+use crate::files::write_whole;
 use crate::plan::Plan;
-use crate::platform::{self, NoPlatform, Platform};
-use crate::symbols::{self, SymbolError};
+use crate::platform::{self, Platform};
+use crate::symbols;
 use crate::{constants, documentation, model_description};
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
@@ -18,23 +24,6 @@ include!(concat!(env!("OUT_DIR"), "/library_source.rs"));
 const LICENSE: &str = include_str!("../../../../LICENSE");
 const THIRD_PARTY: &str = include_str!("../../../../modelDescription/licenses.txt");
 const ICON: &[u8] = include_bytes!("../../../../modelDescription/model.png");
-
-/// A unit that couldn't be made.
-#[derive(Debug, thiserror::Error)]
-pub enum ExportError {
-    #[error("{0}")]
-    File(#[from] FileError),
-    #[error("cargo can't be started ({0}): exporting needs a Rust toolchain on PATH, see rustup.rs")]
-    NoCargo(io::Error),
-    #[error("cargo didn't build the library:\n{0}")]
-    Build(String),
-    #[error("the library is not packed: {0}")]
-    Symbols(#[from] SymbolError),
-    #[error("the archive can't be written: {0}")]
-    Zip(#[from] zip::result::ZipError),
-    #[error("{0}")]
-    Platform(#[from] NoPlatform),
-}
 
 /// What was exported.
 #[derive(Default)]
@@ -53,10 +42,11 @@ pub struct Exported {
 /// # Errors
 /// [`ExportError`]; nothing is then written.
 pub fn export(plan: &Plan, path: &Path) -> Result<Exported, ExportError> {
-    let Platform { folder, extension } = platform::here()?;
+    let platform = platform::here()?;
+    let Platform { folder, extension, .. } = platform;
     let scene = plan.scene;
     let Identified { guid, description, constants } = Identified::of(plan);
-    let library = library::build(scene, &constants, &guid)?;
+    let library = library::build(scene, &constants, &platform)?;
     let imports = symbols::check(&library)?;
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
     let page = documentation::write(plan);
@@ -85,23 +75,28 @@ struct Identified {
 const GUID_TO_COME: &str = "GUID to come";
 
 impl Identified {
-    /// The GUID is a hash of all that the unit is made of: description, constants, source of the library.
+    /// The GUID is a hash of all that the unit is made of: description, constants, source of the library and of `libm`.
     fn of(plan: &Plan) -> Identified {
         let description = model_description::write(plan, GUID_TO_COME);
         let constants = constants::write(plan, GUID_TO_COME);
-        let mut hash = Sha256::new();
-        hash.update(&description);
-        hash.update(&constants);
-        for (name, text) in LIBRARY_SOURCE {
-            hash.update(name);
-            hash.update(text);
-        }
-        let guid: String = hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect();
+        let sources = LIBRARY_SOURCE.iter().chain(LIBM_SOURCE).flat_map(|(name, text)| [*name, *text]);
+        let guid = hash([description.as_str(), &constants].into_iter().chain(sources));
         let quoted = |text: &str| format!("\"{text}\"");
         let identified = |text: String| text.replacen(&quoted(GUID_TO_COME), &quoted(&guid), 1);
         let (description, constants) = (identified(description), identified(constants));
         Identified { guid, description, constants }
     }
+}
+
+/// The hash of `texts`: 32 digits.
+fn hash<'a>(texts: impl Iterator<Item = &'a str>) -> String {
+    let mut hash = Sha256::new();
+    for text in texts {
+        hash.update(text);
+        // so that no two lists of texts are the same
+        hash.update([0]);
+    }
+    hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The files as a zip archive: the same bytes for the same files.

@@ -4,7 +4,7 @@ use super::ReportError;
 use super::progress::{Progress, Work};
 use super::unit::{self, Contact};
 use super::ways::{Needs, WAYS, Way};
-use crate::files::FileError;
+use crate::files::private_folder;
 use crate::importer::{Archive, ImportError, Unit};
 use crate::package;
 use crate::plan::Plan;
@@ -45,8 +45,7 @@ impl Units {
     /// # Errors
     /// [`ReportError`] if one can't be built or loaded.
     pub fn build(scene: &Scene, progress: &Progress) -> Result<Units, ReportError> {
-        let folder = tempfile::Builder::new().prefix("brinell-report-").tempdir();
-        let folder = folder.map_err(FileError::at(&std::env::temp_dir()))?;
+        let folder = private_folder("brinell-report-", &std::env::temp_dir())?;
         let mut loaded = Vec::new();
         for (needs, name) in kinds(scene) {
             progress.say(&format!("building {name}"));

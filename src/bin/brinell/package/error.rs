@@ -1,0 +1,68 @@
+//! Why a unit couldn't be made, in one line, and what helps.
+
+use crate::files::FileError;
+use crate::platform::NoPlatform;
+use crate::symbols::SymbolError;
+use std::io;
+use std::path::PathBuf;
+
+/// A unit that couldn't be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    #[error("{0}")]
+    File(#[from] FileError),
+    #[error("{0}")]
+    Platform(#[from] NoPlatform),
+    #[error("{0}")]
+    Folder(#[from] FolderError),
+    #[error("rustc can't be started ({0}): exporting needs a Rust toolchain on PATH, see rustup.rs")]
+    NoRustc(io::Error),
+    #[error("rustc is there and doesn't work: {0}")]
+    BrokenRustc(String),
+    #[error("rustc {found} is too old: units need {needed} or newer (`rustup update`)")]
+    OldRustc { found: String, needed: &'static str },
+    #[error("there is no C linker `{linker}`, which rustc makes the library with: {install}")]
+    NoLinker { linker: String, install: &'static str },
+    #[error("the C linker `{linker}` fails ({status}): {said}")]
+    Linker { linker: String, status: String, said: String },
+    #[error("there is no space left to build in {} ({said}): BRINELL_CACHE names another folder", folder.display())]
+    NoSpace { folder: PathBuf, said: String },
+    #[error("rustc doesn't build the library: {0}")]
+    Compiler(String),
+    #[error("the library is not packed: {0}")]
+    Symbols(#[from] SymbolError),
+    #[error("the archive can't be written: {0}")]
+    Zip(#[from] zip::result::ZipError),
+}
+
+/// A folder that units can't be built in.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    #[error("there is no folder to build units in: {0} is no absolute path; BRINELL_CACHE names one")]
+    None(&'static str),
+    #[error("units are not built in {}, which {reason}: BRINELL_CACHE names another folder", folder.display())]
+    NotOurs { folder: PathBuf, reason: &'static str },
+}
+
+/// What gives an operating system a C linker.
+pub fn how_to_install(os: &str) -> &'static str {
+    match os {
+        "macos" => "`xcode-select --install` installs it",
+        "windows" => "the Build Tools for Visual Studio, with \"Desktop development with C++\", have it",
+        _ => "`apt install gcc` (Debian, Ubuntu), `dnf install gcc` (Fedora) or the gcc of your system installs it",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::how_to_install;
+
+    #[test]
+    fn what_to_install_is_named_on_every_system() {
+        assert!(
+            how_to_install("linux").contains("apt install gcc") && how_to_install("linux").contains("dnf install gcc")
+        );
+        assert!(how_to_install("macos").contains("xcode-select --install"));
+        assert!(how_to_install("windows").contains("Build Tools for Visual Studio"));
+    }
+}

@@ -1,0 +1,142 @@
+//! Where units are built: below a folder that nobody but the user can write to. A compiler and a linker run there, and whoever
+//! could write to it would decide what they make.
+
+use super::error::{ExportError, FolderError};
+use crate::files::{FileError, private_folder};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+use std::{env, fs, io};
+use tempfile::TempDir;
+
+/// The user's folder for what can be made again.
+pub struct Cache {
+    pub folder: PathBuf,
+}
+
+/// Begins the name of a folder that one unit is built in.
+const BUILD: &str = "build-";
+
+/// After this time a folder that a unit was built in belongs to an export that was stopped.
+const ABANDONED: Duration = Duration::from_secs(24 * 3600);
+
+impl Cache {
+    /// The folder, made if it isn't there, for its owner alone.
+    ///
+    /// # Errors
+    /// [`FolderError`] if others could write to it, [`FileError`] if it can't be made.
+    pub fn open() -> Result<Cache, ExportError> {
+        let folder = cache_folder(|name| env::var_os(name), env::consts::OS)?;
+        make(&folder).map_err(FileError::at(&folder))?;
+        if let Some(reason) = not_ours(&folder).map_err(FileError::at(&folder))? {
+            return Err(FolderError::NotOurs { folder, reason }.into());
+        }
+        Ok(Cache { folder })
+    }
+
+    /// A new folder to build in, which goes when it is dropped.
+    ///
+    /// # Errors
+    /// [`FileError`]
+    pub fn build_folder(&self) -> Result<TempDir, FileError> {
+        self.sweep();
+        private_folder(BUILD, &self.folder)
+    }
+
+    /// Removes what exports have left that were stopped.
+    fn sweep(&self) {
+        let Ok(entries) = fs::read_dir(&self.folder) else { return };
+        for entry in entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with(BUILD)) {
+            let modified = entry.metadata().and_then(|metadata| metadata.modified());
+            let age = modified.ok().and_then(|modified| SystemTime::now().duration_since(modified).ok());
+            if age.is_some_and(|age| age > ABANDONED) {
+                // what can't be removed is only in the way
+                let _ = fs::remove_dir_all(entry.path());
+            }
+        }
+    }
+}
+
+/// `BRINELL_CACHE`, or the folder of this name in the user's cache on the operating system `os`.
+fn cache_folder(variable: impl Fn(&str) -> Option<OsString>, os: &str) -> Result<PathBuf, FolderError> {
+    let path = |name: &str| variable(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    if let Some(chosen) = path("BRINELL_CACHE") {
+        // the compiler runs in another folder than the user
+        return Ok(std::path::absolute(&chosen).unwrap_or(chosen));
+    }
+    // by the XDG Base Directory Specification a relative path counts as none
+    let absolute = |name: &str| path(name).filter(|path| path.is_absolute());
+    let base = match os {
+        "windows" => absolute("LOCALAPPDATA").ok_or(FolderError::None("LOCALAPPDATA"))?,
+        _ => {
+            let below = if os == "macos" { "Library/Caches" } else { ".cache" };
+            let home = || absolute("HOME").map(|home| home.join(below));
+            absolute("XDG_CACHE_HOME").or_else(home).ok_or(FolderError::None("HOME"))?
+        }
+    };
+    Ok(base.join("brinell"))
+}
+
+/// Makes `folder` and those above it, for their owner alone.
+fn make(folder: &Path) -> io::Result<()> {
+    let mut builder = fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.recursive(true).create(folder)
+}
+
+/// Why others could write to `folder`, if they could.
+#[cfg(unix)]
+fn not_ours(folder: &Path) -> io::Result<Option<&'static str>> {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt};
+    // what is made now belongs to whom the program runs as
+    let probe = tempfile::tempfile_in(folder)?.metadata()?;
+    let owner = |metadata: fs::Metadata| metadata.uid() == probe.uid();
+    // a link in a stranger's folder could lead to any of our own
+    if !owner(fs::symlink_metadata(folder)?) || !owner(fs::metadata(folder)?) {
+        return Ok(Some("belongs to somebody else"));
+    }
+    let others_write = fs::metadata(folder)?.permissions().mode() & 0o022 != 0;
+    Ok(others_write.then_some("others can write to (`chmod go-w` ends that)"))
+}
+
+/// The user's local application data are the user's own.
+#[cfg(not(unix))]
+fn not_ours(_folder: &Path) -> io::Result<Option<&'static str>> {
+    Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cache_folder;
+    use std::path::PathBuf;
+
+    /// The folder with these variables set.
+    fn chosen(os: &str, variables: &[(&str, &str)]) -> Option<PathBuf> {
+        let value = |name: &str| variables.iter().find(|(known, _)| *known == name).map(|(_, value)| value.into());
+        cache_folder(value, os).ok()
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn an_empty_or_relative_xdg_cache_home_counts_as_unset() {
+        let folder = |variables: &[(&str, &str)]| chosen("linux", variables);
+        assert_eq!(folder(&[("HOME", "/home/a"), ("XDG_CACHE_HOME", "/c")]), Some("/c/brinell".into()));
+        for none in ["", ".", "cache", "../cache"] {
+            let set = [("HOME", "/home/a"), ("XDG_CACHE_HOME", none)];
+            assert_eq!(folder(&set), Some("/home/a/.cache/brinell".into()), "{none:?}");
+        }
+        assert_eq!(folder(&[("HOME", "/home/a")]), Some("/home/a/.cache/brinell".into()));
+        assert_eq!(folder(&[("HOME", "")]), None, "never the folder of temporary files");
+        assert_eq!(folder(&[]), None);
+        assert_eq!(folder(&[("BRINELL_CACHE", "/own"), ("XDG_CACHE_HOME", "/c")]), Some("/own".into()));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn each_system_has_its_own_cache() {
+        assert_eq!(chosen("macos", &[("HOME", "/Users/a")]), Some("/Users/a/Library/Caches/brinell".into()));
+        assert_eq!(chosen("windows", &[("LOCALAPPDATA", "/local"), ("HOME", "/h")]), Some("/local/brinell".into()));
+        assert_eq!(chosen("windows", &[("HOME", "/h")]), None);
+    }
+}

@@ -1,0 +1,123 @@
+//! The compiler. It is called itself, not by cargo: nothing but its arguments decides what it makes.
+
+use super::diagnostics;
+use super::error::ExportError;
+use crate::files::FileError;
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::{env, fs};
+
+/// A compiler that can be called.
+pub struct Rustc {
+    program: PathBuf,
+    /// What it says of itself, and how old its file is: no other compiler is the same.
+    pub identity: String,
+}
+
+/// The oldest version that the library compiles with.
+const NEEDED: &str = env!("CARGO_PKG_RUST_VERSION");
+
+/// What the compiler and the linker may know of the user's surroundings: where programs are, and on some systems where the
+/// operating system's own libraries are. Everything else could change what they make, like `LD_RUN_PATH` or `LINK`.
+const KEPT: &[&str] = match cfg!(windows) {
+    false => &["PATH", "HOME", "DEVELOPER_DIR", "SDKROOT"],
+    true => &[
+        "PATH",
+        "PATHEXT",
+        "SystemRoot",
+        "SystemDrive",
+        "ComSpec",
+        "ProgramData",
+        "ProgramFiles",
+        "ProgramFiles(x86)",
+        "ProgramW6432",
+        "CommonProgramFiles",
+        "USERPROFILE",
+        "APPDATA",
+        "LOCALAPPDATA",
+        "VCINSTALLDIR",
+        "VSINSTALLDIR",
+        "VCToolsInstallDir",
+        "VSCMD_ARG_TGT_ARCH",
+        "WindowsSdkDir",
+        "WindowsSDKVersion",
+        "UniversalCRTSdkDir",
+        "UCRTVersion",
+        "LIB",
+        "LIBPATH",
+    ],
+};
+
+impl Rustc {
+    /// The compiler that belongs to the cargo that runs this program, or else the one on PATH. Only the root of the file
+    /// system, the last of the folders above `cache`, is looked in for a `rust-toolchain.toml`.
+    ///
+    /// # Errors
+    /// [`ExportError::NoRustc`], [`ExportError::BrokenRustc`], [`ExportError::OldRustc`]
+    pub fn find(cache: &Path) -> Result<Rustc, ExportError> {
+        let name = format!("rustc{}", env::consts::EXE_SUFFIX);
+        let beside_cargo = env::var_os("CARGO").map(|cargo| Path::new(&cargo).with_file_name(&name));
+        let found = beside_cargo.filter(|path| path.is_absolute() && path.is_file()).unwrap_or_else(|| "rustc".into());
+        let root = cache.ancestors().last().unwrap_or(cache);
+        let asked = Command::new(&found).args(["--print", "sysroot"]).current_dir(root).output();
+        let sysroot = answer(&asked.map_err(ExportError::NoRustc)?)?;
+        // the compiler itself, where rustup has answered
+        let itself = Path::new(&sysroot).join("bin").join(&name);
+        let program = if itself.is_file() { itself } else { found };
+        let asked = command(&program).arg("-vV").current_dir(root).output();
+        let says = answer(&asked.map_err(ExportError::NoRustc)?)?;
+        let version = says.lines().find_map(|line| line.strip_prefix("release: ")).unwrap_or_default();
+        if number(version) < number(NEEDED) {
+            return Err(ExportError::OldRustc { found: version.into(), needed: NEEDED });
+        }
+        // none, if it is found on PATH only
+        let modified = fs::metadata(&program).and_then(|metadata| metadata.modified()).ok();
+        Ok(Rustc { identity: format!("{} {modified:?} {says}", program.display()), program })
+    }
+
+    /// Compiles in `folder`, with these arguments.
+    ///
+    /// # Errors
+    /// [`ExportError`] with the cause.
+    pub fn run<A: AsRef<OsStr>>(
+        &self,
+        folder: &Path,
+        arguments: impl IntoIterator<Item = A>,
+    ) -> Result<(), ExportError> {
+        let temporary = folder.join("tmp");
+        fs::create_dir_all(&temporary).map_err(FileError::at(&temporary))?;
+        let mut command = command(&self.program);
+        command.args(arguments).arg("--error-format=json").current_dir(folder);
+        for name in ["TMPDIR", "TEMP", "TMP"] {
+            command.env(name, &temporary);
+        }
+        let output = command.output().map_err(ExportError::NoRustc)?;
+        if output.status.success() { Ok(()) } else { Err(diagnostics::cause(&output, folder)) }
+    }
+}
+
+/// A call of `program` that knows nothing of the user's settings and speaks English.
+fn command(program: &Path) -> Command {
+    let mut command = Command::new(program);
+    let kept = |name: &&'static str| Some((*name, env::var_os(name)?));
+    let kept: Vec<(&str, OsString)> = KEPT.iter().filter_map(kept).collect();
+    command.env_clear().envs(kept).env("LC_ALL", "C").env("CARGO_PKG_VERSION", env!("CARGO_PKG_VERSION"));
+    command
+}
+
+/// What a compiler that was asked something has said.
+fn answer(output: &Output) -> Result<String, ExportError> {
+    if output.status.success() {
+        return Ok(String::from_utf8_lossy(&output.stdout).trim_end().into());
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    let first = said.lines().find(|line| !line.trim().is_empty()).unwrap_or("it says nothing");
+    Err(ExportError::BrokenRustc(format!("{} ({})", first.trim(), output.status)))
+}
+
+/// The first two numbers of a version.
+fn number(version: &str) -> (u32, u32) {
+    let mut parts = version.split(['.', '-']).map(|part| part.parse().unwrap_or(0));
+    (parts.next().unwrap_or(0), parts.next().unwrap_or(0))
+}

@@ -1,0 +1,263 @@
+//! The same scene gives the same bytes, whatever surrounds the export: settings, other exports, and files that strangers left.
+#![cfg(unix)]
+
+#[path = "support/command.rs"]
+mod command;
+
+use command::{assert_same, brinell, contents, empty_folder, exported, output, scene};
+use std::ffi::OsStr;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs, thread};
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    assert_same(&exported(|command| command), &exported(|command| command));
+}
+
+#[test]
+fn the_cache_does_not_show_in_the_unit() {
+    let other = empty_folder();
+    let new = other.path().join("new");
+    assert_same(&exported(|command| command), &exported(|command| command.env("BRINELL_CACHE", new)));
+}
+
+#[test]
+fn the_folder_of_temporary_files_does_not_show_in_the_unit() {
+    let other = empty_folder();
+    assert_same(&exported(|command| command), &exported(|command| command.env("TMPDIR", other.path())));
+    assert!(contents(other.path()).is_empty(), "temporary files were left");
+}
+
+/// Whoever builds for the own processor, or without optimization, says so for the own programs, not for units. A linker, a
+/// wrapper or a target would be seen at once: there is none of these names. The registry isn't needed.
+#[test]
+fn no_setting_in_the_environment_shows_in_the_unit() {
+    let settings = [
+        ("RUSTFLAGS", "-Ctarget-cpu=native -Cdebuginfo=2"),
+        ("CARGO_ENCODED_RUSTFLAGS", "-Copt-level=0"),
+        ("CARGO_BUILD_RUSTFLAGS", "-Copt-level=0"),
+        ("CARGO_BUILD_TARGET", "x86_64-unknown-linux-musl"),
+        ("CARGO_BUILD_RUSTC", "/no/rustc"),
+        ("CARGO_BUILD_TARGET_DIR", "/proc"),
+        ("CARGO_TARGET_DIR", "/proc"),
+        ("CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_LINKER", "/no/linker"),
+        ("CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_RUSTFLAGS", "-Copt-level=0"),
+        ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0"),
+        ("CARGO_PROFILE_RELEASE_DEBUG", "true"),
+        ("CARGO_PROFILE_RELEASE_LTO", "false"),
+        ("CARGO_INCREMENTAL", "1"),
+        ("CARGO_BUILD_INCREMENTAL", "true"),
+        ("CARGO_HOME", "/no/registry"),
+        ("CARGO_NET_OFFLINE", "true"),
+        ("RUSTC", "/no/rustc"),
+        ("RUSTC_WRAPPER", "/no/wrapper"),
+        ("RUSTC_WORKSPACE_WRAPPER", "/no/wrapper"),
+        ("RUSTC_BOOTSTRAP", "1"),
+        ("RUSTC_LOG", "info"),
+        ("LD_RUN_PATH", "/tmp/libraries"),
+        ("LIBRARY_PATH", "/tmp/libraries"),
+        ("COMPILER_PATH", "/no/compiler"),
+        ("LDFLAGS", "-Wl,-rpath,/tmp/libraries"),
+        ("LC_ALL", "de_DE.UTF-8"),
+    ];
+    // a cache of its own, so that what these settings leave there meets no other test
+    let own = empty_folder();
+    let exported_with = |settings: &[(&str, &str)]| {
+        let settings = settings.iter().copied();
+        exported(|command| command.env("BRINELL_CACHE", own.path()).envs(settings))
+    };
+    let plain = exported(|command| command);
+    if exported_with(&settings) != plain {
+        let different: Vec<_> = settings.iter().filter(|setting| exported_with(&[**setting]) != plain).collect();
+        panic!("these change the unit, alone or together: {different:?}");
+    }
+}
+
+/// What a `.cargo/config.toml` can say that would change bytes, or run a stranger's program.
+fn hostile_configuration(linker: &Path) -> String {
+    let linker = linker.display();
+    format!(
+        "[build]\nrustc-wrapper = \"{linker}\"\ntarget = \"x86_64-unknown-linux-musl\"\nrustflags = [\"-Copt-level=0\"]\n\
+         [target.x86_64-unknown-linux-gnu]\nlinker = \"{linker}\"\n\
+         [profile.release]\nopt-level = 1\nlto = false\n\
+         [profile.release.package.libm]\nopt-level = 0\n\
+         [env]\nRUSTC_BOOTSTRAP = \"1\"\nLD_RUN_PATH = {{ value = \"/tmp\", force = true }}\n\
+         [source.crates-io]\nreplace-with = \"nowhere\"\n[source.nowhere]\ndirectory = \"/no/registry\"\n"
+    )
+}
+
+/// A home with a folder of temporary files, a cache and a working folder deep inside, and hostile files above them all; what
+/// they would have run is `ran`.
+struct Home {
+    folder: tempfile::TempDir,
+    ran: PathBuf,
+}
+
+impl Home {
+    fn new(is_hostile: bool) -> Home {
+        let folder = empty_folder();
+        let home = folder.path();
+        for inside in ["deep/temporary", "deep/cache", "deep/work"] {
+            fs::create_dir_all(home.join(inside)).unwrap();
+        }
+        let (linker, ran) = (home.join("linker"), home.join("ran"));
+        if is_hostile {
+            fs::write(&linker, format!("#!/bin/sh\ntouch '{}'\nexit 1\n", ran.display())).unwrap();
+            fs::set_permissions(&linker, fs::Permissions::from_mode(0o755)).unwrap();
+            for place in ["", "deep", "deep/temporary", "deep/cache", "deep/work"].map(|place| home.join(place)) {
+                fs::create_dir_all(place.join(".cargo")).unwrap();
+                fs::write(place.join(".cargo/config.toml"), hostile_configuration(&linker)).unwrap();
+                fs::write(place.join("rust-toolchain.toml"), "[toolchain]\nchannel = \"1.2.3\"\n").unwrap();
+            }
+        }
+        Home { folder, ran }
+    }
+
+    /// The unit, exported with this home by the compiler on PATH; with no variable that would choose another one.
+    fn exported(&self) -> Vec<u8> {
+        let home = self.folder.path();
+        let rustup = env::var_os("RUSTUP_HOME").map(PathBuf::from);
+        let rustup = rustup.or_else(|| Some(PathBuf::from(env::var_os("HOME")?).join(".rustup")));
+        let mut command = brinell(&home.join("deep/work"));
+        command.arg("export").arg(scene("steel_ball"));
+        command.env_remove("BRINELL_CACHE").env_remove("CARGO").env_remove("RUSTUP_TOOLCHAIN");
+        command.env("HOME", home).env("CARGO_HOME", home.join(".cargo")).env("TMPDIR", home.join("deep/temporary"));
+        command.env("XDG_CACHE_HOME", home.join("deep/cache")).env("RUSTUP_HOME", rustup.unwrap_or_default());
+        output(&mut command).with_status(0);
+        fs::read(home.join("deep/work/steel_ball.fmu")).expect("NAME.fmu in the current folder")
+    }
+}
+
+/// On a shared machine the folder of temporary files is everybody's: a stranger's linker ran as the exporting user.
+#[test]
+fn no_file_above_the_build_changes_the_unit_or_is_run() {
+    let (plain, hostile) = (Home::new(false), Home::new(true));
+    assert_same(&plain.exported(), &hostile.exported());
+    assert!(!hostile.ran.exists(), "a program that a configuration names was run");
+}
+
+/// Both compile what the other one may have in the cache already.
+#[test]
+fn exports_of_one_scene_at_the_same_time_do_not_disturb_each_other() {
+    let plain = exported(|command| command);
+    let new = empty_folder();
+    thread::scope(|scope| {
+        let export = || exported(|command| command.env("BRINELL_CACHE", new.path()));
+        let exports: Vec<_> = (0..4).map(|_| scope.spawn(export)).collect();
+        for export in exports {
+            assert_same(&plain, &export.join().expect("an export at the same time as others"));
+        }
+    });
+}
+
+/// A unit is some ten kilobytes, but every change of a parameter makes a new one.
+#[test]
+fn units_do_not_pile_up_in_the_cache() {
+    let own = empty_folder();
+    for _ in 0..2 {
+        exported(|command| command.env("BRINELL_CACHE", own.path()));
+    }
+    let left = contents(own.path());
+    assert!(left.len() == 1 && left[0].starts_with("libm-"), "{left:?}");
+}
+
+/// An export that was killed can't clean up.
+#[test]
+fn what_a_stopped_export_has_left_goes_after_a_day() {
+    let own = empty_folder();
+    for (name, age) in [("build-old", "2 days ago"), ("build-new", "1 hour ago"), ("other", "2 days ago")] {
+        fs::create_dir_all(own.path().join(name).join("src")).unwrap();
+        let touched = Command::new("touch").args(["-d", age]).arg(own.path().join(name)).status().unwrap();
+        assert!(touched.success());
+    }
+    exported(|command| command.env("BRINELL_CACHE", own.path()));
+    let left = contents(own.path());
+    assert!(left.contains(&"build-new".into()) && left.contains(&"other".into()), "{left:?}");
+    assert!(!left.contains(&"build-old".into()), "{left:?}");
+}
+
+#[test]
+fn the_folder_that_units_are_built_in_is_made_for_its_owner_alone() {
+    let home = empty_folder();
+    exported(|command| command.env_remove("BRINELL_CACHE").env("XDG_CACHE_HOME", home.path().join("new/cache")));
+    let mode = |path: &str| fs::metadata(home.path().join(path)).unwrap().permissions().mode() & 0o777;
+    assert_eq!([mode("new"), mode("new/cache"), mode("new/cache/brinell")], [0o700; 3]);
+}
+
+/// The refused export of the default scene with this cache; its message.
+#[track_caller]
+fn refused(cache: &OsStr) -> String {
+    let folder = empty_folder();
+    let mut command = brinell(folder.path());
+    let run = output(command.arg("export").arg(scene("steel_ball")).env("BRINELL_CACHE", cache)).with_status(1);
+    assert!(contents(folder.path()).is_empty() && run.out.is_empty(), "{run:#?}");
+    run.err
+}
+
+#[test]
+fn a_folder_that_others_can_write_to_is_not_built_in() {
+    let folder = empty_folder();
+    for mode in [0o777, 0o1777, 0o770, 0o702] {
+        fs::set_permissions(folder.path(), fs::Permissions::from_mode(mode)).unwrap();
+        let message = refused(folder.path().as_os_str());
+        let parts = [folder.path().to_str().unwrap(), "others can write to", "chmod go-w", "BRINELL_CACHE"];
+        assert!(parts.iter().all(|part| message.contains(part)), "{mode:o}: {message}");
+        assert!(contents(folder.path()).is_empty(), "files were left");
+    }
+}
+
+/// Only the superuser can give a folder to somebody else, and so only where the tests run as one is this tried.
+#[test]
+fn a_folder_or_link_of_somebody_else_is_not_built_in() {
+    let folder = empty_folder();
+    let (theirs, link) = (folder.path().join("theirs"), folder.path().join("link"));
+    fs::create_dir(&theirs).unwrap();
+    fs::create_dir(folder.path().join("ours")).unwrap();
+    symlink(folder.path().join("ours"), &link).unwrap();
+    let given = std::os::unix::fs::chown(&theirs, Some(12345), None);
+    if given.and_then(|()| std::os::unix::fs::lchown(&link, Some(12345), None)).is_err() {
+        println!("skipped: nothing can be given to somebody else");
+        return;
+    }
+    for path in [theirs, link] {
+        let message = refused(path.as_os_str());
+        assert!(message.contains("belongs to somebody else") && message.contains(path.to_str().unwrap()), "{message}");
+    }
+}
+
+#[test]
+fn a_cache_that_is_a_file_is_named() {
+    let folder = empty_folder();
+    let file = folder.path().join("cache");
+    fs::write(&file, "").unwrap();
+    let message = refused(file.as_os_str());
+    assert!(message.contains(file.to_str().unwrap()), "{message}");
+    assert_eq!(contents(folder.path()), ["cache"], "files were left");
+}
+
+/// The compiler runs in a folder of its own, so that a relative path would mean another place there.
+#[test]
+fn a_relative_cache_is_relative_to_the_current_folder() {
+    let folder = empty_folder();
+    let mut command = brinell(folder.path());
+    output(command.arg("export").arg(scene("elastic")).env("BRINELL_CACHE", "own cache")).with_status(0);
+    assert_eq!(contents(folder.path()), ["elastic.fmu", "own cache"]);
+}
+
+/// Rather than building where everybody can write.
+#[test]
+fn without_any_cache_the_message_names_what_is_missing() {
+    let folder = empty_folder();
+    let mut command = brinell(folder.path());
+    command
+        .arg("export")
+        .arg(scene("elastic"))
+        .env_remove("BRINELL_CACHE")
+        .env("HOME", "")
+        .env("XDG_CACHE_HOME", "cache");
+    let run = output(&mut command).with_status(1);
+    assert!(run.err.contains("HOME") && run.err.contains("BRINELL_CACHE names one"), "{run:#?}");
+    assert!(contents(folder.path()).is_empty(), "files were left");
+}
