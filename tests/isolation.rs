@@ -8,7 +8,7 @@ use command::{assert_same, brinell, contents, empty_folder, exported, output, sc
 use std::ffi::OsStr;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::time::{Duration, SystemTime};
 use std::{env, fs, thread};
 
 #[test]
@@ -167,10 +167,11 @@ fn units_do_not_pile_up_in_the_cache() {
 #[test]
 fn what_a_stopped_export_has_left_goes_after_a_day() {
     let own = empty_folder();
-    for (name, age) in [("build-old", "2 days ago"), ("build-new", "1 hour ago"), ("other", "2 days ago")] {
-        fs::create_dir_all(own.path().join(name).join("src")).unwrap();
-        let touched = Command::new("touch").args(["-d", age]).arg(own.path().join(name)).status().unwrap();
-        assert!(touched.success());
+    for (name, hours) in [("build-old", 48), ("build-new", 1), ("other", 48)] {
+        let path = own.path().join(name);
+        fs::create_dir_all(path.join("src")).unwrap();
+        let moment = SystemTime::now() - Duration::from_secs(3600 * hours);
+        fs::File::open(path).unwrap().set_modified(moment).unwrap();
     }
     exported(|command| command.env("BRINELL_CACHE", own.path()));
     let left = contents(own.path());

@@ -7,7 +7,7 @@ use super::{LIBM_SOURCE, LIBRARY_SOURCE, hash};
 use crate::files::FileError;
 use crate::platform::Platform;
 use crate::scene::Scene;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::{env, fs, io};
 
 /// How everything is compiled. There is nothing to unwind, and one piece of code is optimized as one.
@@ -71,35 +71,32 @@ pub fn build(scene: &Scene, constants: &str, platform: &Platform) -> Result<Vec<
     let rustc = Rustc::find(&cache.folder)?;
     let folder = cache.build_folder()?;
     let settings = [SETTINGS.as_slice(), &[optimization(scene), "--target", platform.target]].concat();
-    let libm = libm(&cache, &rustc, folder.path(), &settings)?;
+    make_libm(&cache, &rustc, folder.path(), &settings)?;
     let own = [("src/scene/exported.rs", constants), LINKER_SCRIPT];
     write(&cache, folder.path(), LIBRARY_SOURCE.iter().copied().chain(own))?;
     let library = format!("unit.{}", platform.extension);
-    let libm = format!("--extern=libm={}", libm.display());
-    let named = ["src/lib.rs", "-o", &library, &libm];
+    let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library];
     rustc.run(folder.path(), settings.iter().chain(&LIBRARY).chain(link_arguments()).chain(&named))?;
     let library = folder.path().join(library);
     Ok(fs::read(&library).map_err(FileError::at(&library))?)
 }
 
-/// `libm`, compiled with these `settings`, in `folder` if it isn't in the cache.
-fn libm(cache: &Cache, rustc: &Rustc, folder: &Path, settings: &[&str]) -> Result<PathBuf, ExportError> {
+/// Puts `libm.rlib` into `folder`: out of the cache, or else compiled with these `settings` and then put into the cache.
+fn make_libm(cache: &Cache, rustc: &Rustc, folder: &Path, settings: &[&str]) -> Result<(), ExportError> {
     let made_from = [rustc.identity.as_str()].into_iter().chain(settings.iter().copied()).chain(LIBM);
     let made_from = made_from.chain(LIBM_SOURCE.iter().flat_map(|(name, text)| [*name, *text]));
-    let path = cache.folder.join(format!("libm-{}.rlib", hash(made_from)));
-    if path.is_file() {
-        return Ok(path);
+    let known = cache.folder.join(format!("libm-{}.rlib", hash(made_from)));
+    let here = folder.join("libm.rlib");
+    if known.is_file() {
+        let copied = fs::hard_link(&known, &here).or_else(|_| fs::copy(&known, &here).map(drop));
+        return copied.map_err(FileError::at(&known)).map_err(|error| no_space(cache, error));
     }
     write(cache, folder, LIBM_SOURCE.iter().copied())?;
     let named = ["libm/src/lib.rs", "-o", "libm.rlib"];
     rustc.run(folder, settings.iter().chain(&LIBM).chain(&named))?;
-    // whole, or not at all; and never in place of one that another export is reading
-    let made = folder.join("libm.rlib");
-    if fs::hard_link(&made, &path).is_err() && !path.is_file() {
-        // a file system without links
-        fs::rename(&made, &path).map_err(FileError::at(&path))?;
-    }
-    Ok(path)
+    // whole, or not at all; a file system without links, and another export that was as far, do no harm
+    let _ = fs::hard_link(&here, &known);
+    Ok(())
 }
 
 /// Writes files into the folder that is built in.
