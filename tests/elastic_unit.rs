@@ -94,7 +94,7 @@ fn with_names(scene: &Path) -> Vec<u8> {
         fs::copy(root.join(part), folder.path().join(part)).unwrap();
     }
     // named in the manifest, and not compiled
-    for named in ["benches", "examples"] {
+    for named in ["benches", "examples", "tests"] {
         std::os::unix::fs::symlink(root.join(named), folder.path().join(named)).unwrap();
     }
     for part in ["src", "build", "modelDescription"] {

@@ -61,37 +61,41 @@ impl<S: Scene> Instance<S> {
         done
     }
 
-    /// The step that leaves its branch, and is plain otherwise: of one contact, with nothing to look for but the depth up to
-    /// which its law is valid. It does what [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result
-    /// is false.
+    /// Whether a step is that of one contact with its rate held, and nothing to do or look for but the depth up to which its law
+    /// is valid.
+    const SIMPLE: bool = S::CONTACTS == 1 && Self::PLAIN && !S::Momentum::IS_PRESENT && S::GUARD.is_none();
+
+    /// The step that leaves its branch, and is plain otherwise. It does what [`Instance::do_step`] does. If it isn't such a step
+    /// nothing is done, and the result is false.
     #[inline]
     pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
-        let quick = S::CONTACTS == 1 && Self::PLAIN && !S::Momentum::IS_PRESENT && S::GUARD.is_none();
-        if !quick || !self.clock.takes(time, end, step) {
-            return false;
-        }
+        Self::SIMPLE && self.clock.takes(time, end, step) && self.advance_one(end, step).is_ok()
+    }
+
+    /// Moves the one contact of a simple instance over `step` [s], to the time `end` [s].
+    #[inline(never)]
+    fn advance_one(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         let Contacts { histories, rates, last_step, .. } = &mut self.contacts;
         let Settings { bodies, values, .. } = &self.settings;
-        let (Some(history), Some(&rate), Some(&bodies)) =
-            (histories.as_mut().first_mut(), rates.as_ref().first(), bodies.as_ref().first())
-        else {
-            return false;
-        };
-        if history.step_held(rate, step, || model_of::<S>(0, bodies, values)).is_err() {
-            return false;
-        }
-        if !history.stays_within(bodies.depth) {
-            self.deep = Deep { contact: 1, indentation: history.max_indentation() };
+        for ((history, &rate), &bodies) in histories.as_mut().iter_mut().zip(rates.as_ref()).zip(bodies.as_ref()) {
+            let model = || model_of::<S>(0, bodies, values);
+            history.step_held(rate, step, model).map_err(|deep| too_deep(0, deep))?;
+            if !history.stays_within(bodies.depth) {
+                self.deep = Deep { contact: 1, indentation: history.max_indentation() };
+            }
         }
         last_step.as_mut().fill(step);
         self.clock.time = end;
-        true
+        Ok(())
     }
 
     /// Moves all contacts over `step` [s], to the time `end` [s], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
+        if Self::SIMPLE && !self.curved {
+            return self.advance_one(end, step);
+        }
         if S::CONTACTS > 1 {
             // within the limits of rates and times a law that is made of segments can't refuse
             let looks_ahead = self.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));
@@ -101,7 +105,8 @@ impl<S: Scene> Instance<S> {
                 }
             }
         }
-        if self.curved || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT {
+        let any = self.curved || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT;
+        if Self::SIMPLE || any {
             self.advance_any(step)?;
         } else {
             self.advance_held(step)?;
