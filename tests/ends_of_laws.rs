@@ -4,6 +4,7 @@
 mod physics;
 
 use brinell::contact::impact::{Impact, predict};
+use brinell::contact::quadrature::logarithmic_integral;
 use brinell::contact::{History, Pair};
 use physics::{AnyModel, Random, all_models, model, pair_of};
 
@@ -101,4 +102,15 @@ fn jackson_and_green_end_where_their_fit_overflows() {
     assert_eq!(history.force(), 0.0);
     history.advance(&strong, 1e-4).unwrap();
     assert!(history.force() > 0.0);
+}
+
+/// A fit whose unit of length is zero counts in infinitely many of them.
+#[test]
+fn an_integral_up_to_infinity_ends_and_is_no_number() {
+    for (low, high) in [(1.0, f64::INFINITY), (0.0, 1.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {
+        let integral = logarithmic_integral(low, high, &|y| y.sqrt());
+        assert!(!integral.is_finite(), "{integral} from {low} to {high}");
+    }
+    let integral = logarithmic_integral(1e-300, 1e100, &|y| 1.0 / y);
+    assert!((integral / (400.0 * 10f64.ln()) - 1.0).abs() < 1e-14, "{integral}");
 }

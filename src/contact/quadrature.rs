@@ -46,9 +46,14 @@ pub fn logarithmic_integral(low: f64, high: f64, integrand: &impl Fn(f64) -> f64
     const WIDE: f64 = 2.0;
     /// `ln y` from which panels are wide.
     const FAR: f64 = 18.0;
+    /// More than there are between the logarithms of any two numbers, so that one up to infinity ends too.
+    const MOST_PANELS: u32 = 2000;
     let (mut from, end) = (log(low), log(high));
     let mut sum = 0.0;
-    while from < end {
+    for _ in 0..MOST_PANELS {
+        if from >= end {
+            break;
+        }
         let next = from + if from < FAR { NARROW } else { WIDE };
         let to = if next < end { next } else { end };
         sum += gauss(from, to, &|u: f64| {
