@@ -110,14 +110,14 @@ pub fn is_passive(model: &AnyModel) -> bool {
     passive_from(loading, unloading).is_some_and(|from| model.pair.poissons_ratio >= from)
 }
 
-/// Whether the loading law of `model` is one of the `names`.
-pub fn is_one_of(model: &AnyModel, names: &[&str]) -> bool {
-    AnyLoading::ALL.iter().any(|(name, law)| names.contains(name) && *law == model.loading)
-}
-
 /// Whether the force of the loading curve jumps, as published, where one fit ends and the next begins.
 pub fn has_jumps(model: &AnyModel) -> bool {
     laws::says(loading_entry(model), "jumps")
+}
+
+/// By which part of itself the contact radius falls at a corner, as published.
+pub fn radius_falls_by(model: &AnyModel) -> f64 {
+    loading_entry(model).get("radius_falls_by").map_or(0.0, |part| part.as_float().expect("a number"))
 }
 
 /// Whether the normalised loading curve is the same for all `E*/S`.

@@ -151,9 +151,11 @@ pub struct Law {
     pub lowers_hertz: bool,
     /// The one loading law that an unloading law goes with.
     pub made_for: Option<MadeFor>,
-    /// Whether the force of a loading law jumps: for the tests.
+    /// Whether the force of a loading law jumps, and by which part its contact radius falls: for the tests.
     #[serde(default, rename = "jumps")]
     _jumps: IgnoredAny,
+    #[serde(default, rename = "radius_falls_by")]
+    _radius_falls_by: IgnoredAny,
     /// Whether the normalised curve of a loading law depends on `E*/S`.
     #[serde(default)]
     pub depends_on_modulus_ratio: bool,
