@@ -44,7 +44,7 @@ pub enum Fault {
     },
     /// A rate at which the force of a rate-dependent law is beyond all numbers.
     TooFast {
-        /// The rate [m/s].
+        /// The rate \[m/s\].
         rate: f64,
     },
     /// Outside the limits of the parameter.
@@ -56,44 +56,44 @@ pub enum Fault {
     },
     /// The impactor doesn't fit into the socket.
     NoPointContact {
-        /// Radius of the impactor [m].
+        /// Radius of the impactor \[m\].
         impactor: f64,
-        /// Radius of the target [m], negative.
+        /// Radius of the target \[m\], negative.
         target: f64,
     },
     /// Times that are not finite, or a stop before the start.
     Experiment {
-        /// Start time [s].
+        /// Start time \[s\].
         start: f64,
-        /// Stop time [s].
+        /// Stop time \[s\].
         stop: f64,
     },
     /// Initialization without start time.
     NoExperiment,
     /// A step that is not positive and finite.
     StepSize {
-        /// The step [s].
+        /// The step \[s\].
         step: f64,
     },
     /// A step that doesn't begin where the last one ended.
     CommunicationPoint {
-        /// Begin of the step [s].
+        /// Begin of the step \[s\].
         given: f64,
-        /// End of the last one [s].
+        /// End of the last one \[s\].
         expected: f64,
     },
     /// A step beyond the stop time.
     BeyondStopTime {
-        /// End of the step [s].
+        /// End of the step \[s\].
         end: f64,
-        /// Stop time [s].
+        /// Stop time \[s\].
         stop: f64,
     },
     /// An indentation for which the law can't be evaluated.
     TooDeep {
         /// Which contact, counted from 0.
         contact: usize,
-        /// The indentation [m].
+        /// The indentation \[m\].
         indentation: f64,
     },
     /// A derivative of an order that there isn't.
@@ -110,7 +110,7 @@ pub enum Fault {
     },
     /// A step in which the bodies meet more often than can be followed.
     TooLong {
-        /// The step [s].
+        /// The step \[s\].
         step: f64,
     },
     /// The unit doesn't have this capability.
@@ -132,18 +132,18 @@ pub enum Fault {
     Deep {
         /// Which contact, counted from 0.
         contact: u32,
-        /// Its largest indentation [m].
+        /// Its largest indentation \[m\].
         indentation: f64,
-        /// Up to which the law is valid [m].
+        /// Up to which the law is valid \[m\].
         allowed: f64,
     },
     /// A contact closes so fast that waves take more energy than can be left out.
     Fast {
         /// Which contact, counted from 0.
         contact: u32,
-        /// Its rate [m/s].
+        /// Its rate \[m/s\].
         rate: f64,
-        /// Up to which the law is valid [m/s].
+        /// Up to which the law is valid \[m/s\].
         allowed: f64,
     },
 }

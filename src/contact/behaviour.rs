@@ -18,72 +18,72 @@ pub trait Contact<M>: Copy {
     /// How many words a saved contact has.
     const WORDS: usize;
 
-    /// A contact at `gap` [m] before any motion; a negative gap is an indentation that is already there.
+    /// A contact at `gap` \[m\] before any motion; a negative gap is an indentation that is already there.
     ///
     /// # Errors
     /// [`TooDeep`] beyond [`LARGEST_INDENTATION`](super::history::LARGEST_INDENTATION) on either side, and for NaN.
     fn start(model: &M, gap: f64) -> Result<Self, TooDeep>;
 
-    /// Moves the contact by `increment` [m] if that takes no more than a few comparisons: on the branch that it is on, or
+    /// Moves the contact by `increment` \[m\] if that takes no more than a few comparisons: on the branch that it is on, or
     /// through the air. Otherwise nothing is done, and the result is false.
     ///
     /// Such a step does the same as [`Contact::step`] with the rate held, to the last bit.
     fn short_step(&mut self, increment: f64) -> bool;
 
-    /// Mean force [N] of the last step, which was a [short](Contact::short_step) one and began at the indentation `from` [m].
+    /// Mean force \[N\] of the last step, which was a [short](Contact::short_step) one and began at the indentation `from` \[m\].
     fn mean_force_of_short_step(&self, from: f64) -> f64;
 
-    /// Moves the contact on `course` over `step` [s]. The result is the largest indentation on the way [m], which a fresh
+    /// Moves the contact on `course` over `step` \[s\]. The result is the largest indentation on the way \[m\], which a fresh
     /// surface forgets.
     ///
     /// # Errors
     /// [`TooDeep`] beyond the range of the law; the contact is then where it was.
     fn step(&mut self, model: &M, course: &Course, step: f64) -> Result<f64, TooDeep>;
 
-    /// [`Contact::step`] with `rate` [m/s] held, for a step that is not a [short](Contact::short_step) one. It asks for the model
+    /// [`Contact::step`] with `rate` \[m/s\] held, for a step that is not a [short](Contact::short_step) one. It asks for the model
     /// only if it needs the law.
     ///
     /// # Errors
     /// As for [`Contact::step`].
     fn step_held(&mut self, rate: f64, step: f64, model: impl Fn() -> M) -> Result<(), TooDeep>;
 
-    /// Mean force [N] of a step that has not been made yet.
+    /// Mean force \[N\] of a step that has not been made yet.
     ///
     /// # Errors
     /// As for [`Contact::step`].
     fn mean_force(&self, model: &M, course: &Course, step: f64) -> Result<f64, TooDeep>;
 
-    /// Whether the contact has always been less deep than `depth` [m]. If so no [short step](Contact::short_step) reaches it.
+    /// Whether the contact has always been less deep than `depth` \[m\]. If so no [short step](Contact::short_step) reaches it.
     fn stays_within(&mut self, depth: f64) -> bool;
 
-    /// Indentation [m]; negative while apart.
+    /// Indentation \[m\]; negative while apart.
     fn indentation(&self) -> f64;
 
-    /// Largest indentation of the present dent or contact [m].
+    /// Largest indentation of the present dent or contact \[m\].
     fn max_indentation(&self) -> f64;
 
-    /// Depth of the dent that would remain if the load came off now [m].
+    /// Depth of the dent that would remain if the load came off now \[m\].
     fn residual_indentation(&self, model: &M) -> f64;
 
     /// The part of the law that the contact is on.
     fn regime(&self) -> Regime;
 
-    /// Normal force with this `rate` [N], compressive positive; zero while apart.
+    /// Normal force with this `rate` \[N\], compressive positive; zero while apart.
     fn force(&self, rate: f64) -> f64;
 
-    /// dF/d(rate) [N.s/m].
+    /// dF/d(rate) \[N.s/m\].
     fn damping(&self, rate: f64) -> f64;
 
-    /// dF/d(indentation) with `rate` held [N/m], in the direction of the last motion.
+    /// dF/d(indentation) with `rate` held \[N/m\], in the direction of the last motion.
     fn stiffness(&self, rate: f64) -> f64;
 
-    /// d2F/d(indentation)^2 with `rate` held [N/m^2].
+    /// d2F/d(indentation)^2 with `rate` held \[N/m^2\].
     fn curvature(&self, model: &M, rate: f64) -> f64;
 
-    /// Contact radius [m]; 0 while apart.
+    /// Contact radius \[m\]; 0 while apart.
     fn contact_radius(&self, model: &M) -> f64;
 
-    /// Force over contact area [Pa]; 0 while apart.
+    /// Force over contact area \[Pa\]; 0 while apart.
     fn mean_pressure(&self, model: &M, rate: f64) -> f64 {
         let radius = self.contact_radius(model);
         // a compiler may divide before it compares: then by one
@@ -91,26 +91,26 @@ pub trait Contact<M>: Copy {
         if radius > 0.0 { self.force(rate) / area } else { 0.0 }
     }
 
-    /// What unloading would give back [J].
+    /// What unloading would give back \[J\].
     fn elastic_energy(&self, model: &M) -> f64;
 
-    /// Work turned into plastic deformation or heat since the start [J].
+    /// Work turned into plastic deformation or heat since the start \[J\].
     fn dissipated_energy(&self, model: &M) -> f64;
 
-    /// Work done on the contact by the bodies since the start [J]. A contact that starts pressed in counts the way there as
+    /// Work done on the contact by the bodies since the start \[J\]. A contact that starts pressed in counts the way there as
     /// done.
     fn work(&self, model: &M) -> f64 {
         self.elastic_energy(model) + self.dissipated_energy(model)
     }
 
-    /// The ends of the smooth piece of the law that the contact is on [m].
+    /// The ends of the smooth piece of the law that the contact is on \[m\].
     fn smooth_piece(&self, model: &M) -> (f64, f64);
 
-    /// The contact as it would be at another `indentation` [m] of its [smooth piece](Contact::smooth_piece), for the slopes of
+    /// The contact as it would be at another `indentation` \[m\] of its [smooth piece](Contact::smooth_piece), for the slopes of
     /// what it shows.
     fn moved_to(&self, model: &M, indentation: f64) -> Self;
 
-    /// Up to which indentation the law of `model` is valid [m].
+    /// Up to which indentation the law of `model` is valid \[m\].
     fn valid_depth(model: &M) -> f64;
 
     /// Whether a law of `model` may refuse an indentation below the
@@ -130,11 +130,11 @@ pub trait Contact<M>: Copy {
     fn load(words: &mut impl Iterator<Item = u64>, model: &M) -> Option<Self>;
 }
 
-/// The largest force over indentation [N/m], with room for the factors of stiffness and pressure beside it: exponents, and a
+/// The largest force over indentation \[N/m\], with room for the factors of stiffness and pressure beside it: exponents, and a
 /// radius of 1e-12 m.
 const STIFFEST: f64 = 1e294;
 
-/// Whether force, stiffness and pressure of `contact` are numbers with `rate` [m/s]. A contact that was touched at next to no
+/// Whether force, stiffness and pressure of `contact` are numbers with `rate` \[m/s\]. A contact that was touched at next to no
 /// speed can have more damping than there are numbers.
 #[inline(always)]
 pub fn is_finite_at<M, C: Contact<M>>(contact: &C, rate: f64) -> bool {
@@ -148,7 +148,7 @@ pub fn is_finite_at<M, C: Contact<M>>(contact: &C, rate: f64) -> bool {
     indentation <= 0.0 || contact.force(rate) < STIFFEST * length
 }
 
-/// First and second derivative of `of` a contact by the indentation [1/m, 1/m^2], on the smooth piece that the contact is on.
+/// First and second derivative of `of` a contact by the indentation \[1/m, 1/m^2\], on the smooth piece that the contact is on.
 ///
 /// Four points on the side where the piece goes on are enough for some 1e-10 of the first and 1e-6 of the second.
 pub fn slopes<M, C: Contact<M>>(contact: &C, model: &M, of: impl Fn(&C) -> f64) -> (f64, f64) {

@@ -11,39 +11,39 @@ use libm::{pow, sqrt};
 /// A body of `mass` that meets the other at `speed`, with nothing else pushing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// Effective mass [kg] > 0: `1/m = 1/m1 + 1/m2`.
+    /// Effective mass \[kg\] > 0: `1/m = 1/m1 + 1/m2`.
     pub mass: f64,
-    /// Closing speed at first contact [m/s] > 0.
+    /// Closing speed at first contact \[m/s\] > 0.
     pub speed: f64,
 }
 
 /// The course of an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
-    /// Largest indentation [m].
+    /// Largest indentation \[m\].
     pub max_indentation: f64,
-    /// Largest force [N].
+    /// Largest force \[N\].
     pub max_force: f64,
-    /// Contact radius at the largest indentation [m].
+    /// Contact radius at the largest indentation \[m\].
     pub max_contact_radius: f64,
     /// Regime reached at the largest indentation.
     pub regime: Regime,
-    /// Depth of the dent [m].
+    /// Depth of the dent \[m\].
     pub residual_indentation: f64,
-    /// Kinetic energy before the impact [J].
+    /// Kinetic energy before the impact \[J\].
     pub energy: f64,
-    /// Kinetic energy after it [J].
+    /// Kinetic energy after it \[J\].
     pub rebound_energy: f64,
     /// Rebound speed over incoming speed.
     pub restitution: f64,
-    /// From first contact to the largest indentation [s].
+    /// From first contact to the largest indentation \[s\].
     pub loading_time: f64,
-    /// From the largest indentation to separation [s].
+    /// From the largest indentation to separation \[s\].
     pub unloading_time: f64,
 }
 
 impl Prediction {
-    /// Duration of the contact [s].
+    /// Duration of the contact \[s\].
     pub fn contact_time(&self) -> f64 {
         self.loading_time + self.unloading_time
     }
@@ -106,7 +106,7 @@ pub fn restitution<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impac
     Some(sqrt(model.recovered_work(max_indentation, max_indentation) / energy))
 }
 
-/// Kinetic energy [J] and largest indentation [m] of an impact.
+/// Kinetic energy \[J\] and largest indentation \[m\] of an impact.
 fn turning_point<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<(f64, f64)> {
     let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
     if !positive(impact.mass) || !positive(impact.speed) {
@@ -127,7 +127,7 @@ fn turning_point<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact)
 /// Steps by Newton's method, after which the rest of the bracket is halved: a smooth law needs some five.
 const NEWTON_STEPS: u32 = 24;
 
-/// An indentation [m] whose loading work exceeds `energy` [J] while that of its neighbour below doesn't: the root to
+/// An indentation \[m\] whose loading work exceeds `energy` \[J\] while that of its neighbour below doesn't: the root to
 /// rounding.
 ///
 /// Newton's method on the logarithms, in which a power law is a straight line, from the indentation that Hertz's law has. It
@@ -169,8 +169,8 @@ fn indentation_of_work<L: Loading, U: Unloading>(model: &Model<L, U>, energy: f6
 /// A way on which Gauss's rule integrates any law to rounding, as a fraction of the indentation.
 const SHORT: f64 = 1.0 / 64.0;
 
-/// The kinetic energy [J] on a smooth piece of the loading curve from `start` to `end` [m], with `energy` [J] left there, as a
-/// function of the indentation and of the way from there to the end [m]. `whole` [J] is the work of the whole way.
+/// The kinetic energy \[J\] on a smooth piece of the loading curve from `start` to `end` \[m\], with `energy` \[J\] left there, as a
+/// function of the indentation and of the way from there to the end \[m\]. `whole` \[J\] is the work of the whole way.
 ///
 /// The difference of two works loses its digits near the turning point. The mean force over the rest of the way doesn't: that of
 /// a segment, and of any law on a short way. Where the work is an integral, each energy farther off is taken from the last
@@ -200,8 +200,8 @@ fn falling_energy<L: Loading, U: Unloading>(
     }
 }
 
-/// Time [s] between `from` and the turning point `to` [m] of a `mass` [kg] whose kinetic energy at `d`, on the smooth piece
-/// from `start` to `end`, is `kinetic_energy(start, end)(d, end - d)` [J], zero at `to`.
+/// Time \[s\] between `from` and the turning point `to` \[m\] of a `mass` \[kg\] whose kinetic energy at `d`, on the smooth piece
+/// from `start` to `end`, is `kinetic_energy(start, end)(d, end - d)` \[J\], zero at `to`.
 ///
 /// `t = integral dd / sqrt(2 T(d)/m)`; with `d = to - (to - from) s^2` the end where the speed vanishes is regular. The
 /// integral is split where the law has a corner (`next_corner(d)`: the first corner above `d`), since Gauss's rule needs

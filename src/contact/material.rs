@@ -5,16 +5,16 @@ use libm::sqrt;
 /// One of the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
-    /// Radius of curvature [m]; infinite: flat; negative: a socket.
+    /// Radius of curvature \[m\]; infinite: flat; negative: a socket.
     pub radius: f64,
-    /// Young's modulus [Pa] > 0; infinite: rigid.
+    /// Young's modulus \[Pa\] > 0; infinite: rigid.
     pub youngs_modulus: f64,
     /// Poisson's ratio, above -1 and at most 0.5.
     pub poissons_ratio: f64,
 }
 
 impl Body {
-    /// Plane-strain modulus `E / (1 - nu^2)` [Pa].
+    /// Plane-strain modulus `E / (1 - nu^2)` \[Pa\].
     pub fn plane_strain_modulus(&self) -> f64 {
         self.youngs_modulus / (1.0 - self.poissons_ratio * self.poissons_ratio)
     }
@@ -23,13 +23,13 @@ impl Body {
 /// The two bodies as the contact laws see them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// Effective radius `R` [m]: `1/R = 1/R1 + 1/R2`.
+    /// Effective radius `R` \[m\]: `1/R = 1/R1 + 1/R2`.
     pub radius: f64,
-    /// Effective modulus `E*` [Pa]: `1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`.
+    /// Effective modulus `E*` \[Pa\]: `1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`.
     pub modulus: f64,
-    /// Yield strength `S` of the body that yields, the target [Pa]; infinite for an elastic contact.
+    /// Yield strength `S` of the body that yields, the target \[Pa\]; infinite for an elastic contact.
     pub yield_strength: f64,
-    /// Young's modulus of the target [Pa], which some laws need beside `E*`.
+    /// Young's modulus of the target \[Pa\], which some laws need beside `E*`.
     pub youngs_modulus: f64,
     /// Poisson's ratio of the target.
     pub poissons_ratio: f64,
@@ -38,17 +38,17 @@ pub struct Pair {
 /// Where a contact begins to yield.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct YieldPoint {
-    /// Indentation `d_y` [m].
+    /// Indentation `d_y` \[m\].
     pub indentation: f64,
-    /// Force `F_y` [N].
+    /// Force `F_y` \[N\].
     pub force: f64,
 }
 
-/// The smallest radius of curvature of a body [m]: below the size of an atom there is no contact mechanics.
+/// The smallest radius of curvature of a body \[m\]: below the size of an atom there is no contact mechanics.
 pub const SMALLEST_RADIUS: f64 = 1e-12;
 
 impl Pair {
-    /// The pair of `impactor` and `target`, of which the softer yields at `yield_strength` [Pa].
+    /// The pair of `impactor` and `target`, of which the softer yields at `yield_strength` \[Pa\].
     ///
     /// Written so that a rigid body and a flat target leave `E/(1-nu^2)` and `R` of the other one unrounded.
     /// `None` if the bodies cannot touch in one point (a socket must be wider than the impactor, `R2 < -R1`, the impactor
@@ -75,7 +75,7 @@ impl Pair {
         })
     }
 
-    /// `K_h = (4/3) E* sqrt(R)` [N/m^1.5], the constant of Hertz's law `F = K_h d^1.5`.
+    /// `K_h = (4/3) E* sqrt(R)` \[N/m^1.5\], the constant of Hertz's law `F = K_h d^1.5`.
     ///
     /// Reference: Johnson 1985, eq. 4.23.
     pub fn hertz_stiffness(&self) -> f64 {

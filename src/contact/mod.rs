@@ -73,14 +73,14 @@ impl<L: Loading, U: Unloading> Model<L, U> {
     /// Whether a branch can have a quadratic term.
     pub const SQUARES: bool = U::SQUARES;
 
-    /// The point of the loading curve at `indentation` [m], as the start of an unloading.
+    /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {
         let (force, contact_radius, yield_force) = self.loading.summit(&self.pair, indentation);
         let work = if self.unloading.needs_work() { self.loading.work(&self.pair, indentation) } else { f64::NAN };
         Peak { indentation, force, contact_radius, yield_force, work }
     }
 
-    /// The path on which the load comes off from `max_indentation` [m] > 0, from the residual indentation (its lower end)
+    /// The path on which the load comes off from `max_indentation` \[m\] > 0, from the residual indentation (its lower end)
     /// to `max_indentation` (its upper end). Up to the yield point it is the loading curve itself.
     pub fn unloading_path(&self, max_indentation: f64) -> Segment {
         if self.is_elastic_at(max_indentation) {
@@ -90,7 +90,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         }
     }
 
-    /// The segment of that path at `indentation` [m].
+    /// The segment of that path at `indentation` \[m\].
     pub fn unloading_segment(&self, max_indentation: f64, indentation: f64) -> Segment {
         let path = self.unloading_path(max_indentation);
         if U::SEGMENTED || self.is_elastic_at(max_indentation) {
@@ -99,7 +99,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         self.unloading.tangent(&self.pair, &self.peak(max_indentation), &path, indentation)
     }
 
-    /// Work given back on that path from `indentation` down to the residual indentation [J].
+    /// Work given back on that path from `indentation` down to the residual indentation \[J\].
     pub fn recovered_work(&self, max_indentation: f64, indentation: f64) -> f64 {
         let path = self.unloading_path(max_indentation);
         if U::SEGMENTED || self.is_elastic_at(max_indentation) {
@@ -108,17 +108,17 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         self.unloading.work(&self.pair, &self.peak(max_indentation), &path, indentation)
     }
 
-    /// The indentation up to which the loading law is valid [m].
+    /// The indentation up to which the loading law is valid \[m\].
     pub fn valid_depth(&self) -> f64 {
         validity::largest_indentation(self.pair.radius, |depth| self.loading.contact_radius(&self.pair, depth))
     }
 
-    /// Whether the passivity guard shortens the path from `max_indentation` [m].
+    /// Whether the passivity guard shortens the path from `max_indentation` \[m\].
     pub fn is_held_back_at(&self, max_indentation: f64) -> bool {
         !self.is_elastic_at(max_indentation) && self.unloading.holds_back(&self.pair, &self.peak(max_indentation))
     }
 
-    /// Whether a contact that never was deeper than `max_indentation` [m] has not yielded.
+    /// Whether a contact that never was deeper than `max_indentation` \[m\] has not yielded.
     pub fn is_elastic_at(&self, max_indentation: f64) -> bool {
         !self.loading.can_yield() || max_indentation <= self.loading.yield_point(&self.pair).indentation
     }

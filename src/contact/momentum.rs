@@ -12,7 +12,7 @@ use libm::fabs;
 /// What two ways to integrate a smooth force may differ by, as a fraction of the integral.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Impulse [N.s] of a step on `course` over `step` [s] from where the contact is, which stays where it is.
+/// Impulse \[N.s\] of a step on `course` over `step` \[s\] from where the contact is, which stays where it is.
 ///
 /// The way is cut where the direction changes and where the law has a corner. On each part the force is smooth in time and
 /// is integrated in closed form if the rate is held and the law has segments, else by Gauss's rule, to rounding.
@@ -39,20 +39,20 @@ struct Walk<'a, L, U> {
     contact: History,
     model: &'a Model<L, U>,
     course: &'a Course,
-    /// Indentation at the start of the step [m].
+    /// Indentation at the start of the step \[m\].
     origin: f64,
-    /// Time since then [s].
+    /// Time since then \[s\].
     time: f64,
     impulse: f64,
 }
 
 impl<L: Loading, U: Unloading> Walk<'_, L, U> {
-    /// Indentation after `time` [m].
+    /// Indentation after `time` \[m\].
     fn at(&self, time: f64) -> f64 {
         self.origin + self.course.way(time)
     }
 
-    /// Goes on in one direction, to `end` [s] or to the next corner of the law.
+    /// Goes on in one direction, to `end` \[s\] or to the next corner of the law.
     fn go_on(&mut self, end: f64) -> Result<(), TooDeep> {
         let (from, to) = (self.contact.indentation(), self.at(end));
         let rising = to > from;
@@ -90,7 +90,7 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
         if fabs(whole - halves) <= ROUNDING * fabs(halves) { halves } else { graded_integral(start, end, &force) }
     }
 
-    /// When, between now and `end` [s], the indentation is `border` [m]: Newton's method in a bracket.
+    /// When, between now and `end` \[s\], the indentation is `border` \[m\]: Newton's method in a bracket.
     fn when(&self, border: f64, end: f64) -> f64 {
         let (mut low, mut high) = (self.time, end);
         let below_at_end = self.at(end) < border;

@@ -13,22 +13,22 @@ use libm::{fabs, sqrt};
 /// What drives the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
-    /// Effective mass [kg] > 0: `1/m = 1/m1 + 1/m2`.
+    /// Effective mass \[kg\] > 0: `1/m = 1/m1 + 1/m2`.
     pub mass: f64,
-    /// Closing acceleration by all other forces [m/s^2], held over the step.
+    /// Closing acceleration by all other forces \[m/s^2\], held over the step.
     pub acceleration: f64,
 }
 
 /// Where a step has led.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
-    /// Closing speed at the end [m/s].
+    /// Closing speed at the end \[m/s\].
     pub speed: f64,
-    /// Speed that the contact force alone has taken [m/s]: its impulse over the mass. Zero without contact, and never less.
+    /// Speed that the contact force alone has taken \[m/s\]: its impulse over the mass. Zero without contact, and never less.
     pub taken: f64,
     /// Evaluations of the force that it took.
     pub evaluations: u32,
-    /// The largest indentation on the way [m], which a fresh surface forgets.
+    /// The largest indentation on the way \[m\], which a fresh surface forgets.
     pub deepest: f64,
 }
 
@@ -84,7 +84,7 @@ struct Stepper<'a, 'b, L, U> {
     drive: &'a Drive,
     start: f64,
     speed: f64,
-    /// What rounding makes of a difference of forces that cancel, over the mass, in tolerances [m/s^2].
+    /// What rounding makes of a difference of forces that cancel, over the mass, in tolerances \[m/s^2\].
     noise: f64,
     evaluations: &'a mut u32,
 }
@@ -95,7 +95,7 @@ impl<L: Loading, U: Unloading> Stepper<'_, '_, L, U> {
         self.drive.acceleration - self.piece.force(self.start + way) / self.drive.mass
     }
 
-    /// The state after `time` [s].
+    /// The state after `time` \[s\].
     ///
     /// Reference: E. Hairer, S. P. Norsett, G. Wanner, *Solving Ordinary Differential Equations I*, section II.14.
     fn trial(&mut self, time: f64) -> Trial {
@@ -138,7 +138,7 @@ impl<L: Loading, U: Unloading> Stepper<'_, '_, L, U> {
         trial
     }
 
-    /// The time in `(0, high]` [s] at which `of` a trial vanishes, which has another sign at `high` than at zero: Newton's
+    /// The time in `(0, high]` \[s\] at which `of` a trial vanishes, which has another sign at `high` than at zero: Newton's
     /// method with the given `slope`, in a bracket.
     fn root(&mut self, high: f64, of: impl Fn(&Trial) -> f64, slope: impl Fn(&Trial, f64) -> f64) -> (f64, Trial) {
         let (mut low, mut high) = (0.0, high);
@@ -169,7 +169,7 @@ fn largest(one: f64, other: f64) -> f64 {
     if one > other { one } else { other }
 }
 
-/// Moves the contact through `step` [s] with the closing speed `speed` [m/s] at its start.
+/// Moves the contact through `step` \[s\] with the closing speed `speed` \[m/s\] at its start.
 ///
 /// # Errors
 /// [`NoMotion`]; the history is then somewhere on the way.
@@ -203,19 +203,19 @@ struct Motion<'a, L, U> {
     model: &'a Model<L, U>,
     drive: &'a Drive,
     speed: f64,
-    /// Speed that the contact force has taken so far [m/s].
+    /// Speed that the contact force has taken so far \[m/s\].
     taken: f64,
-    /// Time left [s].
+    /// Time left \[s\].
     left: f64,
-    /// Length of the next inner step [s].
+    /// Length of the next inner step \[s\].
     inner: f64,
     evaluations: u32,
-    /// The largest indentation so far [m].
+    /// The largest indentation so far \[m\].
     deepest: f64,
 }
 
 impl<L: Loading, U: Unloading> Motion<'_, L, U> {
-    /// Where the surface is met [m]: at the dent that the contact has.
+    /// Where the surface is met \[m\]: at the dent that the contact has.
     fn surface(&self) -> f64 {
         self.history.residual_indentation(self.model)
     }
@@ -247,7 +247,7 @@ impl<L: Loading, U: Unloading> Motion<'_, L, U> {
         self.arrive(self.left, if goal < surface { goal } else { surface }, false)
     }
 
-    /// The end of a flight of `time` [s] at `goal` [m].
+    /// The end of a flight of `time` \[s\] at `goal` \[m\].
     fn arrive(&mut self, time: f64, goal: f64, rising: bool) -> Result<(), NoMotion> {
         let speed = self.speed + self.drive.acceleration * time;
         // what rounding makes of a graze is no motion away from the surface
@@ -256,7 +256,7 @@ impl<L: Loading, U: Unloading> Motion<'_, L, U> {
         self.go_to(goal, rising)
     }
 
-    /// Puts the contact at `goal` [m].
+    /// Puts the contact at `goal` \[m\].
     fn go_to(&mut self, goal: f64, rising: bool) -> Result<(), NoMotion> {
         self.history.go_to(self.model, goal, rising)?;
         self.deepest = largest(self.deepest, self.history.max_indentation());
@@ -334,7 +334,7 @@ impl<L: Loading, U: Unloading> Motion<'_, L, U> {
     }
 }
 
-/// When a body at distance `gap` [m] >= 0 with closing `speed` and `acceleration` arrives [s]; `None` if never.
+/// When a body at distance `gap` \[m\] >= 0 with closing `speed` and `acceleration` arrives \[s\]; `None` if never.
 fn time_to_close(gap: f64, speed: f64, acceleration: f64) -> Option<f64> {
     // gap = speed t + acceleration t^2/2, in the form that doesn't cancel
     let discriminant = speed * speed + 2.0 * acceleration * gap;

@@ -43,11 +43,11 @@ impl Sum {
 /// The rate over one step: `rate + slope t + bend t^2/2`. The indentation is then a polynomial of third degree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Course {
-    /// Rate at the start of the step [m/s].
+    /// Rate at the start of the step \[m/s\].
     pub rate: f64,
-    /// Its first derivative [m/s^2].
+    /// Its first derivative \[m/s^2\].
     pub slope: f64,
-    /// Its second derivative [m/s^3].
+    /// Its second derivative \[m/s^3\].
     pub bend: f64,
 }
 
@@ -63,17 +63,17 @@ impl Course {
         self.slope == 0.0 && self.bend == 0.0
     }
 
-    /// The rate after `time` [s], [m/s].
+    /// The rate after `time` \[s\], \[m/s\].
     pub fn rate_after(&self, time: f64) -> f64 {
         self.rate + time * (self.slope + 0.5 * self.bend * time)
     }
 
-    /// The way after `time` [s], [m].
+    /// The way after `time` \[s\], \[m\].
     pub fn way(&self, time: f64) -> f64 {
         time * (self.rate + time * (0.5 * self.slope + self.bend * time / 6.0))
     }
 
-    /// The ends of the monotone parts of a step [s]: where the rate changes its sign inside of it, in order, and the end of the
+    /// The ends of the monotone parts of a step \[s\]: where the rate changes its sign inside of it, in order, and the end of the
     /// step for the parts that there aren't.
     pub fn monotone_ends(&self, step: f64) -> [f64; 3] {
         let inside = |time: f64| if time > 0.0 && time < step { time } else { step };

@@ -10,11 +10,11 @@ use super::unloading::Unloading;
 pub struct Piece<'a, L, U> {
     model: &'a Model<L, U>,
     kind: Kind,
-    /// Lower end of the piece [m].
+    /// Lower end of the piece \[m\].
     pub lower: f64,
-    /// Upper end of the piece [m].
+    /// Upper end of the piece \[m\].
     pub upper: f64,
-    /// The largest indentation [m], where unloading began.
+    /// The largest indentation \[m\], where unloading began.
     largest: f64,
     /// The whole piece, if it is one segment.
     segment: Segment,
@@ -46,7 +46,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         }
     }
 
-    /// The segment to take at `indentation` [m]. A law without segments is asked at every point.
+    /// The segment to take at `indentation` \[m\]. A law without segments is asked at every point.
     fn at(&self, indentation: f64) -> Segment {
         let pair = &self.model.pair;
         match self.kind {
@@ -56,7 +56,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         }
     }
 
-    /// [N]; zero below the surface.
+    /// \[N\]; zero below the surface.
     pub fn force(&self, indentation: f64) -> f64 {
         if indentation > self.lower || self.kind == Kind::Loading {
             self.at(indentation).force(indentation)
@@ -75,7 +75,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         (!pieces).then_some(&self.segment)
     }
 
-    /// [N/m]
+    /// \[N/m\]
     pub fn stiffness(&self, indentation: f64) -> f64 {
         if indentation > self.lower { self.at(indentation).stiffness(indentation) } else { 0.0 }
     }

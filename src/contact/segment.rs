@@ -10,19 +10,19 @@ use libm::sqrt;
 /// zero, and the force is `c0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
-    /// Smallest indentation on the branch [m].
+    /// Smallest indentation on the branch \[m\].
     pub lower: f64,
-    /// The indentation where the next branch begins [m].
+    /// The indentation where the next branch begins \[m\].
     pub upper: f64,
-    /// Where `z` is zero [m].
+    /// Where `z` is zero \[m\].
     pub origin: f64,
-    /// `c0` [N].
+    /// `c0` \[N\].
     pub constant: f64,
-    /// `c1` [N/m].
+    /// `c1` \[N/m\].
     pub linear: f64,
-    /// `c2` [N/m^1.5].
+    /// `c2` \[N/m^1.5\].
     pub power: f64,
-    /// `c3` [N/m^2].
+    /// `c3` \[N/m^2\].
     pub square: f64,
 }
 
@@ -31,12 +31,12 @@ impl Segment {
     pub const NOTHING: Segment =
         Segment { lower: 0.0, upper: 0.0, origin: 0.0, constant: 0.0, linear: 0.0, power: 0.0, square: 0.0 };
 
-    /// Apart: no force, over `[lower, upper)` [m].
+    /// Apart: no force, over `[lower, upper)` \[m\].
     pub const fn apart(lower: f64, upper: f64) -> Segment {
         Segment { lower, upper, origin: -LARGEST_INDENTATION, ..Segment::NOTHING }
     }
 
-    /// The tangent of a curve that has no segments, at `indentation` [m] with `force` [N] and `stiffness` [N/m]. It holds at
+    /// The tangent of a curve that has no segments, at `indentation` \[m\] with `force` \[N\] and `stiffness` \[N/m\]. It holds at
     /// that one point: after any motion the law is asked again.
     pub fn tangent(indentation: f64, force: f64, stiffness: f64) -> Segment {
         Segment {
@@ -49,7 +49,7 @@ impl Segment {
         }
     }
 
-    /// Whether `indentation` [m] lies on the branch; false for NaN.
+    /// Whether `indentation` \[m\] lies on the branch; false for NaN.
     #[inline]
     pub fn contains(&self, indentation: f64) -> bool {
         indentation >= self.lower && indentation < self.upper
@@ -61,7 +61,7 @@ impl Segment {
         self.constant == 0.0 && (self.lower == self.origin || self.lower == self.origin.next_up())
     }
 
-    /// `z` [m], and zero below the origin.
+    /// `z` \[m\], and zero below the origin.
     #[inline(always)]
     fn above_origin(&self, indentation: f64) -> f64 {
         // in this order the comparison and the difference have their second number in memory
@@ -69,21 +69,21 @@ impl Segment {
         reached - self.origin
     }
 
-    /// Force [N].
+    /// Force \[N\].
     #[inline]
     pub fn force(&self, indentation: f64) -> f64 {
         let z = self.above_origin(indentation);
         self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
     }
 
-    /// The same for a branch without `c3`, which most laws never have [N].
+    /// The same for a branch without `c3`, which most laws never have \[N\].
     #[inline(always)]
     pub fn force_without_square(&self, indentation: f64) -> f64 {
         let z = self.above_origin(indentation);
         self.constant + z * (self.linear + self.power * sqrt(z))
     }
 
-    /// Mean of the force over the way `from`..`to` [m], in either direction, in a form that doesn't cancel on a short one [N].
+    /// Mean of the force over the way `from`..`to` \[m\], in either direction, in a form that doesn't cancel on a short one \[N\].
     pub fn mean_force(&self, from: f64, to: f64) -> f64 {
         let (y, z) = (self.above_origin(from), self.above_origin(to));
         let (p, q) = (sqrt(y), sqrt(z));
@@ -95,20 +95,20 @@ impl Segment {
             + self.square * (y * y + y * z + z * z) / 3.0
     }
 
-    /// d2F/d(indentation)^2 [N/m^2]; infinite where a power begins.
+    /// d2F/d(indentation)^2 \[N/m^2\]; infinite where a power begins.
     pub fn curvature(&self, indentation: f64) -> f64 {
         let rise = if self.power == 0.0 { 0.0 } else { 0.75 * self.power / sqrt(self.above_origin(indentation)) };
         rise + 2.0 * self.square
     }
 
-    /// dF/d(indentation) [N/m].
+    /// dF/d(indentation) \[N/m\].
     #[inline]
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let z = self.above_origin(indentation);
         self.linear + 1.5 * self.power * sqrt(z) + 2.0 * self.square * z
     }
 
-    /// Integral of the force from the lower end of the branch to `indentation` [J]: not a difference of two integrals, which
+    /// Integral of the force from the lower end of the branch to `indentation` \[J\]: not a difference of two integrals, which
     /// has no digits on a way that is short beside the distance from the origin.
     pub fn work(&self, indentation: f64) -> f64 {
         self.mean_force(self.lower, indentation) * (indentation - self.lower)

@@ -20,8 +20,8 @@ pub const LARGEST_SPEED_RATIO: f64 = 0.01;
 /// Halvings that leave nothing of an effective radius but rounding.
 const HALVINGS: u32 = 60;
 
-/// The indentation up to which a law is valid on a sphere of effective `radius` [m]: where its `contact_radius`, a function of
-/// the indentation [m], reaches [`LARGEST_RADIUS_RATIO`].
+/// The indentation up to which a law is valid on a sphere of effective `radius` \[m\]: where its `contact_radius`, a function of
+/// the indentation \[m\], reaches [`LARGEST_RADIUS_RATIO`].
 ///
 /// It rises with every law, and at an indentation of `R`, where Hertz's is `R`, it is far above that.
 #[inline(never)]
@@ -36,12 +36,12 @@ pub fn largest_indentation(radius: f64, contact_radius: impl Fn(f64) -> f64) -> 
     depth
 }
 
-/// The closing speed [m/s] up to which elastic waves can be left out in a target of `youngs_modulus` [Pa] and `density` [kg/m^3].
+/// The closing speed \[m/s\] up to which elastic waves can be left out in a target of `youngs_modulus` \[Pa\] and `density` \[kg/m^3\].
 pub fn largest_speed(youngs_modulus: f64, density: f64) -> f64 {
     LARGEST_SPEED_RATIO * wave_speed(youngs_modulus, density)
 }
 
-/// The speed of waves in a rod, `sqrt(E/rho)` [m/s].
+/// The speed of waves in a rod, `sqrt(E/rho)` \[m/s\].
 pub fn wave_speed(youngs_modulus: f64, density: f64) -> f64 {
     sqrt(youngs_modulus / density)
 }

@@ -187,10 +187,10 @@ pub unsafe fn array<'a, T>(pointer: *const T, length: usize, argument: &'static 
 /// The array of `length` elements at `pointer`, to be written to.
 ///
 /// # Errors
-/// As for [`array`].
+/// As for [`fn@array`].
 ///
 /// # Safety
-/// As for [`array`], and nothing else uses the elements meanwhile.
+/// As for [`fn@array`], and nothing else uses the elements meanwhile.
 #[inline]
 pub unsafe fn array_mut<'a, T>(
     pointer: *mut T,

@@ -353,7 +353,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: fmi2Component, FMUstate: *mut fmi2F
     unsafe { states::free_fmu_state::<Exported>(c, FMUstate) }
 }
 
-/// The length of a serialized state [bytes]; the same for every state of this unit.
+/// The length of a serialized state \[bytes\]; the same for every state of this unit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
     c: fmi2Component,

@@ -1,6 +1,6 @@
 //! The C interface of FMI 2.0 for co-simulation: 34 functions, and the only `unsafe` of the library.
 //!
-//! The functions are written once for any [`Scene`](crate::scene::Scene). [`exports`] makes the C symbols of them, for the scene
+//! The functions are written once for any [`Scene`](crate::scene::Scene). `exports` makes the C symbols of them, for the scene
 //! that the exporter has written.
 //!
 //! | module | what |
@@ -15,7 +15,7 @@
 //! | [`handle`] | the pointers that importers get, each with its type |
 //! | [`state`] | FMU states and their bytes |
 //! | [`lifecycle`], [`variables`], [`stepping`], [`states`] | the functions, for any scene |
-//! | [`exports`] | the C symbols |
+//! | `exports` | the C symbols |
 //!
 //! # Safety
 //! Every function trusts its caller for what C can't check: a component that this library made and has not freed, arrays

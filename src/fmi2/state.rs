@@ -34,7 +34,7 @@ const WORDS_AT: usize = 3;
 impl<S: Scene> Snapshot<S> {
     const CHECKSUM_AT: usize = WORDS_AT + Instance::<S>::WORDS;
 
-    /// Length of a serialized state [bytes].
+    /// Length of a serialized state \[bytes\].
     pub const SERIALIZED_SIZE: usize = 8 * (Self::CHECKSUM_AT + 1);
 
     /// Tells a state of this scene from those of other scenes, which may be as long.

@@ -83,7 +83,7 @@ pub unsafe fn free_fmu_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUs
     }
 }
 
-/// The length of a serialized state [bytes]; the same for every state of this unit.
+/// The length of a serialized state \[bytes\]; the same for every state of this unit.
 ///
 /// # Safety
 /// See [the module](super#safety).

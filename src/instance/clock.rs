@@ -26,7 +26,7 @@ impl Phase {
         [Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
 }
 
-/// The latest time, and the opposite of the earliest one [s]. While no rate is above [`FASTEST`](super::FASTEST) no contact
+/// The latest time, and the opposite of the earliest one \[s\]. While no rate is above [`FASTEST`](super::FASTEST) no contact
 /// leaves the range of a law that is made of segments before.
 pub const LATEST: f64 = 1e50;
 
@@ -38,7 +38,7 @@ const TIME_TOLERANCE: f64 = 0.1;
 /// hundredth of a step that would be a mistake.
 const STOP_TOLERANCE: f64 = 1e-3;
 
-/// A limit before every time [s].
+/// A limit before every time \[s\].
 const NOWHERE: f64 = f64::NEG_INFINITY;
 
 /// A [`Clock::lowest_rate`] that no rate is above.
@@ -51,11 +51,11 @@ const TIME_ROUNDING: f64 = 32.0 * f64::EPSILON;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(super) struct Clock {
-    /// End of the last step [s], or the start time.
+    /// End of the last step \[s\], or the start time.
     pub time: f64,
-    /// Where plain steps end [s]: at the stop time while stepping, and nowhere otherwise.
+    /// Where plain steps end \[s\]: at the stop time while stepping, and nowhere otherwise.
     limit: f64,
-    /// From here to its opposite [m/s] an input may be set without a further look: between steps, and beyond all otherwise.
+    /// From here to its opposite \[m/s\] an input may be set without a further look: between steps, and beyond all otherwise.
     /// Negative, so that the comparison has its second number in memory.
     pub lowest_rate: f64,
     stop: f64,
@@ -74,7 +74,7 @@ impl Clock {
         experiment_defined: false,
     };
 
-    /// Whether a step from `time` to `end`, `step` [s] long, is plainly in order.
+    /// Whether a step from `time` to `end`, `step` \[s\] long, is plainly in order.
     #[inline(always)]
     pub fn takes(&self, time: f64, end: f64, step: f64) -> bool {
         // a step that is zero, negative or NaN is not larger than any distance, and an infinite one ends beyond the limit
@@ -108,7 +108,7 @@ impl Clock {
         Ok(())
     }
 
-    /// Sets start and stop time [s].
+    /// Sets start and stop time \[s\].
     ///
     /// # Errors
     /// [`Fault::Experiment`] for a start beyond [`LATEST`], a stop that is not finite or before the start.
@@ -125,7 +125,7 @@ impl Clock {
         Ok(())
     }
 
-    /// Sets the phase; `lowest_rate` [m/s] holds where inputs may be set.
+    /// Sets the phase; `lowest_rate` \[m/s\] holds where inputs may be set.
     pub fn set_phase(&mut self, phase: Phase, lowest_rate: f64) {
         self.phase = phase;
         self.lowest_rate = if phase == Phase::StepComplete { lowest_rate } else { NO_RATE };
@@ -145,7 +145,7 @@ impl Clock {
         }
     }
 
-    /// Stop time [s].
+    /// Stop time \[s\].
     pub fn stop(&self) -> f64 {
         self.stop
     }

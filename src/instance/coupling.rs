@@ -11,13 +11,13 @@ fn number(words: &mut impl Iterator<Item = u64>) -> Option<f64> {
 /// The course of the input over the next step, and how the last one ended.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Curve {
-    /// First derivative of the rate over the next step [m/s^2].
+    /// First derivative of the rate over the next step \[m/s^2\].
     pub slope: f64,
-    /// Second derivative [m/s^3].
+    /// Second derivative \[m/s^3\].
     pub bend: f64,
-    /// Rate at the end of the last step, if that had derivatives or a mass of its own [m/s].
+    /// Rate at the end of the last step, if that had derivatives or a mass of its own \[m/s\].
     pub end_rate: f64,
-    /// Its derivative there [m/s^2].
+    /// Its derivative there \[m/s^2\].
     pub end_slope: f64,
 }
 
@@ -25,12 +25,12 @@ impl Curve {
     /// Number of words that hold a curve.
     pub const WORDS: usize = 4;
 
-    /// The course over the next step of a contact with this `rate` [m/s].
+    /// The course over the next step of a contact with this `rate` \[m/s\].
     pub fn course(&self, rate: f64) -> Course {
         Course { rate, slope: self.slope, bend: self.bend }
     }
 
-    /// Notes the end of a step of length `step` [s] on `course`; derivatives hold for one step.
+    /// Notes the end of a step of length `step` \[s\] on `course`; derivatives hold for one step.
     pub fn end_of(&mut self, course: &Course, step: f64) {
         *self = Curve {
             end_rate: course.rate_after(step),
@@ -53,7 +53,7 @@ impl Curve {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Momentum {
     impulse: Sum,
-    /// Impulse of the last step over its length [N].
+    /// Impulse of the last step over its length \[N\].
     pub mean_force: f64,
 }
 
@@ -61,19 +61,19 @@ impl Momentum {
     /// Number of words that hold a momentum.
     pub const WORDS: usize = 3;
 
-    /// A contact before any motion, with this `force` [N].
+    /// A contact before any motion, with this `force` \[N\].
     pub fn start(force: f64) -> Momentum {
         Momentum { impulse: Sum::new(0.0), mean_force: force }
     }
 
-    /// Adds a step of length `step` [s] with this mean force [N].
+    /// Adds a step of length `step` \[s\] with this mean force \[N\].
     #[inline]
     pub fn add(&mut self, mean_force: f64, step: f64) {
         self.impulse = self.impulse.plus(mean_force * step);
         self.mean_force = mean_force;
     }
 
-    /// Since the start [N.s].
+    /// Since the start \[N.s\].
     pub fn impulse(&self) -> f64 {
         self.impulse.total()
     }

@@ -150,7 +150,7 @@ impl<S: Scene> Instance<S> {
 }
 
 impl<S: Scene> Instance<S> {
-    /// dF/d(rate) of the predicted force [N.s/m].
+    /// dF/d(rate) of the predicted force \[N.s/m\].
     fn prediction_by_input(&self, contact: usize, model: &S::Model, rate: f64) -> Option<f64> {
         if self.curved {
             // the prediction goes on from the end of a step with derivatives, whatever the input is now
@@ -169,7 +169,7 @@ impl<S: Scene> Instance<S> {
 /// The distance of two rates, as a part of them, for the slope of a force between them.
 const NEAR: f64 = 1e-5;
 
-/// The same for a rate of zero [m/s].
+/// The same for a rate of zero \[m/s\].
 const SLOW: f64 = 1e-6;
 
 fn check_order(order: i32, largest: i32) -> Result<(), Fault> {

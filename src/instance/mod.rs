@@ -34,7 +34,7 @@ use clock::Clock;
 use coupling::{Curve, Momentum};
 use start::{Bodies, NO_BODIES, model_of};
 
-/// The fastest rate of an input, in either direction [m/s].
+/// The fastest rate of an input, in either direction \[m/s\].
 pub const FASTEST: f64 = 1e40;
 
 /// Something of each contact of a scene, if `P` is present.
@@ -44,20 +44,20 @@ type IfPresent<P, S, T> = <P as Presence>::Of<T, <S as Scene>::Contacts<T>>;
 #[repr(C)]
 struct Contacts<S: Scene> {
     histories: S::Contacts<S::Contact>,
-    /// [m/s]
+    /// \[m/s\]
     rates: S::Contacts<f64>,
-    /// [N]
+    /// \[N\]
     forces: IfPresent<S::Forces, S, f64>,
     momenta: IfPresent<S::Momentum, S, Momentum>,
     curves: IfPresent<S::Course, S, Curve>,
-    /// Length of the last step [s], where a force is predicted from it.
+    /// Length of the last step \[s\], where a force is predicted from it.
     last_step: <S::Prediction as Presence>::Of<f64, [f64; 1]>,
 }
 
 /// What follows from the parameters.
 #[repr(C)]
 struct Settings<S: Scene> {
-    /// From here to its opposite [m/s] an input needs no further look.
+    /// From here to its opposite \[m/s\] an input needs no further look.
     lowest_rate: f64,
     /// A hash of all that: states with the same one have the same parameters, and needn't copy them.
     stamp: u64,
@@ -70,7 +70,7 @@ struct Settings<S: Scene> {
 struct Deep {
     /// The contact, counted from 1; 0 is none.
     contact: u32,
-    /// Its largest indentation [m].
+    /// Its largest indentation \[m\].
     indentation: f64,
 }
 
@@ -138,12 +138,12 @@ impl<S: Scene> Instance<S> {
         self.set_phase(Phase::Error);
     }
 
-    /// End of the last step [s], or the start time.
+    /// End of the last step \[s\], or the start time.
     pub fn time(&self) -> f64 {
         self.clock.time
     }
 
-    /// Sets start and stop time [s]; the last call before initialization counts.
+    /// Sets start and stop time \[s\]; the last call before initialization counts.
     ///
     /// # Errors
     /// [`Fault::Experiment`] for a time that is not finite, a start beyond [`LATEST`] and a stop before the start.

@@ -8,11 +8,11 @@ use crate::scene::Parameter;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(super) struct Bodies {
-    /// Effective radius [m].
+    /// Effective radius \[m\].
     pub radius: f64,
-    /// Effective modulus [Pa].
+    /// Effective modulus \[Pa\].
     pub modulus: f64,
-    /// Indentation up to which the law is valid [m].
+    /// Indentation up to which the law is valid \[m\].
     pub depth: f64,
 }
 

@@ -11,12 +11,12 @@ struct Moved<C> {
     /// The course that ends as the step did.
     course: Course,
     mean_force: f64,
-    /// The largest indentation on the way [m].
+    /// The largest indentation on the way \[m\].
     deepest: f64,
 }
 
 impl<S: Scene> Instance<S> {
-    /// Moves the contacts from `time` over `step` [s] with the rates held. Then [`Instance::take_deep`] may have a warning.
+    /// Moves the contacts from `time` over `step` \[s\] with the rates held. Then [`Instance::take_deep`] may have a warning.
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
@@ -73,7 +73,7 @@ impl<S: Scene> Instance<S> {
         Self::SIMPLE && self.clock.takes(time, end, step) && self.advance_one(end, step).is_ok()
     }
 
-    /// Moves the one contact of a simple instance over `step` [s], to the time `end` [s].
+    /// Moves the one contact of a simple instance over `step` \[s\], to the time `end` \[s\].
     #[inline(never)]
     fn advance_one(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         let Contacts { histories, rates, last_step, .. } = &mut self.contacts;
@@ -90,7 +90,7 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// Moves all contacts over `step` [s], to the time `end` [s], or none of them.
+    /// Moves all contacts over `step` \[s\], to the time `end` \[s\], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         if Self::SIMPLE && !self.curved {
@@ -186,7 +186,7 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// Where `contact` will be after `step` [s].
+    /// Where `contact` will be after `step` \[s\].
     fn moved(&self, contact: usize, step: f64) -> Result<Moved<S::Contact>, Fault> {
         let (Some(history), Some(&rate)) = (self.histories().get(contact), self.rates().get(contact)) else {
             return Err(Fault::StepSize { step });

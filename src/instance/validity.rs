@@ -4,13 +4,13 @@ use super::*;
 use crate::contact::validity;
 use crate::scene::Parameter;
 
-/// The closing speed [m/s] up to which elastic waves can be left out in `group`; any, if its density isn't known.
+/// The closing speed \[m/s\] up to which elastic waves can be left out in `group`; any, if its density isn't known.
 fn largest_speed<S: Scene>(group: usize, values: &S::Values) -> f64 {
     let modulus = S::parameter(Parameter::TargetYoungsModulus, group, values);
     S::density(group).map_or(FASTEST, |density| validity::largest_speed(modulus, density))
 }
 
-/// The opposite of the rate up to which an input needs no further look in any group [m/s].
+/// The opposite of the rate up to which an input needs no further look in any group \[m/s\].
 pub(super) fn lowest_rate<S: Scene>(values: &S::Values) -> f64 {
     let speeds = (0..S::GROUPS).map(|group| largest_speed::<S>(group, values));
     -speeds.fold(FASTEST, |least, speed| if speed < least { speed } else { least })
@@ -22,17 +22,17 @@ impl<S: Scene> Instance<S> {
         self.clock.hold();
     }
 
-    /// Whether this may be too fast for an input [m/s].
+    /// Whether this may be too fast for an input \[m/s\].
     pub fn may_be_fast(&self, rate: f64) -> bool {
         rate > -self.settings.lowest_rate
     }
 
-    /// Up to which indentation the law of `contact` is valid [m].
+    /// Up to which indentation the law of `contact` is valid \[m\].
     pub(super) fn valid_depth(&self, contact: usize) -> f64 {
         self.settings.bodies.as_ref().get(S::group(contact)).map_or(f64::NAN, |bodies| bodies.depth)
     }
 
-    /// Notes that `contact` has been as deep as `indentation` [m].
+    /// Notes that `contact` has been as deep as `indentation` \[m\].
     pub(super) fn note_deep(&mut self, contact: usize, indentation: f64) {
         self.deep = Deep { contact: contact as u32 + 1, indentation };
     }

@@ -84,7 +84,7 @@ impl<S: Scene> Instance<S> {
         plain
     }
 
-    /// The force of `contact` [N], if outputs are plainly there: during the simulation.
+    /// The force of `contact` \[N\], if outputs are plainly there: during the simulation.
     #[inline(always)]
     pub fn plain_force(&self, contact: usize) -> Option<f64> {
         let force = match self.contacts.forces.as_ref().get(contact) {
@@ -94,7 +94,7 @@ impl<S: Scene> Instance<S> {
         (self.clock.phase == Phase::StepComplete).then_some(force)
     }
 
-    /// Copies the forces [N] of the contacts from `first` on and reports true, if they are there.
+    /// Copies the forces \[N\] of the contacts from `first` on and reports true, if they are there.
     pub fn copy_plain_forces(&self, first: usize, forces: &mut [f64]) -> bool {
         let end = first.wrapping_add(forces.len());
         let (Some(histories), Some(rates)) = (self.histories().get(first..end), self.rates().get(first..end)) else {
@@ -143,7 +143,7 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// `contact` at the end of the next step, if that is as long as the last one and its rate is `rate` [m/s]. Where the law
+    /// `contact` at the end of the next step, if that is as long as the last one and its rate is `rate` \[m/s\]. Where the law
     /// ends it is where it is now.
     pub(super) fn predicted(&self, contact: usize, model: &S::Model, rate: f64) -> Option<S::Contact> {
         let history = *self.histories().get(contact)?;
@@ -152,12 +152,12 @@ impl<S: Scene> Instance<S> {
         Some(if moved.is_ok() { next } else { history })
     }
 
-    /// Length of the last step [s], where a force is predicted from it.
+    /// Length of the last step \[s\], where a force is predicted from it.
     pub(super) fn last_step(&self) -> f64 {
         self.contacts.last_step.as_ref().first().copied().unwrap_or(0.0)
     }
 
-    /// Rate [m/s] and its derivative [m/s^2] of `contact` at this moment: how the last step ended, or the input.
+    /// Rate \[m/s\] and its derivative \[m/s^2\] of `contact` at this moment: how the last step ended, or the input.
     pub(super) fn end_of(&self, contact: usize) -> (f64, f64) {
         match self.contacts.curves.as_ref().get(contact) {
             Some(curve) if self.curved => (curve.end_rate, curve.end_slope),

@@ -78,7 +78,7 @@ pub trait Scene: Sized {
     /// The bodies of a group with the laws of the scene.
     fn model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model;
 
-    /// Density of the target of a group [kg/m^3], if it is known.
+    /// Density of the target of a group \[kg/m^3\], if it is known.
     fn density(group: usize) -> Option<f64>;
 
     /// The Real variable with this value reference, and its contact.

@@ -3,25 +3,25 @@
 /// A parameter that a scene can have; each scene has a value or a variable for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
-    /// `impactor.radius` [m].
+    /// `impactor.radius` \[m\].
     ImpactorRadius,
-    /// `impactor.youngs_modulus` [Pa]; infinite for a rigid impactor.
+    /// `impactor.youngs_modulus` \[Pa\]; infinite for a rigid impactor.
     ImpactorYoungsModulus,
     /// `impactor.poissons_ratio`.
     ImpactorPoissonsRatio,
-    /// `target.radius` [m]; infinite for a flat target.
+    /// `target.radius` \[m\]; infinite for a flat target.
     TargetRadius,
-    /// `target.youngs_modulus` [Pa].
+    /// `target.youngs_modulus` \[Pa\].
     TargetYoungsModulus,
     /// `target.poissons_ratio`.
     TargetPoissonsRatio,
-    /// `target.yield_strength` [Pa]; infinite for an elastic contact.
+    /// `target.yield_strength` \[Pa\]; infinite for an elastic contact.
     TargetYieldStrength,
     /// `restitution`, which the damping of a rate-dependent law is made for.
     Restitution,
-    /// `effective_mass` [kg].
+    /// `effective_mass` \[kg\].
     EffectiveMass,
-    /// `initial_gap` [m].
+    /// `initial_gap` \[m\].
     InitialGap,
 }
 
@@ -61,33 +61,33 @@ impl Source {
 /// A variable of type Real.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Real {
-    /// The input [m/s].
+    /// The input \[m/s\].
     IndentationRate,
-    /// [N]
+    /// \[N\]
     Force,
-    /// [m]
+    /// \[m\]
     Indentation,
-    /// [m]
+    /// \[m\]
     MaxIndentation,
-    /// [m]
+    /// \[m\]
     ResidualIndentation,
-    /// [m]
+    /// \[m\]
     ContactRadius,
-    /// [Pa]
+    /// \[Pa\]
     MeanPressure,
-    /// [N/m]
+    /// \[N/m\]
     Stiffness,
-    /// [J]
+    /// \[J\]
     Work,
-    /// [J]
+    /// \[J\]
     ElasticEnergy,
-    /// [J]
+    /// \[J\]
     DissipatedEnergy,
-    /// [N.s]
+    /// \[N.s\]
     Impulse,
-    /// [N]
+    /// \[N\]
     MeanForce,
-    /// [N]
+    /// \[N\]
     PredictedForce,
     /// The settable parameter with this index in [`Scene::settable`](super::Scene::settable).
     Parameter(usize),

@@ -17,9 +17,9 @@ pub struct Adams {
     pub stiffness_factor: f64,
     /// `n` >= 1.
     pub exponent: f64,
-    /// `c` [N.s/m].
+    /// `c` \[N.s/m\].
     pub full_damping: f64,
-    /// `d_p` [m].
+    /// `d_p` \[m\].
     pub damping_depth: f64,
 }
 

@@ -9,11 +9,11 @@ use libm::{fabs, pow, sqrt};
 /// A moment of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// Since first contact [s].
+    /// Since first contact \[s\].
     pub time: f64,
-    /// [m]
+    /// \[m\]
     pub indentation: f64,
-    /// Closing speed [m/s].
+    /// Closing speed \[m/s\].
     pub speed: f64,
 }
 
@@ -35,7 +35,7 @@ pub fn predict<D: Damped + Copy>(model: &Model<D>, impact: &Impact) -> Option<Pr
     follow(model, impact, |_, _| {})
 }
 
-/// The same, with every moment that the method comes to, from first contact to the end, and the force there [N] told to
+/// The same, with every moment that the method comes to, from first contact to the end, and the force there \[N\] told to
 /// `watch`.
 pub fn follow<D: Damped + Copy>(
     model: &Model<D>,
@@ -101,9 +101,9 @@ struct Motion<'a, D> {
     damping: f64,
     mass: f64,
     speed: f64,
-    /// Scale of the indentation [m]: where the elastic energy is the kinetic one.
+    /// Scale of the indentation \[m\]: where the elastic energy is the kinetic one.
     length: f64,
-    /// Scale of the time [s].
+    /// Scale of the time \[s\].
     time: f64,
 }
 
@@ -134,7 +134,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         })
     }
 
-    /// [N], negative where the surface would have to pull: the end of the contact is a change of sign.
+    /// \[N\], negative where the surface would have to pull: the end of the contact is a change of sign.
     fn force(&self, state: &State) -> f64 {
         let d = state.indentation;
         if d > 0.0 {
@@ -148,7 +148,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         state.speed < 0.0 && (state.indentation <= 0.0 || self.force(state) <= 0.0)
     }
 
-    /// The state after `step` [s] and the error, relative.
+    /// The state after `step` \[s\] and the error, relative.
     fn step(&self, state: &State, step: f64) -> (State, f64) {
         let mut slopes = [(0.0, 0.0); 7];
         let mut next = *state;
@@ -181,7 +181,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         self.step(state, high).0
     }
 
-    /// The largest force on the way from `state` to `next` [N]: at an end, or where the force turns, found by sections.
+    /// The largest force on the way from `state` to `next` \[N\]: at an end, or where the force turns, found by sections.
     fn largest_force(&self, state: &State, next: &State, step: f64) -> f64 {
         let (mut low, mut high) = (0.0, step);
         let force = |step: f64| self.force(&self.step(state, step).0);

@@ -16,7 +16,7 @@ use libm::{log, pow, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct KelvinVoigt {
-    /// `V` [m/s].
+    /// `V` \[m/s\].
     pub characteristic_speed: f64,
 }
 

@@ -13,7 +13,7 @@ use libm::sqrt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct KuwabaraKono {
-    /// `A` [s].
+    /// `A` \[s\].
     pub relaxation_time: f64,
 }
 

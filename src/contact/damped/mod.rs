@@ -26,12 +26,12 @@ pub struct Model<D> {
     pub law: D,
     /// The coefficient of restitution that the damping is made for, in (0, 1]; laws with a damping of their own ignore it.
     pub restitution: f64,
-    /// Effective mass that the damping is made for [kg] > 0; laws that need none ignore it.
+    /// Effective mass that the damping is made for \[kg\] > 0; laws that need none ignore it.
     pub mass: f64,
 }
 
 impl<D> Model<D> {
-    /// The indentation up to which the law is valid [m]: the contact radius is Hertz's, `a^2 = R d`.
+    /// The indentation up to which the law is valid \[m\]: the contact radius is Hertz's, `a^2 = R d`.
     pub fn valid_depth(&self) -> f64 {
         LARGEST_RADIUS_RATIO * LARGEST_RADIUS_RATIO * self.pair.radius
     }
@@ -42,19 +42,19 @@ impl<D> Model<D> {
 pub struct Shape {
     /// Value.
     pub value: f64,
-    /// Derivative by the indentation [1/m].
+    /// Derivative by the indentation \[1/m\].
     pub slope: f64,
-    /// Integral from zero indentation [m].
+    /// Integral from zero indentation \[m\].
     pub integral: f64,
 }
 
 /// The factors of the two shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors {
-    /// `K`: times `phi` a force [N].
+    /// `K`: times `phi` a force \[N\].
     pub elastic: f64,
-    /// `C`: times `psi` a damping coefficient [N.s/m]; of a law that [scales by the touch speed](Damped::scaled_by_touch)
-    /// the coefficient times that speed [N].
+    /// `C`: times `psi` a damping coefficient \[N.s/m\]; of a law that [scales by the touch speed](Damped::scaled_by_touch)
+    /// the coefficient times that speed \[N\].
     pub damping: f64,
 }
 
@@ -86,7 +86,7 @@ pub trait Damped {
         false
     }
 
-    /// Indentations between which `phi/psi` is monotone [m], in order: where the force can change its sign more than once.
+    /// Indentations between which `phi/psi` is monotone \[m\], in order: where the force can change its sign more than once.
     fn borders(&self) -> [f64; 2] {
         [0.0; 2]
     }

@@ -11,20 +11,20 @@ use super::unloading::Unloading;
 use super::{Model, Surface};
 use core::borrow::Borrow;
 
-/// The indentation up to which the laws are evaluated [m]: far beyond anything physical, and small enough that no force
+/// The indentation up to which the laws are evaluated \[m\]: far beyond anything physical, and small enough that no force
 /// or energy overflows.
 pub const LARGEST_INDENTATION: f64 = 1e100;
 
-/// The largest force [N] and stiffness [N/m] of a law that is a fit: times any time and any indentation they are numbers.
+/// The largest force \[N\] and stiffness \[N/m\] of a law that is a fit: times any time and any indentation they are numbers.
 const LARGEST_FORCE: f64 = 1e200;
 
-/// The farthest that bodies can be apart [m].
+/// The farthest that bodies can be apart \[m\].
 const FARTHEST: f64 = (-LARGEST_INDENTATION).next_up();
 
-/// The smallest positive indentation [m]: an elastic contact is open at zero and closed here.
+/// The smallest positive indentation \[m\]: an elastic contact is open at zero and closed here.
 const TOUCHING: f64 = f64::from_bits(1);
 
-/// The least increment of a branch that is followed both ways [m].
+/// The least increment of a branch that is followed both ways \[m\].
 const ANY: f64 = -f64::MAX;
 
 /// Which part of the law a contact is on. The numbers are those of the variable `regime`.
@@ -47,7 +47,7 @@ pub enum Regime {
 /// The indentation left the range in which the law can be evaluated, or isn't a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TooDeep {
-    /// The indentation that was refused [m].
+    /// The indentation that was refused \[m\].
     pub indentation: f64,
 }
 
@@ -61,11 +61,11 @@ pub struct History {
     indentation: Sum,
     max_indentation: f64,
     segment: Segment,
-    /// The smallest increment that leaves the contact on its branch [m]: zero on the loading curve, where the way back is
+    /// The smallest increment that leaves the contact on its branch \[m\]: zero on the loading curve, where the way back is
     /// another.
     least_increment: f64,
     regime: Regime,
-    /// Energy lost in dents that were left behind [J] ([`Surface::Fresh`]).
+    /// Energy lost in dents that were left behind \[J\] ([`Surface::Fresh`]).
     left_behind: f64,
 }
 
@@ -82,7 +82,7 @@ impl Regime {
 }
 
 impl History {
-    /// A contact at `gap` [m] before any motion; a negative gap is an indentation reached along the loading curve.
+    /// A contact at `gap` \[m\] before any motion; a negative gap is an indentation reached along the loading curve.
     pub fn start<L: Loading, U: Unloading>(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         let mut history = History {
             // not -gap, so that no gap is 0.0 and not -0.0
@@ -98,7 +98,7 @@ impl History {
         Ok(history)
     }
 
-    /// Moves the contact by `increment` [m], monotonically.
+    /// Moves the contact by `increment` \[m\], monotonically.
     ///
     /// # Errors
     /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN; the history is left as it was.
@@ -106,7 +106,7 @@ impl History {
         if self.advance_on_branch(increment) { Ok(()) } else { self.leave_branch(increment, || model) }
     }
 
-    /// Moves the contact by `increment` [m] to whatever branch holds there; the model is asked for only if the law is.
+    /// Moves the contact by `increment` \[m\] to whatever branch holds there; the model is asked for only if the law is.
     #[inline(always)]
     fn leave_branch<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
         &mut self,
@@ -128,7 +128,7 @@ impl History {
         Ok(())
     }
 
-    /// Moves the contact by `increment` [m] if that leaves it on its branch; otherwise nothing is done, and false.
+    /// Moves the contact by `increment` \[m\] if that leaves it on its branch; otherwise nothing is done, and false.
     #[inline(always)]
     fn advance_on_branch(&mut self, increment: f64) -> bool {
         let sum = self.indentation.plus(increment);
@@ -148,7 +148,7 @@ impl History {
         self.least_increment == 0.0
     }
 
-    /// Puts the contact at `indentation` [m] exactly; at a corner on the branch that lies in the direction of motion.
+    /// Puts the contact at `indentation` \[m\] exactly; at a corner on the branch that lies in the direction of motion.
     ///
     /// # Errors
     /// As for [`History::advance`].
@@ -259,7 +259,7 @@ impl History {
         self.segment = Segment { lower, ..segment };
     }
 
-    /// Apart at `indentation` [m], with the dent that `path` leads to.
+    /// Apart at `indentation` \[m\], with the dent that `path` leads to.
     fn part<L, U: Unloading>(&mut self, path: &Segment, model: &Model<L, U>, indentation: f64) {
         self.regime = Regime::Apart;
         let lower = farthest(model.surface, indentation);
@@ -269,14 +269,14 @@ impl History {
         };
     }
 
-    /// Whether there is no contact at `indentation` [m] <= 0. Laws that make energy may hold on beyond the original surface.
+    /// Whether there is no contact at `indentation` \[m\] <= 0. Laws that make energy may hold on beyond the original surface.
     fn has_parted<L: Loading, U: Unloading>(&self, model: &Model<L, U>, indentation: f64) -> bool {
         let largest = self.max_indentation();
         model.is_elastic_at(largest) || indentation <= model.unloading_path(largest).lower
     }
 }
 
-/// How far a contact can go from `indentation` [m] without another branch [m]. A fresh surface forgets its dent at zero, so that
+/// How far a contact can go from `indentation` \[m\] without another branch \[m\]. A fresh surface forgets its dent at zero, so that
 /// the border must be noticed.
 fn farthest(surface: Surface, indentation: f64) -> f64 {
     if surface == Surface::Fresh && indentation > 0.0 { TOUCHING } else { FARTHEST }

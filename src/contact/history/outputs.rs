@@ -7,13 +7,13 @@ use crate::contact::loading::Loading;
 use crate::contact::unloading::Unloading;
 
 impl History {
-    /// Indentation [m]; negative while apart.
+    /// Indentation \[m\]; negative while apart.
     #[inline]
     pub fn indentation(&self) -> f64 {
         self.indentation.total()
     }
 
-    /// Largest indentation of the present dent [m].
+    /// Largest indentation of the present dent \[m\].
     pub fn max_indentation(&self) -> f64 {
         let indentation = self.indentation();
         if indentation > self.max_indentation { indentation } else { self.max_indentation }
@@ -29,13 +29,13 @@ impl History {
         matches!(self.regime, Regime::Unloaded | Regime::Apart) && model.is_held_back_at(self.max_indentation())
     }
 
-    /// Normal force [N], compressive positive; exactly zero while apart.
+    /// Normal force \[N\], compressive positive; exactly zero while apart.
     #[inline]
     pub fn force(&self) -> f64 {
         self.segment.force(self.indentation.total())
     }
 
-    /// dF/d(indentation) on the present branch [N/m]; at a corner the one in the direction of the last motion.
+    /// dF/d(indentation) on the present branch \[N/m\]; at a corner the one in the direction of the last motion.
     pub fn stiffness(&self) -> f64 {
         match self.regime {
             Regime::Apart => 0.0,
@@ -43,7 +43,7 @@ impl History {
         }
     }
 
-    /// Depth of the dent that would remain if the load were taken off now [m].
+    /// Depth of the dent that would remain if the load were taken off now \[m\].
     pub fn residual_indentation<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         if model.is_elastic_at(self.max_indentation()) {
             0.0
@@ -52,7 +52,7 @@ impl History {
         }
     }
 
-    /// Contact radius [m], 0 while apart: that of the loading law up to the largest indentation, and from there down
+    /// Contact radius \[m\], 0 while apart: that of the loading law up to the largest indentation, and from there down
     /// that of the unloading law.
     pub fn contact_radius<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let indentation = self.indentation.total();
@@ -67,18 +67,18 @@ impl History {
         }
     }
 
-    /// Force over contact area [Pa], 0 while apart.
+    /// Force over contact area \[Pa\], 0 while apart.
     pub fn mean_pressure<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         Contact::mean_pressure(self, model, 0.0)
     }
 
-    /// Work done on the contact by the bodies since the start [J]: the sum of the two energies, and so a function of the
+    /// Work done on the contact by the bodies since the start \[J\]: the sum of the two energies, and so a function of the
     /// state, not of the steps that led there. A contact that starts pressed in counts the way there as done.
     pub fn work<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         Contact::work(self, model)
     }
 
-    /// What unloading would give back [J].
+    /// What unloading would give back \[J\].
     pub fn elastic_energy<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         match self.regime {
             Regime::Apart => 0.0,
@@ -87,12 +87,12 @@ impl History {
         }
     }
 
-    /// Work turned into plastic deformation since the start [J].
+    /// Work turned into plastic deformation since the start \[J\].
     pub fn dissipated_energy<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         self.left_behind + self.dissipated_in_dent(model)
     }
 
-    /// Loading work up to the largest indentation, less what unloading from there gives back [J].
+    /// Loading work up to the largest indentation, less what unloading from there gives back \[J\].
     pub(super) fn dissipated_in_dent<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let largest = self.max_indentation();
         if model.is_elastic_at(largest) {
@@ -101,7 +101,7 @@ impl History {
         model.loading.work(&model.pair, largest) - model.recovered_work(largest, largest)
     }
 
-    /// d2F/d(indentation)^2 on the present branch [N/m^2]; of a law without segments from its stiffness near by.
+    /// d2F/d(indentation)^2 on the present branch \[N/m^2\]; of a law without segments from its stiffness near by.
     pub fn curvature<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let indentation = self.indentation();
         let segmented = match self.regime {

@@ -30,7 +30,7 @@ pub struct BigAlabo {
     pub second_region: f64,
     /// `x_p`: where the fully plastic regime begins, in yield indentations.
     pub fully_plastic: f64,
-    /// `k_p`: slope of the fully plastic regime [F_y/d_y].
+    /// `k_p`: slope of the fully plastic regime \[F_y/d_y\].
     pub plastic_slope: f64,
 }
 

@@ -38,17 +38,17 @@ impl Brake2015 {
     /// The hardness 2.8 S.
     pub const REFERENCE: Brake2015 = Brake2015 { hardness_factor: 2.8 };
 
-    /// `d_p` [m].
+    /// `d_p` \[m\].
     fn plastic(&self, pair: &Pair) -> f64 {
         pair.yield_point(self.hardness_factor).indentation
     }
 
-    /// `pi R p_H` [N/m].
+    /// `pi R p_H` \[N/m\].
     fn plastic_slope(&self, pair: &Pair) -> f64 {
         PI * pair.radius * self.hardness_factor * pair.yield_strength
     }
 
-    /// `(F_H - F_P) sech(s)` [N] with its slope by `d`; `d_y` and `d_p` are given.
+    /// `(F_H - F_P) sech(s)` \[N\] with its slope by `d`; `d_y` and `d_p` are given.
     fn elastic_part(&self, pair: &Pair, borders: (f64, f64), indentation: f64) -> Dual {
         let (d_y, d_p) = borders;
         let s = (indentation - d_y) / (d_p - d_y);

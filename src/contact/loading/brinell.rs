@@ -29,15 +29,15 @@ const PIECES: usize = 8;
 pub struct Brinell {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,
-    /// Where the pieces begin [d_y]; the first knot is the yield point.
+    /// Where the pieces begin \[d_y\]; the first knot is the yield point.
     pub knots: [f64; PIECES],
-    /// Slope of the force at each knot [F_y/d_y].
+    /// Slope of the force at each knot \[F_y/d_y\].
     pub force_slopes: [f64; PIECES],
     /// Slope of `a^2` at each knot `[R]`.
     pub area_slopes: [f64; PIECES],
-    /// Where the second elastoplastic region begins [d_y]: mean pressure 2.19 S.
+    /// Where the second elastoplastic region begins \[d_y\]: mean pressure 2.19 S.
     pub second_region: f64,
-    /// Where the contact counts as fully plastic [d_y]: the mean pressure is within 3 % of its limit.
+    /// Where the contact counts as fully plastic \[d_y\]: the mean pressure is within 3 % of its limit.
     pub fully_plastic: f64,
 }
 

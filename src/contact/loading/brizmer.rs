@@ -68,7 +68,7 @@ impl Brizmer {
         area_slope: 0.125,
     };
 
-    /// Force at `indentation` beyond yield [N], with its slope: Hertz's to the last bit where nothing has faded.
+    /// Force at `indentation` beyond yield \[N\], with its slope: Hertz's to the last bit where nothing has faded.
     fn force(&self, pair: &Pair, d_c: f64, indentation: f64) -> Dual {
         let root = sqrt(indentation);
         let hertz = pair.hertz_stiffness() * Dual { value: indentation * root, slope: 1.5 * root };
@@ -79,7 +79,7 @@ impl Brizmer {
         }
     }
 
-    /// Work from `low` to `high` [J], both in `d_c` and at least 1. Near yield the panels must shrink with the distance to
+    /// Work from `low` to `high` \[J\], both in `d_c` and at least 1. Near yield the panels must shrink with the distance to
     /// it, where the exponential has an essential singularity; from `y = e` on the curve is as good as a sum of powers.
     fn plastic_work(&self, pair: &Pair, d_c: f64, low: f64, high: f64) -> f64 {
         let force = |y: f64| self.force(pair, d_c, y * d_c).value;

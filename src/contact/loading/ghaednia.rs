@@ -75,7 +75,7 @@ impl Ghaednia {
         elastic + (plastic - elastic) * (-size * depth.exp()).exp()
     }
 
-    /// Force beyond the transition [N], with its slope by `y`.
+    /// Force beyond the transition \[N\], with its slope by `y`.
     fn plastic_force(&self, scale: &Scale, pair: &Pair, y: f64) -> Dual {
         let radius = self.radius(scale, pair, y);
         // where the radius overflows the force is no number either
@@ -88,7 +88,7 @@ impl Ghaednia {
         scale.unit.force * (plastic + share * (y.power(1.5) - plastic))
     }
 
-    /// The indentation where `a = R` [m], by halving: `a` grows with the indentation and is not below `sqrt(R d)`.
+    /// The indentation where `a = R` \[m\], by halving: `a` grows with the indentation and is not below `sqrt(R d)`.
     fn full_radius(&self, scale: &Scale, pair: &Pair) -> f64 {
         let d_c = scale.unit.indentation;
         let (mut low, mut high) = (scale.transition, pair.radius);

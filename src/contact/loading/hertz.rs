@@ -15,7 +15,7 @@ use libm::sqrt;
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Hertz;
 
-/// The Hertzian piece of any law that begins elastically, up to `upper` [m].
+/// The Hertzian piece of any law that begins elastically, up to `upper` \[m\].
 pub(super) fn segment(pair: &Pair, upper: f64) -> Segment {
     Segment { upper, power: pair.hertz_stiffness(), ..Segment::NOTHING }
 }

@@ -32,7 +32,7 @@ pub struct JacksonGreen {
     pub yield_constant: f64,
     /// How fast `ln C` grows with Poisson's ratio.
     pub yield_growth: f64,
-    /// Where the elastoplastic formula begins [d_c].
+    /// Where the elastoplastic formula begins \[d_c\].
     pub transition: f64,
     /// `B` for a yield strength of zero.
     pub area_exponent: f64,
@@ -51,7 +51,7 @@ pub(super) struct Scale {
     pub exponent: f64,
     /// `d_c` and `F_c`.
     pub unit: YieldPoint,
-    /// Where the elastoplastic formula begins [m].
+    /// Where the elastoplastic formula begins \[m\].
     pub transition: f64,
 }
 
@@ -94,7 +94,7 @@ impl JacksonGreen {
         self.scale(pair).unit
     }
 
-    /// Force beyond the transition [N], with its slope by `y`.
+    /// Force beyond the transition \[N\], with its slope by `y`.
     fn plastic_force(&self, scale: &Scale, pair: &Pair, y: f64) -> Dual {
         let y = Dual::variable(y);
         let radius = scale.radius(y, pair, self.transition);

@@ -56,7 +56,7 @@ impl Johnson {
         (self.cavity_border(self.yield_pressure_factor), self.cavity_border(self.plastic_pressure_factor))
     }
 
-    /// The indentations of those borders [m].
+    /// The indentations of those borders \[m\].
     fn corners(&self, d_y: f64) -> (f64, f64) {
         let (second, plastic) = self.borders();
         (0.5 * (1.0 + second) * d_y, 0.5 * (1.0 + plastic) * d_y)
@@ -72,7 +72,7 @@ impl Loading for Johnson {
         pair.yield_point(self.yield_pressure_factor)
     }
 
-    /// In the second region the tangent, with the slope `2 (1 + (1 + ln(u/u_2))/(3 p_Y))` [F_y/d_y].
+    /// In the second region the tangent, with the slope `2 (1 + (1 + ln(u/u_2))/(3 p_Y))` \[F_y/d_y\].
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         let point = self.yield_point(pair);
         let d_y = point.indentation;

@@ -30,9 +30,9 @@ pub struct KogutEtsion {
     pub yield_constant: f64,
     /// What `K` gains per unit of Poisson's ratio.
     pub yield_slope: f64,
-    /// Where the second region begins [d_c].
+    /// Where the second region begins \[d_c\].
     pub second_region: f64,
-    /// Where the fully plastic regime begins [d_c].
+    /// Where the fully plastic regime begins \[d_c\].
     pub fully_plastic: f64,
     /// Factor of the force in the first region.
     pub first_factor: f64,
@@ -76,7 +76,7 @@ impl KogutEtsion {
         pair.yield_point(peak / 1.5)
     }
 
-    /// `2 pi R H`: slope of the fully plastic line [N/m].
+    /// `2 pi R H`: slope of the fully plastic line \[N/m\].
     fn plastic_slope(&self, pair: &Pair) -> f64 {
         2.0 * core::f64::consts::PI * pair.radius * self.hardness_factor * pair.yield_strength
     }

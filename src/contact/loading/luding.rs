@@ -38,7 +38,7 @@ impl Luding {
     pub const REFERENCE: Luding =
         Luding { yield_pressure_factor: 1.1, stiffness_factor: 1.0, stiffness_ratio: 4.0, limit_depth: 0.05 };
 
-    /// `d*` [m] for these constants.
+    /// `d*` \[m\] for these constants.
     pub fn limit(pair: &Pair, stiffness_ratio: f64, limit_depth: f64) -> f64 {
         stiffness_ratio / (stiffness_ratio - 1.0) * (limit_depth * (2.0 * pair.radius))
     }

@@ -63,7 +63,7 @@ impl MaLiu {
         beyond + 0.75 * beyond * beyond + self.logarithmic_slope() * logarithmic
     }
 
-    /// The line beyond `plastic` [m].
+    /// The line beyond `plastic` \[m\].
     fn line(&self, point: &YieldPoint, plastic: f64) -> Segment {
         Segment {
             lower: plastic,
@@ -86,7 +86,7 @@ impl Loading for MaLiu {
         pair.yield_point(self.peak_pressure_factor / 1.5)
     }
 
-    /// On the mixed part the tangent, with the slope `1.5 + c ln x` [F_y/d_y].
+    /// On the mixed part the tangent, with the slope `1.5 + c ln x` \[F_y/d_y\].
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         let point = self.yield_point(pair);
         if indentation < point.indentation {

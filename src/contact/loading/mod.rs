@@ -30,21 +30,21 @@ pub trait Loading {
         true
     }
 
-    /// The first indentation above `indentation` where the curve or its slope is not smooth [m].
+    /// The first indentation above `indentation` where the curve or its slope is not smooth \[m\].
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         self.segment(pair, indentation).upper
     }
 
-    /// Work of the loading from first contact to `indentation` [J]: in closed form, or to rounding.
+    /// Work of the loading from first contact to `indentation` \[J\]: in closed form, or to rounding.
     fn work(&self, pair: &Pair, indentation: f64) -> f64;
 
-    /// Work from `low` to `high` [J], on one smooth piece of the curve, of a law whose work is an integral there. None
+    /// Work from `low` to `high` \[J\], on one smooth piece of the curve, of a law whose work is an integral there. None
     /// where a difference of two [`Loading::work`] is as good.
     fn work_between(&self, _pair: &Pair, _low: f64, _high: f64) -> Option<f64> {
         None
     }
 
-    /// Contact radius [m] while loading.
+    /// Contact radius \[m\] while loading.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64;
 
     /// The regime of the loading at `indentation` and just above it.
@@ -55,7 +55,7 @@ pub trait Loading {
         (self.segment(pair, indentation), self.regime(pair, indentation))
     }
 
-    /// Force [N], contact radius [m] and yield force [N] at `indentation`, where the load begins to come off: a law may find
+    /// Force \[N\], contact radius \[m\] and yield force \[N\] at `indentation`, where the load begins to come off: a law may find
     /// them together in less.
     fn summit(&self, pair: &Pair, indentation: f64) -> (f64, f64, f64) {
         let force = self.segment(pair, indentation).force(indentation);
@@ -69,7 +69,7 @@ pub trait Loading {
     }
 }
 
-/// The line `f = ratio (2x - 1)` from `lower` to `upper` [m]: a constant pressure, `ratio` times that at the yield `point`, on
+/// The line `f = ratio (2x - 1)` from `lower` to `upper` \[m\]: a constant pressure, `ratio` times that at the yield `point`, on
 /// the area `a^2 = R d_y (2x - 1)`.
 fn constant_pressure(point: &YieldPoint, ratio: f64, lower: f64, upper: f64) -> Segment {
     Segment {
@@ -82,12 +82,12 @@ fn constant_pressure(point: &YieldPoint, ratio: f64, lower: f64, upper: f64) -> 
     }
 }
 
-/// The first of a law's rising `corners` above `indentation` [m].
+/// The first of a law's rising `corners` above `indentation` \[m\].
 fn first_above<const CORNERS: usize>(indentation: f64, corners: [f64; CORNERS]) -> f64 {
     corners.into_iter().find(|&corner| indentation < corner).unwrap_or(LARGEST_INDENTATION)
 }
 
-/// Work of a curve that is made of segments, from first contact to `indentation` [J]: the whole segments below it and the
+/// Work of a curve that is made of segments, from first contact to `indentation` \[J\]: the whole segments below it and the
 /// begun one.
 fn work_over_segments(law: &impl Loading, pair: &Pair, indentation: f64) -> f64 {
     let mut segment = law.segment(pair, 0.0);

@@ -23,7 +23,7 @@ use libm::{pow, sqrt};
 pub struct Power {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,
-    /// `k`: force beyond the yield force at twice the yield indentation [F_y].
+    /// `k`: force beyond the yield force at twice the yield indentation \[F_y\].
     pub coefficient: f64,
     /// `n` >= 1.
     pub exponent: f64,
@@ -44,7 +44,7 @@ impl Loading for Power {
         pair.yield_point(self.yield_pressure_factor)
     }
 
-    /// Beyond yield the tangent, with the slope `k n (x - 1)^(n-1)` [F_y/d_y].
+    /// Beyond yield the tangent, with the slope `k n (x - 1)^(n-1)` \[F_y/d_y\].
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         let point = self.yield_point(pair);
         if indentation < point.indentation {

@@ -47,7 +47,7 @@ impl Stronge {
         1.0 / (3.0 * self.yield_pressure_factor)
     }
 
-    /// The line beyond `plastic` [m].
+    /// The line beyond `plastic` \[m\].
     fn line(&self, point: &YieldPoint, plastic: f64) -> Segment {
         let ratio = self.plastic_pressure_factor / self.yield_pressure_factor;
         constant_pressure(point, ratio, plastic, LARGEST_INDENTATION)
@@ -63,7 +63,7 @@ impl Loading for Stronge {
         pair.yield_point(self.yield_pressure_factor)
     }
 
-    /// On the elastoplastic part the tangent, with the slope `2 (1 + c + c ln u)` [F_y/d_y].
+    /// On the elastoplastic part the tangent, with the slope `2 (1 + c + c ln u)` \[F_y/d_y\].
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         let point = self.yield_point(pair);
         if indentation < point.indentation {

@@ -29,7 +29,7 @@ use libm::{cbrt, sqrt};
 pub struct VuQuocZhang {
     /// Largest pressure at yield over the yield strength.
     pub peak_pressure_factor: f64,
-    /// `A`: plastic contact radius for each `F_y` beyond yield [a_y].
+    /// `A`: plastic contact radius for each `F_y` beyond yield \[a_y\].
     pub plastic_radius: f64,
     /// `B`: relative growth of the radius of curvature for each `F_y` beyond yield.
     pub curvature: f64,

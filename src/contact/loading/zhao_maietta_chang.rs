@@ -68,7 +68,7 @@ impl ZhaoMaiettaChang {
         integral
     }
 
-    /// The line beyond `plastic` [m].
+    /// The line beyond `plastic` \[m\].
     fn line(&self, point: &YieldPoint, plastic: f64) -> Segment {
         let ratio = 2.0 * self.plastic_pressure_factor / self.yield_pressure_factor;
         Segment {
@@ -91,7 +91,7 @@ impl Loading for ZhaoMaiettaChang {
         pair.yield_point(self.yield_pressure_factor)
     }
 
-    /// On the elastoplastic part the tangent, with the slope `(g + x dg/dx) (1 + b ln x) + b g` [F_y/d_y].
+    /// On the elastoplastic part the tangent, with the slope `(g + x dg/dx) (1 + b ln x) + b g` \[F_y/d_y\].
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         let point = self.yield_point(pair);
         if indentation < point.indentation {

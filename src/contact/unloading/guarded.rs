@@ -26,7 +26,7 @@ pub struct Guarded<U>(pub U);
 /// guard would act on the last bits of contacts that just yield.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// The longest recovery [m] that gives back no more than the work of the loading.
+/// The longest recovery \[m\] that gives back no more than the work of the loading.
 fn longest(peak: &Peak) -> f64 {
     2.5 * peak.work / peak.force
 }

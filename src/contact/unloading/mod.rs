@@ -18,15 +18,15 @@ use libm::sqrt;
 /// The point of the loading curve from which the load comes off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
-    /// Largest indentation `d_m` [m].
+    /// Largest indentation `d_m` \[m\].
     pub indentation: f64,
-    /// Force there `F_m` [N].
+    /// Force there `F_m` \[N\].
     pub force: f64,
-    /// Contact radius there `a_m` [m].
+    /// Contact radius there `a_m` \[m\].
     pub contact_radius: f64,
-    /// Force at which the loading law begins to yield `F_y` [N].
+    /// Force at which the loading law begins to yield `F_y` \[N\].
     pub yield_force: f64,
-    /// Work of the loading up to there [J]; NaN for a law that doesn't [need](Unloading::needs_work) it.
+    /// Work of the loading up to there \[J\]; NaN for a law that doesn't [need](Unloading::needs_work) it.
     pub work: f64,
 }
 
@@ -57,18 +57,18 @@ pub trait Unloading {
         *path
     }
 
-    /// Contact radius on the `path` [m]: that of a Hertzian recovery, `a = a_m sqrt((d - d_f)/d_e)`.
+    /// Contact radius on the `path` \[m\]: that of a Hertzian recovery, `a = a_m sqrt((d - d_f)/d_e)`.
     fn contact_radius(&self, _pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
         peak.contact_radius * sqrt((indentation - path.lower) / (path.upper - path.lower))
     }
 
-    /// Work given back on a `path` that is no segment, from `indentation` down to its lower end [J].
+    /// Work given back on a `path` that is no segment, from `indentation` down to its lower end \[J\].
     fn work(&self, _pair: &Pair, _peak: &Peak, path: &Segment, indentation: f64) -> f64 {
         path.work(indentation)
     }
 }
 
-/// The residual indentation that an elastic `recovery` [m] leaves of `peak` [m].
+/// The residual indentation that an elastic `recovery` \[m\] leaves of `peak` \[m\].
 ///
 /// A residual of a few units in the last place of the peak is none: the recovery just beyond yield is the whole
 /// indentation, rounded. Far beyond anything physical the recovery is less than the last digit of the indentation, but it
@@ -85,7 +85,7 @@ fn residual_after(peak: &Peak, recovery: f64) -> f64 {
     }
 }
 
-/// `F = F_m ((d - d_f)/d_e)^1.5`: Hertzian unloading with the elastic recovery `d_e` [m].
+/// `F = F_m ((d - d_f)/d_e)^1.5`: Hertzian unloading with the elastic recovery `d_e` \[m\].
 ///
 /// `d_e` is taken again from the rounded `d_f`, so that the path ends in the peak to the last bits.
 fn hertzian(peak: &Peak, recovery: f64) -> Segment {
@@ -100,7 +100,7 @@ fn hertzian(peak: &Peak, recovery: f64) -> Segment {
     }
 }
 
-/// A straight line from the `residual` indentation [m] to the peak.
+/// A straight line from the `residual` indentation \[m\] to the peak.
 fn straight(peak: &Peak, residual: f64) -> Segment {
     let residual = if residual < peak.indentation { residual } else { peak.indentation.next_down() };
     Segment {

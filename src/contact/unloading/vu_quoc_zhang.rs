@@ -6,7 +6,7 @@ use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
 use libm::{cbrt, sqrt};
 
-/// The plastic radius `p` [a_y] and the curvature `c` of the peak stay while the load comes off; the elastic radius is Hertz's:
+/// The plastic radius `p` \[a_y\] and the curvature `c` of the peak stay while the load comes off; the elastic radius is Hertz's:
 ///
 /// `x = (f^(1/3) + p)^2 / c`, so `f = (sqrt(c x) - p)^3` and `x_f = p^2/c`, with `c = 1 + B (f_m - 1)` and `p = sqrt(c x_m) - f_m^(1/3)`.
 ///
@@ -29,12 +29,12 @@ struct Frozen {
     unit: YieldPoint,
     plastic_radius: f64,
     growth: f64,
-    /// Where the load began to come off [m], and `f_m^(1/3)` there.
+    /// Where the load began to come off \[m\], and `f_m^(1/3)` there.
     peak: (f64, f64),
 }
 
 impl Frozen {
-    /// `f^(1/3)` at `indentation` [m]: from the peak down, so that the path ends there to the last bits.
+    /// `f^(1/3)` at `indentation` \[m\]: from the peak down, so that the path ends there to the last bits.
     fn root_of_force(&self, indentation: f64) -> f64 {
         let (largest, largest_root) = self.peak;
         let scale = sqrt(self.growth / self.unit.indentation);

@@ -4,13 +4,13 @@ use super::History;
 use crate::contact::damped::Damped;
 
 impl<D: Damped + Copy> History<D> {
-    /// What the elastic force would give back on a slow way out [J].
+    /// What the elastic force would give back on a slow way out \[J\].
     pub(super) fn stored(&self) -> f64 {
         let indentation = self.indentation.total();
         if indentation > 0.0 { self.factors.elastic * self.law.elastic(indentation).integral } else { 0.0 }
     }
 
-    /// Work turned into heat on the way `from`..`to` [m], both >= 0, with `rate` [m/s], [J]: that of the damping, and where the
+    /// Work turned into heat on the way `from`..`to` \[m\], both >= 0, with `rate` \[m/s\], \[J\]: that of the damping, and where the
     /// surface would have to pull the elastic energy that nobody takes.
     pub(super) fn dissipation(&self, from: f64, to: f64, rate: f64) -> f64 {
         let damping = |from: f64, to: f64| {

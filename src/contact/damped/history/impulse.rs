@@ -5,7 +5,7 @@ use crate::contact::damped::Damped;
 use crate::contact::quadrature::graded_integral;
 
 impl<D: Damped + Copy> History<D> {
-    /// Mean force [N] of a step with `rate` [m/s] over `step` [s] that has not been made yet.
+    /// Mean force \[N\] of a step with `rate` \[m/s\] over `step` \[s\] that has not been made yet.
     pub fn mean_force(&self, rate: f64, step: f64) -> f64 {
         if rate == 0.0 {
             return self.force(rate);

@@ -17,7 +17,7 @@ pub struct History<D> {
     factors: Factors,
     indentation: Sum,
     max_indentation: f64,
-    /// Closing speed at first touch [m/s]; infinite until there was one, so that a rate over it is zero.
+    /// Closing speed at first touch \[m/s\]; infinite until there was one, so that a rate over it is zero.
     touch_speed: f64,
     dissipated: Sum,
 }
@@ -26,7 +26,7 @@ pub struct History<D> {
 const HALVINGS: u32 = 1100;
 
 impl<D: Damped + Copy> History<D> {
-    /// A contact at `gap` [m] before any motion. One that starts pressed in has not been touched at any speed: the first
+    /// A contact at `gap` \[m\] before any motion. One that starts pressed in has not been touched at any speed: the first
     /// closing rate then counts as that speed.
     ///
     /// # Errors
@@ -44,7 +44,7 @@ impl<D: Damped + Copy> History<D> {
         })
     }
 
-    /// Moves the contact with `rate` [m/s] over `step` [s].
+    /// Moves the contact with `rate` \[m/s\] over `step` \[s\].
     ///
     /// # Errors
     /// [`TooDeep`] as for [`History::start`], and where force or heat would be beyond all numbers; the history is left as it was.
@@ -70,7 +70,7 @@ impl<D: Damped + Copy> History<D> {
         Ok(())
     }
 
-    /// Notes the speed of a first touch on the way to `to` [m].
+    /// Notes the speed of a first touch on the way to `to` \[m\].
     fn touch(&mut self, to: f64, rate: f64) {
         let touches = if self.indentation.total() > 0.0 { self.touch_speed == f64::INFINITY } else { to > 0.0 };
         if touches && rate > 0.0 {
@@ -78,26 +78,26 @@ impl<D: Damped + Copy> History<D> {
         }
     }
 
-    /// `C d'`, with `d'` over the touch speed if the law wants it [N]; none before there was a touch.
+    /// `C d'`, with `d'` over the touch speed if the law wants it \[N\]; none before there was a touch.
     fn damping_force(&self, rate: f64) -> f64 {
         // the ratio first: a touch at next to no speed must not divide the factor
         let rate = if self.law.scaled_by_touch() { rate / self.touch_speed } else { rate };
         self.factors.damping * rate
     }
 
-    /// `K phi + C psi d'` at `indentation` > 0, which may be negative [N].
+    /// `K phi + C psi d'` at `indentation` > 0, which may be negative \[N\].
     fn sum_of_forces(&self, indentation: f64, rate: f64) -> f64 {
         self.factors.elastic * self.law.elastic(indentation).value
             + self.damping_force(rate) * self.law.damping(indentation).value
     }
 
-    /// Whether the surface pushes with `rate` [m/s]: it never pulls.
+    /// Whether the surface pushes with `rate` \[m/s\]: it never pulls.
     fn pushes(&self, rate: f64) -> bool {
         let indentation = self.indentation.total();
         indentation > 0.0 && self.sum_of_forces(indentation, rate) > 0.0
     }
 
-    /// Where in `low`..`high` [m] the force has another sign than at `high`; `low` if it has none other.
+    /// Where in `low`..`high` \[m\] the force has another sign than at `high`; `low` if it has none other.
     fn sign_change(&self, mut low: f64, mut high: f64, rate: f64) -> f64 {
         let pushes = |d: f64| self.sum_of_forces(d, rate) > 0.0;
         let sign = pushes(high);
@@ -119,14 +119,14 @@ impl<D: Damped + Copy> History<D> {
         high
     }
 
-    /// Normal force with `rate` [m/s], [N]; zero while apart, and where the surface would have to pull.
+    /// Normal force with `rate` \[m/s\], \[N\]; zero while apart, and where the surface would have to pull.
     pub fn force(&self, rate: f64) -> f64 {
         let indentation = self.indentation.total();
         let force = if indentation > 0.0 { self.sum_of_forces(indentation, rate) } else { 0.0 };
         if force > 0.0 { force } else { 0.0 }
     }
 
-    /// dF/d(indentation) with `rate` held [N/m]; zero where there is no force.
+    /// dF/d(indentation) with `rate` held \[N/m\]; zero where there is no force.
     pub fn stiffness(&self, rate: f64) -> f64 {
         if !self.pushes(rate) {
             return 0.0;
@@ -136,12 +136,12 @@ impl<D: Damped + Copy> History<D> {
             + self.damping_force(rate) * self.law.damping(indentation).slope
     }
 
-    /// Indentation [m]; negative while apart.
+    /// Indentation \[m\]; negative while apart.
     pub fn indentation(&self) -> f64 {
         self.indentation.total()
     }
 
-    /// Largest indentation of the present contact, or of the last one [m].
+    /// Largest indentation of the present contact, or of the last one \[m\].
     pub fn max_indentation(&self) -> f64 {
         self.max_indentation
     }
@@ -151,7 +151,7 @@ impl<D: Damped + Copy> History<D> {
         if self.indentation.total() > 0.0 { Regime::Elastic } else { Regime::Apart }
     }
 
-    /// Contact radius of Hertz, `a^2 = R d` [m]; 0 while apart.
+    /// Contact radius of Hertz, `a^2 = R d` \[m\]; 0 while apart.
     pub fn contact_radius(&self, model: &Model<D>) -> f64 {
         let indentation = self.indentation.total();
         if indentation > 0.0 { sqrt(model.pair.radius * indentation) } else { 0.0 }
