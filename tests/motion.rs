@@ -96,7 +96,7 @@ fn a_second_with_many_bounces_is_one_step() {
     let scale = 0.5 * MASS * 0.2 * 0.2;
     let now = energy(&history, &model, 9.81, outcome.speed) - 0.5 * MASS * 0.01 - MASS * 9.81 * 1e-3;
     assert!(now.abs() < 1e-9 * scale, "off by {now:e} J of {scale:e} J");
-    assert!(outcome.evaluations > 3000, "several contacts need some evaluations: {}", outcome.evaluations);
+    assert!(outcome.taken > 0.9 * 9.81, "it hangs on the contact all the time: {outcome:?}");
 }
 
 #[test]
@@ -164,14 +164,44 @@ fn bodies_that_part_fly_on() {
 }
 
 #[test]
-fn a_step_with_more_bounces_than_can_be_followed_is_refused() {
+fn bounces_that_lose_nothing_are_followed_for_as_long_as_their_phase_is_known() {
     let model = model("hertz", "contact-radius");
-    let mut history = History::start(&model, 1e-9).unwrap();
-    let refused = follow(&mut history, &model, &Drive { mass: MASS, acceleration: 1e5 }, 0.0, 1e4);
-    assert_eq!(refused, Err(NoMotion::TooLong));
-    let mut history = History::start(&model, 0.0).unwrap();
-    let deep = follow(&mut history, &model, &Drive { mass: 1e300, acceleration: 0.0 }, 1e10, 1e200);
-    assert!(matches!(deep, Err(NoMotion::TooDeep(_) | NoMotion::TooLong)), "{deep:?}");
+    let acceleration = 1e5;
+    let fall = |step: f64| {
+        let mut history = History::start(&model, 1e-9).unwrap();
+        let drive = Drive { mass: MASS, acceleration };
+        (follow(&mut history, &model, &drive, 0.0, step), history)
+    };
+    // some 1e9 bounces
+    let (followed, history) = fall(1e4);
+    let outcome = followed.expect("nothing is lost");
+    assert!(outcome.evaluations < 2000, "{outcome:?}");
+    let off = energy(&history, &model, acceleration, outcome.speed) - MASS * acceleration * 1e-9;
+    assert!(off.abs() < 1e-12 * MASS * acceleration * outcome.deepest, "off by {off:e} J");
+    assert_close("speed taken", outcome.taken, acceleration * 1e4 - outcome.speed, 1e-9);
+    // some 1e13
+    assert_eq!(fall(1e8).0, Err(NoMotion::TooLong));
+}
+
+#[test]
+fn a_step_with_more_bounces_than_can_be_followed_is_refused() {
+    // bodies that yield a little less each time come ever nearer to a motion that loses nothing
+    for (loading, unloading) in [("brinell", "brinell"), ("thornton", "thornton"), ("vu-quoc-zhang", "vu-quoc-zhang")] {
+        let model = AnyModel { surface: Surface::Fresh, ..model(loading, unloading) };
+        let mut history = History::start(&model, 1e-3).unwrap();
+        let refused = follow(&mut history, &model, &Drive { mass: MASS, acceleration: 9.81 }, 0.0, 1e5);
+        assert_eq!(refused, Err(NoMotion::TooLong), "{loading}");
+    }
+}
+
+#[test]
+fn a_body_that_leaves_the_range_of_the_laws_is_refused() {
+    let model = model("hertz", "contact-radius");
+    for (speed, step) in [(1e10, 1e200), (-1e10, 1e200), (f64::NAN, 1.0), (1.0, f64::INFINITY), (f64::INFINITY, 1.0)] {
+        let mut history = History::start(&model, 0.0).unwrap();
+        let refused = follow(&mut history, &model, &Drive { mass: 1e300, acceleration: 0.0 }, speed, step);
+        assert!(matches!(refused, Err(NoMotion::TooDeep(_))), "{speed} m/s for {step} s: {refused:?}");
+    }
 }
 
 #[test]
@@ -181,7 +211,7 @@ fn an_impact_takes_a_bounded_number_of_evaluations() {
         for speed in [1e-4, 1e-2, 1.0, 50.0] {
             let time = 2.0 * predict(&model, &Impact { mass: MASS, speed }).unwrap().contact_time();
             let outcome = go(&mut History::start(&model, 0.0).unwrap(), &model, 0.0, speed, time);
-            assert!(outcome.evaluations < 8000, "{name} at {speed} m/s: {} evaluations", outcome.evaluations);
+            assert!(outcome.evaluations < 15_000, "{name} at {speed} m/s: {} evaluations", outcome.evaluations);
             most = most.max(outcome.evaluations);
         }
     }

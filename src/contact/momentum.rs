@@ -2,6 +2,7 @@
 
 use super::history::{History, TooDeep};
 use super::loading::Loading;
+use super::numbers::quotient;
 use super::path::Course;
 use super::piece::Piece;
 use super::quadrature::{gauss, graded_integral};
@@ -11,6 +12,9 @@ use libm::fabs;
 
 /// What two ways to integrate a smooth force may differ by, as a fraction of the integral.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Pieces that a law can't have in one direction: none has more than a dozen.
+const MOST_PIECES: u32 = 100;
 
 /// Impulse \[N.s\] of a step on `course` over `step` \[s\] from where the contact is, which stays where it is.
 ///
@@ -27,8 +31,13 @@ pub fn impulse<L: Loading, U: Unloading>(
 ) -> Result<f64, TooDeep> {
     let mut walk = Walk { contact: *history, model, course, origin: history.indentation(), time: 0.0, impulse: 0.0 };
     for end in course.monotone_ends(step) {
+        let mut pieces = 0;
         while walk.time < end {
+            if pieces == MOST_PIECES {
+                return Err(TooDeep { indentation: walk.at(end) });
+            }
             walk.go_on(end)?;
+            pieces += 1;
         }
     }
     Ok(walk.impulse)
@@ -98,7 +107,10 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
         for _ in 0..200 {
             let beyond = self.at(time) - border;
             *(if (beyond < 0.0) == below_at_end { &mut high } else { &mut low }) = time;
-            let newton = time - beyond / self.course.rate_after(time);
+            // no division by a rate at which the step would lead out of the bracket, as where the direction changes
+            let rate = self.course.rate_after(time);
+            let leads = fabs(beyond) < fabs(rate) * (high - low);
+            let newton = time - quotient(beyond, rate, leads, f64::MAX);
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             if next == time || beyond == 0.0 || !(next > low && next < high) {
                 break;

@@ -1,6 +1,10 @@
 //! The indentation over time: its course over a step, and a sum that loses nothing.
 
-use libm::sqrt;
+use super::numbers::{quotient, root};
+use libm::fabs;
+
+/// Numbers above it are not squared.
+const HUGE: f64 = 1e150;
 
 /// A sum of many small increments, carried to twice the precision of `f64`.
 ///
@@ -76,18 +80,23 @@ impl Course {
     /// The ends of the monotone parts of a step \[s\]: where the rate changes its sign inside of it, in order, and the end of the
     /// step for the parts that there aren't.
     pub fn monotone_ends(&self, step: f64) -> [f64; 3] {
-        let inside = |time: f64| if time > 0.0 && time < step { time } else { step };
-        let half = 0.5 * self.slope;
-        let discriminant = half * half - 0.5 * self.bend * self.rate;
+        // the roots don't depend on it, and no square overflows
+        let huge = [self.rate, self.slope, self.bend].iter().any(|number| fabs(*number) > HUGE);
+        let unit = if huge { 1.0 / HUGE } else { 1.0 };
+        let (rate, half, bend) = (unit * self.rate, 0.5 * unit * self.slope, 0.5 * unit * self.bend);
+        let discriminant = half * half - bend * rate;
         // no real root, or one that only touches: the sign doesn't change
-        let negative = discriminant <= 0.0 && self.bend != 0.0;
+        let negative = discriminant <= 0.0 && bend != 0.0;
         if negative || self.is_held() {
             return [step; 3];
         }
-        // the two roots of bend t^2/2 + slope t + rate, in the form that doesn't cancel
-        let q = -(half + if half >= 0.0 { sqrt(discriminant) } else { -sqrt(discriminant) });
-        let one = if self.bend != 0.0 { inside(q / (0.5 * self.bend)) } else { step };
-        let other = if q != 0.0 { inside(self.rate / q) } else { step };
+        // the two roots of bend t^2/2 + slope t + rate, in the form that doesn't cancel; no quotient that isn't inside
+        let q = -(half + if half >= 0.0 { root(discriminant) } else { -root(discriminant) });
+        let inside = |dividend: f64, divisor: f64| {
+            let is_inside = dividend * divisor.signum() > 0.0 && fabs(dividend) < fabs(divisor) * step;
+            quotient(dividend, divisor, is_inside, step)
+        };
+        let (one, other) = (inside(q, bend), inside(rate, q));
         if one < other { [one, other, step] } else { [other, one, step] }
     }
 }

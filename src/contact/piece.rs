@@ -4,7 +4,7 @@ use super::Model;
 use super::history::History;
 use super::loading::Loading;
 use super::segment::Segment;
-use super::unloading::Unloading;
+use super::unloading::{Peak, Unloading};
 
 /// A smooth piece of the law.
 pub struct Piece<'a, L, U> {
@@ -14,10 +14,11 @@ pub struct Piece<'a, L, U> {
     pub lower: f64,
     /// Upper end of the piece \[m\].
     pub upper: f64,
-    /// The largest indentation \[m\], where unloading began.
-    largest: f64,
-    /// The whole piece, if it is one segment.
+    /// The whole piece, if it is one segment; else the segment somewhere on it.
     segment: Segment,
+    is_whole: bool,
+    /// Where unloading began, and the ends of its path, if the path is no segment.
+    unloading: Option<(Peak, Segment)>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -30,53 +31,84 @@ enum Kind {
 impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     /// The piece on which a contact goes on that is `rising`, or else falling.
     pub fn of(history: &History, model: &'a Model<L, U>, rising: bool) -> Piece<'a, L, U> {
-        let indentation = history.indentation();
-        let largest = history.max_indentation();
+        Piece::at(model, history.indentation(), history.max_indentation(), rising)
+    }
+
+    /// The same for a contact at `indentation` that never was deeper than `largest` \[m\].
+    pub fn at(model: &'a Model<L, U>, indentation: f64, largest: f64, rising: bool) -> Piece<'a, L, U> {
         let yields_at = model.loading.yield_point(&model.pair).indentation;
         if largest <= yields_at && !(rising && indentation >= yields_at) {
             let segment = model.loading.segment(&model.pair, 0.0);
-            Piece { model, kind: Kind::Elastic, lower: 0.0, upper: segment.upper, largest, segment }
-        } else if rising && indentation >= largest {
+            let (kind, upper) = (Kind::Elastic, segment.upper);
+            return Piece { model, kind, lower: 0.0, upper, segment, is_whole: true, unloading: None };
+        }
+        if rising && indentation >= largest {
             let upper = model.loading.next_corner(&model.pair, indentation);
             let segment = model.loading.segment(&model.pair, indentation);
-            Piece { model, kind: Kind::Loading, lower: indentation, upper, largest, segment }
-        } else {
-            let path = model.unloading_path(largest);
-            Piece { model, kind: Kind::Unloading, lower: path.lower, upper: largest, largest, segment: path }
+            let is_whole = segment.upper >= upper;
+            return Piece { model, kind: Kind::Loading, lower: indentation, upper, segment, is_whole, unloading: None };
         }
+        Piece::below(model, largest)
+    }
+
+    /// The way back from `largest` \[m\], beyond yield.
+    fn below(model: &'a Model<L, U>, largest: f64) -> Piece<'a, L, U> {
+        let peak = model.peak(largest);
+        let path = model.unloading.path(&model.pair, &peak);
+        let middle = 0.5 * (path.lower + largest);
+        let segment = if U::SEGMENTED { path } else { model.unloading.tangent(&model.pair, &peak, &path, middle) };
+        // a path that is no segment has a tangent for every point
+        let is_whole = U::SEGMENTED || segment.upper >= largest;
+        let unloading = (!is_whole).then_some((peak, path));
+        Piece { model, kind: Kind::Unloading, lower: path.lower, upper: largest, segment, is_whole, unloading }
     }
 
     /// The segment to take at `indentation` \[m\]. A law without segments is asked at every point.
-    fn at(&self, indentation: f64) -> Segment {
+    fn segment_at(&self, indentation: f64) -> Segment {
         let pair = &self.model.pair;
-        match self.kind {
-            Kind::Loading if self.segment.upper < self.upper => self.model.loading.segment(pair, indentation),
-            Kind::Unloading if !U::SEGMENTED => self.model.unloading_segment(self.largest, indentation),
-            _ => self.segment,
+        match self.unloading {
+            _ if self.is_whole => self.segment,
+            Some((peak, path)) => self.model.unloading.tangent(pair, &peak, &path, indentation),
+            None => self.model.loading.segment(pair, indentation),
         }
+    }
+
+    /// Whether there is a force at `indentation` \[m\]: above the surface, and anywhere on the loading curve.
+    fn presses_at(&self, indentation: f64) -> bool {
+        indentation > self.lower || self.kind == Kind::Loading
     }
 
     /// \[N\]; zero below the surface.
     pub fn force(&self, indentation: f64) -> f64 {
-        if indentation > self.lower || self.kind == Kind::Loading {
-            self.at(indentation).force(indentation)
-        } else {
-            0.0
-        }
+        if self.presses_at(indentation) { self.segment_at(indentation).force(indentation) } else { 0.0 }
     }
 
     /// The segment that the whole piece is, if it is one.
     pub fn whole(&self) -> Option<&Segment> {
-        let pieces = match self.kind {
-            Kind::Elastic => false,
-            Kind::Loading => self.segment.upper < self.upper,
-            Kind::Unloading => !U::SEGMENTED,
-        };
-        (!pieces).then_some(&self.segment)
+        self.is_whole.then_some(&self.segment)
     }
 
     /// \[N/m\]
     pub fn stiffness(&self, indentation: f64) -> f64 {
-        if indentation > self.lower { self.at(indentation).stiffness(indentation) } else { 0.0 }
+        if self.presses_at(indentation) { self.segment_at(indentation).stiffness(indentation) } else { 0.0 }
+    }
+
+    /// The tangent at `indentation` \[m\], written from the origin of the piece.
+    pub fn tangent(&self, indentation: f64) -> Segment {
+        Segment { origin: self.origin(), linear: self.stiffness(indentation), ..Segment::NOTHING }
+    }
+
+    /// The indentation from which the force may grow as a fractional power \[m\]; never above the piece.
+    pub fn origin(&self) -> f64 {
+        match self.kind {
+            _ if self.is_whole => self.segment.origin,
+            Kind::Unloading => self.lower,
+            _ => 0.0,
+        }
+    }
+
+    /// Whether the piece is a part of the loading curve beyond yield, where the way back is another.
+    pub fn is_loading(&self) -> bool {
+        self.kind == Kind::Loading
     }
 }

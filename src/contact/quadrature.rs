@@ -1,6 +1,6 @@
 //! Integrals of smooth functions with a fractional power at an end.
 
-use libm::{exp, log};
+use libm::{exp, fabs, log};
 
 /// Integral over `[low, high]` with panels that shrink towards both ends, where a fractional power may begin. The sign of
 /// the interval counts as usual.
@@ -37,6 +37,84 @@ pub fn gauss(from: f64, to: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
         sum += weight * (integrand(centre - half * node) + integrand(centre + half * node));
     }
     sum * half
+}
+
+/// Points of the larger rule, and coefficients of the polynomial through them.
+pub const POINTS: usize = 16;
+
+/// Nodes and weights of the Gauss-Legendre rule with sixteen points, and the weights of the coefficients of `P_14` and `P_15`: half
+/// of them, by symmetry.
+///
+/// Reference: Abramowitz and Stegun, as for [`gauss`]; a coefficient is `(k + 1/2)` times the rule's sum of `P_k f`.
+const RULE: [(f64, f64, f64, f64); POINTS / 2] = [
+    (0.095_012_509_837_637_44, 0.189_450_610_455_068_5, -0.109_041_815_957_682_07, -0.593_615_928_942_801_8),
+    (0.281_603_550_779_258_9, 0.182_603_415_044_923_58, 0.305_833_437_439_604, 0.561_746_144_829_279_1),
+    (0.458_016_777_657_227_37, 0.169_156_519_395_002_54, -0.443_540_612_107_892_1, -0.500_893_349_715_964_4),
+    (0.617_876_244_402_643_8, 0.149_595_988_816_576_74, 0.497_702_236_751_718_26, 0.416_640_377_025_961_35),
+    (0.755_404_408_355_003, 0.124_628_971_255_533_88, -0.462_844_787_664_526_36, -0.316_919_617_797_220_83),
+    (0.865_631_202_387_831_8, 0.095_158_511_682_492_79, 0.354_121_494_955_794_7, 0.211_598_530_631_884_44),
+    (0.944_575_023_073_232_6, 0.062_253_523_938_647_894, -0.204_935_403_870_139_92, -0.112_220_912_450_588_4),
+    (0.989_400_934_991_649_9, 0.027_152_459_411_754_096, 0.062_705_450_453_123_47, 0.032_781_303_963_861_74),
+];
+
+/// What a rule finds of an integral, and of the integrand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampled {
+    /// The integral.
+    pub integral: f64,
+    /// The size of the last two Legendre coefficients of the integrand: about what a polynomial through its samples misses.
+    ///
+    /// If the coefficients fall like a geometric series, the integral is better by far: its relative error is about a
+    /// thousandth of the square of this, taken relative to the mean.
+    pub tail: f64,
+}
+
+/// The largest tail, as a part of the mean of the integrand, of an integral that is right to rounding.
+pub const SMOOTH: f64 = 2e-6;
+
+/// Integral over `[from, to]` by sixteen points of Gauss's rule, which says how smooth the integrand is for it.
+pub fn sixteen(from: f64, to: f64, integrand: impl Fn(f64) -> f64) -> Sampled {
+    let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let (mut sum, mut even, mut odd) = (0.0, 0.0, 0.0);
+    for (node, weight, even_weight, odd_weight) in RULE {
+        let (below, above) = (integrand(centre - half * node), integrand(centre + half * node));
+        sum += weight * (below + above);
+        even += even_weight * (below + above);
+        odd += odd_weight * (above - below);
+    }
+    Sampled { integral: sum * half, tail: fabs(even) + fabs(odd) }
+}
+
+/// The coefficients of `1, t, t^2, ...` of the polynomial that is `function` at sixteen points of `[0, 1]`, and the size of
+/// its last two Legendre coefficients: about what it misses between them.
+///
+/// The powers lose digits where the Legendre coefficients don't fall faster than `5.8^-k`, and so only where much is missed.
+pub fn powers(function: impl Fn(f64) -> f64) -> ([f64; POINTS], f64) {
+    let mut legendre = [0.0; POINTS];
+    for (node, weight, ..) in RULE {
+        for node in [-node, node] {
+            let sample = weight * function(0.5 + 0.5 * node);
+            let (mut before, mut polynomial) = (0.0, 1.0);
+            for (k, slot) in legendre.iter_mut().enumerate() {
+                let k = k as f64;
+                *slot += (k + 0.5) * sample * polynomial;
+                (before, polynomial) = (polynomial, ((2.0 * k + 1.0) * node * polynomial - k * before) / (k + 1.0));
+            }
+        }
+    }
+    let (mut powers, mut sign) = ([0.0; POINTS], 1.0);
+    for (k, coefficient) in legendre.into_iter().enumerate() {
+        // P_k(2 t - 1) is the sum of (-1)^(k + j) (k over j) (k + j over j) t^j
+        let (k, mut term) = (k as f64, sign * coefficient);
+        sign = -sign;
+        for (j, slot) in powers.iter_mut().enumerate() {
+            let j = j as f64;
+            *slot += term;
+            term *= -(k - j) * (k + j + 1.0) / ((j + 1.0) * (j + 1.0));
+        }
+    }
+    let tail = legendre.iter().skip(POINTS - 2).map(|coefficient| fabs(*coefficient)).sum();
+    (powers, tail)
 }
 
 /// Integral of a function of the powers of `y` over `[low, high]`, `0 < low`: in `u = ln y` powers are entire functions, and

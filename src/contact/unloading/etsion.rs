@@ -3,6 +3,7 @@
 use super::{Peak, Unloading, hertzian};
 use crate::contact::loading::KogutEtsion;
 use crate::contact::material::Pair;
+use crate::contact::numbers::quotient;
 use crate::contact::segment::Segment;
 use libm::{pow, sqrt};
 
@@ -68,7 +69,7 @@ impl Unloading for Etsion {
     fn tangent(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> Segment {
         let (n, part) = (self.exponent(pair, peak), part(path, indentation));
         let force = peak.force * pow(part, n);
-        let stiffness = if part > 0.0 { n * (force / part) / (path.upper - path.lower) } else { 0.0 };
+        let stiffness = n * quotient(force, part, part > 0.0, 0.0) / (path.upper - path.lower);
         Segment::tangent(indentation, force, stiffness)
     }
 

@@ -1,0 +1,117 @@
+//! Where the bodies turn: the root of their kinetic energy.
+
+use super::field::{Field, Mark, Place, SEGMENT, elastic};
+use crate::contact::numbers::{largest, quotient, smallest};
+use libm::{fabs, sqrt};
+
+/// How a stretch ends, so many roots from where it was looked at.
+#[derive(Clone, Copy, Debug)]
+pub enum End {
+    /// The bodies turn: there is no energy at this mark.
+    Turns(f64, Mark),
+    /// They pass this mark, the last one that was asked for.
+    Passes(f64, Mark),
+}
+
+/// Steps in search of a turning point: Newton's method takes some five, halving instead some fifty.
+const STEPS: u32 = 100;
+
+/// Newton's step, relative to the way, after which another would change nothing.
+const CONVERGED: f64 = 1e-8;
+
+/// The least coefficient of a power that is looked at [1/(m^0.5 s^2)]: nothing is divided by less.
+const WEAKEST: f64 = 1e-100;
+
+/// A stretch on which bodies get faster from one end to the other by less than this isn't begun at a turning point [times the energy].
+const SLOW: f64 = 0.25;
+
+/// `value^(numerator/denominator)` of a positive number, within a tenth: the bits of a number are nearly its logarithm.
+fn rough_power(value: f64, numerator: i64, denominator: i64) -> f64 {
+    let one = 1f64.to_bits() as i64;
+    f64::from_bits((one + (value.to_bits() as i64 - one) / denominator * numerator) as u64)
+}
+
+/// How the stretch ends that goes from `place` over `limit` \[m\], negative upwards.
+///
+/// The root is found in `t`, in which the energy is a polynomial; it is concave where the force grows with the indentation.
+pub fn end<const N: usize>(field: &Field, place: &Place<N>, limit: f64) -> End {
+    let sign = if limit > 0.0 { 1.0 } else { -1.0 };
+    let whole = field.roots(place, limit);
+    let guess = field.roots(place, sign * smallest(guess(field, place, sign), fabs(limit)));
+    let (mut near, mut far, mut turns, mut t) = (0.0, whole, false, guess);
+    for _ in 0..STEPS {
+        let mark = field.mark(place, t);
+        if mark.energy > 0.0 {
+            if t == far && !turns {
+                return End::Passes(t, mark);
+            }
+            near = t;
+        } else {
+            (far, turns) = (t, true);
+        }
+        // Newton's step, where it leads anywhere
+        let slope = field.slope(place, t, mark.net);
+        let leads = fabs(mark.energy) < fabs(slope * whole);
+        let step = quotient(-mark.energy, slope, leads, f64::MAX);
+        let next = t + step;
+        let inside = (next > near && next < far) || (next < near && next > far);
+        let downhill = slope * sign < 0.0;
+        if downhill && fabs(step) <= CONVERGED * fabs(t) {
+            t = next;
+            break;
+        }
+        let instead = if turns { 0.5 * (near + far) } else { far };
+        t = if downhill && inside { next } else { instead };
+    }
+    End::Turns(t, Mark { energy: 0.0, ..field.mark(place, t) })
+}
+
+/// About how far the bodies come from `place` before they turn \[m\]: where the force stiffens they come no farther.
+fn guess<const N: usize>(field: &Field, place: &Place<N>, sign: f64) -> f64 {
+    let (pull, energy, stiffness) = (sign * field.scaled(place.mark.net), place.mark.energy, field.stiffness(place));
+    let elastic = field.unscaled(elastic(pull, energy, stiffness));
+    let power = if N == SEGMENT && sign > 0.0 { place.series.power() } else { 0.0 };
+    let root = place.series.root();
+    let begins = power > 0.0 && root * root < elastic;
+    if !begins {
+        return elastic;
+    }
+    // energy + 2 pull d = 4/5 power d^2.5 where a power begins, with one of the two at a time
+    let power = 0.8 * largest(power, WEAKEST) * sqrt(field.unscaled(1.0));
+    let (thrown, pulled) = (rough_power(energy / power, 2, 5), rough_power(4.0 * largest(pull, 0.0) / power, 2, 3));
+    smallest(elastic, field.unscaled(if pull > 0.0 { largest(1.4 * thrown, pulled) } else { thrown }))
+}
+
+/// Where behind `slow`, seen from its end `far` roots away with `energy`, the bodies would have turned that pass it, by the powers
+/// that hold between the two: so many roots from it, if that isn't far away.
+///
+/// Time is a root there, and not smooth near by.
+pub fn behind<const N: usize>(field: &Field, slow: &Place<N>, far: f64, energy: f64) -> Option<(f64, Place<N>)> {
+    if slow.mark.energy == 0.0 {
+        return Some((0.0, *slow));
+    }
+    let sign = if far > 0.0 { 1.0 } else { -1.0 };
+    let pull = sign * field.scaled(slow.mark.net);
+    if !(slow.mark.energy < SLOW * energy && pull > 0.0) {
+        return None;
+    }
+    // it isn't farther than with the force that there is at the slow mark; and not beyond the origin
+    let limit = -sign * field.unscaled(0.51 * slow.mark.energy / pull);
+    let root = slow.series.root();
+    match end(field, slow, largest(limit, -root * root)) {
+        End::Turns(t, mark) => Some((t, field.around(slow, t, mark))),
+        End::Passes(..) => None,
+    }
+}
+
+/// About where the bodies are fastest on the way over `t` from `place` to the mark `last`, if they are slow at both ends.
+pub fn fastest<const N: usize>(field: &Field, place: &Place<N>, t: f64, last: &Mark) -> Option<(f64, Mark)> {
+    let sign = if t > 0.0 { 1.0 } else { -1.0 };
+    let (pulled, held) = (sign * place.mark.net, -sign * last.net);
+    if !(pulled > 0.0 && held > 0.0) {
+        return None;
+    }
+    let middle = t * (pulled / (pulled + held));
+    let mark = field.mark(place, middle);
+    (SLOW * mark.energy > largest(place.mark.energy, last.energy)).then_some((middle, mark))
+}

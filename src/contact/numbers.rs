@@ -1,0 +1,34 @@
+//! Arithmetic that raises no floating-point exception but inexact and underflow: a host may trap the others.
+//!
+//! A compiler that looks for the smallest code computes both sides of a choice between two numbers. So a division or a root that
+//! must not be made is not left out: it is made of something else, behind the compiler's back.
+
+use core::hint::black_box;
+use libm::sqrt;
+
+/// The larger of two numbers; the second one if the first is none.
+pub(crate) fn largest(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
+}
+
+/// The smaller of two numbers; the second one if the first is none.
+pub(crate) fn smallest(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
+/// The root of a number; zero of a negative one.
+pub(crate) fn root(square: f64) -> f64 {
+    sqrt(black_box(largest(square, 0.0)))
+}
+
+/// `dividend/divisor` if it `exists`, otherwise `instead`.
+pub(crate) fn quotient(dividend: f64, divisor: f64, exists: bool, instead: f64) -> f64 {
+    let quotient = dividend / black_box(if exists { divisor } else { 1.0 });
+    if exists { quotient } else { instead }
+}
+
+/// The largest power of two that is not above `value` >= 0; for the smallest numbers the smallest that has all its digits.
+pub(crate) fn power_of_two(value: f64) -> f64 {
+    let power = f64::from_bits(value.to_bits() & f64::INFINITY.to_bits());
+    if power > 0.0 { power } else { f64::MIN_POSITIVE }
+}

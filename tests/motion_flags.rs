@@ -1,0 +1,115 @@
+//! No step that succeeds raises a floating-point exception but inexact and underflow: a host may trap the others.
+#![cfg(target_arch = "x86_64")]
+
+#[path = "support/physics.rs"]
+mod physics;
+
+use brinell::contact::momentum::impulse;
+use brinell::contact::motion::{Drive, follow};
+use brinell::contact::path::Course;
+use brinell::contact::{Contact, History, Surface};
+use physics::{AnyModel, Random, all_models, pair_of};
+use std::arch::asm;
+
+/// Invalid operation, division by zero and overflow, as bits of the control and status register.
+const TRAPPED: u32 = 0b1101;
+
+/// The result of `step`, and the exceptions of [`TRAPPED`] that it has raised.
+fn raised<T>(step: impl FnOnce() -> T) -> (T, u32) {
+    let (mut before, mut after) = (0u32, 0u32);
+    // SAFETY: the register is stored, and loaded with what was in it but for the flags of exceptions
+    unsafe {
+        asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
+        let cleared = before & !0b11_1111;
+        asm!("ldmxcsr [{}]", in(reg) &raw const cleared, options(nostack));
+    }
+    // so that nothing of it is computed before
+    let step = std::hint::black_box(step);
+    let result = std::hint::black_box(step());
+    // SAFETY: as above
+    unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut after, options(nostack)) };
+    (result, after & TRAPPED)
+}
+
+/// A number from `low` to `high`, each decade as often, of either sign; or nothing, or the smallest number that there is.
+fn signed(random: &mut Random, low: f64, high: f64) -> f64 {
+    let number = (low.ln() + (high.ln() - low.ln()) * random.next()).exp();
+    let sign = if random.next() < 0.5 { 1.0 } else { -1.0 };
+    match random.next() {
+        0.0..0.2 => 0.0,
+        0.2..0.25 => sign * f64::from_bits(1),
+        _ => sign * number,
+    }
+}
+
+/// A contact of any two laws on any surface, anywhere.
+fn contact(random: &mut Random, models: &[(String, AnyModel)]) -> Option<(String, AnyModel, History)> {
+    let (name, model) = &models[(random.next() * models.len() as f64) as usize];
+    let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
+    let model = AnyModel { surface, ..*model };
+    let mut history = History::start(&model, signed(random, 1e-20, 1e-4)).ok()?;
+    history.advance(&model, -random.next() * history.indentation()).ok()?;
+    Some((format!("{name} on a {surface:?} surface"), model, history))
+}
+
+#[test]
+fn the_flags_are_seen() {
+    let zero = std::hint::black_box(0.0);
+    assert_eq!(raised(|| 1.0 / zero).1, 0b100);
+    assert_eq!(raised(|| zero / zero).1, 0b1);
+    assert_eq!(raised(|| std::hint::black_box(f64::MAX) * 2.0).1, 0b1000);
+    assert_eq!(raised(|| std::hint::black_box(1e-200) * 1e-200 + 0.1).1, 0);
+}
+
+#[test]
+fn no_motion_raises_an_exception() {
+    let models = all_models(pair_of(0.005, 2e11, 3e8));
+    let mut random = Random(3);
+    for _ in 0..1_500_000 {
+        let Some((name, model, mut history)) = contact(&mut random, &models) else { continue };
+        let mass = signed(&mut random, 1e-9, 1e3).abs().max(1e-9);
+        let acceleration = match random.next() {
+            0.0..0.2 => history.force() / mass,
+            0.2..0.5 => signed(&mut random, 1e-30, 1e30),
+            _ => signed(&mut random, 1e-3, 1e3),
+        };
+        let drive = Drive { mass, acceleration };
+        let mut speed = signed(&mut random, 1e-160, 1e3);
+        for _ in 0..2 {
+            let step = signed(&mut random, 1e-18, 1e3).abs().max(1e-18);
+            let before = history;
+            let (result, flags) = raised(|| follow(&mut history, &model, &drive, speed, step));
+            let Ok(outcome) = result else { break };
+            let from = (before.indentation(), before.max_indentation());
+            assert_eq!(flags, 0, "{name}, {drive:?}, {speed:e} m/s for {step:e} s from {from:?}: {outcome:?}");
+            speed = outcome.speed;
+        }
+    }
+}
+
+#[test]
+fn no_step_along_a_course_raises_an_exception() {
+    let models = all_models(pair_of(0.005, 2e11, 3e8));
+    let mut random = Random(4);
+    for _ in 0..1_500_000 {
+        let Some((name, model, mut history)) = contact(&mut random, &models) else { continue };
+        let step = signed(&mut random, 1e-18, 1e3).abs().max(1e-18);
+        let size = signed(&mut random, 1e-30, 1e-4).abs();
+        let mut derivative = |order: i32| {
+            let number =
+                if random.next() < 0.3 { signed(&mut random, 1e-300, 1e-4) } else { size * (random.next() - 0.5) };
+            number / step.powi(order)
+        };
+        let course = Course { rate: derivative(1), slope: derivative(2), bend: derivative(3) };
+        let (result, flags) = raised(|| impulse(&history, &model, &course, step));
+        let what = format!("{name}, {course:?} for {step:e} s from {} m", history.indentation());
+        if result.is_ok() {
+            assert_eq!(flags, 0, "impulse by {what}");
+        }
+        let before = history;
+        let (result, flags) = raised(|| history.step(&model, &course, step));
+        if result.is_ok() {
+            assert_eq!(flags, 0, "step by {what} ({} m)", before.max_indentation());
+        }
+    }
+}
