@@ -247,7 +247,8 @@ fn the_sanitizer_and_debug_assertions_are_on_where_they_are_said_to_be() {
         println!("skipped: not run with SANITIZER=address");
         return;
     }
-    assert!(cfg!(debug_assertions), "debug assertions are off");
+    let asserts = cfg!(debug_assertions);
+    assert!(asserts, "debug assertions are off");
     let program = std::env::current_exe().unwrap();
     let output =
         std::process::Command::new(program).args(["--ignored", "--exact", "a_read_beyond_an_array"]).output().unwrap();

@@ -3,10 +3,9 @@
 #[path = "support/physics.rs"]
 mod physics;
 
-use brinell::contact::loading::AnyLoading;
 use brinell::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follow};
 use brinell::contact::{History, Surface};
-use physics::{AnyModel, Random, all_models, has_jumps, pair_of};
+use physics::{AnyModel, Random, all_models, pair_of};
 
 /// A number from `low` to `high`, each decade as often.
 fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {

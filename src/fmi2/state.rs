@@ -133,7 +133,7 @@ impl<S: Scene> Snapshot<S> {
             return bad("it is of another unit or version");
         }
         let summed = words.iter().take(Self::CHECKSUM_AT);
-        let sum = summed.fold(CHECKSUM_START, |sum, word| checksum(sum, word));
+        let sum = summed.fold(CHECKSUM_START, checksum);
         if sum != word(words, Self::CHECKSUM_AT) {
             return bad("its checksum is wrong, it is damaged");
         }

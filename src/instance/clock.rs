@@ -114,8 +114,8 @@ impl Clock {
     /// [`Fault::Experiment`] for a start beyond [`LATEST`], a stop that is not finite or before the start.
     pub fn set_experiment(&mut self, start: f64, stop: Option<f64>) -> Result<(), Fault> {
         let stop_is_fine = stop.is_none_or(|stop| stop.is_finite() && stop >= start);
-        // written positively, so that a NaN fails
-        let start_is_fine = start >= -LATEST && start <= LATEST;
+        // a NaN is in no range
+        let start_is_fine = (-LATEST..=LATEST).contains(&start);
         if !start_is_fine || !stop_is_fine {
             return Err(Fault::Experiment { start, stop: stop.unwrap_or(f64::MAX) });
         }
@@ -152,8 +152,8 @@ impl Clock {
 
     /// The clock with these times and flags; `None` if a time isn't in range.
     pub fn of(time: f64, stop: f64, phase: Phase, experiment_defined: bool) -> Option<Clock> {
-        // written positively, so that a NaN fails
-        let in_range = time >= -LATEST && time <= LATEST && stop.is_finite();
+        // a NaN is in no range
+        let in_range = (-LATEST..=LATEST).contains(&time) && stop.is_finite();
         let mut clock = Clock { time, stop, limit: NOWHERE, lowest_rate: NO_RATE, phase, experiment_defined };
         clock.release();
         in_range.then_some(clock)

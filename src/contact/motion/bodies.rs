@@ -286,7 +286,9 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         // squared it would be lost beside the others
         let speed = if fabs(speed) > NOTHING * fabs(net) * left { speed } else { 0.0 };
         let bound = if rising { piece.upper - indentation } else { indentation - piece.lower };
-        if !(bound > 0.0) || (speed == 0.0 && !(pull > 0.0)) {
+        // written positively, so that a NaN ends it
+        let (has_room, goes_on) = (bound > 0.0, speed != 0.0 || pull > 0.0);
+        if !has_room || !goes_on {
             return Ok(Progress { indentation, speed: 0.0, time: 0.0, turned: true });
         }
         if bound < SMALLEST {
