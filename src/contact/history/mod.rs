@@ -203,7 +203,7 @@ impl History {
                 *self = before;
                 return Err(TooDeep { indentation });
             }
-        } else if !(has_yielded && largest > 0.0) && model.is_elastic_at(largest) {
+        } else if !model.loading.can_yield() || !(has_yielded && largest > 0.0) && model.is_elastic_at(largest) {
             if indentation > 0.0 {
                 self.regime = Regime::Elastic;
                 self.segment = Segment { lower: TOUCHING, upper: largest, ..model.loading.segment(&model.pair, 0.0) };
