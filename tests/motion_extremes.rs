@@ -76,8 +76,8 @@ fn energy(step: &Step, history: &History, speed: f64) -> (f64, f64) {
 fn a_step_of_any_size_ends_in_numbers_and_keeps_the_energy() {
     let models = all_models(pair_of(0.005, 2e11, 1e9));
     let mut random = Random(5);
-    let (mut steps, mut refused, mut worst) = (0, 0, 0.0f64);
-    while steps < 200_000 {
+    let (mut steps, mut refused) = (0, 0);
+    while steps < 20_000 {
         let Some((mut step, mut history)) = draw(&mut random, &models) else { continue };
         for _ in 0..3 {
             let before = history;
@@ -92,26 +92,20 @@ fn a_step_of_any_size_ends_in_numbers_and_keeps_the_energy() {
                 }
                 Err(NoMotion::TooDeep(_)) => panic!("{what}"),
             };
-            let finite = [outcome.speed, outcome.taken, outcome.deepest, history.indentation(), history.force()];
-            assert!(finite.iter().all(|number| number.is_finite()), "{what}");
-            assert!(outcome.evaluations <= MOST_EVALUATIONS + 10_000, "{what}");
+            let numbers = [outcome.speed, outcome.taken, outcome.deepest, history.indentation(), history.force()];
+            assert!(numbers.iter().all(|number| number.is_finite()), "{what}");
             assert!(outcome.taken >= 0.0 && outcome.deepest >= history.max_indentation(), "{what}");
+            assert!(outcome.evaluations <= MOST_EVALUATIONS, "{what}");
             let (was, size) = energy(&step, &before, step.speed);
-            let (is, larger) = energy(&step, &history, outcome.speed);
+            let (is, other) = energy(&step, &history, outcome.speed);
             let fallen = step.drive.mass * step.drive.acceleration.abs() * outcome.deepest;
-            let size = size.max(larger).max(fallen);
-            let off = (is - was).abs() / size;
-            // beyond, some integrals of the work are no better than that themselves
-            let known = outcome.deepest < step.model.pair.radius && size > 1e-280;
-            if known && off > 1e-11 {
-                println!("{off:e} {what}");
-            }
-            if known {
-                worst = worst.max(off);
+            let size = size.max(other).max(fallen);
+            // deeper than that some laws know their own work no better, and smaller numbers have fewer digits
+            if outcome.deepest < step.model.pair.radius && size > 1e-280 {
+                assert!((is - was).abs() < 1e-11 * size, "off by {:e} of {size:e} J: {what}", is - was);
             }
             step.speed = outcome.speed;
         }
     }
-    println!("{refused} of {steps} steps refused, energy off by {worst:e} at most");
-    assert!(refused < steps / 100);
+    assert!(refused < steps / 500, "{refused} of {steps} steps refused");
 }

@@ -65,7 +65,7 @@ fn the_flags_are_seen() {
 fn no_motion_raises_an_exception() {
     let models = all_models(pair_of(0.005, 2e11, 3e8));
     let mut random = Random(3);
-    for _ in 0..1_500_000 {
+    for _ in 0..30_000 {
         let Some((name, model, mut history)) = contact(&mut random, &models) else { continue };
         let mass = signed(&mut random, 1e-9, 1e3).abs().max(1e-9);
         let acceleration = match random.next() {
@@ -91,7 +91,7 @@ fn no_motion_raises_an_exception() {
 fn no_step_along_a_course_raises_an_exception() {
     let models = all_models(pair_of(0.005, 2e11, 3e8));
     let mut random = Random(4);
-    for _ in 0..1_500_000 {
+    for _ in 0..30_000 {
         let Some((name, model, mut history)) = contact(&mut random, &models) else { continue };
         let step = signed(&mut random, 1e-18, 1e3).abs().max(1e-18);
         let size = signed(&mut random, 1e-30, 1e-4).abs();

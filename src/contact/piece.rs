@@ -28,6 +28,13 @@ enum Kind {
     Unloading,
 }
 
+impl<L, U> Clone for Piece<'_, L, U> {
+    fn clone(&self) -> Self {
+        let Piece { model, kind, lower, upper, segment, is_whole, unloading } = *self;
+        Piece { model, kind, lower, upper, segment, is_whole, unloading }
+    }
+}
+
 impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     /// The piece on which a contact goes on that is `rising`, or else falling.
     pub fn of(history: &History, model: &'a Model<L, U>, rising: bool) -> Piece<'a, L, U> {

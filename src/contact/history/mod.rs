@@ -130,7 +130,7 @@ impl History {
 
     /// Moves the contact by `increment` \[m\] if that leaves it on its branch; otherwise nothing is done, and false.
     #[inline(always)]
-    fn advance_on_branch(&mut self, increment: f64) -> bool {
+    pub(super) fn advance_on_branch(&mut self, increment: f64) -> bool {
         let sum = self.indentation.plus(increment);
         let indentation = sum.total();
         // a NaN is not above the lower end; each comparison has its second number in memory

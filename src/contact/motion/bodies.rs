@@ -1,12 +1,12 @@
 //! The bodies on their way through a step, from event to event: touch, corner of the law, turning point, separation.
 
-use super::field::{Field, Forces, Start};
+use super::field::Start;
 use super::flight::Flight;
-use super::travel::{Passage, pass};
-use super::{COSTLY, Drive, MOST_EVALUATIONS, MOST_PERIODS, NoMotion, Outcome, SMALLEST};
+use super::stretch::{Ended, Stretch};
+use super::{COSTLY, Drive, MOST_EVALUATIONS, MOST_PERIODS, NoMotion, Outcome};
 use crate::contact::history::{History, TooDeep};
 use crate::contact::loading::Loading;
-use crate::contact::numbers::{largest, smallest};
+use crate::contact::numbers::{largest, quotient, smallest};
 use crate::contact::piece::Piece;
 use crate::contact::unloading::Unloading;
 use crate::contact::{Model, Surface};
@@ -18,14 +18,16 @@ pub struct Bodies<'a, L, U> {
     history: &'a mut History,
     model: &'a Model<L, U>,
     drive: &'a Drive,
+    /// \[1/kg\]
+    inverse_mass: f64,
     /// Where they are \[m\].
     indentation: f64,
     /// Closing speed \[m/s\].
     speed: f64,
     /// The largest indentation of the dent \[m\].
     largest: f64,
-    /// Where the surface of that dent is met \[m\], if that has been asked.
-    surface: Option<f64>,
+    /// The way back from there, down to the surface of the dent, if that has been asked.
+    back: Option<Piece<'a, L, U>>,
     /// Direction of the last motion.
     rising: bool,
     /// Whether they turned at the last event.
@@ -38,6 +40,8 @@ pub struct Bodies<'a, L, U> {
     deepest: f64,
     /// The last time that they turned in the contact.
     turn: Option<Turn>,
+    /// The way of a step that is one stretch within a piece \[m\].
+    only: Option<f64>,
     events: u32,
     evaluations: Cell<u32>,
 }
@@ -56,29 +60,11 @@ struct Turn {
 /// What a dent may grow by rounding, as a part of the indentation.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// A way, as a part of the indentation, on which a law without segments is as its tangent: what that misses of the change of force
-/// is what the rounding of the force makes of it.
-const SHORT: f64 = 1e-8;
-
-/// A speed that is none, as a part of what the forces make in the time left.
-const NOTHING: f64 = 1e-100;
-
 /// Evaluations that it takes to find a piece of a law that has segments.
 const PIECE: u32 = 10;
 
 /// Events after which a step is given up, as after [`MOST_EVALUATIONS`]: bodies in flight take none.
 const MOST_EVENTS: u32 = MOST_EVALUATIONS / PIECE;
-
-/// What a stretch has come to.
-struct Progress {
-    /// \[m\]
-    indentation: f64,
-    /// \[m/s\]
-    speed: f64,
-    /// \[s\]
-    time: f64,
-    turned: bool,
-}
 
 impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
     /// The bodies at the start of a step.
@@ -100,16 +86,18 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
             history,
             model,
             drive,
+            inverse_mass: 1.0 / drive.mass,
             indentation,
             speed,
             largest,
-            surface: None,
+            back: None,
             rising: speed > 0.0,
             turned: false,
             taken: 0.0,
             left: step,
             deepest: 0.0,
             turn: None,
+            only: None,
             events: 0,
             evaluations: Cell::new(0),
         })
@@ -139,8 +127,12 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
     /// # Errors
     /// [`TooDeep`].
     pub fn stop(mut self) -> Result<Outcome, NoMotion> {
-        self.settle()?;
-        let deepest = largest(self.deepest, self.largest);
+        // a way on one branch may be shorter than the last digit of the indentation
+        let stays = self.only.is_some_and(|way| self.history.advance_on_branch(way));
+        if !stays {
+            self.settle()?;
+        }
+        let deepest = largest(self.deepest, self.history.max_indentation());
         // the contact only pushes: less than nothing is rounding
         let taken = largest(self.taken, 0.0);
         Ok(Outcome { speed: self.speed, taken, evaluations: self.evaluations.get(), deepest })
@@ -154,12 +146,22 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         self.history.go_to(self.model, self.indentation, self.rising)
     }
 
+    /// The way back from the largest indentation, and to there again.
+    fn back(&mut self) -> &Piece<'a, L, U> {
+        let (model, largest) = (self.model, self.largest);
+        self.back.get_or_insert_with(|| Piece::at(model, largest, largest, false))
+    }
+
+    /// The piece on which the bodies go on.
+    fn piece(&mut self, rising: bool) -> Piece<'a, L, U> {
+        let Bodies { indentation, largest, model, .. } = *self;
+        let on_loading = rising && indentation >= largest;
+        if on_loading { Piece::at(model, indentation, largest, true) } else { self.back().clone() }
+    }
+
     /// Where the surface is met \[m\]: at the dent that there is.
     fn surface(&mut self) -> f64 {
-        let (model, largest) = (self.model, self.largest);
-        *self
-            .surface
-            .get_or_insert_with(|| if model.is_elastic_at(largest) { 0.0 } else { model.unloading_path(largest).lower })
+        self.back().lower
     }
 
     /// Whether nothing slows the bodies down now: they are apart, or at the surface and not closing.
@@ -205,7 +207,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
     fn forget(&mut self) -> Result<(), TooDeep> {
         self.settle()?;
         self.deepest = largest(self.deepest, self.largest);
-        (self.largest, self.surface) = (self.history.max_indentation(), None);
+        (self.largest, self.back) = (self.history.max_indentation(), None);
         if let Some(turn) = &mut self.turn {
             turn.forgot = true;
         }
@@ -226,106 +228,61 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         (self.speed, self.left) = (0.0, 0.0);
     }
 
-    fn forces(&self) -> Forces {
-        Forces { inverse_mass: 1.0 / self.drive.mass, acceleration: self.drive.acceleration }
+    /// Acceleration by all forces where the bodies are, on `piece` \[m/s^2\].
+    fn net(&self, piece: &Piece<'a, L, U>) -> f64 {
+        self.drive.acceleration - piece.force(self.indentation) * self.inverse_mass
     }
 
     /// The direction of the motion under force; at rest that of the force, or none if it is in balance.
-    fn direction(&self) -> Option<bool> {
+    fn direction(&mut self) -> Option<bool> {
         if self.speed != 0.0 {
             return Some(self.speed > 0.0);
         }
-        let forces = self.forces();
-        let net = |rising| {
-            let piece = Piece::at(self.model, self.indentation, self.largest, rising);
-            forces.acceleration - piece.force(self.indentation) * forces.inverse_mass
-        };
-        // what has turned goes back; the force may jump, or be in balance within rounding
-        let may = |rising| !(self.turned && self.rising == rising);
-        if may(true) && net(true) > 0.0 {
-            Some(true)
-        } else if may(false) && net(false) < 0.0 {
-            Some(false)
-        } else {
-            None
+        for rising in [true, false] {
+            // what has turned goes back; the force may jump, or be in balance within rounding
+            let piece = self.piece(rising);
+            let pull = if rising { self.net(&piece) } else { -self.net(&piece) };
+            if pull > 0.0 && !(self.turned && self.rising == rising) {
+                return Some(rising);
+            }
         }
+        None
     }
 
     /// Under force: to where the bodies turn, to the end of the smooth piece, or to the end of the step.
     fn press(&mut self, rising: bool) -> Result<(), NoMotion> {
-        let piece = Piece::at(self.model, self.indentation, self.largest, rising);
+        let piece = self.piece(rising);
         let found = if piece.whole().is_some() { PIECE } else { COSTLY * PIECE };
         self.evaluations.set(self.evaluations.get().saturating_add(found));
-        let progress = self.stretch(&piece, rising)?;
+        let Bodies { indentation, speed, inverse_mass, left: time, .. } = *self;
+        let (acceleration, net) = (self.drive.acceleration, self.net(&piece));
+        let start = Start { indentation, speed, net, acceleration, inverse_mass, time };
+        let stretch = Stretch::new(&piece, &start, rising, &self.evaluations)?;
+        let turns = stretch.ended == Ended::Turned;
         // what turns and at once turns back has no room to move
-        if self.turned && progress.turned && progress.time == 0.0 {
+        if self.turned && turns && stretch.time == 0.0 {
             self.rest();
             return Ok(());
         }
-        self.taken += self.drive.acceleration * progress.time - (progress.speed - self.speed);
-        self.pass(progress.time);
-        (self.indentation, self.speed) = (progress.indentation, progress.speed);
-        (self.rising, self.turned) = (rising, progress.turned);
+        self.taken += acceleration * stretch.time - (stretch.speed - speed);
+        self.pass(stretch.time);
+        self.indentation = match (stretch.ended, rising) {
+            (Ended::AtBorder, true) => piece.upper,
+            (Ended::AtBorder, false) => piece.lower,
+            // what rounding makes of a way doesn't lead off the piece
+            (_, true) => smallest(indentation + stretch.way, piece.upper),
+            (_, false) => largest(indentation + stretch.way, piece.lower),
+        };
+        (self.speed, self.rising, self.turned) = (stretch.speed, rising, turns);
+        self.only = (self.events == 1 && stretch.ended == Ended::WithStep).then_some(stretch.way);
         if self.indentation > self.largest {
-            (self.largest, self.surface) = (self.indentation, None);
+            (self.largest, self.back) = (self.indentation, None);
         }
-        let parts = !rising && self.indentation <= piece.lower && !progress.turned;
+        let parts = stretch.ended == Ended::AtBorder && !rising;
         if parts && self.model.surface == Surface::Fresh && self.indentation <= 0.0 {
             self.forget()?;
         }
-        if rising && progress.turned { self.repeat() } else { Ok(()) }
-    }
-
-    /// The way on one smooth `piece`.
-    fn stretch(&self, piece: &Piece<'a, L, U>, rising: bool) -> Result<Progress, NoMotion> {
-        let Bodies { indentation, speed, left, .. } = *self;
-        let forces = self.forces();
-        let net = forces.acceleration - piece.force(indentation) * forces.inverse_mass;
-        let sign = if rising { 1.0 } else { -1.0 };
-        let pull = sign * net;
-        // squared it would be lost beside the others
-        let speed = if fabs(speed) > NOTHING * fabs(net) * left { speed } else { 0.0 };
-        let bound = if rising { piece.upper - indentation } else { indentation - piece.lower };
-        // written positively, so that a NaN ends it
-        let (has_room, goes_on) = (bound > 0.0, speed != 0.0 || pull > 0.0);
-        if !has_room || !goes_on {
-            return Ok(Progress { indentation, speed: 0.0, time: 0.0, turned: true });
-        }
-        if bound < SMALLEST {
-            let border = if rising { piece.upper } else { piece.lower };
-            return Ok(Progress { indentation: border, speed, time: 0.0, turned: false });
-        }
-        // no farther than without more force than there is now
-        let reach = left * (fabs(speed) + if pull > 0.0 { 0.5 * pull * left } else { 0.0 }) * (1.0 + ROUNDING);
-        if reach < SMALLEST {
-            return Ok(Progress {
-                indentation: indentation + sign * reach,
-                speed: speed + net * left,
-                time: left,
-                turned: false,
-            });
-        }
-        let start = Start { indentation, speed, net, time: left };
-        let limit = sign * smallest(bound, reach);
-        let short = fabs(limit) <= SHORT * indentation;
-        let segment = piece.whole().copied().or_else(|| short.then(|| piece.tangent(indentation)));
-        let passage = match segment {
-            Some(segment) => {
-                let (field, place) = Field::on_segment(&segment, &forces, &start, limit, &self.evaluations);
-                pass(field, &place, limit, left)?
-            }
-            None => {
-                let (field, place, limit) = Field::fitted(piece, &forces, &start, limit, &self.evaluations)?;
-                pass(field, &place, limit, left)?
-            }
-        };
-        let Passage { way, speed, time, turned } = passage;
-        let speed = if speed > 0.0 { sign * speed } else { 0.0 };
-        let border = if rising { piece.upper } else { piece.lower };
-        let place = indentation + way;
-        let inside = if rising { smallest(place, border) } else { largest(place, border) };
-        let indentation = if way == sign * bound { border } else { inside };
-        Ok(Progress { indentation, speed, time, turned })
+        if rising && turns { self.repeat() } else { Ok(()) }
     }
 
     /// A motion that has lost nothing since the last turn goes on as it was: its whole periods are left out.
@@ -337,10 +294,11 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         if !keeps || self.left < ago {
             return Ok(());
         }
-        if self.left > MOST_PERIODS * ago {
+        let known = self.left <= MOST_PERIODS * ago;
+        if !known {
             return Err(NoMotion::TooLong);
         }
-        let periods = floor(self.left / ago) * ago;
+        let periods = floor(quotient(self.left, ago, known, 0.0)) * ago;
         self.taken += self.drive.acceleration * periods;
         self.left = if periods < self.left { self.left - periods } else { 0.0 };
         Ok(())

@@ -1,14 +1,17 @@
 //! The motion of a mass that the contact force slows down: a contact that knows the mass.
 //!
 //! An impact takes some ten microseconds, a step of a multibody tool a millisecond. Here `m x'' = m a - F(x)` is followed
-//! through the law inside of the step, however many times the bodies meet in it: from event to event ([`bodies`]), in flight
-//! ([`flight`]) and on the smooth pieces of the law ([`field`], [`travel`]). No time is stepped through: between two events the
-//! speed is a function of the place, and the time an integral over the way.
+//! through the law inside of the step, however many times the bodies meet in it: from event to event (`bodies`), in flight
+//! (`flight`) and on the smooth pieces of the law (`stretch`). No time is stepped through: between two events the speed is a
+//! function of the place (`field`, `turning`), and the time an integral over the way (`travel`).
 
 mod bodies;
 mod field;
+mod fit;
 mod flight;
+mod moment;
 mod series;
+mod stretch;
 mod travel;
 mod turning;
 

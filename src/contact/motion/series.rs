@@ -1,53 +1,72 @@
 //! The forces around a point of a smooth piece, as powers of the way from there.
 
-use crate::contact::numbers::quotient;
+use crate::contact::numbers::{quotient, root};
+use crate::contact::quadrature::POINTS;
+use crate::contact::segment::Segment;
+
+/// Powers of the acceleration on a segment: its force is a polynomial of fourth degree in the root.
+pub const SEGMENT: usize = 5;
 
 /// The acceleration of the bodies around a point, as powers of `t`, the change of the root `r = sqrt(z)` from there; `z` is counted
-/// from where the force may begin as a fractional power.
+/// from where the force may begin as a fractional power. Roots have a unit of their own.
 ///
 /// On a segment `F = c0 + c1 z + c2 z^1.5 + c3 z^2` these are five powers, exactly. A small motion in a deep dent loses no digits:
-/// what is large and cancels is in the first coefficient, once.
+/// what is large and cancels is in the first of them, once.
 #[derive(Clone, Copy, Debug)]
 pub struct Series<const N: usize> {
     /// `r` at the point.
-    root: f64,
-    /// Acceleration: `n_0 + n_1 t + n_2 t^2 ...`.
+    pub root: f64,
+    /// The acceleration \[m/s^2\]: `n_0 + n_1 t + n_2 t^2 ...`.
     net: [f64; N],
-    /// Half the gain in the square of the speed, over `t`; it has one power more.
+    /// Its integral over `z`, over `t`, which has one power more.
     gain: [f64; N],
     last: f64,
 }
 
-/// `c_0 + c_1 t + c_2 t^2 ... + last t^N`.
-fn polynomial<const N: usize>(coefficients: &[f64; N], last: f64, t: f64) -> f64 {
-    coefficients.iter().rev().fold(last, |sum, coefficient| sum * t + coefficient)
+/// `1/k`.
+const INVERSE: [f64; POINTS + 1] = {
+    let mut inverse = [0.0; POINTS + 1];
+    let mut index = 0;
+    while index < inverse.len() {
+        inverse[index] = 1.0 / (index + 1) as f64;
+        index += 1;
+    }
+    inverse
+};
+
+impl Series<SEGMENT> {
+    /// Powers of a `segment` at the height `z` above its origin \[m\], where the acceleration is `net` \[m/s^2\].
+    pub fn on_segment(segment: &Segment, height: f64, net: f64, inverse_mass: f64) -> Series<SEGMENT> {
+        let r = root(height);
+        let [linear, power, square] = [segment.linear, segment.power, segment.square].map(|c| c * inverse_mass);
+        // of c1 r^2 + c2 r^3 + c3 r^4 around r
+        let third = power + 4.0 * square * r;
+        let second = linear + 3.0 * r * (power + 2.0 * square * r);
+        let first = r * (2.0 * linear + r * (3.0 * power + 4.0 * square * r));
+        Series::new(r, [net, -first, -second, -third, -square])
+    }
 }
 
 impl<const N: usize> Series<N> {
     /// Powers of the acceleration around the point with this root.
     pub fn new(root: f64, net: [f64; N]) -> Series<N> {
         // the integral of n(t) dz, dz = 2 (root + t) dt
-        let (mut gain, mut before, mut index) = ([0.0; N], 0.0, 1.0);
-        for (slot, power) in gain.iter_mut().zip(net) {
-            *slot = 2.0 * (root * power + before) / index;
-            (before, index) = (power, index + 1.0);
+        let (mut gain, mut before) = ([0.0; N], 0.0);
+        for ((slot, power), inverse) in gain.iter_mut().zip(net).zip(INVERSE) {
+            *slot = 2.0 * (root * power + before) * inverse;
+            before = power;
         }
-        Series { root, net, gain, last: 2.0 * before / index }
+        Series { root, net, gain, last: 2.0 * before / (N + 1) as f64 }
     }
 
-    /// `r` at the point.
-    pub fn root(&self) -> f64 {
-        self.root
-    }
-
-    /// The acceleration at `t`.
+    /// The acceleration at `t` \[m/s^2\].
     pub fn net(&self, t: f64) -> f64 {
-        polynomial(&self.net, 0.0, t)
+        self.net.iter().rev().fold(0.0, |sum, power| sum * t + power)
     }
 
-    /// Half the gain in the square of the speed on the way to `t`, over `t`.
+    /// The integral of the acceleration over `z` to `t`, over `t`.
     pub fn gain(&self, t: f64) -> f64 {
-        polynomial(&self.gain, self.last, t)
+        self.gain.iter().rev().fold(self.last, |sum, power| sum * t + power)
     }
 
     /// `z` at `t`, from the point.
@@ -55,13 +74,26 @@ impl<const N: usize> Series<N> {
         t * (2.0 * self.root + t)
     }
 
-    /// What a longer way takes from the acceleration: `-dn/dz` at the point.
-    pub fn stiffness(&self) -> f64 {
-        let [_, first, second, ..] = self.net.first_chunk::<3>().copied().unwrap_or_default();
-        quotient(-0.5 * first, self.root, self.root != 0.0, -second)
+    /// `t` at this `z` from the point; the origin below it.
+    pub fn roots(&self, way: f64) -> f64 {
+        let sum = self.root + root(self.root * self.root + way);
+        quotient(way, sum, sum != 0.0, 0.0)
     }
 
-    /// `c2` of a segment, at its origin.
+    /// What a longer way takes from the acceleration at `t`: `-dn/dz`.
+    pub fn stiffness(&self, t: f64) -> f64 {
+        let mut slope = 0.0;
+        self.net.iter().rev().fold(0.0, |sum, power| {
+            slope = slope * t + sum;
+            sum * t + power
+        });
+        let root = self.root + t;
+        // at the origin the first power of the root is none
+        let [_, _, second, ..] = self.net.first_chunk::<3>().copied().unwrap_or_default();
+        quotient(-0.5 * slope, root, root != 0.0, -second)
+    }
+
+    /// What a longer way takes from the acceleration beyond that, of a segment at its origin: `c2` over the mass.
     pub fn power(&self) -> f64 {
         let [.., third, fourth] = self.net.last_chunk::<2>().copied().unwrap_or_default();
         4.0 * self.root * fourth - third

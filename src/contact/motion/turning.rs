@@ -1,6 +1,8 @@
 //! Where the bodies turn: the root of their kinetic energy.
 
-use super::field::{Field, Mark, Place, SEGMENT, elastic};
+use super::field::{Field, Mark, Place};
+use super::fit::elastic_way;
+use super::series::SEGMENT;
 use crate::contact::numbers::{largest, quotient, smallest};
 use libm::{fabs, sqrt};
 
@@ -22,7 +24,7 @@ const CONVERGED: f64 = 1e-8;
 /// The least coefficient of a power that is looked at [1/(m^0.5 s^2)]: nothing is divided by less.
 const WEAKEST: f64 = 1e-100;
 
-/// A stretch on which bodies get faster from one end to the other by less than this isn't begun at a turning point [times the energy].
+/// An end is slow beside another one with less than this part of its energy.
 const SLOW: f64 = 0.25;
 
 /// `value^(numerator/denominator)` of a positive number, within a tenth: the bits of a number are nearly its logarithm.
@@ -68,10 +70,11 @@ pub fn end<const N: usize>(field: &Field, place: &Place<N>, limit: f64) -> End {
 
 /// About how far the bodies come from `place` before they turn \[m\]: where the force stiffens they come no farther.
 fn guess<const N: usize>(field: &Field, place: &Place<N>, sign: f64) -> f64 {
-    let (pull, energy, stiffness) = (sign * field.scaled(place.mark.net), place.mark.energy, field.stiffness(place));
-    let elastic = field.unscaled(elastic(pull, energy, stiffness));
+    let (pull, energy, stiffness) =
+        (sign * field.scaled(place.mark.net), place.mark.energy, field.stiffness(place, 0.0));
+    let elastic = field.unscaled(elastic_way(pull, energy, stiffness));
     let power = if N == SEGMENT && sign > 0.0 { place.series.power() } else { 0.0 };
-    let root = place.series.root();
+    let root = place.series.root;
     let begins = power > 0.0 && root * root < elastic;
     if !begins {
         return elastic;
@@ -97,8 +100,7 @@ pub fn behind<const N: usize>(field: &Field, slow: &Place<N>, far: f64, energy: 
     }
     // it isn't farther than with the force that there is at the slow mark; and not beyond the origin
     let limit = -sign * field.unscaled(0.51 * slow.mark.energy / pull);
-    let root = slow.series.root();
-    match end(field, slow, largest(limit, -root * root)) {
+    match end(field, slow, largest(limit, -field.height(slow))) {
         End::Turns(t, mark) => Some((t, field.around(slow, t, mark))),
         End::Passes(..) => None,
     }

@@ -1,0 +1,139 @@
+//! A stretch: a way in one direction on one smooth piece of the law, until the bodies turn, the piece ends, or the step.
+
+use super::field::{Field, Place, Start};
+use super::fit::fitted;
+use super::travel::Travel;
+use super::turning::{End, end, fastest};
+use super::{NoMotion, SMALLEST};
+use crate::contact::TooDeep;
+use crate::contact::loading::Loading;
+use crate::contact::numbers::{largest, smallest};
+use crate::contact::piece::Piece;
+use crate::contact::unloading::Unloading;
+use core::cell::Cell;
+use libm::fabs;
+
+/// What a stretch has come to.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch {
+    /// From its start \[m\]; positive is deeper.
+    pub way: f64,
+    /// Closing speed at its end \[m/s\].
+    pub speed: f64,
+    /// How long it took \[s\].
+    pub time: f64,
+    /// How it ended.
+    pub ended: Ended,
+}
+
+/// How a stretch has ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ended {
+    /// The bodies have turned.
+    Turned,
+    /// At the end of the piece.
+    AtBorder,
+    /// Somewhere on it, as far as could be looked at once.
+    Within,
+    /// With the step.
+    WithStep,
+}
+
+/// A way, as a part of the indentation, on which a law without segments is as its tangent: what that misses of the change of force
+/// is what the rounding of the force makes of it.
+const SHORT: f64 = 1e-8;
+
+/// A speed that is none, as a part of what the forces make in the time left.
+const NOTHING: f64 = 1e-100;
+
+/// What rounding makes of an energy, as a part of the largest one, at the end of a stretch.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+impl Stretch {
+    /// The stretch from `start` on `piece`, deeper if it is `rising`.
+    ///
+    /// # Errors
+    /// [`NoMotion`].
+    pub fn new<L: Loading, U: Unloading>(
+        piece: &Piece<'_, L, U>,
+        start: &Start,
+        rising: bool,
+        evaluations: &Cell<u32>,
+    ) -> Result<Stretch, NoMotion> {
+        let Start { indentation, net, time, .. } = *start;
+        let sign = if rising { 1.0 } else { -1.0 };
+        let pull = sign * net;
+        // squared, less would be lost beside the others
+        let speed = if fabs(start.speed) > NOTHING * fabs(net) * time { start.speed } else { 0.0 };
+        let bound = if rising { piece.upper - indentation } else { indentation - piece.lower };
+        let moves = bound > 0.0 && (speed != 0.0 || pull > 0.0);
+        if !moves {
+            return Ok(Stretch { way: 0.0, speed: 0.0, time: 0.0, ended: Ended::Turned });
+        }
+        if bound < SMALLEST {
+            return Ok(Stretch { way: sign * bound, speed, time: 0.0, ended: Ended::AtBorder });
+        }
+        // no farther than without more force than there is now
+        let reach = time * (fabs(speed) + 0.5 * largest(pull, 0.0) * time) * (1.0 + ROUNDING);
+        if reach < SMALLEST {
+            return Ok(Stretch { way: sign * reach, speed: speed + net * time, time, ended: Ended::WithStep });
+        }
+        let limit = sign * smallest(bound, reach);
+        let farthest = if bound < reach { Ended::AtBorder } else { Ended::WithStep };
+        let start = Start { speed, ..*start };
+        let tangent = || (fabs(limit) <= SHORT * indentation).then(|| piece.tangent(indentation));
+        if let Some(segment) = piece.whole().copied().or_else(tangent) {
+            let (field, place) = Field::on_segment(&segment, &start, limit, evaluations);
+            return Stretch::over(field, place, limit, farthest, time);
+        }
+        let (field, place, smooth) = fitted(piece, &start, limit, evaluations)?;
+        let farthest = if smooth == limit { farthest } else { Ended::Within };
+        Stretch::over(field, place, smooth, farthest, time)
+    }
+
+    /// The stretch from `place` over `limit` \[m\], where it has ended at `farthest`, in at most `left` \[s\].
+    fn over<const N: usize>(
+        field: Field,
+        place: Place<N>,
+        limit: f64,
+        farthest: Ended,
+        left: f64,
+    ) -> Result<Stretch, NoMotion> {
+        let sign = if limit > 0.0 { 1.0 } else { -1.0 };
+        let (t, mut last, mut ended) = match end(&field, &place, limit) {
+            End::Turns(t, mark) => (t, mark, Ended::Turned),
+            End::Passes(t, mark) => (t, mark, farthest),
+        };
+        if !last.net.is_finite() {
+            return Err(TooDeep { indentation: last.net }.into());
+        }
+        let middle = fastest(&field, &place, t, &last);
+        let way = if ended == Ended::Turned { last.way } else { limit };
+        // what rounding leaves of the speed, where the bodies turn just at the end, would be a flight that there isn't
+        if ended != Ended::Turned && middle.is_some_and(|(_, mark)| last.energy <= ROUNDING * mark.energy) {
+            (last.energy, ended) = (0.0, Ended::Turned);
+        }
+        let (mut past, mut at, mut from) = (0.0, 0.0, place);
+        for (to, mark) in [middle, Some((t, last))].into_iter().flatten() {
+            if to == at {
+                continue;
+            }
+            let travel = Travel::new(field, from, to - at, mark);
+            // what they can't come to in the time needs no time of its own
+            let (unknown, time) = (to == t && ended == Ended::WithStep, left - past);
+            let whole = if unknown { time } else { travel.time()? };
+            if unknown || whole > time {
+                let mark = travel.after(time, whole)?;
+                let speed = sign * field.speed(mark.energy);
+                return Ok(Stretch { way: mark.way, speed, time: left, ended: Ended::WithStep });
+            }
+            past += whole;
+            from = field.around(&from, to - at, mark);
+            at = to;
+        }
+        // not the negative zero
+        let speed = field.speed(last.energy);
+        let speed = if speed > 0.0 { sign * speed } else { 0.0 };
+        Ok(Stretch { way, speed, time: past, ended })
+    }
+}
