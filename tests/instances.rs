@@ -10,7 +10,7 @@ mod scenes;
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::instance::{FASTEST, Fault, Instance, LATEST, Phase};
+use brinell::instance::{FASTEST, Fault, Instance, LATEST, Phase, Plain};
 use brinell::scene::exported::Exported;
 use brinell::scene::{Present, Real, Scene};
 use physics::{Random, all_models, mild};
@@ -140,7 +140,7 @@ fn a_refused_step_of_several_contacts_moves_none_of_them() {
     assert!(matches!(refused, Fault::TooDeep { contact: 4, .. }), "{refused:?}");
     assert_eq!(words(&instance), moved);
     (0..4).for_each(|contact| set_rate(&mut instance, contact, 1.0));
-    assert!(!instance.do_plain_step(time, 1.0), "a refused step is not plain");
+    assert_ne!(instance.do_plain_step(time, 1.0), Plain::Done, "a refused step is not plain");
     assert_eq!(words(&instance), before);
     assert!(matches!(instance.do_step(time, 1.0), Err(Fault::TooDeep { contact: 0, .. })));
     assert_eq!(words(&instance), before);
@@ -158,11 +158,11 @@ fn rates_and_times_beyond_all_reason_are_refused_by_name() {
         assert!(matches!(instance.check_real((Real::IndentationRate, 0), rate), Err(Fault::NotFinite { .. })));
     }
     for step in [f64::INFINITY, f64::NAN, 0.0, -1.0] {
-        assert!(!instance.do_plain_step(0.0, step), "{step}");
+        assert_ne!(instance.do_plain_step(0.0, step), Plain::Done, "{step}");
         assert!(matches!(instance.do_step(0.0, step), Err(Fault::StepSize { .. })), "{step}");
     }
     for step in [1.1 * LATEST, 1e306] {
-        assert!(!instance.do_plain_step(0.0, step), "{step}");
+        assert_ne!(instance.do_plain_step(0.0, step), Plain::Done, "{step}");
         assert_eq!(instance.do_step(0.0, step), Err(Fault::TooLate { end: step }));
     }
     let mut made = Instance::<One>::new().unwrap();
@@ -175,9 +175,9 @@ fn rates_and_times_beyond_all_reason_are_refused_by_name() {
         made.set_experiment(start, None).unwrap();
         made.enter_initialization().unwrap();
         for step in [1e-6, 1e40, f64::INFINITY] {
-            assert!(!made.do_plain_step(start, step), "{start} {step}");
-            assert!(!made.do_plain_step(-f64::MAX, step), "{start} {step}");
-            assert!(!made.do_plain_step(f64::NEG_INFINITY, step), "{start} {step}");
+            assert_ne!(made.do_plain_step(start, step), Plain::Done, "{start} {step}");
+            assert_ne!(made.do_plain_step(-f64::MAX, step), Plain::Done, "{start} {step}");
+            assert_ne!(made.do_plain_step(f64::NEG_INFINITY, step), Plain::Done, "{start} {step}");
         }
     }
 }

@@ -18,6 +18,12 @@ pub trait Contact<M>: Copy {
     /// How many words a saved contact has.
     const WORDS: usize;
 
+    /// What of a model is worth keeping while its bodies stay as they are, because steps that leave their branch ask for it.
+    type Kept: Copy + Default;
+
+    /// What is kept of this `model`.
+    fn kept(model: &M) -> Self::Kept;
+
     /// A contact at `gap` \[m\] before any motion; a negative gap is an indentation that is already there.
     ///
     /// # Errors
@@ -40,12 +46,12 @@ pub trait Contact<M>: Copy {
     /// [`TooDeep`] beyond the range of the law; the contact is then where it was.
     fn step(&mut self, model: &M, course: &Course, step: f64) -> Result<f64, TooDeep>;
 
-    /// [`Contact::step`] with `rate` \[m/s\] held, for a step that is not a [short](Contact::short_step) one. It asks for the model
-    /// only if it needs the law.
+    /// [`Contact::step`] with `rate` \[m/s\] held, for a step that is not a [short](Contact::short_step) one. It asks for the model,
+    /// of which this much is `kept`, only if it needs the law.
     ///
     /// # Errors
     /// As for [`Contact::step`].
-    fn step_held(&mut self, rate: f64, step: f64, model: impl Fn() -> M) -> Result<(), TooDeep>;
+    fn step_held(&mut self, rate: f64, step: f64, kept: &Self::Kept, model: impl Fn() -> M) -> Result<(), TooDeep>;
 
     /// Mean force \[N\] of a step that has not been made yet.
     ///

@@ -36,7 +36,7 @@ pub struct Pair {
 }
 
 /// Where a contact begins to yield.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct YieldPoint {
     /// Indentation `d_y` \[m\].
     pub indentation: f64,

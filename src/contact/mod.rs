@@ -43,7 +43,7 @@ pub mod validity;
 pub use behaviour::Contact;
 pub use history::{History, Regime, TooDeep};
 pub use loading::Loading;
-pub use material::{Body, Pair};
+pub use material::{Body, Pair, YieldPoint};
 pub use segment::Segment;
 pub use unloading::{Peak, Unloading};
 
@@ -74,11 +74,30 @@ impl<L: Loading, U: Unloading> Model<L, U> {
     /// Whether a branch can have a quadratic term.
     pub const SQUARES: bool = U::SQUARES;
 
+    /// Where the contact begins to yield.
+    pub fn yield_point(&self) -> YieldPoint {
+        self.loading.yield_point(&self.pair)
+    }
+
+    /// Whether a contact that yields at `point` has yielded before it is as deep as `indentation` \[m\].
+    #[inline(always)]
+    fn yields_before(&self, point: &YieldPoint, indentation: f64) -> bool {
+        self.loading.can_yield() && indentation > point.indentation
+    }
+
     /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {
-        let (force, contact_radius, yield_force) = self.loading.summit(&self.pair, indentation);
+        let point = self.yield_point();
+        let force = self.loading.branch(&self.pair, &point, indentation).0.force(indentation);
+        self.peak_at(&point, indentation, force)
+    }
+
+    /// The same for a contact that yields at `point` and has this `force` \[N\] there.
+    #[inline(always)]
+    fn peak_at(&self, point: &YieldPoint, indentation: f64, force: f64) -> Peak {
+        let contact_radius = self.loading.radius_at(&self.pair, point, indentation, force);
         let work = if self.unloading.needs_work() { self.loading.work(&self.pair, indentation) } else { f64::NAN };
-        Peak { indentation, force, contact_radius, yield_force, work }
+        Peak { indentation, force, contact_radius, yield_force: point.force, work }
     }
 
     /// The path on which the load comes off from `max_indentation` \[m\] > 0, from the residual indentation (its lower end)
@@ -121,6 +140,6 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// Whether a contact that never was deeper than `max_indentation` \[m\] has not yielded.
     pub fn is_elastic_at(&self, max_indentation: f64) -> bool {
-        !self.loading.can_yield() || max_indentation <= self.loading.yield_point(&self.pair).indentation
+        !self.yields_before(&self.yield_point(), max_indentation)
     }
 }

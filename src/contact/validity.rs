@@ -17,21 +17,46 @@ pub const LARGEST_RADIUS_RATIO: f64 = 0.3;
 /// 18 (1985) 2329-2337.
 pub const LARGEST_SPEED_RATIO: f64 = 0.01;
 
-/// Halvings that leave nothing of an effective radius but rounding.
-const HALVINGS: u32 = 60;
+/// Guesses after which a search ends. Some six are enough, since the contact area nearly is a straight line.
+const GUESSES: u32 = 60;
+
+/// The largest error of the contact area, relative, that a search leaves.
+const AREA_TOLERANCE: f64 = 1e-12;
 
 /// The indentation up to which a law is valid on a sphere of effective `radius` \[m\]: where its `contact_radius`, a function of
 /// the indentation \[m\], reaches [`LARGEST_RADIUS_RATIO`].
 ///
-/// It rises with every law, and at an indentation of `R`, where Hertz's is `R`, it is far above that.
+/// It rises with every law, and at an indentation of `R`, where Hertz's is `R`, it is far above that. The search is the
+/// Illinois method.
+///
+/// Reference: M. Dowell, P. Jarratt, *BIT* 11 (1971) 168-174.
 #[inline(never)]
 pub fn largest_indentation(radius: f64, contact_radius: impl Fn(f64) -> f64) -> f64 {
-    let (mut depth, mut width) = (0.0, radius);
-    for _ in 0..HALVINGS {
-        width *= 0.5;
-        if contact_radius(depth + width) < LARGEST_RADIUS_RATIO * radius {
-            depth += width;
+    let allowed = LARGEST_RADIUS_RATIO * LARGEST_RADIUS_RATIO;
+    // squares of ratios, since squares of small radii may be zero
+    let excess = |depth: f64| {
+        let ratio = contact_radius(depth) / radius;
+        ratio * ratio - allowed
+    };
+    let (mut below, mut above) = ((0.0, -allowed), (radius, excess(radius)));
+    let (mut depth, mut was_above) = (0.0, None);
+    for _ in 0..GUESSES {
+        depth = below.0 + (above.0 - below.0) * (below.1 / (below.1 - above.1));
+        let found = excess(depth);
+        if found < AREA_TOLERANCE * allowed && found > -AREA_TOLERANCE * allowed {
+            break;
         }
+        let is_above = found > 0.0;
+        let again = was_above == Some(is_above);
+        // an end that stays where it is counts for half
+        if is_above {
+            above = (depth, found);
+            below.1 *= if again { 0.5 } else { 1.0 };
+        } else {
+            below = (depth, found);
+            above.1 *= if again { 0.5 } else { 1.0 };
+        }
+        was_above = Some(is_above);
     }
     depth
 }

@@ -6,7 +6,7 @@ use super::component::{Component, array, array_mut, call, object};
 use super::handle::Handle;
 use super::order::{self, Function};
 use super::variables::{any_real, real};
-use crate::instance::Instance;
+use crate::instance::{Instance, Plain};
 use crate::scene::Scene;
 
 /// Moves the contact over a step with the indentation rate held; complete when it returns.
@@ -23,20 +23,37 @@ pub unsafe fn do_step<S: Scene>(
     let _ = noSetFMUStatePriorToCurrentPoint;
     // SAFETY: the caller's component.
     unsafe {
-        if let Some(component) = Component::<S>::behind(c)
-            && component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize)
-        {
-            // one contact that goes too deep leaves its branch
-            if S::CONTACTS > 1 && component.instance.is_deep() {
-                component.warn_of_limits(order::DO_STEP);
+        if let Some(component) = Component::<S>::behind(c) {
+            match component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize) {
+                Plain::Done => {
+                    // one contact that goes too deep leaves its branch
+                    if S::CONTACTS > 1 && component.instance.is_deep() {
+                        component.warn_of_limits(order::DO_STEP);
+                    }
+                    return fmi2OK;
+                }
+                Plain::OffBranch => {
+                    return do_branch_step(component, currentCommunicationPoint, communicationStepSize);
+                }
+                Plain::Other => {}
             }
-            return fmi2OK;
         }
         do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize)
     }
 }
 
-/// Every step that isn't plain, with all checks.
+/// The step of one contact that leaves its branch, and is plain otherwise.
+#[inline(never)]
+fn do_branch_step<S: Scene>(component: &mut Component<S>, time: f64, step: f64) -> fmi2Status {
+    if component.instance.do_branch_step(time, step) && !component.instance.is_deep() {
+        return fmi2OK;
+    }
+    let c = core::ptr::from_mut(component).cast();
+    // SAFETY: a component.
+    unsafe { do_any_step::<S>(c, time, step) }
+}
+
+/// Every step that isn't plain, with all checks; of one that is done already what there is to warn of.
 ///
 /// # Safety
 /// The caller's component.
@@ -45,12 +62,6 @@ pub unsafe fn do_step<S: Scene>(
 unsafe fn do_any_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
     // SAFETY: as the caller promises.
     unsafe {
-        if let Some(component) = Component::<S>::behind(c)
-            && component.instance.do_branch_step(time, step)
-            && !component.instance.is_deep()
-        {
-            return fmi2OK;
-        }
         call::<S>(c, order::DO_STEP, |component| {
             if component.instance.is_deep() {
                 component.warn_of_limits(order::DO_STEP);

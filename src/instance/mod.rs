@@ -26,13 +26,14 @@ mod variables;
 
 pub use clock::{LATEST, Phase};
 pub use fault::{Fault, Warning};
+pub use stepping::Plain;
 
 use crate::contact::behaviour::is_finite_at;
 use crate::contact::{Contact, TooDeep};
 use crate::scene::{Presence, Scene, Settable, Store};
 use clock::Clock;
 use coupling::{Curve, Momentum};
-use start::{Bodies, NO_BODIES, model_of};
+use start::{Bodies, BodiesOf, model_of};
 
 /// The fastest rate of an input, in either direction \[m/s\].
 pub const FASTEST: f64 = 1e40;
@@ -61,7 +62,7 @@ struct Settings<S: Scene> {
     lowest_rate: f64,
     /// A hash of all that: states with the same one have the same parameters, and needn't copy them.
     stamp: u64,
-    bodies: S::Groups<Bodies>,
+    bodies: S::Groups<BodiesOf<S>>,
     values: S::Values,
 }
 
@@ -90,6 +91,25 @@ pub struct Instance<S: Scene> {
 
 fn too_deep(contact: usize, TooDeep { indentation }: TooDeep) -> Fault {
     Fault::TooDeep { contact, indentation }
+}
+
+impl<S: Scene> Settings<S> {
+    /// What is in contact in `group`, and by which laws.
+    fn model(&self, group: usize) -> S::Model {
+        let none = Bodies::default();
+        model_of::<S>(group, self.bodies.as_ref().get(group).unwrap_or(&none), &self.values)
+    }
+
+    /// Up to which indentation the law of `group` is valid \[m\].
+    fn valid_depth(&mut self, group: usize) -> f64 {
+        let known = self.bodies.as_ref().get(group).map_or(f64::NAN, |bodies| bodies.depth);
+        if known != 0.0 {
+            return known;
+        }
+        let depth = S::Contact::valid_depth(&self.model(group));
+        self.bodies.as_mut().get_mut(group).into_iter().for_each(|bodies| bodies.depth = depth);
+        depth
+    }
 }
 
 impl<S: Scene> Instance<S> {
@@ -190,8 +210,7 @@ impl<S: Scene> Instance<S> {
     /// What is in contact, and by which laws.
     fn model(&self, contact: usize) -> S::Model {
         let group = S::group(contact);
-        let bodies = self.settings.bodies.as_ref().get(group).copied().unwrap_or(NO_BODIES);
-        model_of::<S>(group, bodies, &self.settings.values)
+        self.settings.model(group)
     }
 }
 

@@ -107,24 +107,23 @@ impl<S: Scene> Instance<S> {
         }
         let unfit = !matches!(phase, Phase::StepComplete | Phase::Terminated);
         for (group, bodies) in self.settings.bodies.as_mut().iter_mut().enumerate() {
-            let saved = Bodies { radius: number()?, modulus: number()?, ..NO_BODIES };
-            let bodies_now = match pair_of::<S>(group, &values) {
-                Ok(pair) => Bodies { radius: pair.radius, modulus: pair.modulus, ..NO_BODIES },
+            let (radius, modulus) = (number()?, number()?);
+            let (radius, modulus) = match pair_of::<S>(group, &values) {
+                Ok(pair) => (pair.radius, pair.modulus),
                 // parameters that don't fit together leave the bodies that there were before
-                Err(_) if unfit && saved.radius > 0.0 && saved.modulus > 0.0 => saved,
+                Err(_) if unfit && radius > 0.0 && modulus > 0.0 => (radius, modulus),
                 Err(_) => return None,
             };
             if in_earnest {
-                *bodies = bodies_now;
+                (bodies.radius, bodies.modulus) = (radius, modulus);
             }
         }
-        let bodies_of = |group: usize, bodies: &S::Groups<Bodies>| bodies.as_ref().get(group).copied();
         let Contacts { histories, rates, curves, momenta, .. } = &mut self.contacts;
         let (mut curves, mut momenta) = (curves.as_mut().iter_mut(), momenta.as_mut().iter_mut());
         let slots = histories.as_mut().iter_mut().zip(rates.as_mut());
         for (contact, (history_slot, rate_slot)) in slots.enumerate() {
             let group = S::group(contact);
-            let model = model_of::<S>(group, bodies_of(group, &self.settings.bodies)?, &values);
+            let model = model_of::<S>(group, self.settings.bodies.as_ref().get(group)?, &values);
             let rate = words.next().map(f64::from_bits).filter(|rate| rate.abs() <= FASTEST)?;
             let history = S::Contact::load(&mut words, &model)?;
             let curve = if S::Course::IS_PRESENT { Curve::load(&mut words)? } else { Curve::default() };

@@ -4,27 +4,29 @@ use super::*;
 use crate::contact::{Body, Pair};
 use crate::scene::Parameter;
 
-/// What of a pair is worth keeping; the rest are parameters.
-#[derive(Clone, Copy, Debug)]
+/// What the parameters of a group say of its bodies, as far as it is worth keeping.
+#[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
-pub(super) struct Bodies {
+pub(super) struct Bodies<K> {
+    /// What steps that leave their branch ask for.
+    pub kept: K,
     /// Effective radius \[m\].
     pub radius: f64,
     /// Effective modulus \[Pa\].
     pub modulus: f64,
-    /// Indentation up to which the law is valid \[m\].
+    /// Indentation up to which the law is valid \[m\]: zero until a contact closes, since it takes a while to be found.
     pub depth: f64,
 }
 
-impl Bodies {
-    /// Takes what is kept of `pair`; the depth is found when all parameters are known.
+/// The bodies of a scene.
+pub(super) type BodiesOf<S> = Bodies<<<S as Scene>::Contact as Contact<<S as Scene>::Model>>::Kept>;
+
+impl<K> Bodies<K> {
+    /// Takes what is kept of `pair`; the rest is found when all parameters are known.
     pub fn take(&mut self, pair: &Pair) {
         (self.radius, self.modulus) = (pair.radius, pair.modulus);
     }
 }
-
-/// What stands where there is no group.
-pub(super) const NO_BODIES: Bodies = Bodies { radius: f64::NAN, modulus: f64::NAN, depth: f64::NAN };
 
 /// 2^64 over the golden ratio, odd: what hashes are mixed with.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -47,7 +49,7 @@ pub(super) fn pair_of<S: Scene>(group: usize, values: &S::Values) -> Result<Pair
 }
 
 /// What is in contact in `group`, whose `bodies` are those of `values`.
-pub(super) fn model_of<S: Scene>(group: usize, bodies: Bodies, values: &S::Values) -> S::Model {
+pub(super) fn model_of<S: Scene>(group: usize, bodies: &BodiesOf<S>, values: &S::Values) -> S::Model {
     let value = |parameter| S::parameter(parameter, group, values);
     let pair = Pair {
         radius: bodies.radius,
@@ -88,7 +90,7 @@ impl<S: Scene> Instance<S> {
                 curves: Store::filled(Curve::default()),
                 last_step: Store::filled(0.0),
             },
-            settings: Settings { lowest_rate: 0.0, stamp: 0, bodies: Store::filled(NO_BODIES), values },
+            settings: Settings { lowest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
             deep: Deep { contact: 0, indentation: 0.0 },
         };
         instance.reset()?;
@@ -132,7 +134,8 @@ impl<S: Scene> Instance<S> {
             *stamp = present;
             *lowest_rate = validity::lowest_rate::<S>(values);
             for (group, bodies) in bodies.as_mut().iter_mut().enumerate() {
-                bodies.depth = S::Contact::valid_depth(&model_of::<S>(group, *bodies, values));
+                bodies.kept = S::Contact::kept(&model_of::<S>(group, bodies, values));
+                bodies.depth = 0.0;
             }
         }
     }

@@ -5,6 +5,17 @@ use crate::contact::motion::{Drive, NoMotion};
 use crate::contact::path::Course;
 use crate::scene::Parameter;
 
+/// What has become of a step that might be a plain one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plain {
+    /// It is done.
+    Done,
+    /// It leaves the branch that the one contact is on, and is plain otherwise: [`Instance::do_branch_step`] makes it.
+    OffBranch,
+    /// It is another one: [`Instance::do_step`] makes it.
+    Other,
+}
+
 /// A contact after a step that it has yet to make.
 struct Moved<C> {
     history: C,
@@ -35,67 +46,76 @@ impl<S: Scene> Instance<S> {
     }
 
     /// The step that nearly every step is: plainly in order, and of one contact on the branch that it is on. It does what
-    /// [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result is false.
+    /// [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result says why.
     #[inline(always)]
-    pub fn do_plain_step(&mut self, time: f64, step: f64) -> bool {
+    pub fn do_plain_step(&mut self, time: f64, step: f64) -> Plain {
         let end = time + step;
         let in_order = self.clock.takes(time, end, step);
         if S::CONTACTS > 1 {
             // what the passivity guard does must be logged
             let plain = in_order && Self::PLAIN && S::GUARD.is_none();
-            return plain && self.advance(end, step).is_ok();
+            return if plain && self.advance(end, step).is_ok() { Plain::Done } else { Plain::Other };
         }
         let Contacts { histories, rates, momenta, last_step, .. } = &mut self.contacts;
         let (Some(history), Some(&rate)) = (histories.as_mut().first_mut(), rates.as_ref().first()) else {
-            return false;
+            return Plain::Other;
         };
         let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
-        let done = Self::PLAIN && in_order && history.short_step(rate * step);
-        if done {
-            for momentum in momenta.as_mut() {
-                momentum.add(history.mean_force_of_short_step(from), step);
-            }
-            last_step.as_mut().fill(step);
-            self.clock.time = end;
+        if !(Self::PLAIN && in_order) {
+            return Plain::Other;
         }
-        done
+        if !history.short_step(rate * step) {
+            return if Self::SIMPLE { Plain::OffBranch } else { Plain::Other };
+        }
+        for momentum in momenta.as_mut() {
+            momentum.add(history.mean_force_of_short_step(from), step);
+        }
+        last_step.as_mut().fill(step);
+        self.clock.time = end;
+        Plain::Done
     }
 
     /// Whether a step is that of one contact with its rate held, and nothing to do or look for but the depth up to which its law
     /// is valid.
     const SIMPLE: bool = S::CONTACTS == 1 && Self::PLAIN && !S::Momentum::IS_PRESENT && S::GUARD.is_none();
 
-    /// The step that leaves its branch, and is plain otherwise. It does what [`Instance::do_step`] does. If it isn't such a step
-    /// nothing is done, and the result is false.
-    #[inline]
+    /// The step of which [`Instance::do_plain_step`] has found that it is plain but [leaves its branch](Plain::OffBranch). It does
+    /// what [`Instance::do_step`] does; if that would fail nothing is done, and the result is false. Then
+    /// [`Instance::take_deep`] may have a warning.
+    #[inline(always)]
     pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
-        let end = time + step;
-        Self::SIMPLE && self.clock.takes(time, end, step) && self.advance_one(end, step).is_ok()
-    }
-
-    /// Moves the one contact of a simple instance over `step` \[s\], to the time `end` \[s\].
-    #[inline(never)]
-    fn advance_one(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         let Contacts { histories, rates, last_step, .. } = &mut self.contacts;
+        let (Some(history), Some(&rate)) = (histories.as_mut().first_mut(), rates.as_ref().first()) else {
+            return false;
+        };
         let Settings { bodies, values, .. } = &self.settings;
-        for ((history, &rate), &bodies) in histories.as_mut().iter_mut().zip(rates.as_ref()).zip(bodies.as_ref()) {
-            let model = || model_of::<S>(0, bodies, values);
-            history.step_held(rate, step, model).map_err(|deep| too_deep(0, deep))?;
+        let Some(bodies) = bodies.as_ref().first() else { return false };
+        let done = history.step_held(rate, step, &bodies.kept, || model_of::<S>(0, bodies, values)).is_ok();
+        if done {
+            last_step.as_mut().fill(step);
+            self.clock.time = time + step;
             if !history.stays_within(bodies.depth) {
-                self.deep = Deep { contact: 1, indentation: history.max_indentation() };
+                self.note_depth();
             }
         }
-        last_step.as_mut().fill(step);
-        self.clock.time = end;
-        Ok(())
+        done
+    }
+
+    /// Finds up to which depth the law of the one contact is valid, and notes whether the contact is deeper.
+    #[cold]
+    #[inline(never)]
+    fn note_depth(&mut self) {
+        let depth = self.valid_depth(0);
+        let Some(history) = self.contacts.histories.as_mut().first_mut() else { return };
+        let reached = history.max_indentation();
+        if !history.stays_within(depth) {
+            self.note_deep(0, reached);
+        }
     }
 
     /// Moves all contacts over `step` \[s\], to the time `end` \[s\], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        if Self::SIMPLE && !self.curved {
-            return self.advance_one(end, step);
-        }
         if S::CONTACTS > 1 {
             // within the limits of rates and times a law that is made of segments can't refuse
             let looks_ahead = self.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));
@@ -120,22 +140,22 @@ impl<S: Scene> Instance<S> {
     #[inline]
     fn advance_held(&mut self, step: f64) -> Result<(), Fault> {
         let Contacts { histories, rates, forces, momenta, .. } = &mut self.contacts;
-        let Settings { bodies, values, .. } = &self.settings;
-        let (bodies, forces, momenta) = (bodies.as_ref(), forces.as_mut(), momenta.as_mut());
+        let settings = &mut self.settings;
+        let (forces, momenta) = (forces.as_mut(), momenta.as_mut());
         for (contact, (history, &rate)) in histories.as_mut().iter_mut().zip(rates.as_ref()).enumerate() {
             let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
             let before = *history;
             // one contact has been tried before, or is only looked at: its momentum is then that of a plain step, too
             let short = (S::CONTACTS > 1 || S::Momentum::IS_PRESENT) && history.short_step(rate * step);
             let group = S::group(contact);
-            let bodies = || bodies.get(group).copied().unwrap_or(NO_BODIES);
-            let model = || model_of::<S>(group, bodies(), values);
+            let kept = || settings.bodies.as_ref().get(group).map(|bodies| bodies.kept).unwrap_or_default();
             let course = Course::held(rate);
             if !short {
-                history.step_held(rate, step, model).map_err(|deep| too_deep(contact, deep))?;
+                history
+                    .step_held(rate, step, &kept(), || settings.model(group))
+                    .map_err(|deep| too_deep(contact, deep))?;
             }
-            let allowed = bodies().depth;
-            if (S::CONTACTS == 1 || !short) && !history.stays_within(allowed) {
+            if (S::CONTACTS == 1 || !short) && !history.stays_within(settings.valid_depth(group)) {
                 self.deep = Deep { contact: contact as u32 + 1, indentation: history.max_indentation() };
             }
             if let Some(force) = forces.get_mut(contact) {
@@ -144,7 +164,9 @@ impl<S: Scene> Instance<S> {
             if let Some(momentum) = momenta.get_mut(contact) {
                 let mean = match short {
                     true => history.mean_force_of_short_step(from),
-                    false => before.mean_force(&model(), &course, step).map_err(|deep| too_deep(contact, deep))?,
+                    false => before
+                        .mean_force(&settings.model(group), &course, step)
+                        .map_err(|deep| too_deep(contact, deep))?,
                 };
                 momentum.add(mean, step);
             }

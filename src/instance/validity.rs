@@ -28,8 +28,8 @@ impl<S: Scene> Instance<S> {
     }
 
     /// Up to which indentation the law of `contact` is valid \[m\].
-    pub(super) fn valid_depth(&self, contact: usize) -> f64 {
-        self.settings.bodies.as_ref().get(S::group(contact)).map_or(f64::NAN, |bodies| bodies.depth)
+    pub(super) fn valid_depth(&mut self, contact: usize) -> f64 {
+        self.settings.valid_depth(S::group(contact))
     }
 
     /// Notes that `contact` has been as deep as `indentation` \[m\].
@@ -40,10 +40,13 @@ impl<S: Scene> Instance<S> {
     /// Looks for a contact that is deeper than its law is valid for.
     #[cold]
     pub(super) fn find_deep(&mut self) {
-        let mut contacts = self.histories().iter().enumerate();
-        let deep = contacts.find(|(contact, history)| history.max_indentation() >= self.valid_depth(*contact));
+        let Instance { contacts, settings, .. } = self;
+        let mut contacts = contacts.histories.as_ref().iter().enumerate();
+        let deep =
+            contacts.find(|(contact, history)| history.max_indentation() >= settings.valid_depth(S::group(*contact)));
         if let Some((contact, history)) = deep {
-            self.note_deep(contact, history.max_indentation());
+            let indentation = history.max_indentation();
+            self.note_deep(contact, indentation);
         }
     }
 

@@ -3,6 +3,7 @@
 use super::{History, Regime, Sum, TooDeep};
 use crate::contact::behaviour::Contact;
 use crate::contact::loading::Loading;
+use crate::contact::material::YieldPoint;
 use crate::contact::path::Course;
 use crate::contact::segment::Segment;
 use crate::contact::unloading::Unloading;
@@ -12,6 +13,13 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     const FOLLOWS_RATE: bool = false;
     const DERIVATIVES: i32 = 2;
     const WORDS: usize = 13;
+
+    /// Where the contact begins to yield.
+    type Kept = YieldPoint;
+
+    fn kept(model: &Model<L, U>) -> YieldPoint {
+        model.yield_point()
+    }
 
     fn start(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         History::start(model, gap)
@@ -46,8 +54,15 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     }
 
     #[inline(always)]
-    fn step_held(&mut self, rate: f64, step: f64, model: impl Fn() -> Model<L, U>) -> Result<(), TooDeep> {
-        self.leave_branch(rate * step, model)
+    fn step_held(
+        &mut self,
+        rate: f64,
+        step: f64,
+        kept: &YieldPoint,
+        model: impl Fn() -> Model<L, U>,
+    ) -> Result<(), TooDeep> {
+        let increment = rate * step;
+        if self.go_to_next_branch(increment, kept, &model) { Ok(()) } else { self.find_branch(&model(), increment) }
     }
 
     fn mean_force(&self, model: &Model<L, U>, course: &Course, step: f64) -> Result<f64, TooDeep> {

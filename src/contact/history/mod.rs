@@ -5,10 +5,11 @@ mod outputs;
 mod saved;
 
 use super::loading::Loading;
+use super::material::YieldPoint;
 use super::path::Sum;
 use super::segment::Segment;
 use super::unloading::Unloading;
-use super::{Model, Surface};
+use super::{Model, Peak, Surface};
 use core::borrow::Borrow;
 
 /// The indentation up to which the laws are evaluated \[m\]: far beyond anything physical, and small enough that no force
@@ -103,29 +104,50 @@ impl History {
     /// # Errors
     /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN; the history is left as it was.
     pub fn advance<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, increment: f64) -> Result<(), TooDeep> {
-        if self.advance_on_branch(increment) { Ok(()) } else { self.leave_branch(increment, || model) }
+        if self.advance_on_branch(increment) { Ok(()) } else { self.find_branch(model, increment) }
     }
 
-    /// Moves the contact by `increment` \[m\] to whatever branch holds there; the model is asked for only if the law is.
-    #[inline(always)]
-    fn leave_branch<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
-        &mut self,
-        increment: f64,
-        model: impl Fn() -> B,
-    ) -> Result<(), TooDeep> {
+    /// Moves the contact by `increment` \[m\] to whatever branch holds there.
+    #[cold]
+    #[inline(never)]
+    fn find_branch<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, increment: f64) -> Result<(), TooDeep> {
         let sum = self.indentation.plus(increment);
         // what overflows has no rest
         let indentation = if sum.value.is_finite() { sum.total() } else { sum.value };
         // no motion, no other branch: at its very end a branch that was entered from below is still the right one
         if indentation != self.indentation.total() {
-            let rising = increment > 0.0;
-            let known = U::SEGMENTED && self.goes_on_path(indentation, rising, model().borrow().surface);
-            if !known {
-                self.enter(model().borrow(), indentation, rising)?;
-            }
+            self.enter(model, indentation, increment > 0.0)?;
         }
         self.indentation = sum;
         Ok(())
+    }
+
+    /// The same, where the present branch tells which one is next, which is not the present one; otherwise nothing is done, and
+    /// false. Where the law says what that one is like the yield `point` and the model are asked for.
+    #[inline(always)]
+    fn go_to_next_branch<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
+        &mut self,
+        increment: f64,
+        point: &YieldPoint,
+        model: impl Fn() -> B,
+    ) -> bool {
+        let sum = self.indentation.plus(increment);
+        let (before, indentation) = (self.indentation.total(), sum.total());
+        // a NaN is not below it
+        let found = indentation < LARGEST_INDENTATION
+            && if self.is_loading() && indentation < before {
+                self.turn(model().borrow(), point, before, indentation)
+            } else if indentation > 0.0 && indentation >= self.max_indentation {
+                indentation != before && self.load(model().borrow(), point, indentation).is_ok()
+            } else if indentation >= self.segment.upper {
+                self.meet(model().borrow(), point, indentation)
+            } else {
+                indentation > -LARGEST_INDENTATION && self.leave::<U>(model().borrow().surface, indentation)
+            };
+        if found {
+            self.indentation = sum;
+        }
+        found
     }
 
     /// Moves the contact by `increment` \[m\] if that leaves it on its branch; otherwise nothing is done, and false.
@@ -176,83 +198,148 @@ impl History {
         if !within {
             return Err(TooDeep { indentation });
         }
-        let before = *self;
-        // then the law needn't be asked for its yield point, unless a fresh surface forgets the dent
-        let has_yielded = self.regime as i32 >= Regime::ElastoplasticSecond as i32;
+        let point = model.yield_point();
         // on the loading curve the largest indentation is the present one
-        self.max_indentation = self.max_indentation();
+        let largest = self.max_indentation();
+        if indentation > 0.0 && indentation >= largest {
+            return self.load(model, &point, indentation);
+        }
+        self.max_indentation = largest;
         let forgets = model.surface == Surface::Fresh && indentation <= 0.0;
         if forgets && self.has_parted(model, indentation) {
             self.left_behind += self.dissipated_in_dent(model);
             self.max_indentation = 0.0;
         }
-        if indentation > self.max_indentation {
-            self.max_indentation = indentation;
-        }
         let largest = self.max_indentation;
         self.least_increment = ANY;
-        if indentation > 0.0 && indentation >= largest {
-            let (segment, regime) = model.loading.branch(&model.pair, indentation);
-            self.regime = regime;
-            self.segment = Segment { lower: indentation, ..segment };
-            self.least_increment = 0.0;
-            // a law without segments may be a fit that ends before
-            let Segment { constant: force, linear: stiffness, .. } = self.segment;
-            let shows_numbers = model.loading.is_segmented() || force < LARGEST_FORCE && stiffness < LARGEST_FORCE;
-            if !shows_numbers {
-                *self = before;
-                return Err(TooDeep { indentation });
-            }
-        } else if !model.loading.can_yield() || !(has_yielded && largest > 0.0) && model.is_elastic_at(largest) {
-            if indentation > 0.0 {
-                self.regime = Regime::Elastic;
-                self.segment = Segment { lower: TOUCHING, upper: largest, ..model.loading.segment(&model.pair, 0.0) };
-            } else {
-                self.regime = Regime::Apart;
-                self.segment = Segment::apart(FARTHEST, TOUCHING);
-            }
+        if model.yields_before(&point, largest) {
+            self.unload(model, &model.peak(largest), indentation, rising);
+        } else if indentation > 0.0 {
+            self.spring(model, largest);
         } else {
-            let peak = model.peak(largest);
-            let path = model.unloading.path(&model.pair, &peak);
-            if indentation > path.lower || (rising && indentation == path.lower) {
-                let segment = match U::SEGMENTED {
-                    true => path,
-                    false => model.unloading.tangent(&model.pair, &peak, &path, indentation),
-                };
-                self.press(&path, segment);
-            } else {
-                self.part(&path, model, indentation);
-            }
+            self.regime = Regime::Apart;
+            self.segment = Segment::apart(FARTHEST, TOUCHING);
         }
         Ok(())
     }
 
-    /// Parts from the path of the dent, or meets it again, if the contact knows it; otherwise nothing is done, and false.
-    #[inline]
-    fn goes_on_path(&mut self, indentation: f64, rising: bool, surface: Surface) -> bool {
-        let residual = self.segment.origin;
-        let meets = indentation > residual || (rising && indentation == residual);
-        // a fresh surface may forget its dent
-        let stays = surface == Surface::Dented || indentation > 0.0;
-        // written so that a NaN and what is too far away are left to the law
-        let below = stays && indentation < self.max_indentation && indentation > -LARGEST_INDENTATION;
-        match self.regime {
-            // an elastic contact knows no path: its origin is far away
-            Regime::Apart if below && meets && residual == self.segment.upper => {
-                (self.segment.lower, self.segment.upper) = (residual.next_up(), self.max_indentation);
-                self.regime = Regime::Unloaded;
-                true
-            }
-            Regime::Unloaded if below && !meets && self.segment.begins_at_origin() => {
-                (self.segment.lower, self.segment.upper) = (farthest(surface, indentation), residual);
-                self.regime = Regime::Apart;
-                true
-            }
-            _ => false,
+    /// Below the `largest` indentation \[m\] of a contact that has not yielded.
+    #[inline(always)]
+    fn spring<L: Loading, U>(&mut self, model: &Model<L, U>, largest: f64) {
+        self.regime = Regime::Elastic;
+        self.segment = Segment { lower: TOUCHING, upper: largest, ..model.loading.segment(&model.pair, 0.0) };
+    }
+
+    /// On the loading curve at `indentation` \[m\] > 0, which is the largest one.
+    ///
+    /// # Errors
+    /// [`TooDeep`] where a law ends before; the history is left as it was.
+    #[inline(always)]
+    fn load<L: Loading, U>(
+        &mut self,
+        model: &Model<L, U>,
+        point: &YieldPoint,
+        indentation: f64,
+    ) -> Result<(), TooDeep> {
+        let (segment, regime) = model.loading.branch(&model.pair, point, indentation);
+        // a law without segments may be a fit that ends before
+        let Segment { constant: force, linear: stiffness, .. } = segment;
+        let shows_numbers = model.loading.is_segmented() || force < LARGEST_FORCE && stiffness < LARGEST_FORCE;
+        if !shows_numbers {
+            return Err(TooDeep { indentation });
+        }
+        self.max_indentation = indentation;
+        self.segment = Segment { lower: indentation, ..segment };
+        self.least_increment = 0.0;
+        self.regime = regime;
+        Ok(())
+    }
+
+    /// Back from the loading curve, on which the contact is at `largest` \[m\], to `indentation` \[m\]; false, with nothing done,
+    /// if that may be outside of the dent.
+    #[inline(always)]
+    fn turn<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        point: &YieldPoint,
+        largest: f64,
+        indentation: f64,
+    ) -> bool {
+        if indentation <= 0.0 {
+            return false;
+        }
+        self.max_indentation = largest;
+        self.least_increment = ANY;
+        if self.regime == Regime::Elastic {
+            // both ways on the same curve
+            (self.segment.lower, self.segment.upper) = (TOUCHING, largest);
+        } else if model.yields_before(point, largest) {
+            let peak = model.peak_at(point, largest, self.segment.force(largest));
+            self.unload(model, &peak, indentation, false);
+        } else {
+            self.spring(model, largest);
+        }
+        true
+    }
+
+    /// Below `peak`, on the path of its dent or apart from it.
+    #[inline(always)]
+    fn unload<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, peak: &Peak, indentation: f64, rising: bool) {
+        let path = model.unloading.path(&model.pair, peak);
+        if indentation > path.lower || (rising && indentation == path.lower) {
+            let segment = match U::SEGMENTED {
+                true => path,
+                false => model.unloading.tangent(&model.pair, peak, &path, indentation),
+            };
+            self.press(&path, segment);
+        } else {
+            self.part(&path, model, indentation);
         }
     }
 
+    /// Touches the surface again at `indentation` \[m\], below the largest one: on the path of the dent, if the contact has kept
+    /// it, or where it has not yielded. Otherwise nothing is done, and false.
+    #[inline(always)]
+    fn meet<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, point: &YieldPoint, indentation: f64) -> bool {
+        if self.regime != Regime::Apart || indentation <= 0.0 {
+            return false;
+        }
+        let residual = self.segment.origin;
+        if U::SEGMENTED && residual == self.segment.upper && residual.is_sign_positive() {
+            (self.segment.lower, self.segment.upper) = (just_above(residual), self.max_indentation);
+            self.regime = Regime::Unloaded;
+            return true;
+        }
+        let springs = !model.yields_before(point, self.max_indentation);
+        if springs {
+            self.spring(model, self.max_indentation);
+        }
+        springs
+    }
+
+    /// Leaves the surface for `indentation` \[m\]: the path of a dent that begins with no force, or where it has not yielded.
+    /// Otherwise nothing is done, and false.
+    #[inline(always)]
+    fn leave<U: Unloading>(&mut self, surface: Surface, indentation: f64) -> bool {
+        let residual = self.segment.origin;
+        // a fresh surface may forget its dent
+        let stays = surface == Surface::Dented || indentation > 0.0;
+        let begins = U::SEGMENTED && residual.is_sign_positive() && self.segment.lower == just_above(residual);
+        if self.regime == Regime::Unloaded && begins && self.segment.constant == 0.0 && stays {
+            (self.segment.lower, self.segment.upper) = (farthest(surface, indentation), residual);
+            self.regime = Regime::Apart;
+            return true;
+        }
+        let springs = self.regime == Regime::Elastic && !self.is_loading() && stays;
+        if springs {
+            self.segment = Segment::apart(FARTHEST, TOUCHING);
+            self.regime = Regime::Apart;
+        }
+        springs
+    }
+
     /// On the `path` of a dent, or on a `segment` of it.
+    #[inline(always)]
     fn press(&mut self, path: &Segment, segment: Segment) {
         self.regime = Regime::Unloaded;
         let lower = if segment.lower > path.lower { segment.lower } else { path.lower.next_up() };
@@ -260,6 +347,7 @@ impl History {
     }
 
     /// Apart at `indentation` \[m\], with the dent that `path` leads to.
+    #[inline(always)]
     fn part<L, U: Unloading>(&mut self, path: &Segment, model: &Model<L, U>, indentation: f64) {
         self.regime = Regime::Apart;
         let lower = farthest(model.surface, indentation);
@@ -280,4 +368,9 @@ impl History {
 /// the border must be noticed.
 fn farthest(surface: Surface, indentation: f64) -> f64 {
     if surface == Surface::Fresh && indentation > 0.0 { TOUCHING } else { FARTHEST }
+}
+
+/// The number after `indentation` \[m\], which has no sign.
+fn just_above(indentation: f64) -> f64 {
+    f64::from_bits(indentation.to_bits() + 1)
 }

@@ -63,10 +63,40 @@ impl BigAlabo {
         let plastic_force = second_slope * (self.fully_plastic - self.second_region) + second_force;
         Normalised { second_force, second_slope, plastic_force }
     }
+}
 
-    /// Segment and regime at `indentation` for a contact that yields at `point`.
+impl Loading for BigAlabo {
+    fn yield_point(&self, pair: &Pair) -> YieldPoint {
+        pair.yield_point(self.yield_pressure_factor)
+    }
+
+    fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
+        self.branch(pair, &self.yield_point(pair), indentation).0
+    }
+
+    /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + (x-1) + 0.4 (x-1)^2.5`, then `w_tep + f_tep (x-x_tep) + k_l (x-x_tep)^2/2`,
+    /// then `w_p + f_p (x-x_p) + k_p (x-x_p)^2/2`: the whole pieces below `indentation` and the begun one.
+    fn work(&self, pair: &Pair, indentation: f64) -> f64 {
+        work_over_segments(self, pair, indentation)
+    }
+
+    /// From the mean pressure `p_m/S = 1.1 sqrt(x)` up to yield, then `min(1.1 + ln(2x-1)/3, 2.8)`: `a^2 = F/(pi p_m)`,
+    /// never below `R d_y` once yielded, which makes `a` continuous and non-decreasing.
+    ///
+    /// The paper's introduction gives no contact radius. The logarithm is Stronge's mean pressure (*Impact Mechanics*,
+    /// 2000, section 6.3), which is 1.1 S at yield and 2.8 S at `x_p`.
+    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
+        let point = self.yield_point(pair);
+        let force = self.branch(pair, &point, indentation).0.force(indentation);
+        self.radius_at(pair, &point, indentation, force)
+    }
+
+    fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
+        self.branch(pair, &self.yield_point(pair), indentation).1
+    }
+
     #[inline]
-    fn branch_beyond(&self, pair: &Pair, point: &YieldPoint, indentation: f64) -> (Segment, Regime) {
+    fn branch(&self, pair: &Pair, point: &YieldPoint, indentation: f64) -> (Segment, Regime) {
         let YieldPoint { indentation: d_y, force: f_y } = *point;
         if indentation < d_y {
             return (hertz::segment(pair, d_y), Regime::Elastic);
@@ -89,9 +119,8 @@ impl BigAlabo {
         (Segment { lower: origin, upper, origin, constant, linear, ..Segment::NOTHING }, regime)
     }
 
-    /// Contact radius at `indentation` with this `force`, for a contact that yields at `point`.
     #[inline]
-    fn radius(&self, pair: &Pair, point: &YieldPoint, indentation: f64, force: f64) -> f64 {
+    fn radius_at(&self, pair: &Pair, point: &YieldPoint, indentation: f64, force: f64) -> f64 {
         let d_y = point.indentation;
         if indentation <= d_y {
             return sqrt(pair.radius * indentation);
@@ -102,45 +131,6 @@ impl BigAlabo {
         let area = force / (core::f64::consts::PI * factor * pair.yield_strength);
         let area_at_yield = pair.radius * d_y;
         sqrt(if area > area_at_yield { area } else { area_at_yield })
-    }
-}
-
-impl Loading for BigAlabo {
-    fn yield_point(&self, pair: &Pair) -> YieldPoint {
-        pair.yield_point(self.yield_pressure_factor)
-    }
-
-    fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
-        self.branch(pair, indentation).0
-    }
-
-    /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + (x-1) + 0.4 (x-1)^2.5`, then `w_tep + f_tep (x-x_tep) + k_l (x-x_tep)^2/2`,
-    /// then `w_p + f_p (x-x_p) + k_p (x-x_p)^2/2`: the whole pieces below `indentation` and the begun one.
-    fn work(&self, pair: &Pair, indentation: f64) -> f64 {
-        work_over_segments(self, pair, indentation)
-    }
-
-    /// From the mean pressure `p_m/S = 1.1 sqrt(x)` up to yield, then `min(1.1 + ln(2x-1)/3, 2.8)`: `a^2 = F/(pi p_m)`,
-    /// never below `R d_y` once yielded, which makes `a` continuous and non-decreasing.
-    ///
-    /// The paper's introduction gives no contact radius. The logarithm is Stronge's mean pressure (*Impact Mechanics*,
-    /// 2000, section 6.3), which is 1.1 S at yield and 2.8 S at `x_p`.
-    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
-        self.summit(pair, indentation).1
-    }
-
-    fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
-        self.branch(pair, indentation).1
-    }
-
-    fn branch(&self, pair: &Pair, indentation: f64) -> (Segment, Regime) {
-        self.branch_beyond(pair, &self.yield_point(pair), indentation)
-    }
-
-    fn summit(&self, pair: &Pair, indentation: f64) -> (f64, f64, f64) {
-        let point = self.yield_point(pair);
-        let force = self.branch_beyond(pair, &point, indentation).0.force(indentation);
-        (force, self.radius(pair, &point, indentation, force), point.force)
     }
 
     fn derived(&self, name: &str) -> Option<f64> {

@@ -50,16 +50,16 @@ pub trait Loading {
     /// The regime of the loading at `indentation` and just above it.
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime;
 
-    /// [`Loading::segment`] and [`Loading::regime`] at `indentation`: a law may find the two together in less.
-    fn branch(&self, pair: &Pair, indentation: f64) -> (Segment, Regime) {
+    /// [`Loading::segment`] and [`Loading::regime`] at `indentation`. A law may find the two together in less, the more so as
+    /// it is told the yield `point`.
+    fn branch(&self, pair: &Pair, _point: &YieldPoint, indentation: f64) -> (Segment, Regime) {
         (self.segment(pair, indentation), self.regime(pair, indentation))
     }
 
-    /// Force \[N\], contact radius \[m\] and yield force \[N\] at `indentation`, where the load begins to come off: a law may find
-    /// them together in less.
-    fn summit(&self, pair: &Pair, indentation: f64) -> (f64, f64, f64) {
-        let force = self.segment(pair, indentation).force(indentation);
-        (force, self.contact_radius(pair, indentation), self.yield_point(pair).force)
+    /// [`Loading::contact_radius`] \[m\] where the load begins to come off. A law may find it in less, as it is told the yield
+    /// `point` and the `force` \[N\].
+    fn radius_at(&self, pair: &Pair, _point: &YieldPoint, indentation: f64, _force: f64) -> f64 {
+        self.contact_radius(pair, indentation)
     }
 
     /// A number that follows from the constants, by the name under which the table of laws cites it; `None` if there is none

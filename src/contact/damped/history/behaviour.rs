@@ -11,6 +11,11 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
     const DERIVATIVES: i32 = 1;
     const WORDS: usize = 8;
 
+    /// Nothing: a history keeps the factors itself.
+    type Kept = ();
+
+    fn kept(_model: &Model<D>) {}
+
     fn start(model: &Model<D>, gap: f64) -> Result<History<D>, TooDeep> {
         History::start(model, gap)
     }
@@ -38,7 +43,7 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         Ok(self.max_indentation)
     }
 
-    fn step_held(&mut self, rate: f64, step: f64, _model: impl Fn() -> Model<D>) -> Result<(), TooDeep> {
+    fn step_held(&mut self, rate: f64, step: f64, (): &(), _model: impl Fn() -> Model<D>) -> Result<(), TooDeep> {
         self.advance(rate, step)
     }
 
