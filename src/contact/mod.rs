@@ -71,9 +71,6 @@ pub struct Model<L, U> {
 }
 
 impl<L: Loading, U: Unloading> Model<L, U> {
-    /// Whether a branch can have a quadratic term.
-    pub const SQUARES: bool = U::SQUARES;
-
     /// Where the contact begins to yield.
     pub fn yield_point(&self) -> YieldPoint {
         self.loading.yield_point(&self.pair)
@@ -106,8 +103,14 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         if self.is_elastic_at(max_indentation) {
             Segment { upper: max_indentation, ..self.loading.segment(&self.pair, 0.0) }
         } else {
-            self.unloading.path(&self.pair, &self.peak(max_indentation))
+            self.path_from(&self.peak(max_indentation))
         }
+    }
+
+    /// The same for a `peak` beyond the yield point.
+    #[inline(never)]
+    fn path_from(&self, peak: &Peak) -> Segment {
+        self.unloading.path(&self.pair, peak)
     }
 
     /// The segment of that path at `indentation` \[m\].

@@ -32,3 +32,25 @@ pub(crate) fn power_of_two(value: f64) -> f64 {
     let power = f64::from_bits(value.to_bits() & f64::INFINITY.to_bits());
     if power > 0.0 { power } else { f64::MIN_POSITIVE }
 }
+
+/// The next larger number of a finite one.
+#[inline(always)]
+pub(crate) fn next_above(value: f64) -> f64 {
+    // no zero has a sign then
+    let bits = (value + 0.0).to_bits();
+    f64::from_bits(bits.wrapping_add(1).wrapping_sub(2 * (bits >> 63)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::next_above;
+
+    #[test]
+    fn the_number_above_is_the_next_one() {
+        for size in [0.0, f64::from_bits(1), f64::MIN_POSITIVE, 1e-9, 1.0, 1.5, 1e100] {
+            for value in [size, -size] {
+                assert_eq!(next_above(value).to_bits(), value.next_up().to_bits(), "{value:e}");
+            }
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! One branch of a force-indentation curve.
 
 use super::history::LARGEST_INDENTATION;
+use super::numbers::next_above;
 use libm::sqrt;
 
 /// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5 + c3 z^2`, `z = indentation - origin`.
@@ -41,7 +42,7 @@ impl Segment {
     pub fn tangent(indentation: f64, force: f64, stiffness: f64) -> Segment {
         Segment {
             lower: indentation,
-            upper: indentation.next_up(),
+            upper: next_above(indentation),
             origin: indentation,
             constant: force,
             linear: stiffness,
@@ -58,7 +59,7 @@ impl Segment {
     /// Whether the branch begins at its origin, or just above it, with no force.
     #[inline]
     pub fn begins_at_origin(&self) -> bool {
-        self.constant == 0.0 && (self.lower == self.origin || self.lower == self.origin.next_up())
+        self.constant == 0.0 && (self.lower == self.origin || self.lower == next_above(self.origin))
     }
 
     /// `z` \[m\], and zero below the origin.

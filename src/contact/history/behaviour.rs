@@ -99,12 +99,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
 
     #[inline(always)]
     fn force(&self, _rate: f64) -> f64 {
-        let indentation = self.indentation.total();
-        // most laws never have a quadratic term
-        match Model::<L, U>::SQUARES {
-            true => self.segment.force(indentation),
-            false => self.segment.force_without_square(indentation),
-        }
+        self.force_at::<U>(self.indentation.total())
     }
 
     fn damping(&self, _rate: f64) -> f64 {

@@ -6,6 +6,7 @@ mod saved;
 
 use super::loading::Loading;
 use super::material::YieldPoint;
+use super::numbers::next_above;
 use super::path::Sum;
 use super::segment::Segment;
 use super::unloading::Unloading;
@@ -165,6 +166,16 @@ impl History {
         stays
     }
 
+    /// Force \[N\] at `indentation` \[m\] of the branch.
+    #[inline(always)]
+    fn force_at<U: Unloading>(&self, indentation: f64) -> f64 {
+        // most laws never have a quadratic term
+        match U::SQUARES {
+            true => self.segment.force(indentation),
+            false => self.segment.force_without_square(indentation),
+        }
+    }
+
     /// Whether the contact is on the loading curve, from where the way back is another one.
     fn is_loading(&self) -> bool {
         self.least_increment == 0.0
@@ -213,9 +224,10 @@ impl History {
         let largest = self.max_indentation;
         self.least_increment = ANY;
         if model.yields_before(&point, largest) {
-            self.unload(model, &model.peak(largest), indentation, rising);
+            let peak = model.peak(largest);
+            self.unload(model, &peak, model.path_from(&peak), indentation, rising);
         } else if indentation > 0.0 {
-            self.spring(model, largest);
+            self.spring(model, &point, largest);
         } else {
             self.regime = Regime::Apart;
             self.segment = Segment::apart(FARTHEST, TOUCHING);
@@ -225,9 +237,10 @@ impl History {
 
     /// Below the `largest` indentation \[m\] of a contact that has not yielded.
     #[inline(always)]
-    fn spring<L: Loading, U>(&mut self, model: &Model<L, U>, largest: f64) {
+    fn spring<L: Loading, U>(&mut self, model: &Model<L, U>, point: &YieldPoint, largest: f64) {
         self.regime = Regime::Elastic;
-        self.segment = Segment { lower: TOUCHING, upper: largest, ..model.loading.segment(&model.pair, 0.0) };
+        let elastic = model.loading.branch(&model.pair, point, 0.0).0;
+        self.segment = Segment { lower: TOUCHING, upper: largest, ..elastic };
     }
 
     /// On the loading curve at `indentation` \[m\] > 0, which is the largest one.
@@ -274,18 +287,25 @@ impl History {
             // both ways on the same curve
             (self.segment.lower, self.segment.upper) = (TOUCHING, largest);
         } else if model.yields_before(point, largest) {
-            let peak = model.peak_at(point, largest, self.segment.force(largest));
-            self.unload(model, &peak, indentation, false);
+            let peak = model.peak_at(point, largest, self.force_at::<U>(largest));
+            let path = model.unloading.path(&model.pair, &peak);
+            self.unload(model, &peak, path, indentation, false);
         } else {
-            self.spring(model, largest);
+            self.spring(model, point, largest);
         }
         true
     }
 
-    /// Below `peak`, on the path of its dent or apart from it.
+    /// Below `peak`, on the `path` of its dent or apart from it.
     #[inline(always)]
-    fn unload<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, peak: &Peak, indentation: f64, rising: bool) {
-        let path = model.unloading.path(&model.pair, peak);
+    fn unload<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        peak: &Peak,
+        path: Segment,
+        indentation: f64,
+        rising: bool,
+    ) {
         if indentation > path.lower || (rising && indentation == path.lower) {
             let segment = match U::SEGMENTED {
                 true => path,
@@ -305,14 +325,14 @@ impl History {
             return false;
         }
         let residual = self.segment.origin;
-        if U::SEGMENTED && residual == self.segment.upper && residual.is_sign_positive() {
-            (self.segment.lower, self.segment.upper) = (just_above(residual), self.max_indentation);
+        if U::SEGMENTED && residual == self.segment.upper {
+            (self.segment.lower, self.segment.upper) = (next_above(residual), self.max_indentation);
             self.regime = Regime::Unloaded;
             return true;
         }
         let springs = !model.yields_before(point, self.max_indentation);
         if springs {
-            self.spring(model, self.max_indentation);
+            self.spring(model, point, self.max_indentation);
         }
         springs
     }
@@ -324,7 +344,7 @@ impl History {
         let residual = self.segment.origin;
         // a fresh surface may forget its dent
         let stays = surface == Surface::Dented || indentation > 0.0;
-        let begins = U::SEGMENTED && residual.is_sign_positive() && self.segment.lower == just_above(residual);
+        let begins = U::SEGMENTED && self.segment.lower == next_above(residual);
         if self.regime == Regime::Unloaded && begins && self.segment.constant == 0.0 && stays {
             (self.segment.lower, self.segment.upper) = (farthest(surface, indentation), residual);
             self.regime = Regime::Apart;
@@ -342,7 +362,7 @@ impl History {
     #[inline(always)]
     fn press(&mut self, path: &Segment, segment: Segment) {
         self.regime = Regime::Unloaded;
-        let lower = if segment.lower > path.lower { segment.lower } else { path.lower.next_up() };
+        let lower = if segment.lower > path.lower { segment.lower } else { next_above(path.lower) };
         self.segment = Segment { lower, ..segment };
     }
 
@@ -368,9 +388,4 @@ impl History {
 /// the border must be noticed.
 fn farthest(surface: Surface, indentation: f64) -> f64 {
     if surface == Surface::Fresh && indentation > 0.0 { TOUCHING } else { FARTHEST }
-}
-
-/// The number after `indentation` \[m\], which has no sign.
-fn just_above(indentation: f64) -> f64 {
-    f64::from_bits(indentation.to_bits() + 1)
 }

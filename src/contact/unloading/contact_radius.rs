@@ -15,6 +15,7 @@ use crate::contact::segment::Segment;
 pub struct ContactRadius;
 
 impl Unloading for ContactRadius {
+    #[inline(always)]
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         hertzian(peak, 0.75 * peak.force / (pair.modulus * peak.contact_radius))
     }

@@ -73,6 +73,7 @@ pub trait Unloading {
 /// A residual of a few units in the last place of the peak is none: the recovery just beyond yield is the whole
 /// indentation, rounded. Far beyond anything physical the recovery is less than the last digit of the indentation, but it
 /// isn't nothing.
+#[inline(always)]
 fn residual_after(peak: &Peak, recovery: f64) -> f64 {
     let difference = peak.indentation - recovery;
     let rounding = 8.0 * f64::EPSILON * peak.indentation;
@@ -88,6 +89,7 @@ fn residual_after(peak: &Peak, recovery: f64) -> f64 {
 /// `F = F_m ((d - d_f)/d_e)^1.5`: Hertzian unloading with the elastic recovery `d_e` \[m\].
 ///
 /// `d_e` is taken again from the rounded `d_f`, so that the path ends in the peak to the last bits.
+#[inline(always)]
 fn hertzian(peak: &Peak, recovery: f64) -> Segment {
     let residual = residual_after(peak, recovery);
     let recovery = peak.indentation - residual;
