@@ -144,8 +144,13 @@ impl History {
     }
 
     /// Whether the contact is on the loading curve, from where the way back is another one.
-    fn is_loading(&self) -> bool {
+    pub(super) fn is_loading(&self) -> bool {
         self.least_increment == 0.0
+    }
+
+    /// The branch that the contact is on. Apart there is no force on it, whatever its segment says above its upper end.
+    pub(super) fn branch(&self) -> &Segment {
+        &self.segment
     }
 
     /// Puts the contact at `indentation` \[m\] exactly; at a corner on the branch that lies in the direction of motion.

@@ -11,6 +11,7 @@ mod fit;
 mod flight;
 mod moment;
 mod series;
+mod short;
 mod stretch;
 mod travel;
 mod turning;
@@ -87,6 +88,9 @@ pub fn follow<L: Loading, U: Unloading>(
     speed: f64,
     step: f64,
 ) -> Result<Outcome, NoMotion> {
+    if let Some(outcome) = short::step(history, drive, speed, step) {
+        return Ok(outcome);
+    }
     let mut bodies = Bodies::new(history, model, drive, speed, step)?;
     while bodies.go_on()? {}
     bodies.stop()
