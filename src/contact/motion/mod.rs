@@ -6,12 +6,15 @@
 //! function of the place (`field`, `turning`), and the time an integral over the way (`travel`).
 
 mod bodies;
+mod curve;
 mod field;
 mod fit;
 mod flight;
+mod line;
 mod moment;
-mod powers;
+
 mod series;
+mod short;
 mod stretch;
 mod travel;
 mod turning;
@@ -123,7 +126,7 @@ fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f64) -> Optio
     }
     let (sign, bound) = if rising { (1.0, segment.upper - indentation) } else { (-1.0, indentation - segment.lower) };
     let start = Start { indentation, speed, net, acceleration, inverse_mass, time };
-    let (Stretch { way, speed: end, ended, .. }, evaluations) = powers::stretch(segment, &start, sign, bound, false)?;
+    let (Stretch { way, speed: end, ended, .. }, evaluations) = short::stretch(segment, &start, sign, bound, false)?;
     let done = ended == Ended::WithStep && history.advance_on_branch(way);
     let taken = largest(acceleration * time - (end - speed), 0.0);
     done.then_some(Outcome { speed: end, taken, evaluations, deepest: history.max_indentation() })
