@@ -58,6 +58,12 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         Piece::below(model, largest)
     }
 
+    /// The way back on a `path` that is one segment.
+    pub fn on_path(model: &'a Model<L, U>, path: Segment) -> Piece<'a, L, U> {
+        let Segment { lower, upper, .. } = path;
+        Piece { model, kind: Kind::Unloading, lower, upper, segment: path, is_whole: true, unloading: None }
+    }
+
     /// The way back from `largest` \[m\], beyond yield.
     fn below(model: &'a Model<L, U>, largest: f64) -> Piece<'a, L, U> {
         let peak = model.peak(largest);
