@@ -58,6 +58,12 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         Piece::below(model, largest)
     }
 
+    /// The way back on a `path` that is one segment.
+    pub fn on_path(model: &'a Model<L, U>, path: Segment) -> Piece<'a, L, U> {
+        let Segment { lower, upper, .. } = path;
+        Piece { model, kind: Kind::Unloading, lower, upper, segment: path, is_whole: true, unloading: None }
+    }
+
     /// The way back from `largest` \[m\], beyond yield.
     fn below(model: &'a Model<L, U>, largest: f64) -> Piece<'a, L, U> {
         let peak = model.peak(largest);
@@ -74,7 +80,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     fn segment_at(&self, indentation: f64) -> Segment {
         let pair = &self.model.pair;
         match self.unloading {
-            _ if self.is_whole => self.segment,
+            _ if self.is_whole() => self.segment,
             Some((peak, path)) => self.model.unloading.tangent(pair, &peak, &path, indentation),
             None => self.model.loading.segment(pair, indentation),
         }
@@ -90,9 +96,15 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         if self.presses_at(indentation) { self.segment_at(indentation).force(indentation) } else { 0.0 }
     }
 
+    /// Whether the whole piece is one segment. The compiler knows it of laws that are made of segments, and leaves out what others
+    /// need.
+    fn is_whole(&self) -> bool {
+        U::SEGMENTED && self.model.loading.is_segmented() || self.is_whole
+    }
+
     /// The segment that the whole piece is, if it is one.
     pub fn whole(&self) -> Option<&Segment> {
-        self.is_whole.then_some(&self.segment)
+        self.is_whole().then_some(&self.segment)
     }
 
     /// \[N/m\]
@@ -108,7 +120,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     /// The indentation from which the force may grow as a fractional power \[m\]; never above the piece.
     pub fn origin(&self) -> f64 {
         match self.kind {
-            _ if self.is_whole => self.segment.origin,
+            _ if self.is_whole() => self.segment.origin,
             Kind::Unloading => self.lower,
             _ => 0.0,
         }

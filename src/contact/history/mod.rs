@@ -177,8 +177,23 @@ impl History {
     }
 
     /// Whether the contact is on the loading curve, from where the way back is another one.
-    fn is_loading(&self) -> bool {
+    pub(super) fn is_loading(&self) -> bool {
         self.least_increment == 0.0
+    }
+
+    /// The path of the dent from its lower end, if that is a segment without force there and the contact knows it.
+    pub(super) fn path_of_dent(&self) -> Option<Segment> {
+        let known = match self.regime {
+            Regime::Unloaded => self.segment.begins_at_origin(),
+            Regime::Apart => self.segment.origin == self.segment.upper,
+            _ => false,
+        };
+        known.then_some(Segment { lower: self.segment.origin, upper: self.max_indentation, ..self.segment })
+    }
+
+    /// The branch that the contact is on. Apart there is no force on it, whatever its segment says above its upper end.
+    pub(super) fn branch(&self) -> &Segment {
+        &self.segment
     }
 
     /// Puts the contact at `indentation` \[m\] exactly; at a corner on the branch that lies in the direction of motion.
@@ -191,7 +206,10 @@ impl History {
         indentation: f64,
         rising: bool,
     ) -> Result<(), TooDeep> {
-        self.enter(model, indentation, rising)?;
+        let known = U::SEGMENTED && self.goes_on_path(indentation, rising, model.surface);
+        if !known {
+            self.enter(model, indentation, rising)?;
+        }
         self.indentation = Sum::new(indentation);
         Ok(())
     }

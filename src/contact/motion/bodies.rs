@@ -82,6 +82,8 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         if let Some(&number) = [speed, step, drive.acceleration].iter().find(|number| !number.is_finite()) {
             return Err(TooDeep { indentation: number });
         }
+        let path = if U::SEGMENTED { history.path_of_dent() } else { None };
+        let back = path.map(|path| Piece::on_path(model, path));
         Ok(Bodies {
             history,
             model,
@@ -90,7 +92,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
             indentation,
             speed,
             largest,
-            back: None,
+            back,
             rising: speed > 0.0,
             turned: false,
             taken: 0.0,

@@ -6,20 +6,28 @@
 //! function of the place (`field`, `turning`), and the time an integral over the way (`travel`).
 
 mod bodies;
+mod curve;
 mod field;
 mod fit;
 mod flight;
+mod line;
 mod moment;
+
 mod series;
+mod short;
 mod stretch;
 mod travel;
 mod turning;
 
 use super::Model;
-use super::history::{History, TooDeep};
+use super::history::{History, Regime, TooDeep};
 use super::loading::Loading;
+use super::numbers::largest;
 use super::unloading::Unloading;
 use bodies::Bodies;
+use field::Start;
+use flight::Flight;
+use stretch::{Ended, Stretch};
 
 /// What drives the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +95,39 @@ pub fn follow<L: Loading, U: Unloading>(
     speed: f64,
     step: f64,
 ) -> Result<Outcome, NoMotion> {
+    if let Some(outcome) = at_once(history, drive, speed, step) {
+        return Ok(outcome);
+    }
     let mut bodies = Bodies::new(history, model, drive, speed, step)?;
     while bodies.go_on()? {}
     bodies.stop()
+}
+
+/// The step of bodies that stay in flight, or on one branch of the law, if it is short; otherwise nothing is done.
+fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f64) -> Option<Outcome> {
+    let Drive { mass, acceleration } = *drive;
+    let indentation = history.indentation();
+    if history.regime() == Regime::Apart {
+        let flight = Flight { speed, acceleration };
+        let end = flight.speed_after(time);
+        // where they turn they are farther than at the end
+        let done = speed * end >= 0.0 && history.advance_on_branch(flight.way(time));
+        let deepest = history.max_indentation();
+        return done.then_some(Outcome { speed: end, taken: 0.0, evaluations: 0, deepest });
+    }
+    let (segment, is_loading) = (history.branch(), history.is_loading());
+    let inverse_mass = 1.0 / mass;
+    let net = acceleration - segment.force(indentation) * inverse_mass;
+    let rising = speed > 0.0;
+    // a rough answer is enough where the branch is left
+    let is_near = segment.contains(indentation + time * (speed + 0.5 * net * time)) && (rising || !is_loading);
+    if !is_near || speed == 0.0 {
+        return None;
+    }
+    let (sign, bound) = if rising { (1.0, segment.upper - indentation) } else { (-1.0, indentation - segment.lower) };
+    let start = Start { indentation, speed, net, acceleration, inverse_mass, time };
+    let (Stretch { way, speed: end, ended, .. }, evaluations) = short::stretch(segment, &start, sign, bound, false)?;
+    let done = ended == Ended::WithStep && history.advance_on_branch(way);
+    let taken = largest(acceleration * time - (end - speed), 0.0);
+    done.then_some(Outcome { speed: end, taken, evaluations, deepest: history.max_indentation() })
 }

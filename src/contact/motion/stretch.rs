@@ -4,7 +4,7 @@ use super::field::{Field, Place, Start};
 use super::fit::fitted;
 use super::travel::Travel;
 use super::turning::{End, end, fastest};
-use super::{NoMotion, SMALLEST};
+use super::{NoMotion, SMALLEST, short};
 use crate::contact::TooDeep;
 use crate::contact::loading::Loading;
 use crate::contact::numbers::{largest, smallest};
@@ -83,6 +83,10 @@ impl Stretch {
         let start = Start { speed, ..*start };
         let tangent = || (fabs(limit) <= SHORT * indentation).then(|| piece.tangent(indentation));
         if let Some(segment) = piece.whole().copied().or_else(tangent) {
+            if let Some((stretch, powers)) = short::stretch(&segment, &start, sign, bound, true) {
+                evaluations.set(evaluations.get().saturating_add(powers));
+                return Ok(stretch);
+            }
             let (field, place) = Field::on_segment(&segment, &start, limit, evaluations);
             return Stretch::over(field, place, limit, farthest, time);
         }
