@@ -107,7 +107,7 @@ fn no_step_along_a_course_raises_an_exception() {
             assert_eq!(flags, 0, "impulse by {what}");
         }
         let before = history;
-        let (result, flags) = raised(|| history.step(&model, &course, step));
+        let (result, flags) = raised(|| history.step(&course, step, || model));
         if result.is_ok() {
             assert_eq!(flags, 0, "step by {what} ({} m)", before.max_indentation());
         }

@@ -2,6 +2,7 @@
 
 use super::history::{Regime, TooDeep};
 use super::path::Course;
+use core::borrow::Borrow;
 use core::f64::consts::PI;
 
 /// The state of a contact between the bodies of a model `M`. The model says what is in contact and by which laws; the state
@@ -33,12 +34,12 @@ pub trait Contact<M>: Copy {
     /// Mean force \[N\] of the last step, which was a [short](Contact::short_step) one and began at the indentation `from` \[m\].
     fn mean_force_of_short_step(&self, from: f64) -> f64;
 
-    /// Moves the contact on `course` over `step` \[s\]. The result is the largest indentation on the way \[m\], which a fresh
-    /// surface forgets.
+    /// Moves the contact on `course` over `step` \[s\], and asks for the model only if it needs the law. The result is the largest
+    /// indentation on the way \[m\], which a fresh surface forgets.
     ///
     /// # Errors
     /// [`TooDeep`] beyond the range of the law; the contact is then where it was.
-    fn step(&mut self, model: &M, course: &Course, step: f64) -> Result<f64, TooDeep>;
+    fn step<B: Borrow<M>>(&mut self, course: &Course, step: f64, model: impl Fn() -> B) -> Result<f64, TooDeep>;
 
     /// [`Contact::step`] with `rate` \[m/s\] held, for a step that is not a [short](Contact::short_step) one. It asks for the model
     /// only if it needs the law.

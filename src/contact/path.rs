@@ -68,18 +68,37 @@ impl Course {
     }
 
     /// The rate after `time` \[s\], \[m/s\].
+    #[inline]
     pub fn rate_after(&self, time: f64) -> f64 {
         self.rate + time * (self.slope + 0.5 * self.bend * time)
     }
 
     /// The way after `time` \[s\], \[m\].
+    #[inline]
     pub fn way(&self, time: f64) -> f64 {
-        time * (self.rate + time * (0.5 * self.slope + self.bend * time / 6.0))
+        time * (self.rate + time * (0.5 * self.slope + self.bend * time * (1.0 / 6.0)))
+    }
+
+    /// Whether the rate certainly keeps its sign over `step` \[s\]. It is a mean of three numbers with weights that aren't
+    /// negative (Bernstein's form), so that it does if they have one sign; a course that keeps its direction may still have two.
+    #[inline]
+    pub fn keeps_direction(&self, step: f64) -> bool {
+        let (middle, end) = (self.rate + 0.5 * self.slope * step, self.rate_after(step));
+        let forward = self.rate >= 0.0 && middle >= 0.0 && end >= 0.0;
+        forward || self.rate <= 0.0 && middle <= 0.0 && end <= 0.0
     }
 
     /// The ends of the monotone parts of a step \[s\]: where the rate changes its sign inside of it, in order, and the end of the
     /// step for the parts that there aren't.
+    #[inline]
     pub fn monotone_ends(&self, step: f64) -> [f64; 3] {
+        if self.keeps_direction(step) { [step; 3] } else { self.turns(step) }
+    }
+
+    /// The ends of the monotone parts of a course that may turn.
+    #[cold]
+    #[inline(never)]
+    fn turns(&self, step: f64) -> [f64; 3] {
         // the roots don't depend on it, and no square overflows
         let huge = [self.rate, self.slope, self.bend].iter().any(|number| fabs(*number) > HUGE);
         let unit = if huge { 1.0 / HUGE } else { 1.0 };

@@ -7,7 +7,10 @@ use super::handle::Handle;
 use super::order::{self, Function};
 use super::variables::{any_real, real};
 use crate::instance::Instance;
-use crate::scene::Scene;
+use crate::scene::{Presence, Scene};
+
+/// Reference of the input of the first contact.
+const INPUT: fmi2ValueReference = 0;
 
 /// Moves the contact over a step with the indentation rate held; complete when it returns.
 ///
@@ -94,6 +97,35 @@ pub unsafe fn set_real_input_derivatives<S: Scene>(
     value: *const fmi2Real,
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
+    unsafe {
+        if S::CONTACTS == 1
+            && S::Course::IS_PRESENT
+            && let Some(component) = Component::<S>::behind(c)
+            && let (Ok(references), Ok(orders)) = (array(vr, nvr, ""), array(order, nvr, ""))
+            && let Ok(values) = array(value, nvr, "")
+            && references.iter().all(|&reference| reference == INPUT)
+            && component.instance.set_plain_derivatives(orders.iter().copied().zip(values.iter().copied()))
+        {
+            return fmi2OK;
+        }
+        set_any_input_derivatives::<S>(c, vr, nvr, order, value)
+    }
+}
+
+/// Every setting of derivatives that isn't plain, with all checks.
+///
+/// # Safety
+/// The caller's component, and arrays as long as announced.
+#[cold]
+#[inline(never)]
+unsafe fn set_any_input_derivatives<S: Scene>(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *const fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
     unsafe {
         call::<S>(c, order::SET_REAL_INPUT_DERIVATIVES, |component| {
             let references = array(vr, nvr, "vr")?;

@@ -77,10 +77,22 @@ impl Clock {
     /// Whether a step from `time` to `end`, `step` \[s\] long, is plainly in order.
     #[inline(always)]
     pub fn takes(&self, time: f64, end: f64, step: f64) -> bool {
-        // a step that is zero, negative or NaN is not larger than any distance, and an infinite one ends beyond the limit
-        let follows = (time - self.time).abs() * (1.0 / TIME_TOLERANCE) < step;
+        // an infinite step ends beyond the limit
         let beyond = end > self.limit;
-        follows && !beyond
+        self.follows(time, step) && !beyond
+    }
+
+    /// The same for a step that is not plain, as while [held](Clock::hold).
+    #[inline]
+    pub fn takes_held(&self, time: f64, end: f64, step: f64) -> bool {
+        self.phase == Phase::StepComplete && self.follows(time, step) && end <= self.stop && end <= LATEST
+    }
+
+    /// Whether a step from `time` that is `step` \[s\] long plainly follows the last one: one that is zero, negative or NaN is not
+    /// larger than any distance.
+    #[inline(always)]
+    fn follows(&self, time: f64, step: f64) -> bool {
+        (time - self.time).abs() * (1.0 / TIME_TOLERANCE) < step
     }
 
     /// Whether such a step is in order.

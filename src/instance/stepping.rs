@@ -65,11 +65,18 @@ impl<S: Scene> Instance<S> {
     /// is valid.
     const SIMPLE: bool = S::CONTACTS == 1 && Self::PLAIN && !S::Momentum::IS_PRESENT && S::GUARD.is_none();
 
-    /// The step that leaves its branch, and is plain otherwise. It does what [`Instance::do_step`] does. If it isn't such a step
-    /// nothing is done, and the result is false.
+    /// Whether a step with derivatives of the input is that of one contact which follows its input.
+    const ALONE: bool = S::CONTACTS == 1 && Self::PLAIN && S::Course::IS_PRESENT;
+
+    /// The step that leaves its branch or has derivatives of the input, and is plain otherwise. It does what
+    /// [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result is false.
     #[inline]
     pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
+        if Self::ALONE && S::GUARD.is_none() && self.curved {
+            let slow = !self.rates().iter().any(|&rate| self.may_be_fast(rate));
+            return slow && self.clock.takes_held(time, end, step) && self.advance_on_course(end, step).is_ok();
+        }
         Self::SIMPLE && self.clock.takes(time, end, step) && self.advance_one(end, step).is_ok()
     }
 
@@ -90,10 +97,47 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
+    /// Moves the one contact over `step` \[s\], to the time `end` \[s\], on the course of its input.
+    #[inline(never)]
+    fn advance_on_course(&mut self, end: f64, step: f64) -> Result<(), Fault> {
+        let Contacts { histories, rates, forces, momenta, curves, last_step } = &mut self.contacts;
+        let Settings { bodies, values, .. } = &self.settings;
+        let contacts = histories.as_mut().iter_mut().zip(rates.as_ref()).zip(curves.as_mut()).zip(bodies.as_ref());
+        let mut is_held = false;
+        for (((history, &rate), curve), &bodies) in contacts {
+            let course = curve.course(rate);
+            let model = || model_of::<S>(0, bodies, values);
+            let failed = |deep| too_deep(0, deep);
+            if let Some(momentum) = momenta.as_mut().first_mut() {
+                momentum.add(history.mean_force(&model(), &course, step).map_err(failed)?, step);
+            }
+            let deepest = history.step(&course, step, model).map_err(failed)?;
+            history.stays_within(bodies.depth);
+            if deepest >= bodies.depth {
+                self.deep = Deep { contact: 1, indentation: deepest };
+            }
+            if let Some(force) = forces.as_mut().first_mut() {
+                *force = history.force(rate);
+            }
+            is_held = course.is_held();
+            curve.end_of(&course, step);
+        }
+        last_step.as_mut().fill(step);
+        self.clock.time = end;
+        // how the step ended is known until the next one, which isn't plain for that reason
+        if is_held {
+            self.straighten();
+        }
+        Ok(())
+    }
+
     /// Moves all contacts over `step` \[s\], to the time `end` \[s\], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        if Self::SIMPLE && !self.curved {
+        if Self::ALONE && self.curved {
+            return self.advance_on_course(end, step);
+        }
+        if Self::SIMPLE {
             return self.advance_one(end, step);
         }
         if S::CONTACTS > 1 {
@@ -106,7 +150,7 @@ impl<S: Scene> Instance<S> {
             }
         }
         let any = self.curved || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT;
-        if Self::SIMPLE || any {
+        if any {
             self.advance_any(step)?;
         } else {
             self.advance_held(step)?;
@@ -212,7 +256,7 @@ impl<S: Scene> Instance<S> {
             true => history.mean_force(&model, &course, step).map_err(failed)?,
             false => 0.0,
         };
-        let deepest = history.step(&model, &course, step).map_err(failed)?;
+        let deepest = history.step(&course, step, || model).map_err(failed)?;
         Ok(Moved { history, course, mean_force, deepest })
     }
 }

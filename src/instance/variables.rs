@@ -148,7 +148,7 @@ impl<S: Scene> Instance<S> {
     pub(super) fn predicted(&self, contact: usize, model: &S::Model, rate: f64) -> Option<S::Contact> {
         let history = *self.histories().get(contact)?;
         let mut next = history;
-        let moved = next.step(model, &Course::held(rate), self.last_step());
+        let moved = next.step(&Course::held(rate), self.last_step(), || model);
         Some(if moved.is_ok() { next } else { history })
     }
 

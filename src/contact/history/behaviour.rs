@@ -3,10 +3,12 @@
 use super::{History, Regime, Sum, TooDeep};
 use crate::contact::behaviour::Contact;
 use crate::contact::loading::Loading;
+use crate::contact::numbers::largest;
 use crate::contact::path::Course;
 use crate::contact::segment::Segment;
 use crate::contact::unloading::Unloading;
 use crate::contact::{Model, momentum};
+use core::borrow::Borrow;
 
 impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     const FOLLOWS_RATE: bool = false;
@@ -27,21 +29,32 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         self.segment.mean_force(from, self.indentation())
     }
 
-    fn step(&mut self, model: &Model<L, U>, course: &Course, step: f64) -> Result<f64, TooDeep> {
-        if course.is_held() {
-            self.advance(model, course.rate * step)?;
-            return Ok(self.max_indentation());
-        }
-        let mut moved = *self;
+    #[inline]
+    fn step<B: Borrow<Model<L, U>>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        model: impl Fn() -> B,
+    ) -> Result<f64, TooDeep> {
+        let ends = course.monotone_ends(step);
+        let [first, ..] = ends;
+        // one motion alone leaves the contact where it was if it is refused
+        let before = (first < step).then_some(*self);
         let (mut from, mut deepest) = (0.0, 0.0);
-        for end in course.monotone_ends(step) {
+        for end in ends {
             let to = course.way(end);
-            moved.advance(model, to - from)?;
+            if !self.advance_on_branch(to - from)
+                && let Err(deep) = self.leave_branch(to - from, &model)
+            {
+                *self = before.unwrap_or(*self);
+                return Err(deep);
+            }
             from = to;
-            let reached = moved.max_indentation();
-            deepest = if reached > deepest { reached } else { deepest };
+            deepest = largest(self.max_indentation(), deepest);
+            if end >= step {
+                break;
+            }
         }
-        *self = moved;
         Ok(deepest)
     }
 

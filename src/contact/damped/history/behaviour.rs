@@ -4,6 +4,7 @@ use super::{Damped, Factors, History, Model, Regime, Sum, TooDeep, within};
 use crate::contact::behaviour::{Contact, slopes};
 use crate::contact::history::LARGEST_INDENTATION;
 use crate::contact::path::Course;
+use core::borrow::Borrow;
 
 impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
     const FOLLOWS_RATE: bool = true;
@@ -32,7 +33,12 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
     }
 
     /// The rate must be held: inputs of these laws have no derivatives.
-    fn step(&mut self, _model: &Model<D>, course: &Course, step: f64) -> Result<f64, TooDeep> {
+    fn step<B: Borrow<Model<D>>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        _model: impl Fn() -> B,
+    ) -> Result<f64, TooDeep> {
         debug_assert!(course.is_held());
         self.advance(course.rate, step)?;
         Ok(self.max_indentation)
