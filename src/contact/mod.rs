@@ -32,7 +32,7 @@ pub mod loading;
 pub mod material;
 pub mod momentum;
 pub mod motion;
-mod numbers;
+pub(crate) mod numbers;
 pub mod path;
 pub mod piece;
 pub mod quadrature;

@@ -88,6 +88,15 @@ impl Course {
         forward || self.rate <= 0.0 && middle <= 0.0 && end <= 0.0
     }
 
+    /// The motions of a step \[m\], each in one direction, and zero for those that there aren't. Their sum is the way.
+    pub fn motions(&self, step: f64) -> [f64; 3] {
+        let mut from = 0.0;
+        self.monotone_ends(step).map(|end| {
+            let to = self.way(end);
+            to - core::mem::replace(&mut from, to)
+        })
+    }
+
     /// The ends of the monotone parts of a step \[s\]: where the rate changes its sign inside of it, in order, and the end of the
     /// step for the parts that there aren't.
     #[inline]

@@ -35,7 +35,27 @@ pub unsafe fn do_step<S: Scene>(
             }
             return fmi2OK;
         }
-        do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize)
+        match S::CONTACTS == 1 && S::Course::IS_PRESENT {
+            true => do_course_step::<S>(c, currentCommunicationPoint, communicationStepSize),
+            false => do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize),
+        }
+    }
+}
+
+/// A step with derivatives of the input, if it is a short one. It calls nothing, and so needs no place on the stack.
+///
+/// # Safety
+/// The caller's component.
+#[inline(never)]
+unsafe fn do_course_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe {
+        if let Some(component) = Component::<S>::behind(c)
+            && component.instance.do_course_step(time, step)
+        {
+            return fmi2OK;
+        }
+        do_any_step::<S>(c, time, step)
     }
 }
 
@@ -101,10 +121,14 @@ pub unsafe fn set_real_input_derivatives<S: Scene>(
         if S::CONTACTS == 1
             && S::Course::IS_PRESENT
             && let Some(component) = Component::<S>::behind(c)
-            && let (Ok(references), Ok(orders)) = (array(vr, nvr, ""), array(order, nvr, ""))
-            && let Ok(values) = array(value, nvr, "")
-            && references.iter().all(|&reference| reference == INPUT)
-            && component.instance.set_plain_derivatives(orders.iter().copied().zip(values.iter().copied()))
+            && !vr.is_null()
+            && !order.is_null()
+            && !value.is_null()
+            && component.instance.set_plain_derivatives((0..nvr).map(|index| {
+                let (reference, order) = (*vr.add(index), *order.add(index));
+                // no derivative of any other variable has an order
+                (if reference == INPUT { order } else { 0 }, *value.add(index))
+            }))
         {
             return fmi2OK;
         }
@@ -135,7 +159,8 @@ unsafe fn set_any_input_derivatives<S: Scene>(
             for ((&reference, &order), &value) in all() {
                 component.instance.check_input_derivative(any_real::<S>(reference)?, order, value)?;
             }
-            for ((&reference, &order), &value) in all() {
+            // those of one contact are set already, if there is nothing to complain of
+            for ((&reference, &order), &value) in all().filter(|_| S::CONTACTS > 1) {
                 component.instance.set_input_derivative(any_real::<S>(reference)?.1, order, value);
             }
             Ok(())

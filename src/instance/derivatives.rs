@@ -47,23 +47,21 @@ impl<S: Scene> Instance<S> {
         let phases = Phase::Instantiated as u8 | Phase::Initialization as u8 | Phase::StepComplete as u8;
         let in_order = self.phase() as u8 & phases != 0;
         let before = self.contacts.curves.as_ref().first().filter(|_| self.curved).copied().unwrap_or_default();
-        let Curve { mut slope, mut bend, .. } = before;
-        let mut plain = in_order;
+        let mut numbers = [before.slope, before.bend];
         for (order, value) in derivatives {
-            plain &= value.is_finite();
-            match order {
-                1 => slope = value,
-                2 if Self::INPUT_ORDER == 2 => bend = value,
-                _ => plain = false,
+            match numbers.get_mut((order as u32).wrapping_sub(1) as usize) {
+                Some(number) if order <= Self::INPUT_ORDER && value.is_finite() => *number = value,
+                _ => return false,
             }
         }
-        if plain && (self.curved || slope != 0.0 || bend != 0.0) {
+        let [slope, bend] = numbers;
+        if in_order && (self.curved || slope != 0.0 || bend != 0.0) {
             self.curve();
             for curve in self.contacts.curves.as_mut() {
                 (curve.slope, curve.bend) = (slope, bend);
             }
         }
-        plain
+        in_order
     }
 
     /// From here on inputs have derivatives; none is set yet.

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::contact::motion::{Drive, NoMotion};
+use crate::contact::numbers::largest;
 use crate::contact::path::Course;
 use crate::scene::Parameter;
 
@@ -68,64 +69,104 @@ impl<S: Scene> Instance<S> {
     /// Whether a step with derivatives of the input is that of one contact which follows its input.
     const ALONE: bool = S::CONTACTS == 1 && Self::PLAIN && S::Course::IS_PRESENT;
 
+    /// The step with derivatives of the input whose rate keeps its sign, and that stays on its branch. It does what
+    /// [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result is false.
+    #[inline(always)]
+    pub fn do_course_step(&mut self, time: f64, step: f64) -> bool {
+        let end = time + step;
+        let Contacts { histories, rates, curves, last_step, .. } = &mut self.contacts;
+        let (Some(history), Some(&rate)) = (histories.as_mut().first_mut(), rates.as_ref().first()) else {
+            return false;
+        };
+        let (Some(curve), Some(bodies)) = (curves.as_mut().first_mut(), self.settings.bodies.as_ref().first()) else {
+            return false;
+        };
+        let course = curve.course(rate);
+        let in_order = self.curved && self.clock.takes_held(time, end, step) && self.clock.takes_rate(rate);
+        let done = Self::ALONE
+            && !S::Momentum::IS_PRESENT
+            && S::GUARD.is_none()
+            && in_order
+            && !course.is_held()
+            && course.keeps_direction(step)
+            && history.stays_within(bodies.depth)
+            && history.short_step(course.way(step));
+        if done {
+            curve.end_of(&course, step);
+            last_step.as_mut().fill(step);
+            self.clock.time = end;
+        }
+        done
+    }
+
     /// The step that leaves its branch or has derivatives of the input, and is plain otherwise. It does what
     /// [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result is false.
     #[inline]
     pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
         if Self::ALONE && S::GUARD.is_none() && self.curved {
-            let slow = !self.rates().iter().any(|&rate| self.may_be_fast(rate));
+            let slow = self.rates().iter().all(|&rate| self.clock.takes_rate(rate));
             return slow && self.clock.takes_held(time, end, step) && self.advance_on_course(end, step).is_ok();
         }
         Self::SIMPLE && self.clock.takes(time, end, step) && self.advance_one(end, step).is_ok()
     }
 
     /// Moves the one contact of a simple instance over `step` \[s\], to the time `end` \[s\].
-    #[inline(never)]
+    #[inline]
     fn advance_one(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        let Contacts { histories, rates, last_step, .. } = &mut self.contacts;
+        for rate in *self.rates().first_chunk::<1>().unwrap_or(&[0.0]) {
+            self.move_one(rate, step)?;
+        }
+        self.contacts.last_step.as_mut().fill(step);
+        self.clock.time = end;
+        Ok(())
+    }
+
+    /// Moves the one contact with `rate` \[m/s\] held over `step` \[s\].
+    #[inline(never)]
+    fn move_one(&mut self, rate: f64, step: f64) -> Result<(), Fault> {
         let Settings { bodies, values, .. } = &self.settings;
-        for ((history, &rate), &bodies) in histories.as_mut().iter_mut().zip(rates.as_ref()).zip(bodies.as_ref()) {
+        for (history, &bodies) in self.contacts.histories.as_mut().iter_mut().zip(bodies.as_ref()) {
             let model = || model_of::<S>(0, bodies, values);
             history.step_held(rate, step, model).map_err(|deep| too_deep(0, deep))?;
             if !history.stays_within(bodies.depth) {
-                self.deep = Deep { contact: 1, indentation: history.max_indentation() };
+                let Deep { contact, indentation } = self.deep;
+                // a fresh surface may have forgotten what was deeper in the same step
+                let known = if contact == 0 { 0.0 } else { indentation };
+                self.deep = Deep { contact: 1, indentation: largest(history.max_indentation(), known) };
             }
         }
-        last_step.as_mut().fill(step);
-        self.clock.time = end;
         Ok(())
     }
 
     /// Moves the one contact over `step` \[s\], to the time `end` \[s\], on the course of its input.
     #[inline(never)]
     fn advance_on_course(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        let Contacts { histories, rates, forces, momenta, curves, last_step } = &mut self.contacts;
-        let Settings { bodies, values, .. } = &self.settings;
-        let contacts = histories.as_mut().iter_mut().zip(rates.as_ref()).zip(curves.as_mut()).zip(bodies.as_ref());
-        let mut is_held = false;
-        for (((history, &rate), curve), &bodies) in contacts {
-            let course = curve.course(rate);
-            let model = || model_of::<S>(0, bodies, values);
-            let failed = |deep| too_deep(0, deep);
-            if let Some(momentum) = momenta.as_mut().first_mut() {
-                momentum.add(history.mean_force(&model(), &course, step).map_err(failed)?, step);
+        let Contacts { histories, rates, curves, .. } = &self.contacts;
+        let (Some(&before), Some(&rate)) = (histories.as_ref().first(), rates.as_ref().first()) else { return Ok(()) };
+        let course = curves.as_ref().first().copied().unwrap_or_default().course(rate);
+        let deep = self.deep;
+        let mean_force = match S::Momentum::IS_PRESENT {
+            true => before.mean_force(&self.model(0), &course, step).map_err(|deep| too_deep(0, deep))?,
+            false => 0.0,
+        };
+        for increment in course.motions(step) {
+            if increment != 0.0
+                && let Err(fault) = self.move_one(increment, 1.0)
+            {
+                self.contacts.histories.as_mut().fill(before);
+                self.deep = deep;
+                return Err(fault);
             }
-            let deepest = history.step(&course, step, model).map_err(failed)?;
-            history.stays_within(bodies.depth);
-            if deepest >= bodies.depth {
-                self.deep = Deep { contact: 1, indentation: deepest };
-            }
-            if let Some(force) = forces.as_mut().first_mut() {
-                *force = history.force(rate);
-            }
-            is_held = course.is_held();
-            curve.end_of(&course, step);
         }
+        let Contacts { histories, forces, momenta, curves, last_step, .. } = &mut self.contacts;
+        forces.as_mut().iter_mut().zip(histories.as_ref()).for_each(|(force, history)| *force = history.force(rate));
+        momenta.as_mut().iter_mut().for_each(|momentum| momentum.add(mean_force, step));
+        curves.as_mut().iter_mut().for_each(|curve| curve.end_of(&course, step));
         last_step.as_mut().fill(step);
         self.clock.time = end;
         // how the step ended is known until the next one, which isn't plain for that reason
-        if is_held {
+        if course.is_held() {
             self.straighten();
         }
         Ok(())

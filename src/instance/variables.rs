@@ -56,8 +56,7 @@ impl<S: Scene> Instance<S> {
         let (Some(history), Some(slot)) = (histories.as_ref().get(contact), rates.as_mut().get_mut(contact)) else {
             return false;
         };
-        // a NaN is not
-        let plain = -rate.abs() >= self.clock.lowest_rate && is_finite_at(history, rate);
+        let plain = self.clock.takes_rate(rate) && is_finite_at(history, rate);
         if plain {
             *slot = rate;
         }
@@ -74,7 +73,7 @@ impl<S: Scene> Instance<S> {
         };
         let mut plain = true;
         for (history, &rate) in histories.iter().zip(rates) {
-            plain &= -rate.abs() >= self.clock.lowest_rate && is_finite_at(history, rate);
+            plain &= self.clock.takes_rate(rate) && is_finite_at(history, rate);
         }
         if plain {
             for (slot, &rate) in slots.iter_mut().zip(rates) {

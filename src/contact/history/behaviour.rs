@@ -36,25 +36,14 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<f64, TooDeep> {
-        let ends = course.monotone_ends(step);
-        let [first, ..] = ends;
-        // one motion alone leaves the contact where it was if it is refused
-        let before = (first < step).then_some(*self);
-        let (mut from, mut deepest) = (0.0, 0.0);
-        for end in ends {
-            let to = course.way(end);
-            if !self.advance_on_branch(to - from)
-                && let Err(deep) = self.leave_branch(to - from, &model)
-            {
-                *self = before.unwrap_or(*self);
-                return Err(deep);
+        let (mut moved, mut deepest) = (*self, 0.0);
+        for increment in course.motions(step) {
+            if !moved.advance_on_branch(increment) {
+                moved.leave_branch(increment, &model)?;
             }
-            from = to;
-            deepest = largest(self.max_indentation(), deepest);
-            if end >= step {
-                break;
-            }
+            deepest = largest(moved.max_indentation(), deepest);
         }
+        *self = moved;
         Ok(deepest)
     }
 
