@@ -33,6 +33,7 @@ pub mod material;
 pub mod momentum;
 pub mod motion;
 pub(crate) mod numbers;
+mod panel;
 pub mod path;
 pub mod piece;
 pub mod quadrature;
@@ -73,6 +74,12 @@ pub struct Model<L, U> {
 impl<L: Loading, U: Unloading> Model<L, U> {
     /// Whether a branch can have a quadratic term.
     pub const SQUARES: bool = U::SQUARES;
+
+    /// Whether every branch is a segment, and none a tangent.
+    #[inline(always)]
+    pub fn is_segmented(&self) -> bool {
+        U::SEGMENTED && self.loading.is_segmented()
+    }
 
     /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {

@@ -90,6 +90,11 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         if self.presses_at(indentation) { self.segment_at(indentation).force(indentation) } else { 0.0 }
     }
 
+    /// The segment that the whole piece is, or one somewhere on it.
+    pub(super) fn segment(&self) -> &Segment {
+        &self.segment
+    }
+
     /// The segment that the whole piece is, if it is one.
     pub fn whole(&self) -> Option<&Segment> {
         self.is_whole.then_some(&self.segment)

@@ -74,7 +74,7 @@ impl<S: Scene> Instance<S> {
     #[inline(always)]
     pub fn do_course_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
-        let Contacts { histories, rates, curves, last_step, .. } = &mut self.contacts;
+        let Contacts { histories, rates, curves, momenta, last_step, .. } = &mut self.contacts;
         let (Some(history), Some(&rate)) = (histories.as_mut().first_mut(), rates.as_ref().first()) else {
             return false;
         };
@@ -82,9 +82,9 @@ impl<S: Scene> Instance<S> {
             return false;
         };
         let course = curve.course(rate);
+        let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
         let in_order = self.curved && self.clock.takes_held(time, end, step) && self.clock.takes_rate(rate);
         let done = Self::ALONE
-            && !S::Momentum::IS_PRESENT
             && S::GUARD.is_none()
             && in_order
             && !course.is_held()
@@ -92,6 +92,9 @@ impl<S: Scene> Instance<S> {
             && history.stays_within(bodies.depth)
             && history.short_step(course.way(step));
         if done {
+            for momentum in momenta.as_mut() {
+                momentum.add(history.mean_force_of_short_course(from, &course, step), step);
+            }
             curve.end_of(&course, step);
             last_step.as_mut().fill(step);
             self.clock.time = end;
@@ -146,17 +149,26 @@ impl<S: Scene> Instance<S> {
         let (Some(&before), Some(&rate)) = (histories.as_ref().first(), rates.as_ref().first()) else { return Ok(()) };
         let course = curves.as_ref().first().copied().unwrap_or_default().course(rate);
         let deep = self.deep;
-        let mean_force = match S::Momentum::IS_PRESENT {
-            true => before.mean_force(&self.model(0), &course, step).map_err(|deep| too_deep(0, deep))?,
-            false => 0.0,
-        };
-        for increment in course.motions(step) {
-            if increment != 0.0
-                && let Err(fault) = self.move_one(increment, 1.0)
-            {
-                self.contacts.histories.as_mut().fill(before);
-                self.deep = deep;
-                return Err(fault);
+        let mut mean_force = 0.0;
+        if S::Momentum::IS_PRESENT {
+            let (mut history, model) = (before, self.model(0));
+            let moved = history.step_with_mean_force(&course, step, || model);
+            let (deepest, mean) = moved.map_err(|deep| too_deep(0, deep))?;
+            history.stays_within(self.valid_depth(0));
+            if deepest >= self.valid_depth(0) {
+                self.note_deep(0, deepest);
+            }
+            self.contacts.histories.as_mut().fill(history);
+            mean_force = mean;
+        } else {
+            for increment in course.motions(step) {
+                if increment != 0.0
+                    && let Err(fault) = self.move_one(increment, 1.0)
+                {
+                    self.contacts.histories.as_mut().fill(before);
+                    self.deep = deep;
+                    return Err(fault);
+                }
             }
         }
         let Contacts { histories, forces, momenta, curves, last_step, .. } = &mut self.contacts;
@@ -215,7 +227,6 @@ impl<S: Scene> Instance<S> {
             let group = S::group(contact);
             let bodies = || bodies.get(group).copied().unwrap_or(NO_BODIES);
             let model = || model_of::<S>(group, bodies(), values);
-            let course = Course::held(rate);
             if !short {
                 history.step_held(rate, step, model).map_err(|deep| too_deep(contact, deep))?;
             }
@@ -229,7 +240,7 @@ impl<S: Scene> Instance<S> {
             if let Some(momentum) = momenta.get_mut(contact) {
                 let mean = match short {
                     true => history.mean_force_of_short_step(from),
-                    false => before.mean_force(&model(), &course, step).map_err(|deep| too_deep(contact, deep))?,
+                    false => before.mean_force(&model(), rate, step).map_err(|deep| too_deep(contact, deep))?,
                 };
                 momentum.add(mean, step);
             }
@@ -293,11 +304,10 @@ impl<S: Scene> Instance<S> {
             course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
             return Ok(Moved { history, course, mean_force, deepest: outcome.deepest });
         }
-        let mean_force = match S::Momentum::IS_PRESENT {
-            true => history.mean_force(&model, &course, step).map_err(failed)?,
-            false => 0.0,
+        let (deepest, mean_force) = match S::Momentum::IS_PRESENT {
+            true => history.step_with_mean_force(&course, step, || model).map_err(failed)?,
+            false => (history.step(&course, step, || model).map_err(failed)?, 0.0),
         };
-        let deepest = history.step(&course, step, || model).map_err(failed)?;
         Ok(Moved { history, course, mean_force, deepest })
     }
 }

@@ -47,13 +47,32 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         Ok(deepest)
     }
 
+    fn step_with_mean_force<B: Borrow<Model<L, U>>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        model: impl Fn() -> B,
+    ) -> Result<(f64, f64), TooDeep> {
+        if !course.is_held() && model().borrow().is_segmented() {
+            let (deepest, impulse) = self.advance_along(course, step, model)?;
+            return Ok((deepest, impulse / step));
+        }
+        let impulse = momentum::impulse_by_pieces(self, model().borrow(), course, step)?;
+        Ok((self.step(course, step, model)?, impulse / step))
+    }
+
+    #[inline]
+    fn mean_force_of_short_course(&self, from: f64, course: &Course, step: f64) -> f64 {
+        self.mean_force_along(from, course, step)
+    }
+
     #[inline(always)]
     fn step_held(&mut self, rate: f64, step: f64, model: impl Fn() -> Model<L, U>) -> Result<(), TooDeep> {
         self.leave_branch(rate * step, model)
     }
 
-    fn mean_force(&self, model: &Model<L, U>, course: &Course, step: f64) -> Result<f64, TooDeep> {
-        Ok(momentum::impulse(self, model, course, step)? / step)
+    fn mean_force(&self, model: &Model<L, U>, rate: f64, step: f64) -> Result<f64, TooDeep> {
+        Ok(momentum::impulse_by_pieces(self, model, &Course::held(rate), step)? / step)
     }
 
     /// Ends the present branch at `depth`, if it goes beyond: the step that comes there then asks for its branch. It finds the
