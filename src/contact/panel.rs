@@ -40,6 +40,9 @@ const WITH_POWER: [(f64, f64); 8] = [
 /// Impulse \[N.s\] on `segment` along `course`, from one time \[s\] and indentation \[m\] to another. In between the indentation
 /// is nowhere below the origin of the segment.
 pub fn impulse_on(segment: &Segment, course: &Course, (start, from): (f64, f64), (end, to): (f64, f64)) -> f64 {
+    if course.is_held() {
+        return (end - start) * segment.mean_force(from, to);
+    }
     let [mut base, last] = [from, to].map(|indentation| largest(indentation - segment.origin, 0.0));
     let (mut rest, mut now) = (end - start, start);
     let shortest = SHORTEST * rest;

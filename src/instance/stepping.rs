@@ -108,8 +108,12 @@ impl<S: Scene> Instance<S> {
     pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
         if Self::ALONE && S::GUARD.is_none() && self.curved {
+            let curved = self.contacts.curves.as_ref().iter().any(Curve::is_curved);
             let slow = self.rates().iter().all(|&rate| self.clock.takes_rate(rate));
-            return slow && self.clock.takes_held(time, end, step) && self.advance_on_course(end, step).is_ok();
+            return curved
+                && slow
+                && self.clock.takes_held(time, end, step)
+                && self.advance_on_course(end, step).is_ok();
         }
         Self::SIMPLE && self.clock.takes(time, end, step) && self.advance_one(end, step).is_ok()
     }
@@ -177,22 +181,29 @@ impl<S: Scene> Instance<S> {
         curves.as_mut().iter_mut().for_each(|curve| curve.end_of(&course, step));
         last_step.as_mut().fill(step);
         self.clock.time = end;
-        // how the step ended is known until the next one, which isn't plain for that reason
-        if course.is_held() {
-            self.straighten();
-        }
         Ok(())
     }
 
     /// Moves all contacts over `step` \[s\], to the time `end` \[s\], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        if Self::ALONE && self.curved {
+        if Self::ALONE && self.curved && self.contacts.curves.as_ref().iter().any(Curve::is_curved) {
             return self.advance_on_course(end, step);
         }
-        if Self::SIMPLE {
-            return self.advance_one(end, step);
+        match Self::SIMPLE {
+            true => self.advance_one(end, step)?,
+            false => self.advance_all(end, step)?,
         }
+        // how a step with derivatives ended is known until the next one, which isn't plain for that reason
+        if Self::ALONE && self.curved {
+            self.straighten();
+        }
+        Ok(())
+    }
+
+    /// Moves all contacts of an instance that isn't simple, or none of them.
+    #[inline]
+    fn advance_all(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         if S::CONTACTS > 1 {
             // within the limits of rates and times a law that is made of segments can't refuse
             let looks_ahead = self.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));
@@ -202,7 +213,7 @@ impl<S: Scene> Instance<S> {
                 }
             }
         }
-        let any = self.curved || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT;
+        let any = self.curved && !Self::ALONE || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT;
         if any {
             self.advance_any(step)?;
         } else {
@@ -251,8 +262,7 @@ impl<S: Scene> Instance<S> {
     /// Moves all contacts, each on the course of its input, or by its mass.
     #[cold]
     fn advance_any(&mut self, step: f64) -> Result<(), Fault> {
-        let is_curved = |curve: &Curve| curve.slope != 0.0 || curve.bend != 0.0;
-        let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(is_curved);
+        let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(Curve::is_curved);
         self.curved |= !Self::PLAIN;
         for contact in 0..S::CONTACTS {
             let Moved { mut history, course, mean_force, deepest } = self.moved(contact, step)?;

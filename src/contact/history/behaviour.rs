@@ -53,7 +53,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         step: f64,
         model: impl Fn() -> B,
     ) -> Result<(f64, f64), TooDeep> {
-        if !course.is_held() && model().borrow().is_segmented() {
+        if model().borrow().is_segmented() {
             let (deepest, impulse) = self.advance_along(course, step, model)?;
             return Ok((deepest, impulse / step));
         }

@@ -104,9 +104,20 @@ impl History {
                 return Ok(());
             }
             // the indentation stays where it was until the branch is the one on which the way ends
-            self.change_branch(border, true, &model)?;
+            self.turn_into(border, true, &model)?;
         }
         Err(TooDeep { indentation: self.indentation() + increment })
+    }
+
+    /// [`History::change_branch`], once for all that needn't be quick.
+    #[inline(never)]
+    fn turn_into<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
+        &mut self,
+        indentation: f64,
+        rising: bool,
+        model: impl Fn() -> B,
+    ) -> Result<(), TooDeep> {
+        self.change_branch(indentation, rising, model)
     }
 
     /// Goes back by `increment` \[m\] until the time `end` \[s\]: down one path, and through the air.
@@ -124,7 +135,11 @@ impl History {
             false => self.segment,
         };
         if !self.advance_on_branch(increment) {
-            self.leave_branch(increment, &model)?;
+            let sum = self.indentation.plus(increment);
+            if sum.total() != way.indentation {
+                self.turn_into(sum.total(), false, &model)?;
+            }
+            self.indentation = sum;
         }
         let to = self.indentation();
         if presses {
