@@ -26,23 +26,24 @@ pub unsafe fn do_step<S: Scene>(
     let _ = noSetFMUStatePriorToCurrentPoint;
     // SAFETY: the caller's component.
     unsafe {
-        if let Some(component) = Component::<S>::behind(c)
-            && component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize)
-        {
+        let Some(component) = Component::<S>::behind(c) else {
+            return do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize);
+        };
+        if component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize) {
             // one contact that goes too deep leaves its branch
             if S::CONTACTS > 1 && component.instance.is_deep() {
                 component.warn_of_limits(order::DO_STEP);
             }
             return fmi2OK;
         }
-        match S::CONTACTS == 1 && S::Course::IS_PRESENT {
-            true => do_course_step::<S>(c, currentCommunicationPoint, communicationStepSize),
-            false => do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize),
+        if S::CONTACTS == 1 && component.instance.is_curved() {
+            return do_course_step::<S>(c, currentCommunicationPoint, communicationStepSize);
         }
+        do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize)
     }
 }
 
-/// A step with derivatives of the input, if it is a short one. It calls nothing, and so needs no place on the stack.
+/// A step with derivatives of the input, if it is plain but for them.
 ///
 /// # Safety
 /// The caller's component.

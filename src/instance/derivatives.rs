@@ -64,6 +64,12 @@ impl<S: Scene> Instance<S> {
         in_order
     }
 
+    /// Whether inputs have derivatives, or had some in the last step.
+    #[inline(always)]
+    pub fn is_curved(&self) -> bool {
+        S::Course::IS_PRESENT && self.curved
+    }
+
     /// From here on inputs have derivatives; none is set yet.
     #[inline(always)]
     fn curve(&mut self) {

@@ -69,8 +69,9 @@ impl<S: Scene> Instance<S> {
     /// Whether a step with derivatives of the input is that of one contact which follows its input.
     const ALONE: bool = S::CONTACTS == 1 && Self::PLAIN && S::Course::IS_PRESENT;
 
-    /// The step with derivatives of the input whose rate keeps its sign, and that stays on its branch. It does what
-    /// [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result is false.
+    /// The step with derivatives of the input, and plain otherwise: at once if the rate keeps its sign and the contact its branch.
+    /// It does what [`Instance::do_step`] does. The result is false if it isn't such a step, and nothing is done; or if it has led
+    /// [too deep](Instance::is_deep).
     #[inline(always)]
     pub fn do_course_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
@@ -84,37 +85,29 @@ impl<S: Scene> Instance<S> {
         let course = curve.course(rate);
         let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
         let in_order = self.curved && self.clock.takes_held(time, end, step) && self.clock.takes_rate(rate);
-        let done = Self::ALONE
-            && S::GUARD.is_none()
-            && in_order
-            && !course.is_held()
-            && course.keeps_direction(step)
-            && history.stays_within(bodies.depth)
-            && history.short_step(course.way(step));
-        if done {
-            for momentum in momenta.as_mut() {
-                momentum.add(history.mean_force_of_short_course(from, &course, step), step);
-            }
-            curve.end_of(&course, step);
-            last_step.as_mut().fill(step);
-            self.clock.time = end;
+        if !Self::ALONE || S::GUARD.is_some() || !in_order || course.is_held() {
+            return false;
         }
-        done
+        let short =
+            course.keeps_direction(step) && history.stays_within(bodies.depth) && history.short_step(course.way(step));
+        if !short {
+            // of what is too deep there is more to say
+            return self.advance_on_course(end, step).is_ok() && !self.is_deep();
+        }
+        for momentum in momenta.as_mut() {
+            momentum.add(history.mean_force_of_short_course(from, &course, step), step);
+        }
+        curve.end_of(&course, step);
+        last_step.as_mut().fill(step);
+        self.clock.time = end;
+        true
     }
 
-    /// The step that leaves its branch or has derivatives of the input, and is plain otherwise. It does what
-    /// [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result is false.
+    /// The step that leaves its branch, and is plain otherwise. It does what [`Instance::do_step`] does. If it isn't such a step
+    /// nothing is done, and the result is false.
     #[inline]
     pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
-        if Self::ALONE && S::GUARD.is_none() && self.curved {
-            let curved = self.contacts.curves.as_ref().iter().any(Curve::is_curved);
-            let slow = self.rates().iter().all(|&rate| self.clock.takes_rate(rate));
-            return curved
-                && slow
-                && self.clock.takes_held(time, end, step)
-                && self.advance_on_course(end, step).is_ok();
-        }
         Self::SIMPLE && self.clock.takes(time, end, step) && self.advance_one(end, step).is_ok()
     }
 
@@ -150,12 +143,12 @@ impl<S: Scene> Instance<S> {
     #[inline(never)]
     fn advance_on_course(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         let Contacts { histories, rates, curves, .. } = &self.contacts;
-        let (Some(&before), Some(&rate)) = (histories.as_ref().first(), rates.as_ref().first()) else { return Ok(()) };
+        let (Some(history), Some(&rate)) = (histories.as_ref().first(), rates.as_ref().first()) else { return Ok(()) };
         let course = curves.as_ref().first().copied().unwrap_or_default().course(rate);
         let deep = self.deep;
         let mut mean_force = 0.0;
         if S::Momentum::IS_PRESENT {
-            let (mut history, model) = (before, self.model(0));
+            let (mut history, model) = (*history, self.model(0));
             let moved = history.step_with_mean_force(&course, step, || model);
             let (deepest, mean) = moved.map_err(|deep| too_deep(0, deep))?;
             history.stays_within(self.valid_depth(0));
@@ -165,11 +158,16 @@ impl<S: Scene> Instance<S> {
             self.contacts.histories.as_mut().fill(history);
             mean_force = mean;
         } else {
-            for increment in course.motions(step) {
+            let motions = course.motions(step);
+            let [_, second, _] = motions;
+            let before = (second != 0.0).then_some(*history);
+            for increment in motions {
                 if increment != 0.0
+                    && !self.contacts.histories.as_mut().iter_mut().all(|history| history.short_step(increment))
                     && let Err(fault) = self.move_one(increment, 1.0)
                 {
-                    self.contacts.histories.as_mut().fill(before);
+                    // one motion alone leaves the contact where it was
+                    before.into_iter().for_each(|before| self.contacts.histories.as_mut().fill(before));
                     self.deep = deep;
                     return Err(fault);
                 }

@@ -109,7 +109,7 @@ impl History {
         Err(TooDeep { indentation: self.indentation() + increment })
     }
 
-    /// [`History::change_branch`], once for all that needn't be quick.
+    /// Goes to the branch that holds at `indentation` \[m\], and leaves the contact where it is.
     #[inline(never)]
     fn turn_into<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
         &mut self,
@@ -117,7 +117,9 @@ impl History {
         rising: bool,
         model: impl Fn() -> B,
     ) -> Result<(), TooDeep> {
-        self.change_branch(indentation, rising, model)
+        let model = model();
+        let known = U::SEGMENTED && self.goes_on_path(indentation, rising, model.borrow().surface);
+        if known { Ok(()) } else { self.enter(model.borrow(), indentation, rising) }
     }
 
     /// Goes back by `increment` \[m\] until the time `end` \[s\]: down one path, and through the air.

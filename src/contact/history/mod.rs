@@ -119,22 +119,14 @@ impl History {
         let indentation = if sum.value.is_finite() { sum.total() } else { sum.value };
         // no motion, no other branch: at its very end a branch that was entered from below is still the right one
         if indentation != self.indentation.total() {
-            self.change_branch(indentation, increment > 0.0, model)?;
+            let rising = increment > 0.0;
+            let known = U::SEGMENTED && self.goes_on_path(indentation, rising, model().borrow().surface);
+            if !known {
+                self.enter(model().borrow(), indentation, rising)?;
+            }
         }
         self.indentation = sum;
         Ok(())
-    }
-
-    /// Goes to the branch that holds at `indentation` \[m\], and leaves the contact where it is.
-    #[inline(always)]
-    fn change_branch<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
-        &mut self,
-        indentation: f64,
-        rising: bool,
-        model: impl Fn() -> B,
-    ) -> Result<(), TooDeep> {
-        let known = U::SEGMENTED && self.goes_on_path(indentation, rising, model().borrow().surface);
-        if known { Ok(()) } else { self.enter(model().borrow(), indentation, rising) }
     }
 
     /// Moves the contact by `increment` \[m\] if that leaves it on its branch; otherwise nothing is done, and false.
