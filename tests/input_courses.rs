@@ -6,6 +6,8 @@ mod physics;
 use brinell::contact::momentum::impulse;
 use brinell::contact::path::Course;
 use brinell::contact::{Contact, History, Loading, Model, Regime, Surface, Unloading, loading, unloading};
+use brinell::instance::Instance;
+use brinell::scene::{Real, exported::Exported};
 use physics::{Random, mild, model, unit};
 use std::cell::Cell;
 
@@ -225,4 +227,71 @@ impl Claim for AsItsParts {
 #[test]
 fn a_step_along_a_course_is_that_of_its_parts_however_it_is_cut() {
     AsItsParts.check_all();
+}
+
+fn ready() -> Instance<Exported> {
+    let mut instance = Instance::new().unwrap();
+    instance.set_experiment(0.0, None).unwrap();
+    instance.enter_initialization().unwrap();
+    instance.exit_initialization().unwrap();
+    instance
+}
+
+/// A derivative that was set before an instance was made the same as another once came back with the next one.
+#[test]
+fn a_derivative_of_a_state_that_was_left_is_forgotten() {
+    for plainly in [false, true] {
+        let (plain, mut instance, mut expected) = (ready(), ready(), ready());
+        instance.set_input_derivative(0, 1, 3e4);
+        instance.copy(&plain);
+        for instance in [&mut instance, &mut expected] {
+            instance.set_real((Real::IndentationRate, 0), 0.1);
+            match plainly {
+                true => assert!(instance.set_plain_derivatives([(2, 5e9)].into_iter())),
+                false => instance.set_input_derivative(0, 2, 5e9),
+            }
+            instance.do_step(0.0, 1e-6).unwrap();
+        }
+        let [one, other] = [&instance, &expected].map(|instance| instance.real((Real::Indentation, 0)));
+        assert_eq!(one, other);
+    }
+}
+
+/// The ways into an instance that are quick set and refuse what the others do.
+#[test]
+fn quick_steps_with_derivatives_are_those_that_are_not() {
+    let mut random = Random(8);
+    let (mut quick, mut slow) = (ready(), ready());
+    for _ in 0..4000 {
+        let mut size = || (random.next() - 0.5) * 10f64.powf(4.0 * random.next() - 3.0);
+        let (rate, first, second) = (size(), size() * 1e6, size() * 1e13);
+        for instance in [&mut quick, &mut slow] {
+            instance.set_real((Real::IndentationRate, 0), rate);
+        }
+        assert!(quick.set_plain_derivatives([(1, first), (2, second)].into_iter()));
+        for (order, value) in [(1, first), (2, second)] {
+            slow.check_input_derivative((Real::IndentationRate, 0), order, value).unwrap();
+            slow.set_input_derivative(0, order, value);
+        }
+        let time = quick.time();
+        slow.do_step(time, 1e-6).unwrap();
+        if !quick.do_course_step(time, 1e-6) && !quick.is_deep() {
+            quick.do_step(time, 1e-6).unwrap();
+        }
+        let words = |instance: &Instance<Exported>| {
+            let mut words = Vec::new();
+            instance.save(|word| words.push(word));
+            words
+        };
+        assert_eq!(words(&quick), words(&slow));
+        assert_eq!((quick.take_deep().is_some(), quick.is_deep()), (slow.take_deep().is_some(), slow.is_deep()));
+    }
+    for refused in [(0, 1.0), (3, 1.0), (-1, 1.0), (i32::MIN, 1.0), (1, f64::NAN), (2, f64::INFINITY)] {
+        let before = quick.real((Real::Indentation, 0));
+        assert!(!quick.set_plain_derivatives([(1, 7.0), refused].into_iter()), "{refused:?}");
+        quick.set_real((Real::IndentationRate, 0), 0.0);
+        let time = quick.time();
+        quick.do_step(time, 1e-6).unwrap();
+        assert_eq!(quick.real((Real::Indentation, 0)), before, "{refused:?}: none is set");
+    }
 }
