@@ -18,7 +18,7 @@
 //! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | what an impact will do, from the energy balance |
 //! | [`piece`] | the smooth pieces along which a contact moves |
-//! | [`momentum`] | the integral of force over time |
+//! | [`momentum`] | the integral of force over time, along branches or by pieces |
 //! | [`motion`] | a contact that knows the mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
 //! | [`validity`] | up to where the laws hold |
