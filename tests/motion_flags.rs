@@ -7,7 +7,7 @@ mod physics;
 use brinell::contact::momentum::impulse;
 use brinell::contact::motion::{Drive, follow};
 use brinell::contact::path::Course;
-use brinell::contact::{Contact, History, Surface};
+use brinell::contact::{Contact, History, Model, Surface, loading, unloading};
 use physics::{AnyModel, Random, all_models, pair_of};
 use std::arch::asm;
 
@@ -107,9 +107,37 @@ fn no_step_along_a_course_raises_an_exception() {
             assert_eq!(flags, 0, "impulse by {what}");
         }
         let before = history;
-        let (result, flags) = raised(|| history.step(&model, &course, step));
+        let (result, flags) = raised(|| history.step(&course, step, || model));
         if result.is_ok() {
             assert_eq!(flags, 0, "step by {what} ({} m)", before.max_indentation());
+        }
+    }
+}
+
+/// Along the branches of a law whose laws are known when it is compiled, which is another way than that of the models above.
+#[test]
+fn no_mean_force_along_branches_raises_an_exception() {
+    let model = Model {
+        pair: pair_of(0.005, 2e11, 3e8),
+        loading: loading::Brinell::REFERENCE,
+        unloading: unloading::Brinell::REFERENCE,
+        surface: Surface::Dented,
+    };
+    let mut random = Random(6);
+    for _ in 0..30_000 {
+        let Ok(mut history) = History::start(&model, -signed(&mut random, 1e-30, 1e-3)) else { continue };
+        for _ in 0..4 {
+            let step = signed(&mut random, 1e-18, 1e3).abs().max(1e-18);
+            let size = signed(&mut random, 1e-30, 1e-4).abs();
+            let mut derivative = |order: i32| {
+                let number =
+                    if random.next() < 0.3 { signed(&mut random, 1e-300, 1e-4) } else { size * (random.next() - 0.5) };
+                number / step.powi(order)
+            };
+            let course = Course { rate: derivative(1), slope: derivative(2), bend: derivative(3) };
+            let from = history.indentation();
+            let (result, flags) = raised(|| history.step_with_mean_force(&course, step, || &model));
+            assert!(result.is_err() || flags == 0, "{course:?} for {step:e} s from {from} m: {result:?}");
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::history::{Regime, TooDeep};
 use super::path::Course;
+use core::borrow::Borrow;
 use core::f64::consts::PI;
 
 /// The state of a contact between the bodies of a model `M`. The model says what is in contact and by which laws; the state
@@ -39,12 +40,30 @@ pub trait Contact<M>: Copy {
     /// Mean force \[N\] of the last step, which was a [short](Contact::short_step) one and began at the indentation `from` \[m\].
     fn mean_force_of_short_step(&self, from: f64) -> f64;
 
-    /// Moves the contact on `course` over `step` \[s\]. The result is the largest indentation on the way \[m\], which a fresh
-    /// surface forgets.
+    /// Moves the contact on `course` over `step` \[s\], and asks for the model only if it needs the law. The result is the largest
+    /// indentation on the way \[m\], which a fresh surface forgets.
     ///
     /// # Errors
     /// [`TooDeep`] beyond the range of the law; the contact is then where it was.
-    fn step(&mut self, model: &M, course: &Course, step: f64) -> Result<f64, TooDeep>;
+    fn step<B: Borrow<M>>(&mut self, course: &Course, step: f64, model: impl Fn() -> B) -> Result<f64, TooDeep>;
+
+    /// [`Contact::step`], which for a contact that follows the rate has that held, with the mean force of it \[N\] behind the largest indentation \[m\].
+    ///
+    /// # Errors
+    /// As for [`Contact::step`].
+    fn step_with_mean_force<B: Borrow<M>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        model: impl Fn() -> B,
+    ) -> Result<(f64, f64), TooDeep> {
+        let mean_force = self.mean_force(model().borrow(), course.rate, step)?;
+        Ok((self.step(course, step, model)?, mean_force))
+    }
+
+    /// Mean force \[N\] of the last step, which was a [short](Contact::short_step) one along `course`, whose rate keeps its sign,
+    /// and began at the indentation `from` \[m\].
+    fn mean_force_of_short_course(&self, from: f64, course: &Course, step: f64) -> f64;
 
     /// [`Contact::step`] with `rate` \[m/s\] held, for a step that is not a [short](Contact::short_step) one. It asks for the model,
     /// of which this much is `kept`, only if it needs the law.
@@ -53,11 +72,11 @@ pub trait Contact<M>: Copy {
     /// As for [`Contact::step`].
     fn step_held(&mut self, rate: f64, step: f64, kept: &Self::Kept, model: impl Fn() -> M) -> Result<(), TooDeep>;
 
-    /// Mean force \[N\] of a step that has not been made yet.
+    /// Mean force \[N\] of a step with `rate` \[m/s\] held that has not been made yet.
     ///
     /// # Errors
     /// As for [`Contact::step`].
-    fn mean_force(&self, model: &M, course: &Course, step: f64) -> Result<f64, TooDeep>;
+    fn mean_force(&self, model: &M, rate: f64, step: f64) -> Result<f64, TooDeep>;
 
     /// Whether the contact has always been less deep than `depth` \[m\]. If so no [short step](Contact::short_step) reaches it.
     fn stays_within(&mut self, depth: f64) -> bool;

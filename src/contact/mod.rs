@@ -18,7 +18,7 @@
 //! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | what an impact will do, from the energy balance |
 //! | [`piece`] | the smooth pieces along which a contact moves |
-//! | [`momentum`] | the integral of force over time |
+//! | [`momentum`] | the integral of force over time, along branches or by pieces |
 //! | [`motion`] | a contact that knows the mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
 //! | [`validity`] | up to where the laws hold |
@@ -32,7 +32,8 @@ pub mod loading;
 pub mod material;
 pub mod momentum;
 pub mod motion;
-mod numbers;
+pub(crate) mod numbers;
+mod panel;
 pub mod path;
 pub mod piece;
 pub mod quadrature;
@@ -80,6 +81,12 @@ impl<L: Loading, U: Unloading> Model<L, U> {
     #[inline(always)]
     fn yields_before(&self, point: &YieldPoint, indentation: f64) -> bool {
         self.loading.can_yield() && indentation > point.indentation
+    }
+
+    /// Whether every branch is a segment, and none a tangent.
+    #[inline(always)]
+    pub fn is_segmented(&self) -> bool {
+        U::SEGMENTED && self.loading.is_segmented()
     }
 
     /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.

@@ -2,7 +2,6 @@
 
 use super::history::{History, TooDeep};
 use super::loading::Loading;
-use super::numbers::quotient;
 use super::path::Course;
 use super::piece::Piece;
 use super::quadrature::{gauss, graded_integral};
@@ -19,11 +18,26 @@ const MOST_PIECES: u32 = 100;
 /// Impulse \[N.s\] of a step on `course` over `step` \[s\] from where the contact is, which stays where it is.
 ///
 /// The way is cut where the direction changes and where the law has a corner. On each part the force is smooth in time and
-/// is integrated in closed form if the rate is held and the law has segments, else by Gauss's rule, to rounding.
+/// is integrated in closed form if the rate is held and the law has segments, else by Gauss's rule, to rounding: with segments
+/// the [power](super::segment::Segment) alone.
 ///
 /// # Errors
 /// [`TooDeep`] as for [`History::advance`].
 pub fn impulse<L: Loading, U: Unloading>(
+    history: &History,
+    model: &Model<L, U>,
+    course: &Course,
+    step: f64,
+) -> Result<f64, TooDeep> {
+    if !course.is_held() && model.is_segmented() {
+        let mut contact = *history;
+        return Ok(contact.advance_along(course, step, || model)?.1);
+    }
+    impulse_by_pieces(history, model, course, step)
+}
+
+/// [`impulse`] of a course with the rate held, or by a law without segments.
+pub(super) fn impulse_by_pieces<L: Loading, U: Unloading>(
     history: &History,
     model: &Model<L, U>,
     course: &Course,
@@ -87,9 +101,9 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
 
     /// Impulse over the smooth `piece`, from one time and indentation to another.
     fn over(&self, piece: &Piece<'_, L, U>, (start, end): (f64, f64), (from, to): (f64, f64)) -> f64 {
-        if self.course.is_held()
-            && let Some(segment) = piece.whole()
-        {
+        // a law of segments is only asked with the rate held
+        let whole = if self.model.is_segmented() { Some(piece.segment()) } else { piece.whole() };
+        if let Some(segment) = whole.filter(|_| self.model.is_segmented() || self.course.is_held()) {
             return (end - start) * segment.mean_force(from, to);
         }
         let force = |time: f64| piece.force(self.at(time));
@@ -99,24 +113,8 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
         if fabs(whole - halves) <= ROUNDING * fabs(halves) { halves } else { graded_integral(start, end, &force) }
     }
 
-    /// When, between now and `end` \[s\], the indentation is `border` \[m\]: Newton's method in a bracket.
+    /// When, between now and `end` \[s\], the indentation is `border` \[m\].
     fn when(&self, border: f64, end: f64) -> f64 {
-        let (mut low, mut high) = (self.time, end);
-        let below_at_end = self.at(end) < border;
-        let mut time = 0.5 * (low + high);
-        for _ in 0..200 {
-            let beyond = self.at(time) - border;
-            *(if (beyond < 0.0) == below_at_end { &mut high } else { &mut low }) = time;
-            // no division by a rate at which the step would lead out of the bracket, as where the direction changes
-            let rate = self.course.rate_after(time);
-            let leads = fabs(beyond) < fabs(rate) * (high - low);
-            let newton = time - quotient(beyond, rate, leads, f64::MAX);
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if next == time || beyond == 0.0 || !(next > low && next < high) {
-                break;
-            }
-            time = next;
-        }
-        if time < end { time } else { end }
+        self.course.when(|time| self.at(time) - border, (self.time, end), 0.5 * (self.time + end))
     }
 }

@@ -3,6 +3,9 @@
 use super::numbers::{quotient, root};
 use libm::fabs;
 
+/// A change so small, as a part of what it is compared with, is beyond rounding when squared.
+const NEAR: f64 = 1e-8;
+
 /// Numbers above it are not squared.
 const HUGE: f64 = 1e150;
 
@@ -68,18 +71,92 @@ impl Course {
     }
 
     /// The rate after `time` \[s\], \[m/s\].
+    #[inline]
     pub fn rate_after(&self, time: f64) -> f64 {
         self.rate + time * (self.slope + 0.5 * self.bend * time)
     }
 
     /// The way after `time` \[s\], \[m\].
+    #[inline]
     pub fn way(&self, time: f64) -> f64 {
-        time * (self.rate + time * (0.5 * self.slope + self.bend * time / 6.0))
+        time * (self.rate + time * (0.5 * self.slope + self.bend * time * (1.0 / 6.0)))
+    }
+
+    /// The course that is left after `time` \[s\].
+    #[inline(always)]
+    pub fn after(&self, time: f64) -> Course {
+        Course { rate: self.rate_after(time), slope: self.slope + self.bend * time, bend: self.bend }
+    }
+
+    /// The course that leads to where this one begins, backwards in time.
+    pub fn reversed(&self) -> Course {
+        Course { rate: -self.rate, slope: self.slope, bend: -self.bend }
+    }
+
+    /// When, between `low` and `high` \[s\], the way is `way` \[m\]; the rate keeps its sign there.
+    pub fn when_at(&self, way: f64, low: f64, high: f64) -> f64 {
+        let (before, after) = (self.way(low) - way, self.way(high) - way);
+        let part = quotient(before, before - after, fabs(before) < fabs(before - after), 0.5);
+        self.when(|time| self.way(time) - way, (low, high), low + part * (high - low))
+    }
+
+    /// When, between two times \[s\], `beyond` changes its sign, whose derivative is the rate: Newton's method in a bracket, from
+    /// `time` \[s\] on.
+    pub fn when(&self, beyond: impl Fn(f64) -> f64, (low, high): (f64, f64), mut time: f64) -> f64 {
+        let end = high;
+        let (mut low, mut high) = (low, high);
+        let near = NEAR * (high - low);
+        let below_at_end = beyond(end) < 0.0;
+        for _ in 0..200 {
+            let beyond = beyond(time);
+            *(if (beyond < 0.0) == below_at_end { &mut high } else { &mut low }) = time;
+            // no division by a rate at which the step would lead out of the bracket, as where the direction changes
+            let Course { rate, slope, .. } = self.after(time);
+            let leads = fabs(beyond) < fabs(rate) * (high - low);
+            let newton = time - quotient(beyond, rate, leads, f64::MAX);
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if next == time || beyond == 0.0 || !(next > low && next < high) {
+                break;
+            }
+            let change = fabs(next - time);
+            time = next;
+            // what is then missing is a part of the change that is as small again
+            if change < near && change * fabs(slope) < NEAR * fabs(rate) && next == newton && slope != 0.0 {
+                break;
+            }
+        }
+        if time < end { time } else { end }
+    }
+
+    /// Whether the rate certainly keeps its sign over `step` \[s\]. It is a mean of three numbers with weights that aren't
+    /// negative (Bernstein's form), so that it does if they have one sign; a course that keeps its direction may still have two.
+    #[inline]
+    pub fn keeps_direction(&self, step: f64) -> bool {
+        let (middle, end) = (self.rate + 0.5 * self.slope * step, self.rate_after(step));
+        let forward = self.rate >= 0.0 && middle >= 0.0 && end >= 0.0;
+        forward || self.rate <= 0.0 && middle <= 0.0 && end <= 0.0
+    }
+
+    /// The motions of a step \[m\], each in one direction, and zero for those that there aren't. Their sum is the way.
+    pub fn motions(&self, step: f64) -> [f64; 3] {
+        let mut from = 0.0;
+        self.monotone_ends(step).map(|end| {
+            let to = self.way(end);
+            to - core::mem::replace(&mut from, to)
+        })
     }
 
     /// The ends of the monotone parts of a step \[s\]: where the rate changes its sign inside of it, in order, and the end of the
     /// step for the parts that there aren't.
+    #[inline]
     pub fn monotone_ends(&self, step: f64) -> [f64; 3] {
+        if self.keeps_direction(step) { [step; 3] } else { self.turns(step) }
+    }
+
+    /// The ends of the monotone parts of a course that may turn.
+    #[cold]
+    #[inline(never)]
+    fn turns(&self, step: f64) -> [f64; 3] {
         // the roots don't depend on it, and no square overflows
         let huge = [self.rate, self.slope, self.bend].iter().any(|number| fabs(*number) > HUGE);
         let unit = if huge { 1.0 / HUGE } else { 1.0 };

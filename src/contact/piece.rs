@@ -99,7 +99,12 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     /// Whether the whole piece is one segment. The compiler knows it of laws that are made of segments, and leaves out what others
     /// need.
     fn is_whole(&self) -> bool {
-        U::SEGMENTED && self.model.loading.is_segmented() || self.is_whole
+        self.model.is_segmented() || self.is_whole
+    }
+
+    /// The segment that the whole piece is, or one somewhere on it.
+    pub(super) fn segment(&self) -> &Segment {
+        &self.segment
     }
 
     /// The segment that the whole piece is, if it is one.

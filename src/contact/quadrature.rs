@@ -20,20 +20,29 @@ pub fn graded_integral(low: f64, high: f64, integrand: &impl Fn(f64) -> f64) -> 
     half(low) - half(high)
 }
 
-/// Gauss-Legendre rule with ten points.
+/// Positive nodes of the Gauss-Legendre rule with six points, and their weights.
 ///
 /// Reference: M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, table 25.4.
+pub(super) const SIX: [(f64, f64); 3] = [
+    (0.238_619_186_083_196_9, 0.467_913_934_572_691_05),
+    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
+    (0.932_469_514_203_152, 0.171_324_492_379_170_35),
+];
+
+/// The same with ten points.
+pub(super) const TEN: [(f64, f64); 5] = [
+    (0.148_874_338_981_631_22, 0.295_524_224_714_752_87),
+    (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
+    (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
+    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
+    (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
+];
+
+/// Gauss-Legendre rule with ten points.
 pub fn gauss(from: f64, to: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
-    const NODES_AND_WEIGHTS: [(f64, f64); 5] = [
-        (0.148_874_338_981_631_22, 0.295_524_224_714_752_87),
-        (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
-        (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
-        (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-        (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
-    ];
     let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
     let mut sum = 0.0;
-    for (node, weight) in NODES_AND_WEIGHTS {
+    for (node, weight) in TEN {
         sum += weight * (integrand(centre - half * node) + integrand(centre + half * node));
     }
     sum * half

@@ -7,7 +7,10 @@ use super::handle::Handle;
 use super::order::{self, Function};
 use super::variables::{any_real, real};
 use crate::instance::{Instance, Plain};
-use crate::scene::Scene;
+use crate::scene::{Presence, Scene};
+
+/// Reference of the input of the first contact.
+const INPUT: fmi2ValueReference = 0;
 
 /// Moves the contact over a step with the indentation rate held; complete when it returns.
 ///
@@ -23,22 +26,43 @@ pub unsafe fn do_step<S: Scene>(
     let _ = noSetFMUStatePriorToCurrentPoint;
     // SAFETY: the caller's component.
     unsafe {
-        if let Some(component) = Component::<S>::behind(c) {
-            match component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize) {
-                Plain::Done => {
-                    // one contact that goes too deep leaves its branch
-                    if S::CONTACTS > 1 && component.instance.is_deep() {
-                        component.warn_of_limits(order::DO_STEP);
-                    }
-                    return fmi2OK;
+        let Some(component) = Component::<S>::behind(c) else {
+            return do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize);
+        };
+        match component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize) {
+            Plain::Done => {
+                // one contact that goes too deep leaves its branch
+                if S::CONTACTS > 1 && component.instance.is_deep() {
+                    component.warn_of_limits(order::DO_STEP);
                 }
-                Plain::OffBranch => {
-                    return do_branch_step(component, currentCommunicationPoint, communicationStepSize);
-                }
-                Plain::Other => {}
+                return fmi2OK;
             }
+            Plain::OffBranch => {
+                return do_branch_step(component, currentCommunicationPoint, communicationStepSize);
+            }
+            Plain::Other => {}
+        }
+        if S::CONTACTS == 1 && component.instance.is_curved() {
+            return do_course_step::<S>(c, currentCommunicationPoint, communicationStepSize);
         }
         do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize)
+    }
+}
+
+/// A step with derivatives of the input, if it is plain but for them.
+///
+/// # Safety
+/// The caller's component.
+#[inline(never)]
+unsafe fn do_course_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe {
+        if let Some(component) = Component::<S>::behind(c)
+            && component.instance.do_course_step(time, step)
+        {
+            return fmi2OK;
+        }
+        do_any_step::<S>(c, time, step)
     }
 }
 
@@ -106,6 +130,39 @@ pub unsafe fn set_real_input_derivatives<S: Scene>(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays as long as announced.
     unsafe {
+        if S::CONTACTS == 1
+            && S::Course::IS_PRESENT
+            && let Some(component) = Component::<S>::behind(c)
+            && !vr.is_null()
+            && !order.is_null()
+            && !value.is_null()
+            && component.instance.set_plain_derivatives((0..nvr).map(|index| {
+                let (reference, order) = (*vr.add(index), *order.add(index));
+                // no derivative of any other variable has an order
+                (if reference == INPUT { order } else { 0 }, *value.add(index))
+            }))
+        {
+            return fmi2OK;
+        }
+        set_any_input_derivatives::<S>(c, vr, nvr, order, value)
+    }
+}
+
+/// Every setting of derivatives that isn't plain, with all checks.
+///
+/// # Safety
+/// The caller's component, and arrays as long as announced.
+#[cold]
+#[inline(never)]
+unsafe fn set_any_input_derivatives<S: Scene>(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *const fmi2Real,
+) -> fmi2Status {
+    // SAFETY: as the caller promises.
+    unsafe {
         call::<S>(c, order::SET_REAL_INPUT_DERIVATIVES, |component| {
             let references = array(vr, nvr, "vr")?;
             let orders = array(order, nvr, "order")?;
@@ -114,7 +171,8 @@ pub unsafe fn set_real_input_derivatives<S: Scene>(
             for ((&reference, &order), &value) in all() {
                 component.instance.check_input_derivative(any_real::<S>(reference)?, order, value)?;
             }
-            for ((&reference, &order), &value) in all() {
+            // those of one contact are set already, if there is nothing to complain of
+            for ((&reference, &order), &value) in all().filter(|_| S::CONTACTS > 1) {
                 component.instance.set_input_derivative(any_real::<S>(reference)?.1, order, value);
             }
             Ok(())

@@ -57,7 +57,7 @@ pub(super) struct Clock {
     limit: f64,
     /// From here to its opposite \[m/s\] an input may be set without a further look: between steps, and beyond all otherwise.
     /// Negative, so that the comparison has its second number in memory.
-    pub lowest_rate: f64,
+    lowest_rate: f64,
     stop: f64,
     pub phase: Phase,
     pub experiment_defined: bool,
@@ -77,10 +77,29 @@ impl Clock {
     /// Whether a step from `time` to `end`, `step` \[s\] long, is plainly in order.
     #[inline(always)]
     pub fn takes(&self, time: f64, end: f64, step: f64) -> bool {
-        // a step that is zero, negative or NaN is not larger than any distance, and an infinite one ends beyond the limit
-        let follows = (time - self.time).abs() * (1.0 / TIME_TOLERANCE) < step;
+        // an infinite step ends beyond the limit
         let beyond = end > self.limit;
-        follows && !beyond
+        self.follows(time, step) && !beyond
+    }
+
+    /// The same for a step while [held](Clock::hold), if it is one in which [inputs may be set](Clock::takes_rate).
+    #[inline(always)]
+    pub fn takes_held(&self, time: f64, end: f64, step: f64) -> bool {
+        self.follows(time, step) && end <= self.stop && end <= LATEST
+    }
+
+    /// Whether an input may be set to `rate` \[m/s\] without a further look.
+    #[inline(always)]
+    pub fn takes_rate(&self, rate: f64) -> bool {
+        // a NaN is not
+        -rate.abs() >= self.lowest_rate
+    }
+
+    /// Whether a step from `time` that is `step` \[s\] long plainly follows the last one: one that is zero, negative or NaN is not
+    /// larger than any distance.
+    #[inline(always)]
+    fn follows(&self, time: f64, step: f64) -> bool {
+        (time - self.time).abs() * (1.0 / TIME_TOLERANCE) < step
     }
 
     /// Whether such a step is in order.

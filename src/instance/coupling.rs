@@ -25,6 +25,12 @@ impl Curve {
     /// Number of words that hold a curve.
     pub const WORDS: usize = 4;
 
+    /// Whether the rate won't be held.
+    #[inline]
+    pub fn is_curved(&self) -> bool {
+        self.slope != 0.0 || self.bend != 0.0
+    }
+
     /// The course over the next step of a contact with this `rate` \[m/s\].
     pub fn course(&self, rate: f64) -> Course {
         Course { rate, slope: self.slope, bend: self.bend }

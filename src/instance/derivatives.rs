@@ -8,7 +8,7 @@ use core::f64::consts::PI;
 
 impl<S: Scene> Instance<S> {
     /// The highest order of a derivative of an input.
-    const INPUT_ORDER: i32 = if S::FOLLOW.is_some() { 1 } else { 2 };
+    pub const INPUT_ORDER: i32 = if S::FOLLOW.is_some() { 1 } else { 2 };
 
     /// Whether the derivative of this `order` of an input may be set to `value` now.
     ///
@@ -32,19 +32,56 @@ impl<S: Scene> Instance<S> {
 
     /// Sets a derivative that [`Instance::check_input_derivative`] has allowed; it holds for the next step.
     pub fn set_input_derivative(&mut self, contact: usize, order: i32, value: f64) {
-        let Contacts { curves, rates, .. } = &mut self.contacts;
-        let curves = curves.as_mut();
-        if let Some(curve) = curves.get_mut(contact) {
-            *(if order == 1 { &mut curve.slope } else { &mut curve.bend }) = value;
-            if value != 0.0 && !self.curved {
-                // the ends of contacts that had none
-                for (curve, &rate) in curves.iter_mut().zip(rates.as_ref()) {
-                    (curve.end_rate, curve.end_slope) = (rate, 0.0);
-                }
-                self.curved = true;
-                self.clock.hold();
+        if value != 0.0 || self.curved {
+            self.curve();
+            if let Some(curve) = self.contacts.curves.as_mut().get_mut(contact) {
+                *(if order == 1 { &mut curve.slope } else { &mut curve.bend }) = value;
             }
         }
+    }
+
+    /// Sets derivatives of the input of the one contact, by their orders, and reports true if that is all there is to do: they
+    /// may be set now, and are numbers. Otherwise it sets none.
+    #[inline(always)]
+    pub fn set_plain_derivatives(&mut self, derivatives: impl Iterator<Item = (i32, f64)>) -> bool {
+        let phases = Phase::Instantiated as u8 | Phase::Initialization as u8 | Phase::StepComplete as u8;
+        let in_order = self.phase() as u8 & phases != 0;
+        let before = self.contacts.curves.as_ref().first().filter(|_| self.curved).copied().unwrap_or_default();
+        let mut numbers = [before.slope, before.bend];
+        for (order, value) in derivatives {
+            match numbers.get_mut((order as u32).wrapping_sub(1) as usize) {
+                Some(number) if order <= Self::INPUT_ORDER && value.is_finite() => *number = value,
+                _ => return false,
+            }
+        }
+        let [slope, bend] = numbers;
+        if in_order && (self.curved || slope != 0.0 || bend != 0.0) {
+            self.curve();
+            for curve in self.contacts.curves.as_mut() {
+                (curve.slope, curve.bend) = (slope, bend);
+            }
+        }
+        in_order
+    }
+
+    /// Whether inputs have derivatives, or had some in the last step.
+    #[inline(always)]
+    pub fn is_curved(&self) -> bool {
+        S::Course::IS_PRESENT && self.curved
+    }
+
+    /// From here on inputs have derivatives; none is set yet.
+    #[inline(always)]
+    fn curve(&mut self) {
+        if self.curved {
+            return;
+        }
+        let Contacts { curves, rates, .. } = &mut self.contacts;
+        for (curve, &rate) in curves.as_mut().iter_mut().zip(rates.as_ref()) {
+            *curve = Curve { end_rate: rate, ..Curve::default() };
+        }
+        self.curved = true;
+        self.clock.hold();
     }
 
     /// The derivative of this `order` of an output by time, at the end of the last step: one-sided at corners of the law, in

@@ -16,6 +16,7 @@
 
 mod clock;
 mod coupling;
+mod course;
 mod derivatives;
 mod fault;
 mod saved;

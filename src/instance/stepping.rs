@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::contact::motion::{Drive, NoMotion};
+use crate::contact::numbers::largest;
 use crate::contact::path::Course;
 use crate::scene::Parameter;
 
@@ -84,21 +85,28 @@ impl<S: Scene> Instance<S> {
     /// [`Instance::take_deep`] may have a warning.
     #[inline(always)]
     pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
-        let Contacts { histories, rates, last_step, .. } = &mut self.contacts;
-        let (Some(history), Some(&rate)) = (histories.as_mut().first_mut(), rates.as_ref().first()) else {
-            return false;
-        };
-        let Settings { bodies, values, .. } = &self.settings;
-        let Some(bodies) = bodies.as_ref().first() else { return false };
-        let done = history.step_held(rate, step, &bodies.kept, || model_of::<S>(0, bodies, values)).is_ok();
+        let Some(&rate) = self.rates().first() else { return false };
+        let done = self.move_one(rate, step).is_ok();
         if done {
-            last_step.as_mut().fill(step);
+            self.contacts.last_step.as_mut().fill(step);
             self.clock.time = time + step;
-            if !history.stays_within(bodies.depth) {
-                self.note_depth();
-            }
         }
         done
+    }
+
+    /// Moves the one contact of an instance with `rate` \[m/s\] held over `step` \[s\].
+    #[inline(never)]
+    pub(super) fn move_one(&mut self, rate: f64, step: f64) -> Result<(), TooDeep> {
+        let Settings { bodies, values, .. } = &self.settings;
+        let (Some(history), Some(bodies)) = (self.contacts.histories.as_mut().first_mut(), bodies.as_ref().first())
+        else {
+            return Ok(());
+        };
+        history.step_held(rate, step, &bodies.kept, || model_of::<S>(0, bodies, values))?;
+        if !history.stays_within(bodies.depth) {
+            self.note_depth();
+        }
+        Ok(())
     }
 
     /// Finds up to which depth the law of the one contact is valid, and notes whether the contact is deeper.
@@ -109,13 +117,38 @@ impl<S: Scene> Instance<S> {
         let Some(history) = self.contacts.histories.as_mut().first_mut() else { return };
         let reached = history.max_indentation();
         if !history.stays_within(depth) {
-            self.note_deep(0, reached);
+            let Deep { contact, indentation } = self.deep;
+            // a fresh surface may have forgotten what was deeper in the same step
+            self.note_deep(0, if contact == 0 { reached } else { largest(reached, indentation) });
         }
     }
 
     /// Moves all contacts over `step` \[s\], to the time `end` \[s\], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
+        if Self::ALONE && self.curved && self.contacts.curves.as_ref().iter().any(Curve::is_curved) {
+            return self.advance_on_course(end, step);
+        }
+        match Self::SIMPLE {
+            true => {
+                for rate in *self.rates().first_chunk::<1>().unwrap_or(&[0.0]) {
+                    self.move_one(rate, step).map_err(|deep| too_deep(0, deep))?;
+                }
+                self.contacts.last_step.as_mut().fill(step);
+                self.clock.time = end;
+            }
+            false => self.advance_all(end, step)?,
+        }
+        // how a step with derivatives ended is known until the next one, which isn't plain for that reason
+        if Self::ALONE && self.curved {
+            self.straighten();
+        }
+        Ok(())
+    }
+
+    /// Moves all contacts of an instance that isn't simple, or none of them.
+    #[inline]
+    fn advance_all(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         if S::CONTACTS > 1 {
             // within the limits of rates and times a law that is made of segments can't refuse
             let looks_ahead = self.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));
@@ -125,8 +158,8 @@ impl<S: Scene> Instance<S> {
                 }
             }
         }
-        let any = self.curved || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT;
-        if Self::SIMPLE || any {
+        let any = self.curved && !Self::ALONE || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT;
+        if any {
             self.advance_any(step)?;
         } else {
             self.advance_held(step)?;
@@ -149,7 +182,6 @@ impl<S: Scene> Instance<S> {
             let short = (S::CONTACTS > 1 || S::Momentum::IS_PRESENT) && history.short_step(rate * step);
             let group = S::group(contact);
             let kept = || settings.bodies.as_ref().get(group).map(|bodies| bodies.kept).unwrap_or_default();
-            let course = Course::held(rate);
             if !short {
                 history
                     .step_held(rate, step, &kept(), || settings.model(group))
@@ -164,9 +196,9 @@ impl<S: Scene> Instance<S> {
             if let Some(momentum) = momenta.get_mut(contact) {
                 let mean = match short {
                     true => history.mean_force_of_short_step(from),
-                    false => before
-                        .mean_force(&settings.model(group), &course, step)
-                        .map_err(|deep| too_deep(contact, deep))?,
+                    false => {
+                        before.mean_force(&settings.model(group), rate, step).map_err(|deep| too_deep(contact, deep))?
+                    }
                 };
                 momentum.add(mean, step);
             }
@@ -177,8 +209,7 @@ impl<S: Scene> Instance<S> {
     /// Moves all contacts, each on the course of its input, or by its mass.
     #[cold]
     fn advance_any(&mut self, step: f64) -> Result<(), Fault> {
-        let is_curved = |curve: &Curve| curve.slope != 0.0 || curve.bend != 0.0;
-        let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(is_curved);
+        let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(Curve::is_curved);
         self.curved |= !Self::PLAIN;
         for contact in 0..S::CONTACTS {
             let Moved { mut history, course, mean_force, deepest } = self.moved(contact, step)?;
@@ -230,11 +261,10 @@ impl<S: Scene> Instance<S> {
             course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
             return Ok(Moved { history, course, mean_force, deepest: outcome.deepest });
         }
-        let mean_force = match S::Momentum::IS_PRESENT {
-            true => history.mean_force(&model, &course, step).map_err(failed)?,
-            false => 0.0,
+        let (deepest, mean_force) = match S::Momentum::IS_PRESENT {
+            true => history.step_with_mean_force(&course, step, || model).map_err(failed)?,
+            false => (history.step(&course, step, || model).map_err(failed)?, 0.0),
         };
-        let deepest = history.step(&model, &course, step).map_err(failed)?;
         Ok(Moved { history, course, mean_force, deepest })
     }
 }

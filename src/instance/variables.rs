@@ -56,8 +56,7 @@ impl<S: Scene> Instance<S> {
         let (Some(history), Some(slot)) = (histories.as_ref().get(contact), rates.as_mut().get_mut(contact)) else {
             return false;
         };
-        // a NaN is not
-        let plain = -rate.abs() >= self.clock.lowest_rate && is_finite_at(history, rate);
+        let plain = self.clock.takes_rate(rate) && is_finite_at(history, rate);
         if plain {
             *slot = rate;
         }
@@ -74,7 +73,7 @@ impl<S: Scene> Instance<S> {
         };
         let mut plain = true;
         for (history, &rate) in histories.iter().zip(rates) {
-            plain &= -rate.abs() >= self.clock.lowest_rate && is_finite_at(history, rate);
+            plain &= self.clock.takes_rate(rate) && is_finite_at(history, rate);
         }
         if plain {
             for (slot, &rate) in slots.iter_mut().zip(rates) {
@@ -148,7 +147,7 @@ impl<S: Scene> Instance<S> {
     pub(super) fn predicted(&self, contact: usize, model: &S::Model, rate: f64) -> Option<S::Contact> {
         let history = *self.histories().get(contact)?;
         let mut next = history;
-        let moved = next.step(model, &Course::held(rate), self.last_step());
+        let moved = next.step(&Course::held(rate), self.last_step(), || model);
         Some(if moved.is_ok() { next } else { history })
     }
 

@@ -4,10 +4,12 @@ use super::{History, Regime, Sum, TooDeep};
 use crate::contact::behaviour::Contact;
 use crate::contact::loading::Loading;
 use crate::contact::material::YieldPoint;
+use crate::contact::numbers::largest;
 use crate::contact::path::Course;
 use crate::contact::segment::Segment;
 use crate::contact::unloading::Unloading;
 use crate::contact::{Model, momentum};
+use core::borrow::Borrow;
 
 impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     const FOLLOWS_RATE: bool = false;
@@ -35,22 +37,41 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         self.segment.mean_force(from, self.indentation())
     }
 
-    fn step(&mut self, model: &Model<L, U>, course: &Course, step: f64) -> Result<f64, TooDeep> {
-        if course.is_held() {
-            self.advance(model, course.rate * step)?;
-            return Ok(self.max_indentation());
-        }
-        let mut moved = *self;
-        let (mut from, mut deepest) = (0.0, 0.0);
-        for end in course.monotone_ends(step) {
-            let to = course.way(end);
-            moved.advance(model, to - from)?;
-            from = to;
-            let reached = moved.max_indentation();
-            deepest = if reached > deepest { reached } else { deepest };
+    #[inline]
+    fn step<B: Borrow<Model<L, U>>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        model: impl Fn() -> B,
+    ) -> Result<f64, TooDeep> {
+        let (mut moved, mut deepest) = (*self, 0.0);
+        for increment in course.motions(step) {
+            if !moved.advance_on_branch(increment) {
+                moved.find_branch(model().borrow(), increment)?;
+            }
+            deepest = largest(moved.max_indentation(), deepest);
         }
         *self = moved;
         Ok(deepest)
+    }
+
+    fn step_with_mean_force<B: Borrow<Model<L, U>>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        model: impl Fn() -> B,
+    ) -> Result<(f64, f64), TooDeep> {
+        if model().borrow().is_segmented() {
+            let (deepest, impulse) = self.advance_along(course, step, model)?;
+            return Ok((deepest, impulse / step));
+        }
+        let impulse = momentum::impulse_by_pieces(self, model().borrow(), course, step)?;
+        Ok((self.step(course, step, model)?, impulse / step))
+    }
+
+    #[inline]
+    fn mean_force_of_short_course(&self, from: f64, course: &Course, step: f64) -> f64 {
+        self.mean_force_along(from, course, step)
     }
 
     #[inline(always)]
@@ -65,8 +86,8 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         if self.go_to_next_branch(increment, kept, &model) { Ok(()) } else { self.find_branch(&model(), increment) }
     }
 
-    fn mean_force(&self, model: &Model<L, U>, course: &Course, step: f64) -> Result<f64, TooDeep> {
-        Ok(momentum::impulse(self, model, course, step)? / step)
+    fn mean_force(&self, model: &Model<L, U>, rate: f64, step: f64) -> Result<f64, TooDeep> {
+        Ok(momentum::impulse_by_pieces(self, model, &Course::held(rate), step)? / step)
     }
 
     /// Ends the present branch at `depth`, if it goes beyond: the step that comes there then asks for its branch. It finds the

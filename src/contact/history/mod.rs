@@ -1,6 +1,7 @@
 //! The state of a contact, and its path through the branches of the law.
 
 mod behaviour;
+mod course;
 mod outputs;
 mod saved;
 
@@ -123,8 +124,8 @@ impl History {
         Ok(())
     }
 
-    /// The same, where the present branch tells which one is next, which is not the present one; otherwise nothing is done, and
-    /// false. Where the law says what that one is like the yield `point` and the model are asked for.
+    /// Moves the contact by `increment` \[m\] to the next branch, where the present one tells which that is; otherwise nothing is
+    /// done, and false. Where the law says what it is like the yield `point` and the model are asked for.
     #[inline(always)]
     fn go_to_next_branch<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
         &mut self,
@@ -141,7 +142,7 @@ impl History {
             } else if indentation > 0.0 && indentation >= self.max_indentation {
                 indentation != before && self.load(model().borrow(), point, indentation).is_ok()
             } else if indentation >= self.segment.upper {
-                self.meet(model().borrow(), point, indentation)
+                self.meet::<U>(indentation) || self.touch(model().borrow(), point, indentation)
             } else {
                 indentation > -LARGEST_INDENTATION && self.leave::<U>(model().borrow().surface, indentation)
             };
@@ -206,7 +207,7 @@ impl History {
         indentation: f64,
         rising: bool,
     ) -> Result<(), TooDeep> {
-        let known = U::SEGMENTED && self.goes_on_path(indentation, rising, model.surface);
+        let known = self.goes_on_path::<U>(indentation, rising, model.surface);
         if !known {
             self.enter(model, indentation, rising)?;
         }
@@ -335,24 +336,43 @@ impl History {
         }
     }
 
-    /// Touches the surface again at `indentation` \[m\], below the largest one: on the path of the dent, if the contact has kept
-    /// it, or where it has not yielded. Otherwise nothing is done, and false.
+    /// Meets the path of the dent again at `indentation` \[m\], if the contact has kept it; otherwise nothing is done, and false.
     #[inline(always)]
-    fn meet<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, point: &YieldPoint, indentation: f64) -> bool {
-        if self.regime != Regime::Apart || indentation <= 0.0 {
-            return false;
-        }
+    fn meet<U: Unloading>(&mut self, indentation: f64) -> bool {
         let residual = self.segment.origin;
-        if U::SEGMENTED && residual == self.segment.upper {
+        // a fresh surface may forget its dent below zero
+        let is_kept = U::SEGMENTED && self.regime == Regime::Apart && residual == self.segment.upper;
+        let meets = is_kept && indentation > 0.0;
+        if meets {
             (self.segment.lower, self.segment.upper) = (next_above(residual), self.max_indentation);
             self.regime = Regime::Unloaded;
-            return true;
         }
-        let springs = !model.yields_before(point, self.max_indentation);
-        if springs {
+        meets
+    }
+
+    /// Touches a surface that has not yielded, at `indentation` \[m\] below the largest one; otherwise nothing is done, and false.
+    #[inline(always)]
+    fn touch<L: Loading, U>(&mut self, model: &Model<L, U>, point: &YieldPoint, indentation: f64) -> bool
+    where
+        U: Unloading,
+    {
+        let touches =
+            self.regime == Regime::Apart && indentation > 0.0 && !model.yields_before(point, self.max_indentation);
+        if touches {
             self.spring(model, point, self.max_indentation);
         }
-        springs
+        touches
+    }
+
+    /// Parts from the path of the dent, or meets it again, if the contact knows it; otherwise nothing is done, and false. At the
+    /// end of the path the direction decides.
+    #[inline]
+    fn goes_on_path<U: Unloading>(&mut self, indentation: f64, rising: bool, surface: Surface) -> bool {
+        let residual = self.segment.origin;
+        let inside = indentation > residual || (rising && indentation == residual);
+        // written so that a NaN is left to the law
+        let below = indentation < self.max_indentation && indentation > -LARGEST_INDENTATION;
+        below && if inside { self.meet::<U>(indentation) } else { self.leave::<U>(surface, indentation) }
     }
 
     /// Leaves the surface for `indentation` \[m\]: the path of a dent that begins with no force, or where it has not yielded.

@@ -4,6 +4,7 @@ use super::{Damped, Factors, History, Model, Regime, Sum, TooDeep, within};
 use crate::contact::behaviour::{Contact, slopes};
 use crate::contact::history::LARGEST_INDENTATION;
 use crate::contact::path::Course;
+use core::borrow::Borrow;
 
 impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
     const FOLLOWS_RATE: bool = true;
@@ -36,8 +37,18 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         0.0
     }
 
+    /// None: a short step is a flight.
+    fn mean_force_of_short_course(&self, _from: f64, _course: &Course, _step: f64) -> f64 {
+        0.0
+    }
+
     /// The rate must be held: inputs of these laws have no derivatives.
-    fn step(&mut self, _model: &Model<D>, course: &Course, step: f64) -> Result<f64, TooDeep> {
+    fn step<B: Borrow<Model<D>>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        _model: impl Fn() -> B,
+    ) -> Result<f64, TooDeep> {
         debug_assert!(course.is_held());
         self.advance(course.rate, step)?;
         Ok(self.max_indentation)
@@ -47,11 +58,10 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         self.advance(rate, step)
     }
 
-    fn mean_force(&self, _model: &Model<D>, course: &Course, step: f64) -> Result<f64, TooDeep> {
-        debug_assert!(course.is_held());
-        let mean = History::mean_force(self, course.rate, step);
+    fn mean_force(&self, _model: &Model<D>, rate: f64, step: f64) -> Result<f64, TooDeep> {
+        let mean = History::mean_force(self, rate, step);
         // a step that can't be made has none
-        within(self.indentation.total() + course.rate * step)?;
+        within(self.indentation.total() + rate * step)?;
         Ok(mean)
     }
 

@@ -1,0 +1,155 @@
+//! A contact on a course whose rate changes, with the impulse on the way.
+
+use super::{History, Regime, TooDeep};
+use crate::contact::Model;
+use crate::contact::loading::Loading;
+use crate::contact::numbers::{largest, smallest};
+use crate::contact::panel::impulse_on;
+use crate::contact::path::Course;
+use crate::contact::segment::Segment;
+use crate::contact::unloading::Unloading;
+use core::borrow::Borrow;
+
+/// Branches that a way in one direction can't have: no law has more than a dozen.
+const MOST_BRANCHES: u32 = 100;
+
+/// How far a step has come.
+struct Way<'a> {
+    course: &'a Course,
+    /// Indentation at its start \[m\].
+    start: f64,
+    /// Time since then \[s\].
+    time: f64,
+    /// Indentation now \[m\].
+    indentation: f64,
+    /// \[N.s\]
+    impulse: f64,
+}
+
+impl Way<'_> {
+    /// Goes on along `segment`, to `indentation` \[m\] at the time `end` \[s\].
+    fn go_along(&mut self, segment: &Segment, end: f64, indentation: f64) {
+        let from = (self.time, self.indentation);
+        self.impulse += impulse_on(segment, self.course, from, (end, indentation));
+        (self.time, self.indentation) = (end, indentation);
+    }
+
+    /// When it comes to `indentation` \[m\], until `end` \[s\].
+    fn when(&self, indentation: f64, end: f64) -> f64 {
+        if indentation == self.indentation {
+            return self.time;
+        }
+        self.course.when_at(indentation - self.start, self.time, end)
+    }
+}
+
+impl History {
+    /// Mean force \[N\] of the last step, which was on this branch along `course` and began at the indentation `from` \[m\].
+    #[inline]
+    pub(super) fn mean_force_along(&self, from: f64, course: &Course, step: f64) -> f64 {
+        match self.regime {
+            Regime::Apart => 0.0,
+            _ => impulse_on(&self.segment, course, (0.0, from), (step, self.indentation())) / step,
+        }
+    }
+
+    /// Moves the contact on `course` over `step` \[s\] and gives the largest indentation on the way \[m\] and the impulse
+    /// \[N.s\]. The law must have segments.
+    ///
+    /// # Errors
+    /// As for [`History::advance`].
+    #[inline(never)]
+    pub(in crate::contact) fn advance_along<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        model: impl Fn() -> B,
+    ) -> Result<(f64, f64), TooDeep> {
+        let start = self.indentation();
+        let mut way = Way { course, start, time: 0.0, indentation: start, impulse: 0.0 };
+        let (mut moved, mut deepest, mut from) = (*self, 0.0, 0.0);
+        for end in course.monotone_ends(step) {
+            let to = course.way(end);
+            let increment = to - from;
+            if increment > 0.0 {
+                moved.rise(&mut way, end, increment, &model)?;
+            } else {
+                moved.fall(&mut way, end, increment, &model)?;
+            }
+            from = to;
+            deepest = largest(moved.max_indentation(), deepest);
+        }
+        *self = moved;
+        Ok((deepest, way.impulse))
+    }
+
+    /// Presses on by `increment` \[m\] until the time `end` \[s\], from branch to branch.
+    #[inline(never)]
+    fn rise<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
+        &mut self,
+        way: &mut Way<'_>,
+        end: f64,
+        increment: f64,
+        model: impl Fn() -> B,
+    ) -> Result<(), TooDeep> {
+        for _ in 0..MOST_BRANCHES {
+            let stays = self.advance_on_branch(increment);
+            let border = self.segment.upper;
+            let (time, to) = if stays { (end, self.indentation()) } else { (way.when(border, end), border) };
+            match self.regime {
+                Regime::Apart => (way.time, way.indentation) = (time, to),
+                _ => way.go_along(&self.segment, time, to),
+            }
+            if stays {
+                return Ok(());
+            }
+            // the indentation stays where it was until the branch is the one on which the way ends
+            self.turn_into(border, true, &model)?;
+        }
+        Err(TooDeep { indentation: self.indentation() + increment })
+    }
+
+    /// Goes to the branch that holds at `indentation` \[m\], and leaves the contact where it is.
+    #[inline(never)]
+    fn turn_into<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
+        &mut self,
+        indentation: f64,
+        rising: bool,
+        model: impl Fn() -> B,
+    ) -> Result<(), TooDeep> {
+        let model = model();
+        let known = self.goes_on_path::<U>(indentation, rising, model.borrow().surface);
+        if known { Ok(()) } else { self.enter(model.borrow(), indentation, rising) }
+    }
+
+    /// Goes back by `increment` \[m\] until the time `end` \[s\]: down one path, and through the air.
+    #[inline(never)]
+    fn fall<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
+        &mut self,
+        way: &mut Way<'_>,
+        end: f64,
+        increment: f64,
+        model: impl Fn() -> B,
+    ) -> Result<(), TooDeep> {
+        let presses = self.regime != Regime::Apart && increment < 0.0;
+        let path = match presses && self.is_loading() {
+            true => model().borrow().unloading_path(self.max_indentation()),
+            false => self.segment,
+        };
+        if !self.advance_on_branch(increment) {
+            let sum = self.indentation.plus(increment);
+            if sum.total() != way.indentation {
+                self.turn_into(sum.total(), false, &model)?;
+            }
+            self.indentation = sum;
+        }
+        let to = self.indentation();
+        if presses {
+            let leaves = to < path.lower;
+            let time = if leaves { way.when(path.lower, end) } else { end };
+            way.go_along(&path, smallest(time, end), if leaves { path.lower } else { to });
+        }
+        (way.time, way.indentation) = (end, to);
+        Ok(())
+    }
+}

@@ -1,0 +1,85 @@
+//! A step of one contact with derivatives of its input.
+
+use super::*;
+
+impl<S: Scene> Instance<S> {
+    /// Whether a step with derivatives of the input is that of one contact which follows its input.
+    pub(super) const ALONE: bool = S::CONTACTS == 1 && Self::PLAIN && S::Course::IS_PRESENT;
+
+    /// The step with derivatives of the input, and plain otherwise: at once if the rate keeps its sign and the contact its branch.
+    /// It does what [`Instance::do_step`] does. The result is false if it isn't such a step, and nothing is done; or if it has led
+    /// [too deep](Instance::is_deep).
+    #[inline(always)]
+    pub fn do_course_step(&mut self, time: f64, step: f64) -> bool {
+        let end = time + step;
+        let Contacts { histories, rates, curves, momenta, last_step, .. } = &mut self.contacts;
+        let (Some(history), Some(&rate)) = (histories.as_mut().first_mut(), rates.as_ref().first()) else {
+            return false;
+        };
+        let (Some(curve), Some(bodies)) = (curves.as_mut().first_mut(), self.settings.bodies.as_ref().first()) else {
+            return false;
+        };
+        let course = curve.course(rate);
+        let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
+        let in_order = self.curved && self.clock.takes_held(time, end, step) && self.clock.takes_rate(rate);
+        if !Self::ALONE || S::GUARD.is_some() || !in_order || course.is_held() {
+            return false;
+        }
+        let short =
+            course.keeps_direction(step) && history.stays_within(bodies.depth) && history.short_step(course.way(step));
+        if !short {
+            // of what is too deep there is more to say
+            return self.advance_on_course(end, step).is_ok() && !self.is_deep();
+        }
+        for momentum in momenta.as_mut() {
+            momentum.add(history.mean_force_of_short_course(from, &course, step), step);
+        }
+        curve.end_of(&course, step);
+        last_step.as_mut().fill(step);
+        self.clock.time = end;
+        true
+    }
+
+    /// Moves the one contact over `step` \[s\], to the time `end` \[s\], on the course of its input.
+    #[inline(never)]
+    pub(super) fn advance_on_course(&mut self, end: f64, step: f64) -> Result<(), Fault> {
+        let Contacts { histories, rates, curves, .. } = &self.contacts;
+        let (Some(history), Some(&rate)) = (histories.as_ref().first(), rates.as_ref().first()) else { return Ok(()) };
+        let course = curves.as_ref().first().copied().unwrap_or_default().course(rate);
+        let deep = self.deep;
+        let mut mean_force = 0.0;
+        if S::Momentum::IS_PRESENT {
+            let (mut history, model) = (*history, self.model(0));
+            let moved = history.step_with_mean_force(&course, step, || model);
+            let (deepest, mean) = moved.map_err(|deep| too_deep(0, deep))?;
+            history.stays_within(self.valid_depth(0));
+            if deepest >= self.valid_depth(0) {
+                self.note_deep(0, deepest);
+            }
+            self.contacts.histories.as_mut().fill(history);
+            mean_force = mean;
+        } else {
+            let motions = course.motions(step);
+            let [_, second, _] = motions;
+            let before = (second != 0.0).then_some(*history);
+            for increment in motions {
+                if increment != 0.0
+                    && !self.contacts.histories.as_mut().iter_mut().all(|history| history.short_step(increment))
+                    && let Err(deepest) = self.move_one(increment, 1.0)
+                {
+                    // one motion alone leaves the contact where it was
+                    before.into_iter().for_each(|before| self.contacts.histories.as_mut().fill(before));
+                    self.deep = deep;
+                    return Err(too_deep(0, deepest));
+                }
+            }
+        }
+        let Contacts { histories, forces, momenta, curves, last_step, .. } = &mut self.contacts;
+        forces.as_mut().iter_mut().zip(histories.as_ref()).for_each(|(force, history)| *force = history.force(rate));
+        momenta.as_mut().iter_mut().for_each(|momentum| momentum.add(mean_force, step));
+        curves.as_mut().iter_mut().for_each(|curve| curve.end_of(&course, step));
+        last_step.as_mut().fill(step);
+        self.clock.time = end;
+        Ok(())
+    }
+}
