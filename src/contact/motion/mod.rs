@@ -3,7 +3,8 @@
 //! An impact takes some ten microseconds, a step of a multibody tool a millisecond. Here `m x'' = m a - F(x)` is followed
 //! through the law inside of the step, however many times the bodies meet in it: from event to event (`bodies`), in flight
 //! (`flight`) and on the smooth pieces of the law (`stretch`). No time is stepped through: between two events the speed is a
-//! function of the place (`field`, `turning`), and the time an integral over the way (`travel`).
+//! function of the place (`field`, `turning`), and the time an integral over the way (`travel`). A `short` motion on one segment
+//! needs no integral: it is a sine and a cosine on a `line`, and powers of the time on a `curve`.
 
 mod bodies;
 mod curve;
