@@ -42,7 +42,7 @@ pub unsafe fn do_step<S: Scene>(
             }
             Plain::Other => {}
         }
-        if S::CONTACTS == 1 && component.instance.is_curved() {
+        if component.instance.is_on_course() {
             return do_course_step::<S>(c, currentCommunicationPoint, communicationStepSize);
         }
         do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize)

@@ -64,10 +64,10 @@ impl<S: Scene> Instance<S> {
         in_order
     }
 
-    /// Whether inputs have derivatives, or had some in the last step.
+    /// Whether this is one contact that follows its input, which has derivatives, or had some in the last step.
     #[inline(always)]
-    pub fn is_curved(&self) -> bool {
-        S::Course::IS_PRESENT && self.curved
+    pub fn is_on_course(&self) -> bool {
+        Self::ALONE && self.curved
     }
 
     /// From here on inputs have derivatives; none is set yet.
