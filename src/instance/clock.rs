@@ -61,6 +61,8 @@ pub(super) struct Clock {
     stop: f64,
     pub phase: Phase,
     pub experiment_defined: bool,
+    /// A derivative of an input is set, or was in the last step: no step is plain then.
+    pub curved: bool,
 }
 
 impl Clock {
@@ -72,6 +74,7 @@ impl Clock {
         stop: f64::MAX,
         phase: Phase::Instantiated,
         experiment_defined: false,
+        curved: false,
     };
 
     /// Whether a step from `time` to `end`, `step` \[s\] long, is plainly in order.
@@ -173,7 +176,7 @@ impl Clock {
     pub fn of(time: f64, stop: f64, phase: Phase, experiment_defined: bool) -> Option<Clock> {
         // a NaN is in no range
         let in_range = (-LATEST..=LATEST).contains(&time) && stop.is_finite();
-        let mut clock = Clock { time, stop, limit: NOWHERE, lowest_rate: NO_RATE, phase, experiment_defined };
+        let mut clock = Clock { time, stop, phase, experiment_defined, ..Clock::START };
         clock.release();
         in_range.then_some(clock)
     }

@@ -32,7 +32,7 @@ impl<S: Scene> Instance<S> {
 
     /// Sets a derivative that [`Instance::check_input_derivative`] has allowed; it holds for the next step.
     pub fn set_input_derivative(&mut self, contact: usize, order: i32, value: f64) {
-        if value != 0.0 || self.curved {
+        if value != 0.0 || self.clock.curved {
             self.curve();
             if let Some(curve) = self.contacts.curves.as_mut().get_mut(contact) {
                 *(if order == 1 { &mut curve.slope } else { &mut curve.bend }) = value;
@@ -46,7 +46,7 @@ impl<S: Scene> Instance<S> {
     pub fn set_plain_derivatives(&mut self, derivatives: impl Iterator<Item = (i32, f64)>) -> bool {
         let phases = Phase::Instantiated as u8 | Phase::Initialization as u8 | Phase::StepComplete as u8;
         let in_order = self.phase() as u8 & phases != 0;
-        let before = self.contacts.curves.as_ref().first().filter(|_| self.curved).copied().unwrap_or_default();
+        let before = self.contacts.curves.as_ref().first().filter(|_| self.clock.curved).copied().unwrap_or_default();
         let mut numbers = [before.slope, before.bend];
         for (order, value) in derivatives {
             match numbers.get_mut((order as u32).wrapping_sub(1) as usize) {
@@ -55,7 +55,7 @@ impl<S: Scene> Instance<S> {
             }
         }
         let [slope, bend] = numbers;
-        if in_order && (self.curved || slope != 0.0 || bend != 0.0) {
+        if in_order && (self.clock.curved || slope != 0.0 || bend != 0.0) {
             self.curve();
             for curve in self.contacts.curves.as_mut() {
                 (curve.slope, curve.bend) = (slope, bend);
@@ -67,20 +67,20 @@ impl<S: Scene> Instance<S> {
     /// Whether this is one contact that follows its input, which has derivatives, or had some in the last step.
     #[inline(always)]
     pub fn is_on_course(&self) -> bool {
-        Self::ALONE && self.curved
+        Self::ALONE && self.clock.curved
     }
 
     /// From here on inputs have derivatives; none is set yet.
     #[inline(always)]
     fn curve(&mut self) {
-        if self.curved {
+        if self.clock.curved {
             return;
         }
         let Contacts { curves, rates, .. } = &mut self.contacts;
         for (curve, &rate) in curves.as_mut().iter_mut().zip(rates.as_ref()) {
             *curve = Curve { end_rate: rate, ..Curve::default() };
         }
-        self.curved = true;
+        self.clock.curved = true;
         self.clock.hold();
     }
 
@@ -189,7 +189,7 @@ impl<S: Scene> Instance<S> {
 impl<S: Scene> Instance<S> {
     /// dF/d(rate) of the predicted force \[N.s/m\].
     fn prediction_by_input(&self, contact: usize, model: &S::Model, rate: f64) -> Option<f64> {
-        if self.curved {
+        if self.clock.curved {
             // the prediction goes on from the end of a step with derivatives, whatever the input is now
             return Some(0.0);
         }

@@ -83,8 +83,6 @@ struct Deep {
 #[repr(C)]
 pub struct Instance<S: Scene> {
     clock: Clock,
-    /// A derivative of an input is set, or was in the last step: no step is plain then.
-    curved: bool,
     contacts: Contacts<S>,
     settings: Settings<S>,
     deep: Deep,
@@ -127,7 +125,7 @@ impl<S: Scene> Instance<S> {
 
     /// Forgets the derivatives of inputs.
     fn straighten(&mut self) {
-        self.curved = false;
+        self.clock.curved = false;
         self.contacts.curves.as_mut().fill(Curve::default());
         self.clock.release();
     }
@@ -149,7 +147,7 @@ impl<S: Scene> Instance<S> {
 
     fn set_phase(&mut self, phase: Phase) {
         self.clock.set_phase(phase, self.settings.lowest_rate);
-        if self.curved {
+        if self.clock.curved {
             self.clock.hold();
         }
     }

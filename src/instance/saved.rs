@@ -36,10 +36,9 @@ impl<S: Scene> Instance<S> {
         own.momenta.as_mut().copy_from_slice(given.momenta.as_ref());
         own.last_step.as_mut().copy_from_slice(given.last_step.as_ref());
         // what isn't curved has curves of no meaning
-        if other.curved {
+        if other.clock.curved {
             own.curves.as_mut().copy_from_slice(given.curves.as_ref());
         }
-        self.curved = other.curved;
         self.clock = other.clock;
         true
     }
@@ -57,7 +56,7 @@ impl<S: Scene> Instance<S> {
     /// Hands the [`Instance::WORDS`] words of the instance to `store`. Equal instances have equal words.
     pub fn save(&self, mut store: impl FnMut(u64)) {
         let last_step = self.contacts.last_step.as_ref().first().copied().unwrap_or(0.0);
-        let flags = u64::from(self.clock.experiment_defined) | u64::from(self.curved) << 1;
+        let flags = u64::from(self.clock.experiment_defined) | u64::from(self.clock.curved) << 1;
         let [time, stop, last_step] = [self.clock.time, self.clock.stop(), last_step].map(f64::to_bits);
         for word in [self.clock.phase as u64, flags, time, stop, last_step] {
             store(word);
@@ -76,7 +75,7 @@ impl<S: Scene> Instance<S> {
             // of contacts with neither there are none
             if let Some(curve) = curves.get(contact) {
                 // what isn't curved has curves of no meaning
-                let curve = if self.curved { *curve } else { Curve::default() };
+                let curve = if self.clock.curved { *curve } else { Curve::default() };
                 curve.save(&mut store);
             }
             if let Some(momentum) = momenta.get(contact) {
@@ -139,7 +138,7 @@ impl<S: Scene> Instance<S> {
             self.stamp_parameters();
             self.clock = clock;
             self.clock.set_phase(phase, self.settings.lowest_rate);
-            self.curved = flags & 2 != 0;
+            self.clock.curved = flags & 2 != 0;
             self.contacts.last_step.as_mut().fill(last_step);
             // what came before is not known here
             self.look();

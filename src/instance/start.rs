@@ -81,7 +81,6 @@ impl<S: Scene> Instance<S> {
         let (_, history) = start_of::<S>(0, &values)?;
         let mut instance = Instance {
             clock: Clock::START,
-            curved: false,
             contacts: Contacts {
                 histories: Store::filled(history),
                 rates: Store::filled(0.0),

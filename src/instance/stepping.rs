@@ -37,7 +37,7 @@ impl<S: Scene> Instance<S> {
         self.clock.check(time, step)?;
         self.advance(time + step, step)?;
         // it may have been asked to look
-        if !self.curved {
+        if !self.clock.curved {
             self.clock.release();
         }
         if S::CONTACTS > 1 && !self.is_deep() {
@@ -126,7 +126,7 @@ impl<S: Scene> Instance<S> {
     /// Moves all contacts over `step` \[s\], to the time `end` \[s\], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        if Self::ALONE && self.curved && self.contacts.curves.as_ref().iter().any(Curve::is_curved) {
+        if Self::ALONE && self.clock.curved && self.contacts.curves.as_ref().iter().any(Curve::is_curved) {
             return self.advance_on_course(end, step);
         }
         match Self::SIMPLE {
@@ -140,7 +140,7 @@ impl<S: Scene> Instance<S> {
             false => self.advance_all(end, step)?,
         }
         // how a step with derivatives ended is known until the next one, which isn't plain for that reason
-        if Self::ALONE && self.curved {
+        if Self::ALONE && self.clock.curved {
             self.straighten();
         }
         Ok(())
@@ -151,14 +151,15 @@ impl<S: Scene> Instance<S> {
     fn advance_all(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         if S::CONTACTS > 1 {
             // within the limits of rates and times a law that is made of segments can't refuse
-            let looks_ahead = self.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));
+            let looks_ahead = self.clock.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));
             if looks_ahead {
                 for contact in 0..S::CONTACTS {
                     self.moved(contact, step)?;
                 }
             }
         }
-        let any = self.curved && !Self::ALONE || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT;
+        let any =
+            self.clock.curved && !Self::ALONE || !Self::PLAIN || S::Contact::FOLLOWS_RATE && S::Momentum::IS_PRESENT;
         if any {
             self.advance_any(step)?;
         } else {
@@ -210,7 +211,7 @@ impl<S: Scene> Instance<S> {
     #[cold]
     fn advance_any(&mut self, step: f64) -> Result<(), Fault> {
         let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(Curve::is_curved);
-        self.curved |= !Self::PLAIN;
+        self.clock.curved |= !Self::PLAIN;
         for contact in 0..S::CONTACTS {
             let Moved { mut history, course, mean_force, deepest } = self.moved(contact, step)?;
             let allowed = self.valid_depth(contact);

@@ -159,7 +159,7 @@ impl<S: Scene> Instance<S> {
     /// Rate \[m/s\] and its derivative \[m/s^2\] of `contact` at this moment: how the last step ended, or the input.
     pub(super) fn end_of(&self, contact: usize) -> (f64, f64) {
         match self.contacts.curves.as_ref().get(contact) {
-            Some(curve) if self.curved => (curve.end_rate, curve.end_slope),
+            Some(curve) if self.clock.curved => (curve.end_rate, curve.end_slope),
             _ => (self.rates().get(contact).copied().unwrap_or(0.0), 0.0),
         }
     }

@@ -178,17 +178,19 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         !model.loading.is_segmented()
     }
 
-    /// Number by number: a compiler that looks for the smallest code would otherwise take the slowest instruction for it.
+    /// Number by number, in the order of memory: a compiler that looks for the smallest code would otherwise take the slowest
+    /// instruction for it.
     #[inline(always)]
     fn copy_from(&mut self, other: &History) {
         let Sum { value, rest } = other.indentation;
+        let max_indentation = other.max_indentation;
         let Segment { lower, upper, origin, constant, linear, power, square } = other.segment;
-        let (max_indentation, least_increment) = (other.max_indentation, other.least_increment);
-        let (regime, left_behind) = (other.regime, other.left_behind);
-        self.indentation = Sum { value, rest };
-        self.segment = Segment { lower, upper, origin, constant, linear, power, square };
-        (self.max_indentation, self.least_increment) = (max_indentation, least_increment);
-        (self.regime, self.left_behind) = (regime, left_behind);
+        let (least_increment, left_behind, regime) = (other.least_increment, other.left_behind, other.regime);
+        (self.indentation.value, self.indentation.rest, self.max_indentation) = (value, rest, max_indentation);
+        (self.segment.lower, self.segment.upper, self.segment.origin) = (lower, upper, origin);
+        (self.segment.constant, self.segment.linear) = (constant, linear);
+        (self.segment.power, self.segment.square) = (power, square);
+        (self.least_increment, self.left_behind, self.regime) = (least_increment, left_behind, regime);
     }
 
     fn save(&self, store: &mut impl FnMut(u64)) {
