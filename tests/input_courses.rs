@@ -109,10 +109,10 @@ fn the_law_is_asked_only_where_a_branch_is_left() {
     // depth, way there, and how often the model is asked for: without the mean force, and with it
     let places = [
         ("on a branch", [3.0, 0.1], 0, 1),
-        ("over a corner", [12.0, 4.0], 2, 2),
-        ("over two corners", [12.0, 90.0], 2, 3),
-        ("onto the way back", [150.0, -1.0], 2, 3),
-        ("off the surface", [150.0, -200.0], 2, 3),
+        ("over a corner", [12.0, 4.0], 1, 2),
+        ("over two corners", [12.0, 90.0], 1, 3),
+        ("onto the way back", [150.0, -1.0], 1, 3),
+        ("off the surface", [150.0, -200.0], 1, 3),
     ];
     for (name, [depth, way], alone, with_mean) in places {
         let start = History::start(&model, -depth * d_y).unwrap();
