@@ -205,8 +205,8 @@ class Contact:
 
     def _tell(self) -> None:
         for text in self._instance.warnings():
-            # the line of the user, below step() or the like and this
-            warnings.warn(text, ContactWarning, stacklevel=3)
+            # at the line of the user, below step() or reset() and what they call
+            warnings.warn(text, ContactWarning, stacklevel=4)
 
     # steps
 
@@ -232,28 +232,7 @@ class Contact:
         for all), and gives an array of forces. Which force it is: see `Contact`.
         """
         with self._lock:
-            component = self._alive()
-            functions, count = self._instance.functions, self._count
-            h = number("h", h)
-            if mass is not None:
-                self._set_mass(mass)
-            self._fill(self._rates, 0, "rate", rate)
-            references = self._rate_references
-            if functions["fmi2SetReal"](component, references, count, self._rates) > WARNING:
-                raise self._instance.refusal("SetReal")
-            mean = self._mean_always
-            if acceleration is not None or jerk is not None:
-                self._set_derivatives(acceleration, jerk)
-                mean |= self._mean_sometimes
-            if functions["fmi2DoStep"](component, self._time, h, True) > WARNING:
-                raise self._instance.refusal("DoStep")
-            self._time += h
-            references = self._mean_references if mean else self._end_references
-            if functions["fmi2GetReal"](component, references, count, self._values) > WARNING:
-                raise self._instance.refusal("GetReal")
-            if self._instance.log:
-                self._tell()
-            return self._values[0] if count == 1 else np.array(self._values)
+            return self._advance(h, rate, acceleration, jerk, mass)
 
     def fly(self, h: float, gap: Numbers) -> None:
         """One step of `h` [s] in which the bodies stay apart; at its end their distance is `gap`
@@ -273,7 +252,38 @@ class Contact:
                 )
             # a step that isn't positive is refused by the unit
             rates = -way / h if h > 0.0 else way
-            self.step(h, float(rates) if np.ndim(rates) == 0 else rates)
+            self._advance(h, float(rates) if np.ndim(rates) == 0 else rates)
+
+    def _advance(
+        self,
+        h: float,
+        rate: Any,
+        acceleration: Numbers | None = None,
+        jerk: Numbers | None = None,
+        mass: Numbers | None = None,
+    ) -> Any:
+        component = self._alive()
+        functions, count = self._instance.functions, self._count
+        h = number("h", h)
+        if mass is not None:
+            self._set_mass(mass)
+        self._fill(self._rates, 0, "rate", rate)
+        references = self._rate_references
+        if functions["fmi2SetReal"](component, references, count, self._rates) > WARNING:
+            raise self._instance.refusal("SetReal")
+        mean = self._mean_always
+        if acceleration is not None or jerk is not None:
+            self._set_derivatives(acceleration, jerk)
+            mean |= self._mean_sometimes
+        if functions["fmi2DoStep"](component, self._time, h, True) > WARNING:
+            raise self._instance.refusal("DoStep")
+        self._time += h
+        references = self._mean_references if mean else self._end_references
+        if functions["fmi2GetReal"](component, references, count, self._values) > WARNING:
+            raise self._instance.refusal("GetReal")
+        if self._instance.log:
+            self._tell()
+        return self._values[0] if count == 1 else np.array(self._values)
 
     def _fill(self, array: Any, first: int, name: str, values: Any) -> None:
         if self._count == 1 and (type(values) is float or np.shape(values) != (1,)):

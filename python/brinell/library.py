@@ -36,7 +36,7 @@ class Library:
         self.path = path
         self.description = description
         self.variables = {variable.name: variable for variable in description.modelVariables}
-        folder = fmpy.extract(str(path))
+        self._folder = folder = str(fmpy.extract(str(path)))
         try:
             identifier = description.coSimulation.modelIdentifier
             slave = fmi2.FMU2Slave(

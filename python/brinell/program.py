@@ -74,8 +74,8 @@ def program() -> Path:
     if built.is_file():
         return built
     raise ProgramError(
-        "the exporter brinell isn't there: build it in the repository (cargo build --release), put it on PATH "
-        "(cargo install --path .), or set the variable BRINELL to where it is"
+        "the exporter brinell isn't there: build it in the repository (cargo build --release), "
+        "put it on PATH (cargo install --path .), or set the variable BRINELL to where it is"
     )
 
 
