@@ -32,6 +32,7 @@ fn scenes() -> Vec<PathBuf> {
             "nothing_settable",
             &format!("[fmu]\noutputs = {OUTPUTS}\nparameters = []\n[coupling]\neffective_mass = 4e-3"),
         ),
+        with("without_indentation", "[fmu]\noutputs = []"),
         with(
             "damped",
             "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.6\n[fmu]\noutputs = [\"indentation\", \"mean_force\"]",

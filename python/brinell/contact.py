@@ -9,15 +9,14 @@ from ctypes import byref, c_char, c_double, c_int, c_size_t, c_void_p
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Literal, Self
+from typing import Any, Self
 
 import numpy as np
 
 from .errors import ContactError, ContactWarning
 from .library import WARNING, Instance, Library
+from .stepping import Force, Stepping
 from .variables import Gaps, Numbers, Variables, number
-
-Force = Literal["auto", "mean", "end"]
 
 
 @dataclass(frozen=True)
@@ -67,15 +66,8 @@ class Contact:
         library = Library.of(fmu)
         self.path: Path = library.path
         self._variables = variables = Variables(library)
-        self._choose_force(force)
-        # arrays for C are made once
-        self._count = count = len(variables.rates)
-        self._rate_references = variables.references(variables.rates)
-        self._rates = (c_double * count)()
-        self._twice = variables.references(variables.rates * 2)
-        self._orders = (c_int * (2 * count))(*[1] * count, *[2] * count)
-        self._derivatives = (c_double * (2 * count))()
-        self._values = (c_double * count)()
+        self._count = len(variables.rates)
+        self._stepping = Stepping(variables, force, library.path.name)
         self._given = variables.given(initial_gap, parameters, keywords)
         self._time = 0.0
         self._instance = Instance(library, name)
@@ -84,22 +76,6 @@ class Contact:
         except BaseException:
             self.close()
             raise
-
-    def _choose_force(self, force: Force) -> None:
-        if force not in ("auto", "mean", "end"):
-            raise ValueError(f"force = {force!r}; allowed are 'auto', 'mean' and 'end'")
-        variables = self._variables
-        mean = variables.every("mean_force")
-        if not mean and (force == "mean" or (force == "auto" and variables.knows_mass)):
-            raise ContactError(
-                f"{self.path} has no output mean_force, which is the force to apply here: add it "
-                'to outputs under [fmu] of its scene, or choose force="end"'
-            )
-        self._mean_always = bool(mean) and (force == "mean" or variables.knows_mass)
-        self._mean_always &= force != "end"
-        self._mean_sometimes = bool(mean) and force == "auto"
-        self._end_references = variables.references(variables.every("force"))
-        self._mean_references = variables.references(mean)
 
     # what the unit has
 
@@ -205,10 +181,8 @@ class Contact:
 
     def _tell(self) -> None:
         for text in self._instance.warnings():
-            # at the line of the user, below step() or reset() and what they call
-            warnings.warn(text, ContactWarning, stacklevel=4)
-
-    # steps
+            # at the line of the user, below step() and this
+            warnings.warn(text, ContactWarning, stacklevel=3)
 
     def step(
         self,
@@ -218,6 +192,7 @@ class Contact:
         jerk: Numbers | None = None,
         *,
         mass: Numbers | None = None,
+        gap: Numbers | None = None,
     ) -> Any:
         """One step of `h` [s]; gives the force [N] to apply to the bodies over this step, positive
         when it pushes them apart.
@@ -228,103 +203,24 @@ class Contact:
         say); otherwise by all forces. `mass` [kg] sets the effective mass from this step on, if the
         unit has one that can be set between steps.
 
+        `gap` [m] is the distance of the bodies at the start of the step, as the simulation has it.
+        A unit adds up its rates, and drifts away from the simulation by what the two integrate
+        differently, and by the rest of a step in which another contact has changed the speed. With
+        `gap`, a contact that can't touch within the step ends it where the bodies of the simulation
+        do; near the surface, and while it pushes, it goes its own way.
+
         A unit with several contacts takes a sequence of one number for each (the mass may be one
         for all), and gives an array of forces. Which force it is: see `Contact`.
         """
         with self._lock:
-            return self._advance(h, rate, acceleration, jerk, mass)
-
-    def fly(self, h: float, gap: Numbers) -> None:
-        """One step of `h` [s] in which the bodies stay apart; at its end their distance is `gap`
-        [m], one for each contact.
-
-        For engines that know where the bodies are: a unit adds up its rates, and drifts away from
-        the engine by what the two integrate differently. Refused where the contact would have
-        something to say: while it pushes, or for a gap below zero.
-        """
-        with self._lock:
             self._alive()
-            h, goal = number("h", h), np.asarray(gap, dtype=float)
-            force, way = self["force"], goal + self["indentation"]
-            if np.any(goal < 0.0) or np.any(force != 0.0):
-                raise ContactError(
-                    f"fly: the bodies touch (gap = {gap} m, force = {force} N); use step"
-                )
-            # a step that isn't positive is refused by the unit
-            rates = -way / h if h > 0.0 else way
-            self._advance(h, float(rates) if np.ndim(rates) == 0 else rates)
-
-    def _advance(
-        self,
-        h: float,
-        rate: Any,
-        acceleration: Numbers | None = None,
-        jerk: Numbers | None = None,
-        mass: Numbers | None = None,
-    ) -> Any:
-        component = self._alive()
-        functions, count = self._instance.functions, self._count
-        h = number("h", h)
-        if mass is not None:
-            self._set_mass(mass)
-        self._fill(self._rates, 0, "rate", rate)
-        references = self._rate_references
-        if functions["fmi2SetReal"](component, references, count, self._rates) > WARNING:
-            raise self._instance.refusal("SetReal")
-        mean = self._mean_always
-        if acceleration is not None or jerk is not None:
-            self._set_derivatives(acceleration, jerk)
-            mean |= self._mean_sometimes
-        if functions["fmi2DoStep"](component, self._time, h, True) > WARNING:
-            raise self._instance.refusal("DoStep")
-        self._time += h
-        references = self._mean_references if mean else self._end_references
-        if functions["fmi2GetReal"](component, references, count, self._values) > WARNING:
-            raise self._instance.refusal("GetReal")
-        if self._instance.log:
-            self._tell()
-        return self._values[0] if count == 1 else np.array(self._values)
-
-    def _fill(self, array: Any, first: int, name: str, values: Any) -> None:
-        if self._count == 1 and (type(values) is float or np.shape(values) != (1,)):
-            array[first] = number(name, values)
-            return
-        if isinstance(values, str | bytes) or np.shape(values) != (self._count,):
-            shown = ", ".join(self.contacts[:8]) + (", ..." if self._count > 8 else "")
-            raise TypeError(
-                f"{name} = {values!r}: it takes {self._count} numbers, one for each of {shown}"
-            )
-        array[first : first + self._count] = [number(name, value) for value in values]
-
-    def _set_derivatives(self, acceleration: Numbers | None, jerk: Numbers | None) -> None:
-        count = self._count
-        none: Numbers = 0.0 if count == 1 else [0.0] * count
-        first = none if acceleration is None else acceleration
-        self._fill(self._derivatives, 0, "acceleration", first)
-        if jerk is not None:
-            self._fill(self._derivatives, count, "jerk", jerk)
-            count *= 2
-        call, values = self._instance.call, self._derivatives
-        call("SetRealInputDerivatives", self._twice, count, self._orders, values)
-
-    def _set_mass(self, mass: Numbers) -> None:
-        names = self._variables.masses
-        if not names:
-            raise ContactError(
-                f"mass = {mass} kg: {self.path.name} has no effective_mass; "
-                "it comes with [coupling] in its scene"
-            )
-        if not self.mass_is_settable:
-            raise ContactError(
-                f"mass = {mass} kg: effective_mass of {self.path.name} is fixed once a simulation "
-                "has begun; reset(effective_mass=...) sets it at the start"
-            )
-        values = [mass] * len(names) if np.ndim(mass) == 0 else list(mass)  # type: ignore[arg-type]
-        if len(values) != len(names):
-            shown = ", ".join(names)
-            raise TypeError(f"mass = {mass!r}: it takes one number, or {len(names)}, for {shown}")
-        array = (c_double * len(names))(*[number("mass", value) for value in values])
-        self._instance.call("SetReal", self._variables.references(names), len(names), array)
+            h = number("h", h)
+            more = (acceleration, jerk, mass, gap)
+            force = self._stepping.advance(self._instance, self._time, h, rate, *more)
+            self._time += h
+            if self._instance.log:
+                self._tell()
+            return force
 
     # values
 

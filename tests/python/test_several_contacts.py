@@ -74,9 +74,11 @@ def test_wrong_numbers_of_rates_are_refused(rates):
         assert made.time == 0.0
 
 
-def test_flights_of_all_contacts():
+def test_each_contact_follows_its_own_gap():
     with contact("two", initial_gap=1e-3) as made:
-        made.fly(1e-3, [2e-3, 3e-3])
-        assert made["indentation"] == pytest.approx([-2e-3, -3e-3], rel=1e-14)
-        with pytest.raises(ContactError, match="touch"):
-            made.fly(1e-3, [1e-3, -1e-9])
+        # the left one stays apart; the right one touches within the step
+        forces = made.step(1e-3, [0.5, 2.0], [0.0, 0.0], gap=[2e-3, 1e-3])
+        assert forces[0] == 0.0 and forces[1] > 0.0
+        assert made["left.indentation"] == pytest.approx(-1.5e-3, rel=1e-14)
+        with pytest.raises(TypeError, match="gap"):
+            made.step(1e-3, [0.0, 0.0], gap=1.0)
