@@ -17,7 +17,7 @@ from pydrake.math import RigidTransform
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder, LeafSystem
 
-MASS, RADIUS, HEIGHT, STEP, END, GRAVITY = 4e-3, 5e-3, 0.05, 1e-3, 2.0, 9.81
+MASS, RADIUS, HEIGHT, STEP, END, GRAVITY = 4e-3, 5e-3, 0.05, 1e-3, 0.6, 9.81
 
 
 class Plate(LeafSystem):
@@ -72,11 +72,12 @@ def fall(path):
             simulator.AdvanceTo(step * STEP)
             now = plate.GetMyContextFromRoot(simulator.get_context())
             contact.restore(now.get_abstract_state(0).get_value())
-            if contact["mean_force"] > 0.0:
+            force = contact["mean_force"]
+            if force > 0.0:
                 # the engine can't know when within the step the ball has turned
                 plant.SetPositions(context, [-contact["indentation"]])
             speed = plant.GetVelocities(context)[0]
-            balance.step(STEP, MASS, -before, -speed - GRAVITY * STEP, GRAVITY)
+            balance.step(STEP, MASS, force, -before, -speed - GRAVITY * STEP, GRAVITY)
             rows.append((step * STEP, plant.GetPositions(context)[0], speed))
     balance.told()
     return np.array(rows).T

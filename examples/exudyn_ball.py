@@ -12,7 +12,7 @@ import exudyn.itemInterface as items
 import judge
 import numpy as np
 
-MASS, HEIGHT, STEP, END, GRAVITY = 4e-3, 0.05, 1e-3, 2.0, 9.81  # kg, m, s, s, m/s^2
+MASS, HEIGHT, STEP, END, GRAVITY = 4e-3, 0.05, 1e-3, 0.6, 9.81  # kg, m, s, s, m/s^2
 SOLVERS = {
     "explicit": exudyn.DynamicSolverType.RK44,
     "implicit": exudyn.DynamicSolverType.GeneralizedAlpha,
@@ -38,7 +38,7 @@ def fall(path, solver):
             rows.append([time, place[2], speed[2], 0.0])
             force = rows[-1][3] = contact.step(STEP, -speed[2], GRAVITY)
             after = speed[2] + STEP * force / MASS
-            balance.step(STEP, MASS, -speed[2], -after, GRAVITY)
+            balance.step(STEP, MASS, force, -speed[2], -after, GRAVITY)
             speed[2] = after
             system.systemData.SetODE2Coordinates_t(speed)
             return True

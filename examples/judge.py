@@ -36,11 +36,12 @@ class Balance:
         elastic, dissipated, indentation = (self.contact[self.prefix + name] for name in names)
         return np.array([elastic + dissipated, indentation])
 
-    def step(self, h, mass, speed, after, acceleration=0.0):
-        """To be called after each step of the contact, with the closing speed before and after the impulse [m/s]."""
+    def step(self, h, mass, force, speed, after, acceleration=0.0):
+        """To be called after each step of the contact, with its force [N] and the closing speed in the engine before and
+        after the impulse [m/s]."""
         stored, way = (now := self._now()) - self.before
         self.before = now
-        if abs(speed - after) <= 1e-12 * abs(speed):
+        if force == 0.0:
             return
         end = after + acceleration * h
         taken = 0.5 * mass * (speed - end) * (speed + end) + mass * acceleration * way

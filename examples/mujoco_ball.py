@@ -11,7 +11,7 @@ import judge
 import mujoco
 import numpy as np
 
-MASS, HEIGHT, STEP, END = 4e-3, 0.05, 1e-3, 2.0  # kg, m, s, s
+MASS, HEIGHT, STEP, END = 4e-3, 0.05, 1e-3, 0.6  # kg, m, s, s
 MODEL = """<mujoco><option timestep="1e-3" gravity="0 0 -9.81"/><worldbody>
   <geom type="plane" size="1 1 .1" contype="{soft}"/>
   <body pos="0 0 5e-3"><joint type="slide" axis="0 0 1"/><geom type="sphere" size="5e-3" mass="4e-3" contype="0"/></body>
@@ -31,7 +31,7 @@ def fall(path):
             closing = -data.qvel[0]
             force = contact.step(STEP, closing, gravity)
             data.qvel[0] += STEP * force / MASS
-            balance.step(STEP, MASS, closing, -data.qvel[0], gravity)
+            balance.step(STEP, MASS, force, closing, -data.qvel[0], gravity)
             mujoco.mj_step(model, data)
             if force > 0.0:
                 # the engine can't know when within the step the ball has turned
