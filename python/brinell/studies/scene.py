@@ -40,6 +40,8 @@ def of_impacts(data: Mapping[str, Any], mass: float) -> dict[str, Any]:
     made["target"].pop("surface", None)
     made["fmu"] = {"outputs": OUTPUTS}
     made["coupling"] = {"effective_mass": mass}
+    if "impact" in made:
+        made["impact"] = {**made["impact"], "mass": mass}
     return made
 
 

@@ -56,7 +56,8 @@ def study(
     outputs = _outputs(output)
     values = plan.runs(vary, sample, seed)
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
-        unit, usual = _unit(Path(scene_file), Path(folder), mass)
+        known = mass if mass is not None or "mass" not in values else float(values["mass"][0])
+        unit, usual = _unit(Path(scene_file), Path(folder), known)
         usual |= {"speed": speed} if speed is not None else {}
         usual |= {"mass": mass} if mass is not None else {}
         columns = _columns(values, {**usual, **(parameters or {})})
