@@ -42,6 +42,12 @@ class Stepping:
                 f"{self._path} has no output mean_force, which is the force to apply here: add it "
                 'to outputs under [fmu] of its scene, or choose force="end"'
             )
+        if force == "auto" and variables.is_for_next_step:
+            raise ContactError(
+                f"{self._path} is made for masters that step all units at once: its mean_force "
+                'belongs to the next step. Write master = "serial" under [coupling] of its scene, '
+                'or choose force="mean" and apply it over the next step'
+            )
         self._mean_always = force == "mean" or (force == "auto" and variables.knows_mass)
         self._mean_sometimes = bool(mean) and force == "auto"
         self._end_references = variables.references(variables.every("force"))
@@ -73,8 +79,8 @@ class Stepping:
         if len(self._external) > 0:
             instance.call("SetReal", self._external, count, self._derivatives)
         elif orders:
-            number, values = orders * count, self._derivatives
-            instance.call("SetRealInputDerivatives", self._twice, number, self._orders, values)
+            more = (self._twice, orders * count, self._orders, self._derivatives)
+            instance.call("SetRealInputDerivatives", *more)
         if functions["fmi2DoStep"](component, time, h, True) > WARNING:
             raise instance.refusal("DoStep")
         mean = self._mean_always or (self._mean_sometimes and orders > 0)

@@ -35,6 +35,8 @@ class Variables:
         # the description alone says so: effective_mass may be a constant, and damping has one, too
         texts = [self._all[name].description or "" for name in rates]
         self.knows_mass = any("moves the bodies" in text for text in texts)
+        mean = [self._all[name].description or "" for name in self.owners("mean_force")]
+        self.is_for_next_step = any("over the next step" in text for text in mean)
         self.masses = self.owners("effective_mass")
         self.mass_is_settable = bool(self.masses) and all(
             self._all[name].causality == "input" or self._all[name].variability == "tunable"

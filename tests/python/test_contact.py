@@ -71,6 +71,20 @@ def test_a_unit_without_the_force_that_is_asked_for_says_what_its_scene_needs():
         contact("steel_ball", force="mean")
 
 
+def test_a_unit_whose_force_belongs_to_the_next_step_is_used_knowingly_or_not_at_all():
+    library = brinell.library.Library.of(UNITS["mass_known"])
+    variable = library.variables["mean_force"]
+    text = variable.description
+    variable.description = "Force to apply to the bodies over the next step, held constant"
+    try:
+        with pytest.raises(ContactError, match='master = "serial" under .coupling.'):
+            contact("mass_known")
+        with contact("mass_known", force="mean") as made:
+            assert made.step(1e-5, 1.0) > 0.0
+    finally:
+        variable.description = text
+
+
 def test_which_units_know_the_mass():
     known = {name for name in UNITS if contact(name, force="end").knows_mass}
     assert known == {"mass_known", "two", "nothing_settable"}
