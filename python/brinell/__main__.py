@@ -83,6 +83,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         more = "dask" if error.name in ("dask", "distributed") else "study"
         print(f"brinell: {error}: pip install 'brinell[{more}]'", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print(
+            "brinell: stopped; with a table among its outputs the same call goes on from here",
+            file=sys.stderr,
+        )
+        return 130
     except (ContactError, ProgramError, TypeError, ValueError, OSError) as error:
         print(f"brinell: {error}", file=sys.stderr)
         return 1

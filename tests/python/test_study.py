@@ -158,24 +158,43 @@ def test_workers_chunks_and_dask_change_nothing(unit):
         found = quick(unit, vary, **arguments)
         assert all(np.array_equal(found[name], expected[name]) for name in expected)
     pytest.importorskip("distributed")
+    from dask.distributed import LocalCluster
+
     found = quick(unit, vary, workers=2, scheduler="local")
     assert all(np.array_equal(found[name], expected[name]) for name in expected)
-
-
-def lethal(unit, names, rows):
-    if rows[0, names.index("speed")] == 2.0:
-        os._exit(1)
-    return ORIGINAL(unit, names, rows)
+    with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+        found = quick(unit, vary, scheduler=cluster.scheduler_address, chunk=9)
+        assert all(np.array_equal(found[name], expected[name]) for name in expected)
 
 
 ORIGINAL = impacts.run
 
 
-def test_a_run_that_takes_its_process_with_it_is_recorded(unit, monkeypatch):
+def lethal(unit, names, rows):
+    if (rows[:, names.index("speed")] == 2.0).any():
+        os._exit(1)
+    return ORIGINAL(unit, names, rows)
+
+
+def faulty(unit, names, rows):
+    if (rows[:, names.index("speed")] == 2.0).any():
+        raise OSError("the disk is gone")
+    return ORIGINAL(unit, names, rows)
+
+
+@pytest.mark.parametrize("chunk", [1, 3, 4])
+def test_a_run_that_ends_its_process_is_recorded_alone(unit, monkeypatch, chunk):
     monkeypatch.setattr(impacts, "run", lethal)
-    table = quick(unit, {"speed": [1.0, 2.0, 3.0, 4.0]}, workers=2, chunk=1)
-    assert [text[:18] for text in table["error"]] == ["", "the run has failed", "", ""]
-    assert table["speed"][1] == 2.0 and np.isfinite(table["restitution"][[0, 2, 3]]).all()
+    table = quick(unit, {"speed": [1.0, 2.0, 3.0, 4.0, 5.0]}, workers=2, chunk=chunk)
+    assert [text[:17] for text in table["error"]] == ["", "the run has ended", "", "", ""]
+    assert table["speed"][1] == 2.0 and np.isfinite(table["restitution"][[0, 2, 3, 4]]).all()
+
+
+def test_a_chunk_that_fails_in_another_way_is_recorded(unit, monkeypatch):
+    monkeypatch.setattr(impacts, "run", faulty)
+    table = quick(unit, {"speed": [1.0, 2.0, 3.0, 4.0, 5.0]}, workers=2, chunk=2)
+    assert ["disk is gone" in text for text in table["error"]] == [True, True, False, False, False]
+    assert list(table["speed"]) == [1.0, 2.0, 3.0, 4.0, 5.0]
 
 
 @pytest.mark.parametrize(
@@ -309,6 +328,17 @@ def test_the_command_line(tmp_path):
 def test_mistakes_on_the_command_line(arguments, status, words):
     done = command(*arguments)
     assert done.returncode == status and words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_a_command_that_is_stopped_says_how_to_go_on(monkeypatch, capsys):
+    from brinell import __main__ as line
+
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(line, "study", stopped)
+    assert line.main(["study", str(SCENE), "--vary", "speed=1:2"]) == 130
+    assert "the same call goes on" in capsys.readouterr().err
 
 
 def test_without_the_packages_of_a_study_the_command_says_what_to_install(monkeypatch, capsys):

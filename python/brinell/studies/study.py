@@ -6,6 +6,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -150,7 +151,7 @@ def _run(
 def _results(
     unit: Path, names: list[str], chunks: Chunks, workers: int, scheduler: str | None
 ) -> Iterator[tuple[int, Table]]:
-    """The chunks as they are done. One that takes its process with it is tried once more, alone."""
+    """The chunks as they are done. One that has failed is tried once more, alone."""
     if scheduler is None and (workers == 1 or len(chunks) <= 1):
         for at, rows in chunks.items():
             yield at, impacts.run(unit, names, rows)
@@ -164,11 +165,25 @@ def _results(
             except Exception:
                 broken.append(futures[future])
     for at in broken:
-        with ProcessPoolExecutor(1) as alone:
-            try:
-                yield at, alone.submit(impacts.run, unit, names, chunks[at]).result()
-            except Exception as error:
-                yield at, impacts.failed(names, chunks[at], f"the run has failed: {error!r}")
+        yield at, _alone(unit, names, chunks[at])
+
+
+def _alone(unit: Path, names: list[str], rows: Rows) -> Table:
+    """A chunk in a process of its own; if it ends the process, halves of it, down to the run that
+    does so."""
+    from . import store
+
+    with ProcessPoolExecutor(1) as pool:
+        try:
+            return pool.submit(impacts.run, unit, names, rows).result()
+        except BrokenProcessPool as error:
+            if len(rows) == 1:
+                return impacts.failed(names, rows, f"the run has ended its process: {error}")
+        except Exception as error:
+            return impacts.failed(names, rows, f"the run has failed: {error!r}")
+    middle = len(rows) // 2
+    parts = (rows[:middle], rows[middle:])
+    return store.joined([_alone(unit, names, part) for part in parts])
 
 
 @contextmanager
@@ -177,8 +192,12 @@ def _pool(
 ) -> Iterator[tuple[Callable[..., Any], Callable[..., Any]]]:
     """How to start a chunk, and how to wait for the chunks."""
     if scheduler is None:
-        with ProcessPoolExecutor(workers) as pool:
+        pool = ProcessPoolExecutor(workers)
+        try:
             yield lambda names, rows: pool.submit(impacts.run, unit, names, rows), as_completed
+        finally:
+            # whoever stops a study doesn't wait for all of it
+            pool.shutdown(cancel_futures=True)
         return
     from dask import distributed
 
