@@ -1,4 +1,5 @@
-"""A ball flies through a box and loses its energy at four walls, one unit with four contacts, in steps of a millisecond.
+"""A ball flies through a box and loses its energy at four walls, one unit with four contacts, in
+steps of a millisecond.
 
     pip install matplotlib ./python
     python examples/ball_in_box.py [PICTURE.svg]
@@ -33,7 +34,9 @@ def fly(path, h):
             place += h * (speed + 0.5 * h * GRAVITY)
             speed -= h / MASS * (INTO.T @ forces)
             for index, balance in enumerate(balances):
-                balance.step(h, MASS, forces[index], closing[index], INTO[index] @ speed, pull[index])
+                balance.step(
+                    h, MASS, forces[index], closing[index], INTO[index] @ speed, pull[index]
+                )
             for index in np.flatnonzero(forces):
                 axis, far = divmod(index, 2)
                 gap = -contact["indentation"][index]
@@ -49,7 +52,12 @@ if __name__ == "__main__":
     # nothing but the steps differs, and the walls don't depend on them
     judge.agree("speed, steps of 1 ms against 0.1 ms [m/s]", rows[3:], fine[3:, ::10], 1e-9)
     judge.agree("place, steps of 1 ms against 0.1 ms [m]", rows[1:3], fine[1:3, ::10], 1e-9)
-    judge.picture("A steel ball in a box: steel left, floor and ceiling, aluminium right", [
-        (1e3 * fine[1], 1e3 * fine[2], "path", "-"),
-        (1e3 * rows[1], 1e3 * rows[2], "steps of a millisecond", "."),
-    ], x="x [mm]", y="y [mm]")
+    judge.picture(
+        "A steel ball in a box: steel left, floor and ceiling, aluminium right",
+        [
+            (1e3 * fine[1], 1e3 * fine[2], "path", "-"),
+            (1e3 * rows[1], 1e3 * rows[2], "steps of a millisecond", "."),
+        ],
+        x="x [mm]",
+        y="y [mm]",
+    )

@@ -1,9 +1,11 @@
-"""A ball falls onto a plate in Exudyn and bounces to rest, by an explicit and an implicit integrator, in steps of a millisecond.
+"""A ball falls onto a plate in Exudyn and bounces to rest, by an explicit and an implicit
+integrator, in steps of a millisecond.
 
     pip install exudyn ./python
     python examples/exudyn_ball.py [PICTURE.svg]
 
-The impulse goes into the velocity before the step. As a force, an implicit integrator would spread it over two steps.
+The impulse goes into the velocity before the step. As a force, an implicit integrator would spread
+it over two steps.
 """
 
 import brinell
@@ -23,14 +25,21 @@ def fall(path, solver):
     """Height and speed in the engine, with the unit as the plate."""
     container = exudyn.SystemContainer()
     system = container.AddSystem()
-    system.CreateMassPoint(referencePosition=[0, 0, 0], initialDisplacement=[0, 0, HEIGHT],
-                           mass=MASS, gravity=[0, 0, -GRAVITY])
+    system.CreateMassPoint(
+        referencePosition=[0, 0, 0],
+        initialDisplacement=[0, 0, HEIGHT],
+        mass=MASS,
+        gravity=[0, 0, -GRAVITY],
+    )
     rows = []
     with brinell.Contact(path, initial_gap=HEIGHT) as contact:
         balance = judge.Balance(contact)
 
         def before_each_step(system, time):
-            place, speed = system.systemData.GetODE2Coordinates(), system.systemData.GetODE2Coordinates_t()
+            place, speed = (
+                system.systemData.GetODE2Coordinates(),
+                system.systemData.GetODE2Coordinates_t(),
+            )
             if rows and rows[-1][3] > 0.0:
                 # the engine can't know when within the last step the ball has turned
                 place[2] = -contact["indentation"]
@@ -50,17 +59,30 @@ def fall(path, solver):
 
 
 def soft():
-    """Height by the engine's own contact: a spring with a damper, so soft that steps of a millisecond carry it."""
+    """Height by the engine's own contact: a spring with a damper, so soft that steps of a
+    millisecond carry it."""
     container = exudyn.SystemContainer()
     system = container.AddSystem()
-    ball = system.CreateMassPoint(referencePosition=[0, 0, 0], initialDisplacement=[0, 0, HEIGHT],
-                                  mass=MASS, gravity=[0, 0, -GRAVITY], returnDict=True)
+    ball = system.CreateMassPoint(
+        referencePosition=[0, 0, 0],
+        initialDisplacement=[0, 0, HEIGHT],
+        mass=MASS,
+        gravity=[0, 0, -GRAVITY],
+        returnDict=True,
+    )
     ground = system.AddNode(items.NodePointGround())
-    ends = [system.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=2))
-            for node in (ground, ball["nodeNumber"])]
-    data = system.AddNode(items.NodeGenericData(initialCoordinates=[HEIGHT], numberOfDataCoordinates=1))
-    system.AddObject(items.ObjectContactCoordinate(markerNumbers=ends, nodeNumber=data,
-                                                   contactStiffness=400.0, contactDamping=0.6))
+    ends = [
+        system.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=2))
+        for node in (ground, ball["nodeNumber"])
+    ]
+    data = system.AddNode(
+        items.NodeGenericData(initialCoordinates=[HEIGHT], numberOfDataCoordinates=1)
+    )
+    system.AddObject(
+        items.ObjectContactCoordinate(
+            markerNumbers=ends, nodeNumber=data, contactStiffness=400.0, contactDamping=0.6
+        )
+    )
     rows = []
 
     def before_each_step(system, time):
@@ -95,7 +117,6 @@ if __name__ == "__main__":
         judge.agree("height, engine against the unit alone [m]", height, reference[1][:count], 1e-6)
         lines.insert(0, (time, 1e3 * height, f"engine with the unit, {name}", "-"))
     own = soft()
-    print(f"second flight: {1e3 * height[150:400].max():.2f} mm; "
-          f"by the engine's own contact {1e3 * own[1][150:400].max():.2f} mm")
+    judge.second_flight(height, own[1])
     lines.append((own[0], 1e3 * own[1], "the engine's own contact", "--"))
     judge.picture("Exudyn: a steel ball bounces, 1 ms steps", lines)

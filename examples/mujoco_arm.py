@@ -3,7 +3,8 @@
     pip install mujoco ./python
     python examples/mujoco_arm.py [PICTURE.svg]
 
-What the force at the fingertip moves depends on the pose: the effective mass comes from the engine's mass matrix in every step.
+What the force at the fingertip moves depends on the pose: the effective mass comes from the
+engine's mass matrix in every step.
 """
 
 import brinell
@@ -12,12 +13,15 @@ import mujoco
 import numpy as np
 
 STEP, END, RADIUS = 1e-3, 2.0, 5e-3  # s, s, m
-MODEL = """<mujoco><option timestep="1e-3" gravity="0 0 -9.81"/><worldbody>
+MODEL = """<mujoco><option timestep="1e-3" gravity="0 0 -9.81"/>
+<default><geom contype="0" conaffinity="0"/></default><worldbody>
   <geom type="plane" pos="-.05 0 0" zaxis="1 0 0" size="1 1 .1" contype="{soft}"/>
-  <body><joint axis="0 1 0"/><geom type="capsule" fromto="0 0 0 0 0 -.3" size=".01" mass=".2" contype="0" conaffinity="0"/>
+  <body><joint axis="0 1 0"/>
+    <geom type="capsule" fromto="0 0 0 0 0 -.3" size=".01" mass=".2"/>
     <body pos="0 0 -.3"><joint axis="0 1 0" damping="2e-3"/>
-      <geom type="capsule" fromto="0 0 0 0 0 -.2" size=".008" mass=".1" contype="0" conaffinity="0"/>
-      <geom type="sphere" pos="0 0 -.2" size="5e-3" mass="4e-3" contype="0"/><site name="tip" pos="0 0 -.2"/>
+      <geom type="capsule" fromto="0 0 0 0 0 -.2" size=".008" mass=".1"/>
+      <geom type="sphere" pos="0 0 -.2" size="5e-3" mass="4e-3" conaffinity="1"/>
+      <site name="tip" pos="0 0 -.2"/>
 </body></body></worldbody></mujoco>"""
 
 
@@ -36,8 +40,8 @@ def gap(data):
 
 
 def swing(path, mass_of_pose=True):
-    """Times, distances from the stop; and of each blow speed, restitution and effective mass. With the mass of the first
-    pose only as far as the first blow: from there on it's nonsense."""
+    """Times, distances from the stop; and of each blow speed, restitution and effective mass. With
+    the mass of the first pose only as far as the first blow: from there on it's nonsense."""
     model, data = start(soft=0)
     finger, first = model.site("tip").bodyid[0], None
     jacobian, change, response = np.zeros((3, 2)), np.zeros((3, 2)), np.zeros((1, 2))
@@ -96,7 +100,11 @@ if __name__ == "__main__":
     _, wrong = swing(path, mass_of_pose=False)
     print(f"the first with the mass of the first pose: restitution {wrong[0][1]:.4f}")
     own = soft()
-    judge.picture("MuJoCo: an arm with two links swings against a stop, 1 ms steps", [
-        (time, 1e3 * distance, "engine with the unit", "-"),
-        (own[0], 1e3 * own[1], "the engine's own contact", "--"),
-    ], y="distance from the stop [mm]")
+    judge.picture(
+        "MuJoCo: an arm with two links swings against a stop, 1 ms steps",
+        [
+            (time, 1e3 * distance, "engine with the unit", "-"),
+            (own[0], 1e3 * own[1], "the engine's own contact", "--"),
+        ],
+        y="distance from the stop [mm]",
+    )

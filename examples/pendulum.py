@@ -1,10 +1,11 @@
-"""A hammer on a pendulum falls against an anvil and rebounds until it rests, in steps of a millisecond.
+"""A hammer on a pendulum falls against an anvil and rebounds until it rests, in steps of a
+millisecond.
 
     pip install matplotlib ./python
     python examples/pendulum.py [PICTURE.svg]
 
-What the force at the head moves is the moment of inertia over the square of the arm; the harder the anvil, the higher the
-rebound. Every blow meets an untouched spot.
+What the force at the head moves is the moment of inertia over the square of the arm; the harder the
+anvil, the higher the rebound. Every blow meets an untouched spot.
 """
 
 from math import cos, pi, sin
@@ -14,7 +15,11 @@ import judge
 import numpy as np
 
 ARM, HEAD, ROD, GRAVITY = 0.3, 0.05, 0.03, 9.81  # m, kg, kg, m/s^2
-START, STEP, END = -30.0 * pi / 180.0, 1e-3, 4.0  # the anvil stands where the pendulum hangs straight down
+START, STEP, END = (
+    -30.0 * pi / 180.0,
+    1e-3,
+    4.0,
+)  # the anvil stands where the pendulum hangs straight down
 MASS = HEAD + ROD / 3.0  # effective, at the head [kg]
 STRENGTHS = (200e6, 300e6, 900e6)  # of the anvil [Pa]
 
@@ -27,7 +32,9 @@ def pull(angle):
 def swing(path, strength, h):
     """Times, angles, speeds of the head before and after the step's impulse."""
     angle, speed, rows = START, 0.0, []
-    with brinell.Contact(path, effective_mass=MASS, target_yield_strength=strength, initial_gap=-ARM * START) as contact:
+    with brinell.Contact(
+        path, effective_mass=MASS, target_yield_strength=strength, initial_gap=-ARM * START
+    ) as contact:
         balance = judge.Balance(contact)
         for step in range(round(END / h)):
             force = contact.step(h, speed, pull(angle), gap=-ARM * angle)
@@ -42,7 +49,9 @@ def swing(path, strength, h):
 
 
 def swung(angle, speed, h):
-    """Angle and speed of the head after a free swing of `h` [s], by the classical Runge-Kutta method."""
+    """Angle and speed of the head after a free swing of `h` [s], by the classical Runge-Kutta
+    method."""
+
     def slope(state):
         return np.array([state[1] / ARM, pull(state[0])])
 
@@ -68,5 +77,14 @@ if __name__ == "__main__":
             speed = before[blow]
             expected = 1e-3 * alone.step(1e-3, speed) / MASS / speed - 1.0
         judge.agree("restitution against the unit alone", restitution, expected, 1e-4)
-        lines.append((time, 180.0 / pi * angle, f"{strength / 1e6:.0f} MPa, restitution {restitution:.3f}", "-"))
-    judge.picture("Hammer pendulum, 1 ms steps: yield strength of the anvil", lines, y="angle [degrees]")
+        lines.append(
+            (
+                time,
+                180.0 / pi * angle,
+                f"{strength / 1e6:.0f} MPa, restitution {restitution:.3f}",
+                "-",
+            )
+        )
+    judge.picture(
+        "Hammer pendulum, 1 ms steps: yield strength of the anvil", lines, y="angle [degrees]"
+    )
