@@ -12,6 +12,7 @@ matplotlib.use("svg")
 from matplotlib import pyplot
 
 FOLDER = Path(__file__).parent
+UNITS = tempfile.TemporaryDirectory()
 BALANCE = (
     1e-6  # largest error of the energy of an impact, over the kinetic energy that it begins with
 )
@@ -19,7 +20,7 @@ BALANCE = (
 
 def unit(name):
     """The unit of the scene `name` beside the examples."""
-    return brinell.export(FOLDER / f"{name}.toml", Path(tempfile.mkdtemp()) / f"{name}.fmu")
+    return brinell.export(FOLDER / f"{name}.toml", Path(UNITS.name) / f"{name}.fmu")
 
 
 class Balance:

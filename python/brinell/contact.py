@@ -54,7 +54,7 @@ class Contact:
 
     def __init__(
         self,
-        fmu: str | Path,
+        fmu: str | Path | Library,
         *,
         initial_gap: Gaps | None = None,
         force: Force = "auto",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 import shutil
 import threading
 import weakref
@@ -36,7 +37,7 @@ class Library:
         self.path = path
         self.description = description
         self.variables = {variable.name: variable for variable in description.modelVariables}
-        self._folder = folder = str(fmpy.extract(str(path)))
+        folder = str(fmpy.extract(str(path)))
         try:
             identifier = description.coSimulation.modelIdentifier
             slave = fmi2.FMU2Slave(
@@ -47,12 +48,17 @@ class Library:
             raise ContactError(f"{path} can't be loaded on {fmpy.platform}: {error}") from error
         # not through fmpy's own methods: their exceptions don't have the unit's text
         self.functions = slave._functions
+        if os.name == "posix":
+            # what is loaded needs no file; processes that end without a word would leave theirs
+            shutil.rmtree(folder, ignore_errors=True)
         weakref.finalize(self, _close, slave.dll._handle, folder)
 
     @staticmethod
-    def of(path: str | Path) -> Library:
+    def of(path: str | Path | Library) -> Library:
         """The library of the unit at `path`: unpacked and loaded once, as long as somebody uses
         it."""
+        if isinstance(path, Library):
+            return path
         path = Path(path)
         if not path.is_file():
             raise FileNotFoundError(f"there is no unit {path}")

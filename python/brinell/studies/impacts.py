@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import hashlib
 import tempfile
 import warnings
 from collections.abc import Sequence
@@ -29,14 +28,12 @@ def run(unit: Path | bytes, names: Sequence[str], rows: NDArray[np.float64]) -> 
     """A chunk: one instance for all its impacts, reset between them.
 
     `names` are those of the columns of `rows`: "speed" [m/s], "mass" [kg] and parameters of the
-    unit, in SI units. A unit given as bytes is unpacked once in each process.
+    unit, in SI units. A unit given as bytes needs no file on the machine.
     """
     table: Table = {name: rows[:, index].copy() for index, name in enumerate(names)}
     table |= {name: np.full(len(rows), np.nan) for name in RESULTS}
     table |= {name: np.full(len(rows), "", dtype=object) for name in ("error", "warning")}
-    path = _unpacked(unit) if isinstance(unit, bytes) else unit
-    _kept(path)
-    with warnings.catch_warnings(record=True) as told, Contact(path) as contact:
+    with warnings.catch_warnings(record=True) as told, Contact(_library(unit)) as contact:
         warnings.simplefilter("always", ContactWarning)
         for index, row in enumerate(rows):
             try:
@@ -70,9 +67,14 @@ def impact(contact: Contact, row: dict[str, float]) -> tuple[float, ...]:
 
 
 @functools.cache
-def _kept(path: Path) -> Library:
-    """Holds the library, so that a process loads it once and not for each chunk."""
-    return Library.of(path)
+def _library(unit: Path | bytes) -> Library:
+    """Loaded once in each process, and not for each chunk."""
+    if isinstance(unit, Path):
+        return Library.of(unit)
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        path = Path(folder) / "unit.fmu"
+        path.write_bytes(unit)
+        return Library.of(path)
 
 
 def failed(names: Sequence[str], rows: NDArray[np.float64], error: str) -> Table:
@@ -82,12 +84,3 @@ def failed(names: Sequence[str], rows: NDArray[np.float64], error: str) -> Table
     table["error"] = np.full(len(rows), error, dtype=object)
     table["warning"] = np.full(len(rows), "", dtype=object)
     return table
-
-
-@functools.cache
-def _unpacked(unit: bytes) -> Path:
-    # the folder lives as long as the process
-    folder = Path(tempfile.mkdtemp(prefix="brinell-"))
-    path = folder / f"{hashlib.sha256(unit).hexdigest()[:16]}.fmu"
-    path.write_bytes(unit)
-    return path
