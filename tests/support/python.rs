@@ -3,11 +3,13 @@
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use std::fs::{self, File};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
 const REQUIREMENTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/requirements.txt");
+const ENGINES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/requirements-engines.txt");
 
 /// The target folder of cargo: its folder for tests lies in it.
 pub fn target_folder() -> PathBuf {
@@ -18,7 +20,14 @@ pub fn target_folder() -> PathBuf {
 /// The interpreter that has fmpy, pytest and libclang.
 pub fn python() -> PathBuf {
     static PYTHON: OnceLock<PathBuf> = OnceLock::new();
-    PYTHON.get_or_init(environment).clone()
+    PYTHON.get_or_init(|| environment("test-venv", None)).clone()
+}
+
+/// The interpreter of a second environment, made from `tests/requirements-engines.txt`, too: multibody engines and what
+/// studies take. They are large, and some have no package for some platforms: what can't be installed is left out.
+pub fn engines() -> PathBuf {
+    static ENGINES_PYTHON: OnceLock<PathBuf> = OnceLock::new();
+    ENGINES_PYTHON.get_or_init(|| environment("engines-venv", Some(ENGINES))).clone()
 }
 
 /// What the virtual environment has at `path` below its packages, such as `fmpy/c-code` with the official C headers and
@@ -33,13 +42,15 @@ pub fn site_packages_file(path: &str) -> PathBuf {
     file
 }
 
-/// Makes the virtual environment if it isn't there as tests/requirements.txt wants it.
-fn environment() -> PathBuf {
-    let folder = target_folder().join("test-venv");
+/// Makes the virtual environment `name` if it isn't there as tests/requirements.txt wants it, and the file `more`, of which
+/// each line is installed by itself if they can't be together.
+fn environment(name: &str, more: Option<&str>) -> PathBuf {
+    let folder = target_folder().join(name);
     let interpreter = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let wanted = fs::read(REQUIREMENTS).unwrap_or_else(|error| panic!("{REQUIREMENTS}: {error}"));
+    let read = |path: &str| fs::read(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let wanted = [read(REQUIREMENTS), more.map(read).unwrap_or_default()].concat();
     // test programs may run at the same time, and one environment serves all of them. The lock ends with the process.
-    let lock = File::create(target_folder().join("test-venv.lock")).expect("the target folder can be written to");
+    let lock = File::create(target_folder().join(format!("{name}.lock"))).expect("the target folder can be written to");
     lock.lock().expect("the target folder is on a file system with locks");
     // the copy of the requirements is written last: an environment without it is unfinished
     let marker = folder.join("requirements.txt");
@@ -50,13 +61,35 @@ fn environment() -> PathBuf {
     let hint = "the tests with fmpy need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
     run(Command::new("python3").args(["-m", "venv"]).arg(&folder), hint);
     run(
-        Command::new(&interpreter)
-            .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"])
-            .arg(REQUIREMENTS),
+        pip(&interpreter).arg("-r").arg(REQUIREMENTS),
         "tests/requirements.txt can't be installed; the first run needs the Python Package Index",
     );
-    fs::write(&marker, wanted).expect("the target folder can be written to");
+    if more.is_none_or(|file| install_what_can_be(&interpreter, file)) {
+        fs::write(&marker, wanted).expect("the target folder can be written to");
+    }
     interpreter
+}
+
+fn pip(interpreter: &Path) -> Command {
+    let mut command = Command::new(interpreter);
+    command.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    command
+}
+
+/// Installs all of `file`, or each of its lines that can be; whether that was all.
+fn install_what_can_be(interpreter: &Path, file: &str) -> bool {
+    let installs = |command: &mut Command| command.output().is_ok_and(|output| output.status.success());
+    if installs(pip(interpreter).arg("-r").arg(file)) {
+        return true;
+    }
+    let lines = fs::read_to_string(file).expect("a file that was read before");
+    for line in lines.lines().filter(|line| !line.starts_with('#') && !line.is_empty()) {
+        if !installs(pip(interpreter).arg("--no-deps").arg(line)) {
+            // past the harness, which keeps what a test prints unless it fails
+            let _ = writeln!(std::io::stderr(), "NOT INSTALLED: {line} can't be installed here");
+        }
+    }
+    false
 }
 
 /// Runs `command`; if it fails the test fails with `hint` and what the command wrote.

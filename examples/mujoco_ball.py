@@ -1,0 +1,74 @@
+"""A ball falls onto a plate in MuJoCo and bounces to rest, in steps of a millisecond.
+
+    pip install mujoco ./python
+    python examples/mujoco_ball.py [PICTURE.svg]
+
+An impact takes 30 us. The unit knows the mass and computes it exactly within the step; the engine
+gets its impulse.
+"""
+
+import brinell
+import judge
+import mujoco
+import numpy as np
+
+MASS, HEIGHT, STEP, END = 4e-3, 0.05, 1e-3, 0.6  # kg, m, s, s
+MODEL = """<mujoco><option timestep="1e-3" gravity="0 0 -9.81"/><worldbody>
+  <geom type="plane" size="1 1 .1" contype="{soft}"/>
+  <body pos="0 0 5e-3"><joint type="slide" axis="0 0 1"/>
+    <geom type="sphere" size="5e-3" mass="4e-3" contype="0"/></body>
+</worldbody></mujoco>"""
+
+
+def fall(path):
+    """Height and speed in the engine, with the unit as the plate."""
+    model = mujoco.MjModel.from_xml_string(MODEL.format(soft=0))
+    data = mujoco.MjData(model)
+    data.qpos[0] = HEIGHT
+    gravity = -model.opt.gravity[2]
+    rows = [(0.0, HEIGHT, 0.0)]
+    with brinell.Contact(path, initial_gap=HEIGHT) as contact:
+        balance = judge.Balance(contact)
+        for _ in range(round(END / STEP)):
+            closing = -data.qvel[0]
+            force = contact.step(STEP, closing, gravity)
+            data.qvel[0] += STEP * force / MASS
+            balance.step(STEP, MASS, force, closing, -data.qvel[0], gravity)
+            mujoco.mj_step(model, data)
+            if force > 0.0:
+                # the engine can't know when within the step the ball has turned
+                data.qpos[0] = -contact["indentation"]
+            rows.append((data.time, data.qpos[0], data.qvel[0]))
+    balance.told()
+    return np.array(rows).T
+
+
+def soft():
+    """Height by the engine's own contact, as it is without a setting."""
+    model = mujoco.MjModel.from_xml_string(MODEL.format(soft=1))
+    data = mujoco.MjData(model)
+    data.qpos[0] = HEIGHT
+    rows = [(0.0, HEIGHT)]
+    while data.time < END:
+        mujoco.mj_step(model, data)
+        rows.append((data.time, data.qpos[0]))
+    return np.array(rows).T
+
+
+if __name__ == "__main__":
+    path = judge.unit("ball")
+    time, height, speed = fall(path)
+    reference = judge.alone(path, HEIGHT, 9.81, MASS, END, STEP)
+    judge.agree("speed, engine against the unit alone [m/s]", speed, reference[2], 1e-9)
+    # the engine's Euler method adds half a step's fall per step of flight, up to the next impact
+    judge.agree("height, engine against the unit alone [m]", height, reference[1], 1.5e-3)
+    own = soft()
+    judge.second_flight(height, own[1])
+    judge.picture(
+        "MuJoCo: a steel ball bounces, 1 ms steps",
+        [
+            (time, 1e3 * height, "engine with the unit", "-"),
+            (reference[0][::25], 1e3 * reference[1][::25], "the unit alone", "."),
+            (own[0], 1e3 * own[1], "the engine's own contact", "--"),
+        ],
+    )

@@ -1,0 +1,28 @@
+"""Elastoplastic contact for simulations in Python: units of Brinell, without a word of FMI.
+
+`Contact` is a unit in use. `export`, `predict`, `sweep` and `curve` call the exporter; `study` runs
+thousands of impacts.
+"""
+
+from .contact import Contact, State
+from .errors import ContactError, ContactWarning, ProgramError, UnknownName
+from .program import Prediction, curve, export, predict, program, sweep
+from .studies.plan import Range
+from .studies.study import study
+
+__all__ = [
+    "Contact",
+    "ContactError",
+    "ContactWarning",
+    "Prediction",
+    "ProgramError",
+    "Range",
+    "State",
+    "UnknownName",
+    "curve",
+    "export",
+    "predict",
+    "program",
+    "study",
+    "sweep",
+]

@@ -1,0 +1,108 @@
+"""`python -m brinell study`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+
+import numpy as np
+
+from .errors import ContactError, ProgramError
+from .studies.study import study
+
+
+def _pair(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name and equals and value):
+        raise argparse.ArgumentTypeError(f"{text!r} isn't NAME=VALUE")
+    return name, value
+
+
+def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m brinell")
+    commands = parser.add_subparsers(dest="command", required=True)
+    text = "thousands of impacts of a scene's first contact, one step each"
+    it = commands.add_parser("study", help=text, description=text)
+    add = it.add_argument
+    add("scene", help="the scene file (TOML), or a unit that knows the mass")
+    add(
+        "--vary",
+        type=_pair,
+        action="append",
+        required=True,
+        metavar="NAME=FROM:TO:COUNT[log]",
+        help="speed, mass or a parameter of the unit, in SI units; or NAME=VALUE,VALUE,...",
+    )
+    add("--sample", default="grid", help="grid, sobol:COUNT or lhs:COUNT [default: grid]")
+    add("--seed", type=int, default=0, help="of the samples [default: 0]")
+    add(
+        "--set",
+        type=_pair,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="a parameter of all runs",
+    )
+    add("--mass", type=float, help="effective mass [kg] instead of the scene's")
+    add("--speed", type=float, help="closing speed [m/s] instead of the scene's")
+    add(
+        "-o",
+        "--output",
+        action="append",
+        default=[],
+        metavar="FILE",
+        help=".parquet, .csv, .svg or .png; may be given several times",
+    )
+    add("--workers", type=int, help="processes [default: all cores]")
+    add("--chunk", type=int, help="runs that a process gets at a time")
+    add("--scheduler", metavar="local|ADDRESS", help="by Dask, here or at tcp://HOST:PORT")
+    add("--quiet", action="store_true", help="without the progress bar")
+    return parser.parse_args(arguments)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The command line; gives the exit status."""
+    given = _arguments(arguments)
+    try:
+        table = study(
+            given.scene,
+            dict(given.vary),
+            sample=given.sample,
+            seed=given.seed,
+            mass=given.mass,
+            speed=given.speed,
+            parameters={name: float(value) for name, value in given.set},
+            output=given.output,
+            workers=given.workers,
+            chunk=given.chunk,
+            scheduler=given.scheduler,
+            progress=not given.quiet,
+        )
+    except ModuleNotFoundError as error:
+        more = "dask" if error.name in ("dask", "distributed") else "study"
+        print(f"brinell: {error}: pip install 'brinell[{more}]'", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print(
+            "brinell: stopped; with a table among its outputs the same call goes on from here",
+            file=sys.stderr,
+        )
+        return 130
+    except (ContactError, ProgramError, TypeError, ValueError, OSError) as error:
+        print(f"brinell: {error}", file=sys.stderr)
+        return 1
+    failed = table["error"] != ""
+    told = np.count_nonzero(table["warning"] != "")
+    print(f"{len(failed)} runs, {np.count_nonzero(failed)} failed, {told} with a warning")
+    for name in ("restitution", "dent"):
+        values = table[name][~failed]
+        if len(values):
+            print(f"{name} from {values.min():.6g} to {values.max():.6g}")
+    for path in given.output:
+        print(path)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

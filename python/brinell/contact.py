@@ -1,0 +1,290 @@
+"""A contact as a simulation uses it: closing speed in, force out."""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from collections.abc import Mapping
+from ctypes import byref, c_char, c_double, c_int, c_size_t, c_void_p
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+
+from .errors import ContactError, ContactWarning
+from .library import WARNING, Instance, Library
+from .stepping import Force, Stepping
+from .variables import Gaps, Numbers, Variables, number
+
+
+@dataclass(frozen=True)
+class State:
+    """All that a contact is at one time: to be pickled, or restored in another contact of the same
+    unit."""
+
+    time: float
+    """Time [s] since the start."""
+    data: bytes
+    """What the unit has written; only a unit with the same GUID reads it."""
+
+
+class Contact:
+    """One instance of a unit, with one contact or several.
+
+    `fmu` is the path of a unit; `initial_gap` [m] the distance of the bodies at the start
+    (negative: pressed in), for several contacts one for each or a mapping by name. All other
+    parameters are keywords with underscores for dots, in SI units (`target_yield_strength=400e6`),
+    or stand in `parameters` under their own names (`{"target.yield_strength": 400e6}`).
+
+    `force` says what `step` gives:
+
+    - `"mean"`: the unit's `mean_force`, the impulse of the step over its length. A master that
+      applies it to the bodies over the same step gets the momentum right.
+    - `"end"`: the unit's `force` at the end of the step. Applied over the same step it is the
+      leap-frog method.
+    - `"auto"` (default): `"mean"` if the unit knows the mass. Otherwise `"mean"` in a step with an
+      acceleration, if the unit has `mean_force`, and `"end"` in a step without: each is then of the
+      higher order, since over a rate that is held the mean force makes energy.
+
+    A contact may go from thread to thread; calls of several threads wait for each other. It is
+    freed by `close`, at the end of a `with` block, or with the last reference to it.
+    """
+
+    def __init__(
+        self,
+        fmu: str | Path | Library,
+        *,
+        initial_gap: Gaps | None = None,
+        force: Force = "auto",
+        parameters: Mapping[str, float] | None = None,
+        name: str = "contact",
+        **keywords: float,
+    ) -> None:
+        self._lock = threading.RLock()
+        library = Library.of(fmu)
+        self.path: Path = library.path
+        self._variables = variables = Variables(library)
+        self._count = len(variables.rates)
+        self._stepping = Stepping(variables, force, library.path.name)
+        self._given = variables.given(initial_gap, parameters, keywords)
+        self._time = 0.0
+        self._instance = Instance(library, name)
+        try:
+            self._start()
+        except BaseException:
+            self.close()
+            raise
+
+    # what the unit has
+
+    @property
+    def contacts(self) -> tuple[str, ...]:
+        """Name of each contact; `("",)` if there is but one, without a name."""
+        return self._variables.contacts
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Names of the outputs."""
+        return self._variables.outputs
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the parameters."""
+        return self._variables.parameters
+
+    @property
+    def knows_mass(self) -> bool:
+        """Whether the unit moves the bodies itself within a step."""
+        return self._variables.knows_mass
+
+    @property
+    def mass_is_settable(self) -> bool:
+        """Whether the effective mass can be set between steps."""
+        return self._variables.mass_is_settable
+
+    @property
+    def time(self) -> float:
+        """Time [s] since the start: the sum of the steps."""
+        return self._time
+
+    # life
+
+    def _start(self) -> None:
+        call = self._instance.call
+        call("SetupExperiment", False, 0.0, 0.0, False, 0.0)
+        call("EnterInitializationMode")
+        for name, value in self._given.items():
+            call("SetReal", self._variables.references([name]), 1, (c_double * 1)(value))
+        call("ExitInitializationMode")
+        self._time = 0.0
+        self._tell()
+
+    def reset(
+        self,
+        *,
+        initial_gap: Gaps | None = None,
+        parameters: Mapping[str, float] | None = None,
+        **keywords: float,
+    ) -> None:
+        """Back to the start, at time 0. Parameters that are given replace those of before; the
+        others stay."""
+        with self._lock:
+            self._alive()
+            given = self._variables.given(initial_gap, parameters, keywords)
+            before, self._given = self._given, self._given | given
+            self._instance.call("Reset")
+            try:
+                self._start()
+            except ContactError:
+                # what was refused isn't tried again
+                self._given = before
+                raise
+
+    def close(self) -> None:
+        """Frees the instance. What was closed can't be used any more; a second call does
+        nothing."""
+        with self._lock:
+            self._instance.close()
+
+    @property
+    def closed(self) -> bool:
+        """Whether `close` was called."""
+        return self._instance.component is None
+
+    def __enter__(self) -> Self:
+        self._alive()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a contact can't be pickled or copied; save() gives a state that can")
+
+    def __repr__(self) -> str:
+        state = "closed" if self.closed else f"t = {self._time:.9g} s"
+        count = "" if self._count == 1 else f", {self._count} contacts"
+        return f"<Contact {self.path.name}{count}, {state}>"
+
+    def _alive(self) -> Any:
+        component = self._instance.component
+        if component is None:
+            raise ContactError(f"the contact of {self.path.name} is closed")
+        return component
+
+    def _tell(self) -> None:
+        for text in self._instance.warnings():
+            # at the line of the user, below step() and this
+            warnings.warn(text, ContactWarning, stacklevel=3)
+
+    def step(
+        self,
+        h: float,
+        rate: Numbers,
+        acceleration: Numbers | None = None,
+        jerk: Numbers | None = None,
+        *,
+        mass: Numbers | None = None,
+        gap: Numbers | None = None,
+    ) -> Any:
+        """One step of `h` [s]; gives the force [N] to apply to the bodies over this step, positive
+        when it pushes them apart.
+
+        `rate` [m/s] is the closing speed of the bodies at the start of the step, positive when they
+        approach. `acceleration` [m/s^2] and `jerk` [m/s^3] are its derivatives by time, for this
+        step: if the unit knows the mass, the acceleration by all forces but the contact's (gravity,
+        say); otherwise by all forces. `mass` [kg] sets the effective mass from this step on, if the
+        unit has one that can be set between steps.
+
+        `gap` [m] is the distance of the bodies at the start of the step, as the simulation has it.
+        A unit adds up its rates, and drifts away from the simulation by what the two integrate
+        differently, and by the rest of a step in which another contact has changed the speed. With
+        `gap`, a contact that can't touch within the step ends it where the bodies of the simulation
+        do; near the surface, and while it pushes, it goes its own way.
+
+        A unit with several contacts takes a sequence of one number for each (the mass may be one
+        for all), and gives an array of forces. Which force it is: see `Contact`.
+        """
+        with self._lock:
+            self._alive()
+            h = number("h", h)
+            more = (acceleration, jerk, mass, gap)
+            force = self._stepping.advance(self._instance, self._time, h, rate, *more)
+            self._time += h
+            if self._instance.log:
+                self._tell()
+            return force
+
+    # values
+
+    def __getitem__(self, name: str) -> Any:
+        """Any variable by its name, in SI units; of a unit with several contacts also an output by
+        its plain name, as an array over the contacts."""
+        with self._lock:
+            component, variables = self._alive(), self._variables
+            names = [name] if name in variables else variables.every(name)
+            if not names:
+                raise variables.unknown("variable", name)
+            real = variables.is_real(names[0])
+            values = ((c_double if real else c_int) * len(names))()
+            function = "GetReal" if real else "GetInteger"
+            get, references = (
+                self._instance.functions["fmi2" + function],
+                variables.references(names),
+            )
+            if get(component, references, len(names), values) > WARNING:
+                raise self._instance.refusal(function)
+            return values[0] if len(names) == 1 else np.array(values)
+
+    def derivative(self, name: str = "force", order: int = 1) -> Any:
+        """The derivative by time of an output at the end of the last step: per second, or per
+        second squared."""
+        with self._lock:
+            self._alive()
+            variables = self._variables
+            names = [name] if name in self.outputs else variables.every(name)
+            if not names or names[0] not in self.outputs:
+                raise variables.unknown("output", name, self.outputs)
+            count = len(names)
+            values, orders = (c_double * count)(), (c_int * count)(*[order] * count)
+            call, references = self._instance.call, variables.references(names)
+            call("GetRealOutputDerivatives", references, count, orders, values)
+            return values[0] if count == 1 else np.array(values)
+
+    # states
+
+    def save(self) -> State:
+        """The state, to be given to `restore` later, here or in another contact or process."""
+        with self._lock:
+            self._alive()
+            call, pointer, size = self._instance.call, c_void_p(), c_size_t()
+            call("GetFMUstate", byref(pointer))
+            try:
+                call("SerializedFMUstateSize", pointer, byref(size))
+                data = (c_char * size.value)()
+                call("SerializeFMUstate", pointer, data, size.value)
+            finally:
+                call("FreeFMUstate", byref(pointer))
+            return State(self._time, data.raw)
+
+    def restore(self, state: State) -> None:
+        """Back to `state`: what comes after has the same bits as after `save`."""
+        if not isinstance(state, State):
+            raise TypeError(f"restore takes what save() gave, not {type(state).__name__}")
+        with self._lock:
+            self._alive()
+            call, pointer, size = self._instance.call, c_void_p(), len(state.data)
+            data = (c_char * size).from_buffer_copy(state.data)
+            call("DeSerializeFMUstate", data, size, byref(pointer))
+            try:
+                call("SetFMUstate", pointer)
+            finally:
+                call("FreeFMUstate", byref(pointer))
+            self._time = state.time

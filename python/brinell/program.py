@@ -1,0 +1,234 @@
+"""The exporter `brinell`, called as a program: units, predictions and curves of a scene."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import ProgramError
+
+Columns = dict[str, NDArray[np.float64]]
+"""Columns of a table by name, in SI units."""
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """What an impact will do, by the balance of energies."""
+
+    law: str
+    mass: float
+    """Effective mass [kg]."""
+    speed: float
+    """Closing speed [m/s]."""
+    restitution: float
+    kinetic_energy: float
+    """[J]"""
+    energy_lost: float
+    """[J]"""
+    largest_force: float
+    """[N]"""
+    largest_indentation: float
+    """[m]"""
+    largest_contact_radius: float
+    """[m]"""
+    loading_time: float
+    """From touch to the largest indentation [s]."""
+    unloading_time: float
+    """From there to separation [s]."""
+    dent: float
+    """Depth that remains [m]; none of a law that depends on the rate."""
+    regime: int
+    """The regime at the largest indentation, as the output `regime`."""
+    onsets: tuple[tuple[int, float], ...] = ()
+    """Each regime, and the speed [m/s] at which it begins."""
+    warnings: tuple[str, ...] = ()
+    """Where this impact leaves the validity of the law."""
+
+
+def program() -> Path:
+    """Where the exporter is: what the variable BRINELL names, on PATH, or in `target/release` of
+    the repository."""
+    named = os.environ.get("BRINELL")
+    if named:
+        found = shutil.which(named)
+        if found is None:
+            raise ProgramError(f"BRINELL = {named}: there is no such program")
+        return Path(found)
+    on_path = shutil.which("brinell")
+    if on_path is not None:
+        return Path(on_path)
+    name = "brinell.exe" if os.name == "nt" else "brinell"
+    built = Path(__file__).resolve().parents[2] / "target" / "release" / name
+    if built.is_file():
+        return built
+    raise ProgramError(
+        "the exporter brinell isn't there: build it in the repository (cargo build --release), "
+        "put it on PATH (cargo install --path .), or set the variable BRINELL to where it is"
+    )
+
+
+def _run(*arguments: str | Path) -> str:
+    """What the exporter writes, told to write for programs."""
+    command = [str(program()), *map(str, arguments), "--json"]
+    try:
+        result = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
+    except OSError as error:
+        raise ProgramError(f"{command[0]} can't be run: {error}") from error
+    if result.returncode != 0:
+        text = result.stderr.strip().removeprefix("brinell: ")
+        # progress stands before the error
+        text = re.sub(r"^building .* \.\.\.\n(brinell: )?", "", text)
+        raise ProgramError(text or f"{' '.join(command)} ended with status {result.returncode}")
+    return result.stdout
+
+
+def export(scene: str | Path, output: str | Path | None = None) -> Path:
+    """Builds the unit of a scene file; gives its path, by default `NAME.fmu` in the current folder.
+    It takes Rust."""
+    more: list[str | Path] = [] if output is None else ["--output", output]
+    return Path(json.loads(_run("export", scene, *more))["fmu"])
+
+
+@overload
+def predict(
+    scene: str | Path,
+    *,
+    laws: None = None,
+    mass: float | None = None,
+    speed: float | None = None,
+    energy: float | None = None,
+    drop_height: float | None = None,
+) -> Prediction: ...
+
+
+@overload
+def predict(
+    scene: str | Path,
+    *,
+    laws: Sequence[str],
+    mass: float | None = None,
+    speed: float | None = None,
+    energy: float | None = None,
+    drop_height: float | None = None,
+) -> list[Prediction]: ...
+
+
+def predict(
+    scene: str | Path,
+    *,
+    laws: Sequence[str] | None = None,
+    mass: float | None = None,
+    speed: float | None = None,
+    energy: float | None = None,
+    drop_height: float | None = None,
+) -> Prediction | list[Prediction]:
+    """What an impact on the first contact of a scene file will do.
+
+    `mass` [kg] and one of `speed` [m/s], `energy` [J] and `drop_height` [m] stand for those of the
+    scene. With `laws` ("LOADING", "LOADING/UNLOADING" or "all") there is a list with a prediction
+    for each.
+    """
+    given = {"mass": mass, "speed": speed, "energy": energy, "drop-height": drop_height}
+    options = _options(given, laws)
+    data = json.loads(_run("predict", scene, *options))
+    known = {field.name for field in fields(Prediction)}
+    predictions = []
+    for law in data["laws"]:
+        values = {name: value for name, value in law.items() if name in known}
+        values["onsets"] = tuple((it["regime"], it["speed"]) for it in law.get("onsets") or ())
+        values["warnings"] = tuple(law.get("warnings") or ())
+        predictions.append(Prediction(mass=data["mass"], speed=data["speed"], **values))
+    return predictions if laws is not None else predictions[0]
+
+
+@overload
+def sweep(
+    scene: str | Path, first: float, last: float, *, laws: None = None, mass: float | None = None
+) -> Columns: ...
+
+
+@overload
+def sweep(
+    scene: str | Path, first: float, last: float, *, laws: Sequence[str], mass: float | None = None
+) -> dict[str, Columns]: ...
+
+
+def sweep(
+    scene: str | Path,
+    first: float,
+    last: float,
+    *,
+    laws: Sequence[str] | None = None,
+    mass: float | None = None,
+) -> Columns | dict[str, Columns]:
+    """Predictions over closing speeds from `first` to `last` [m/s], as columns: `speed`,
+    `restitution`, `dent` ...; with `laws` those of each law by its name."""
+    options = _options({"mass": mass}, laws)
+    text = _run("predict", scene, *options, "--sweep", "speed", f"{first!r}:{last!r}")
+    tables = _tables(text)
+    return tables if laws is not None else next(iter(tables.values()))
+
+
+@overload
+def curve(scene: str | Path, *, laws: None = None, to: float | None = None) -> Columns: ...
+
+
+@overload
+def curve(
+    scene: str | Path, *, laws: Sequence[str], to: float | None = None
+) -> dict[str, Columns]: ...
+
+
+def curve(
+    scene: str | Path, *, laws: Sequence[str] | None = None, to: float | None = None
+) -> Columns | dict[str, Columns]:
+    """One cycle of loading, unloading and reloading up to the indentation `to` [m], as columns:
+    `indentation`, `force`, `contact_radius`, `stiffness`, `work` ...; with `laws` those of each law
+    by its name."""
+    tables = _tables(_run("curve", scene, *_options({"to": to}, laws)))
+    return tables if laws is not None else next(iter(tables.values()))
+
+
+def _options(values: Mapping[str, float | None], laws: Sequence[str] | None) -> list[str]:
+    options = []
+    for name, value in values.items():
+        if value is not None:
+            if isinstance(value, str | bytes | bool):
+                raise TypeError(f"{name} = {value!r}: a number is needed")
+            options += [f"--{name}={float(value)!r}"]
+    if laws is not None:
+        if isinstance(laws, str):
+            raise TypeError(f"laws = {laws!r}: a list of names is needed")
+        options += ["--laws", ",".join(laws)]
+    return options
+
+
+def _tables(text: str) -> dict[str, Columns]:
+    """A table of the exporter, cut by its first column `law`; the names lose their units."""
+    rows: dict[str, list[dict[str, str]]] = {}
+    for row in csv.DictReader(io.StringIO(text)):
+        rows.setdefault(row.pop("law"), []).append(row)
+    return {
+        law: {_bare(name): _column(table, name) for name in table[0]} for law, table in rows.items()
+    }
+
+
+def _column(table: list[dict[str, Any]], name: str) -> NDArray[np.float64]:
+    # what a law hasn't got is an empty field
+    return np.array([float(row[name] or "nan") for row in table])
+
+
+def _bare(name: str) -> str:
+    return re.sub(r"_(m_per_s|N_per_m|Pa|N|J|m|s)$", "", name)

@@ -1,0 +1,163 @@
+"""A step of an instance: what goes in, which force comes out. Arrays for C are made once."""
+
+from __future__ import annotations
+
+from ctypes import c_double, c_int
+from typing import Any, Literal
+
+import numpy as np
+
+from .errors import ContactError
+from .library import WARNING, Instance
+from .variables import Numbers, Variables, number
+
+Force = Literal["auto", "mean", "end"]
+
+
+class Stepping:
+    """The inputs of a unit and the force that it gives, for each of its contacts."""
+
+    def __init__(self, variables: Variables, force: Force, path: str) -> None:
+        self._variables, self._path = variables, path
+        self._count = count = len(variables.rates)
+        self._rate_references = variables.references(variables.rates)
+        self._rates = (c_double * count)()
+        self._external = variables.references(variables.every("external_acceleration"))
+        # orders 1 of all contacts, then orders 2
+        self._twice = variables.references(variables.rates * 2)
+        self._orders = (c_int * (2 * count))(*[1] * count, *[2] * count)
+        self._derivatives = (c_double * (2 * count))()
+        # whether the derivatives aren't zero
+        self._set = False
+        self._values = (c_double * count)()
+        self._choose(force)
+
+    def _choose(self, force: Force) -> None:
+        if force not in ("auto", "mean", "end"):
+            raise ValueError(f"force = {force!r}; allowed are 'auto', 'mean' and 'end'")
+        variables = self._variables
+        mean = variables.every("mean_force")
+        if not mean and (force == "mean" or (force == "auto" and variables.knows_mass)):
+            raise ContactError(
+                f"{self._path} has no output mean_force, which is the force to apply here: add it "
+                'to outputs under [fmu] of its scene, or choose force="end"'
+            )
+        if force == "auto" and variables.is_for_next_step:
+            raise ContactError(
+                f"{self._path} is made for masters that step all units at once: its mean_force "
+                'belongs to the next step. Write master = "serial" under [coupling] of its scene, '
+                'or choose force="mean" and apply it over the next step'
+            )
+        self._mean_always = force == "mean" or (force == "auto" and variables.knows_mass)
+        self._mean_sometimes = bool(mean) and force == "auto"
+        self._end_references = variables.references(variables.every("force"))
+        self._mean_references = variables.references(mean)
+
+    def advance(
+        self,
+        instance: Instance,
+        time: float,
+        h: float,
+        rate: Numbers,
+        acceleration: Numbers | None,
+        jerk: Numbers | None,
+        mass: Numbers | None,
+        gap: Numbers | None,
+    ) -> Any:
+        """The step from `time` to `time + h` [s]; gives the force [N] of each contact."""
+        functions, component, count = instance.functions, instance.component, self._count
+        # all is looked at before anything is set
+        self._fill(self._rates, 0, "rate", rate)
+        orders = self._take_derivatives(acceleration, jerk)
+        if gap is not None:
+            self._follow(instance, h, gap)
+        if mass is not None:
+            self._set_mass(instance, mass)
+        rates = self._rates
+        if functions["fmi2SetReal"](component, self._rate_references, count, rates) > WARNING:
+            raise instance.refusal("SetReal")
+        if len(self._external) > 0:
+            instance.call("SetReal", self._external, count, self._derivatives)
+        elif orders:
+            more = (self._twice, orders * count, self._orders, self._derivatives)
+            instance.call("SetRealInputDerivatives", *more)
+        if functions["fmi2DoStep"](component, time, h, True) > WARNING:
+            raise instance.refusal("DoStep")
+        mean = self._mean_always or (self._mean_sometimes and orders > 0)
+        references = self._mean_references if mean else self._end_references
+        if functions["fmi2GetReal"](component, references, count, self._values) > WARNING:
+            raise instance.refusal("GetReal")
+        return self._values[0] if count == 1 else np.array(self._values)
+
+    def _fill(self, array: Any, first: int, name: str, values: Any) -> None:
+        if self._count == 1 and (type(values) is float or np.shape(values) != (1,)):
+            array[first] = number(name, values)
+            return
+        if isinstance(values, str | bytes) or np.shape(values) != (self._count,):
+            contacts = self._variables.contacts
+            shown = ", ".join(contacts[:8]) + (", ..." if self._count > 8 else "")
+            raise TypeError(
+                f"{name} = {values!r}: it takes {self._count} numbers, one for each of {shown}"
+            )
+        array[first : first + self._count] = [number(name, value) for value in values]
+
+    def _take_derivatives(self, acceleration: Numbers | None, jerk: Numbers | None) -> int:
+        """Gives how many orders there are."""
+        count, orders = self._count, 0
+        if self._set:
+            self._derivatives[:] = [0.0] * (2 * count)
+        if acceleration is not None:
+            self._fill(self._derivatives, 0, "acceleration", acceleration)
+            orders = 1
+        if jerk is not None:
+            self._fill(self._derivatives, count, "jerk", jerk)
+            orders = 2
+        self._set = orders > 0
+        if orders == 2 and len(self._external) > 0:
+            raise ContactError(
+                f"jerk = {jerk} m/s^3: {self._path} takes its acceleration by the input "
+                "external_acceleration, which is held over a step"
+            )
+        return orders
+
+    def _follow(self, instance: Instance, h: float, gap: Numbers) -> None:
+        """Contacts that can't touch within the step end it where the engine's do: their rate takes
+        them there, straight."""
+        count, variables = self._count, self._variables
+        gaps, now = (c_double * count)(), {}
+        self._fill(gaps, 0, "gap", gap)
+        for name in ("indentation", "force"):
+            values = (c_double * count)()
+            names = variables.every(name)
+            if not names:
+                raise variables.unknown("output", name)
+            instance.call("GetReal", variables.references(names), count, values)
+            now[name] = np.array(values)
+        rate, (first, second) = np.array(self._rates), np.reshape(self._derivatives, (2, count))
+        way = h * (rate + h / 2.0 * (first + h / 3.0 * second))
+        closer = [np.maximum(part, 0.0) for part in (rate, first, second)]
+        reach = h * (closer[0] + h / 2.0 * (closer[1] + h / 3.0 * closer[2]))
+        apart = (now["force"] == 0.0) & (np.array(gaps) > reach) & (h > 0.0)
+        rate[apart] = (way - np.array(gaps) - now["indentation"])[apart] / h
+        first[apart] = second[apart] = 0.0
+        self._rates[:] = rate.tolist()
+        self._derivatives[:] = [*first, *second]
+
+    def _set_mass(self, instance: Instance, mass: Numbers) -> None:
+        names, path = self._variables.masses, self._path
+        if not names:
+            raise ContactError(
+                f"mass = {mass} kg: {path} has no effective_mass; "
+                "it comes with [coupling] in its scene"
+            )
+        if not self._variables.mass_is_settable:
+            raise ContactError(
+                f"mass = {mass} kg: effective_mass of {path} is fixed once a simulation "
+                "has begun; reset(effective_mass=...) sets it at the start"
+            )
+        values = [mass] * len(names) if np.ndim(mass) == 0 else list(mass)  # type: ignore[arg-type]
+        if len(values) != len(names):
+            shown = ", ".join(names)
+            raise TypeError(f"mass = {mass!r}: it takes one number, or {len(names)}, for {shown}")
+        array = (c_double * len(names))(*[number("mass", value) for value in values])
+        instance.call("SetReal", self._variables.references(names), len(names), array)

@@ -1,0 +1,86 @@
+"""The runs of a study: impacts, each in one step of a unit that knows the mass."""
+
+from __future__ import annotations
+
+import functools
+import tempfile
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..contact import Contact
+from ..errors import ContactError, ContactWarning
+from ..library import Library
+
+Table = dict[str, NDArray[Any]]
+"""Columns by name: numbers, and texts in `error` and `warning`."""
+RESULTS = ("restitution", "rebound_speed", "max_indentation", "dent", "energy_lost", "impulse")
+LONG = 1.0
+"""The first step [s]: longer than almost any impact. What goes on is stepped on, ten times as long
+each time."""
+
+
+def run(unit: Path | bytes, names: Sequence[str], rows: NDArray[np.float64]) -> Table:
+    """A chunk: one instance for all its impacts, reset between them.
+
+    `names` are those of the columns of `rows`: "speed" [m/s], "mass" [kg] and parameters of the
+    unit, in SI units. A unit given as bytes needs no file on the machine.
+    """
+    table: Table = {name: rows[:, index].copy() for index, name in enumerate(names)}
+    table |= {name: np.full(len(rows), np.nan) for name in RESULTS}
+    table |= {name: np.full(len(rows), "", dtype=object) for name in ("error", "warning")}
+    with warnings.catch_warnings(record=True) as told, Contact(_library(unit)) as contact:
+        warnings.simplefilter("always", ContactWarning)
+        for index, row in enumerate(rows):
+            try:
+                results = impact(contact, dict(zip(names, row.tolist(), strict=True)))
+            except ContactError as error:
+                table["error"][index] = str(error)
+            else:
+                for name, value in zip(RESULTS, results, strict=True):
+                    table[name][index] = value
+            table["warning"][index] = "; ".join(str(one.message) for one in told)
+            told.clear()
+    return table
+
+
+def impact(contact: Contact, row: dict[str, float]) -> tuple[float, ...]:
+    """One impact; its `RESULTS`."""
+    speed, mass = row.pop("speed"), row.pop("mass")
+    if not speed > 0.0:
+        raise ContactError(f"speed = {speed} m/s: an impact has a closing speed above zero")
+    contact.reset(parameters={**row, "effective_mass": mass}, initial_gap=0.0)
+    impulse, now, step = 0.0, speed, LONG
+    for _ in range(12):
+        given = step * contact.step(step, now)
+        impulse, now, step = impulse + given, now - given / mass, 10.0 * step
+        if contact["force"] == 0.0:
+            break
+    else:
+        raise ContactError(f"the impact isn't over after {contact.time:g} s")
+    names = ("max_indentation", "residual_indentation", "dissipated_energy")
+    return -now / speed, -now, *(contact[name] for name in names), impulse
+
+
+@functools.cache
+def _library(unit: Path | bytes) -> Library:
+    """Loaded once in each process, and not for each chunk."""
+    if isinstance(unit, Path):
+        return Library.of(unit)
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        path = Path(folder) / "unit.fmu"
+        path.write_bytes(unit)
+        return Library.of(path)
+
+
+def failed(names: Sequence[str], rows: NDArray[np.float64], error: str) -> Table:
+    """What stands for a chunk that couldn't be run at all."""
+    table: Table = {name: rows[:, index].copy() for index, name in enumerate(names)}
+    table |= {name: np.full(len(rows), np.nan) for name in RESULTS}
+    table["error"] = np.full(len(rows), error, dtype=object)
+    table["warning"] = np.full(len(rows), "", dtype=object)
+    return table

@@ -1,0 +1,114 @@
+"""Which runs a study has: a grid, or samples."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Range:
+    """Values of one parameter, from `first` to `last`."""
+
+    first: float
+    last: float
+    count: int = 20
+    """Of a grid; samples have as many as there are samples."""
+    logarithmic: bool = False
+
+    def __post_init__(self) -> None:
+        if not np.isfinite([self.first, self.last]).all():
+            raise ValueError(f"{self.first}:{self.last}: the ends of a range are finite")
+        if self.count < 1:
+            raise ValueError(f"{self.count} values: a range has at least one")
+        if self.logarithmic and not (self.first > 0.0 and self.last > 0.0):
+            raise ValueError(f"{self.first}:{self.last}: a logarithmic range is above zero")
+
+    def at(self, parts: Array) -> Array:
+        """The values at these parts of the way, from 0 to 1."""
+        if self.logarithmic:
+            # the ends are those that were asked for, to the last bit
+            inner = np.exp(np.log(self.first) + parts * np.log(self.last / self.first))
+        else:
+            inner = self.first + parts * (self.last - self.first)
+        return np.where(parts == 0.0, self.first, np.where(parts == 1.0, self.last, inner))
+
+    def values(self) -> Array:
+        """The values of a grid."""
+        return self.at(np.linspace(0.0, 1.0, self.count))
+
+
+Varied = Range | Sequence[float] | Array | str
+
+
+def read(text: str) -> Range | Array:
+    """`FROM:TO`, `FROM:TO:COUNT`, `FROM:TO:COUNTlog`, `FROM:TO:log`, or values with commas between
+    them."""
+    try:
+        if ":" not in text:
+            return np.array([float(part) for part in text.split(",")])
+        first, last, *rest = text.split(":")
+        match = re.fullmatch(r"(\d*)(log)?", rest[0] if rest else "")
+        if len(rest) > 1 or match is None:
+            raise ValueError
+        count = int(match[1]) if match[1] else Range.count
+        ends = float(first), float(last)
+    except ValueError:
+        raise ValueError(
+            f"{text!r} is no range: allowed are FROM:TO:COUNT, FROM:TO:COUNTlog and values "
+            "with commas between them"
+        ) from None
+    return Range(*ends, count, match[2] is not None)
+
+
+def runs(vary: Mapping[str, Varied], sample: str = "grid", seed: int = 0) -> dict[str, Array]:
+    """The values of each parameter in all runs.
+
+    `sample` is "grid", "sobol:COUNT" or "lhs:COUNT" (Latin hypercube); the two take ranges only.
+    """
+    if not vary:
+        raise ValueError("a study varies something: vary={'speed': '0.1:10:50log'}, for example")
+    given = {name: read(value) if isinstance(value, str) else value for name, value in vary.items()}
+    if sample == "grid":
+        axes = [_axis(name, value) for name, value in given.items()]
+        grids = np.meshgrid(*axes, indexing="ij")
+        return {name: grid.ravel() for name, grid in zip(given, grids, strict=True)}
+    match = re.fullmatch(r"(sobol|lhs):([1-9]\d*)", sample)
+    if match is None:
+        raise ValueError(f"sample = {sample!r}; allowed are grid, sobol:COUNT and lhs:COUNT")
+    for name, value in given.items():
+        if not isinstance(value, Range):
+            raise TypeError(f"{name}: samples are taken from a range, not from single values")
+    places = _places(match[1], int(match[2]), len(given), seed)
+    return {
+        name: value.at(column)
+        for (name, value), column in zip(given.items(), places.T, strict=True)
+        if isinstance(value, Range)
+    }
+
+
+def _axis(name: str, value: Range | Sequence[float] | Array) -> Array:
+    values = value.values() if isinstance(value, Range) else np.asarray(value, dtype=float)
+    if values.ndim != 1 or not len(values) or not np.isfinite(values).all():
+        raise ValueError(f"{name} = {value!r}: a list of finite numbers is needed")
+    return values
+
+
+def _places(kind: str, count: int, dimensions: int, seed: int) -> Array:
+    """Points of the unit cube."""
+    import warnings
+
+    from scipy.stats import qmc
+
+    if kind == "lhs":
+        return np.asarray(qmc.LatinHypercube(dimensions, rng=seed).random(count))
+    with warnings.catch_warnings():
+        # a count that isn't a power of two costs balance, which is the caller's choice
+        warnings.simplefilter("ignore", UserWarning)
+        return np.asarray(qmc.Sobol(dimensions, rng=seed).random(count))

@@ -1,0 +1,60 @@
+"""The unit of a study: the scene's first contact, moved by the unit, with everything settable."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..program import export
+
+OUTPUTS = ["indentation", "max_indentation", "residual_indentation", "dissipated_energy"]
+
+
+def unit(scene: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str, float]]:
+    """Exports the unit of impacts of a scene file into `folder`; gives it and the impact of the
+    scene.
+
+    `mass` [kg] is needed if the scene has none.
+    """
+    with open(scene, "rb") as file:
+        data = tomllib.load(file)
+    impact = dict(data.get("impact", {}))
+    known = mass or impact.get("mass") or data.get("coupling", {}).get("effective_mass")
+    if known is None:
+        raise ValueError(f"{scene} has no [impact] with a mass: give mass=, or vary it")
+    path = folder / "scene.toml"
+    path.write_text(toml(of_impacts(data, float(known))), encoding="utf-8")
+    return export(path, folder / "unit.fmu"), impact | {"mass": float(known)}
+
+
+def of_impacts(data: Mapping[str, Any], mass: float) -> dict[str, Any]:
+    """A scene of one contact that knows its mass, and whose parameters can all be set."""
+    made = {key: value for key, value in data.items() if key not in ("contact", "fmu")}
+    first = data.get("contact", [{}])[0]
+    for body in ("impactor", "target"):
+        made[body] = {**data.get(body, {}), **first.get(body, {})}
+    # what an impact leaves behind is read when the bodies are apart again
+    made["target"].pop("surface", None)
+    made["fmu"] = {"outputs": OUTPUTS}
+    made["coupling"] = {"effective_mass": mass}
+    if "impact" in made:
+        made["impact"] = {**made["impact"], "mass": mass}
+    return made
+
+
+def toml(data: Mapping[str, Any]) -> str:
+    """TOML with every table in one line."""
+    return "".join(f"{key} = {_value(value)}\n" for key, value in data.items())
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{json.dumps(k)} = {_value(v)}" for k, v in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    if isinstance(value, bool | str):
+        return json.dumps(value)
+    return repr(value)

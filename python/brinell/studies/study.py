@@ -1,0 +1,214 @@
+"""A study from its plan to its table."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ContactError
+from ..library import Library
+from ..variables import Variables
+from . import impacts, plan, scene
+from .impacts import Table
+
+ENDINGS = (".parquet", ".csv", ".svg", ".png")
+Rows = NDArray[np.float64]
+Chunks = dict[int, Rows]
+
+
+def study(
+    scene_file: str | Path,
+    vary: Mapping[str, plan.Varied],
+    *,
+    sample: str = "grid",
+    seed: int = 0,
+    mass: float | None = None,
+    speed: float | None = None,
+    parameters: Mapping[str, float] | None = None,
+    output: str | Path | Sequence[str | Path] = (),
+    workers: int | None = None,
+    chunk: int | None = None,
+    scheduler: str | None = None,
+    progress: bool = True,
+) -> Table:
+    """Thousands of impacts of a scene's first contact; gives a table with a row for each.
+
+    `vary` names what is varied: "speed" [m/s], "mass" [kg], and any parameter of the unit in SI
+    units. Each has a `Range`, a text (`"0.1:10:50log"`) or a list of values. `sample` is "grid",
+    "sobol:COUNT" or "lhs:COUNT". `mass`, `speed` and `parameters` are those of all runs; without
+    them the scene's.
+
+    `output` names files by their endings: .parquet and .csv for the table, .svg and .png for a
+    picture. With a table a study that was stopped goes on where it was. All cores are used, or
+    `workers` processes, each with chunks of `chunk` runs; with `scheduler` those of Dask: "local",
+    or an address like "tcp://host:8786".
+
+    A run that fails has its reason in the column `error`, and no number among its results.
+    """
+    outputs = _outputs(output)
+    values = plan.runs(vary, sample, seed)
+    with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
+        known = mass if mass is not None or "mass" not in values else float(values["mass"][0])
+        unit, usual = _unit(Path(scene_file), Path(folder), known)
+        usual |= {"speed": speed} if speed is not None else {}
+        usual |= {"mass": mass} if mass is not None else {}
+        columns = _columns(values, {**usual, **(parameters or {})})
+        _check(unit, columns)
+        names, rows = list(columns), np.column_stack(list(columns.values()))
+        workers = workers or os.cpu_count() or 1
+        size = chunk or max(1, min(1000, -(-len(rows) // (4 * workers))))
+        chunks = {at: rows[at : at + size] for at in range(0, len(rows), size)}
+        table = _run(unit, names, chunks, outputs, workers, scheduler, progress)
+    for path in outputs:
+        if path.suffix in (".svg", ".png"):
+            from .picture import draw
+
+            draw(path, table, list(values))
+    return table
+
+
+def _outputs(output: str | Path | Sequence[str | Path]) -> list[Path]:
+    given = [output] if isinstance(output, str | Path) else output
+    paths = [Path(path) for path in given]
+    for path in paths:
+        if path.suffix not in ENDINGS:
+            raise ValueError(f"{path}: a study is written to {', '.join(ENDINGS)}")
+        if not path.absolute().parent.is_dir():
+            raise FileNotFoundError(f"{path}: there is no such folder")
+    return paths
+
+
+def _unit(path: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str, float]]:
+    if path.suffix == ".fmu":
+        return path, {}
+    return scene.unit(path, folder, mass)
+
+
+def _columns(values: Mapping[str, Rows], usual: Mapping[str, float]) -> dict[str, Rows]:
+    """The values of all runs; speed and mass, which every run has, come first."""
+    count = len(next(iter(values.values())))
+    fixed = {name: np.full(count, float(value)) for name, value in usual.items()}
+    columns = {**fixed, **values}
+    for name in ("speed", "mass"):
+        if name not in columns:
+            raise ValueError(f"{name} is needed: the scene has none, so give it or vary it")
+    return columns
+
+
+def _check(unit: Path, columns: Mapping[str, Rows]) -> None:
+    variables = Variables(Library.of(unit))
+    if not variables.knows_mass or len(variables.contacts) != 1:
+        raise ContactError(f"{unit}: a study needs a unit with one contact that knows the mass")
+    for name in ("effective_mass", "initial_gap", *(set(columns) - {"speed", "mass"})):
+        if name not in variables.parameters:
+            raise variables.unknown("parameter", name, ("speed", "mass", *variables.parameters))
+
+
+def _run(
+    unit: Path,
+    names: list[str],
+    chunks: Chunks,
+    outputs: Sequence[Path],
+    workers: int,
+    scheduler: str | None,
+    progress: bool,
+) -> Table:
+    from tqdm import tqdm
+
+    from . import store
+
+    tables = [path for path in outputs if path.suffix in (".parquet", ".csv")]
+    rows = np.concatenate(list(chunks.values()))
+    key = repr((names, [len(chunk) for chunk in chunks.values()])).encode() + rows.tobytes()
+    key += Library.of(unit).description.guid.encode()
+    parts = store.Parts(tables[0], key) if tables else None
+    done = {at: part for at in chunks if parts and (part := parts.load(at)) is not None}
+    before = sum(len(chunks[at]) for at in done)
+    with tqdm(total=len(rows), initial=before, unit="run", disable=not progress) as bar:
+        left = {at: chunk for at, chunk in chunks.items() if at not in done}
+        for at, table in _results(unit, names, left, workers, scheduler):
+            done[at] = table
+            if parts:
+                parts.save(at, table)
+            bar.update(len(chunks[at]))
+    whole = store.joined([done[at] for at in chunks])
+    for path in tables:
+        store.write(path, whole)
+    if parts:
+        parts.remove()
+    return whole
+
+
+def _results(
+    unit: Path, names: list[str], chunks: Chunks, workers: int, scheduler: str | None
+) -> Iterator[tuple[int, Table]]:
+    """The chunks as they are done. One that has failed is tried once more, alone."""
+    if scheduler is None and (workers == 1 or len(chunks) <= 1):
+        for at, rows in chunks.items():
+            yield at, impacts.run(unit, names, rows)
+        return
+    broken = []
+    with _pool(unit, workers, scheduler) as (submit, completed):
+        futures = {submit(names, rows): at for at, rows in chunks.items()}
+        for future in completed(futures):
+            try:
+                yield futures[future], future.result()
+            except Exception:
+                broken.append(futures[future])
+    for at in broken:
+        yield at, _alone(unit, names, chunks[at])
+
+
+def _alone(unit: Path, names: list[str], rows: Rows) -> Table:
+    """A chunk in a process of its own; if it ends the process, halves of it, down to the run that
+    does so."""
+    from . import store
+
+    with ProcessPoolExecutor(1) as pool:
+        try:
+            return pool.submit(impacts.run, unit, names, rows).result()
+        except BrokenProcessPool as error:
+            if len(rows) == 1:
+                return impacts.failed(names, rows, f"the run has ended its process: {error}")
+        except Exception as error:
+            return impacts.failed(names, rows, f"the run has failed: {error!r}")
+    middle = len(rows) // 2
+    parts = (rows[:middle], rows[middle:])
+    return store.joined([_alone(unit, names, part) for part in parts])
+
+
+@contextmanager
+def _pool(
+    unit: Path, workers: int, scheduler: str | None
+) -> Iterator[tuple[Callable[..., Any], Callable[..., Any]]]:
+    """How to start a chunk, and how to wait for the chunks."""
+    if scheduler is None:
+        pool = ProcessPoolExecutor(workers)
+        try:
+            yield lambda names, rows: pool.submit(impacts.run, unit, names, rows), as_completed
+        finally:
+            # whoever stops a study doesn't wait for all of it
+            pool.shutdown(cancel_futures=True)
+        return
+    from dask import distributed
+
+    connect: Any = distributed.Client
+
+    local = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
+    client = connect(**local if scheduler == "local" else {"address": scheduler})
+    with client:
+        # another machine hasn't got the file
+        data = client.scatter(unit.read_bytes(), broadcast=True)
+        yield (
+            lambda names, rows: client.submit(impacts.run, data, names, rows, pure=False),
+            distributed.as_completed,
+        )

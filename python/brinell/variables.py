@@ -1,0 +1,129 @@
+"""The variables of a unit: which contacts it has, and which of its parameters a caller means."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from ctypes import c_uint
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import ContactError, UnknownName
+from .library import Library
+
+RATE = "indentation_rate"
+Numbers = float | Sequence[float] | NDArray[np.float64]
+"""One number, or one for each contact of the unit."""
+Gaps = Numbers | Mapping[str, float]
+"""As `Numbers`, or by the names of contacts."""
+
+
+class Variables:
+    """What a unit has, found once from its description."""
+
+    def __init__(self, library: Library) -> None:
+        self._all = library.variables
+        self._path = library.path
+        rates = self.owners(RATE, "input")
+        if not rates:
+            raise ContactError(f"{self._path} has no input {RATE}: it isn't a unit of Brinell")
+        self.rates = rates
+        self.contacts = tuple(name[: -len(RATE)].rstrip(".") for name in rates)
+        self.outputs = tuple(n for n, it in self._all.items() if it.causality == "output")
+        self.parameters = tuple(n for n, it in self._all.items() if it.causality == "parameter")
+        # the description alone says so: effective_mass may be a constant, and damping has one, too
+        texts = [self._all[name].description or "" for name in rates]
+        self.knows_mass = any("moves the bodies" in text for text in texts)
+        mean = [self._all[name].description or "" for name in self.owners("mean_force")]
+        self.is_for_next_step = any("over the next step" in text for text in mean)
+        self.masses = self.owners("effective_mass")
+        self.mass_is_settable = bool(self.masses) and all(
+            self._all[name].causality == "input" or self._all[name].variability == "tunable"
+            for name in self.masses
+        )
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._all
+
+    def is_real(self, name: str) -> bool:
+        """Whether fmi2GetReal reads it; everything else of a unit are integers."""
+        return bool(self._all[name].type == "Real")
+
+    def every(self, name: str) -> list[str]:
+        """The variable `name` of each contact; empty if one has none."""
+        names = [f"{contact}.{name}" if contact else name for contact in self.contacts]
+        return names if all(name in self._all for name in names) else []
+
+    def owners(self, name: str, causality: str | None = None) -> list[str]:
+        """All variables that are called so, with or without a contact or group before it."""
+        return [
+            it
+            for it, variable in self._all.items()
+            if (it == name or it.endswith("." + name)) and causality in (None, variable.causality)
+        ]
+
+    def references(self, names: Sequence[str]) -> Any:
+        """Value references as C takes them."""
+        return (c_uint * len(names))(*[self._all[name].valueReference for name in names])
+
+    def unknown(self, kind: str, name: object, names: Sequence[str] | None = None) -> UnknownName:
+        """The error about a name that isn't there."""
+        names = tuple(self._all) if names is None else names
+        shown = ", ".join(names[:40]) + (", ..." if len(names) > 40 else "")
+        return UnknownName(
+            f"{self._path.name} has no {kind} {name!r}; there are: {shown or 'none'}"
+        )
+
+    def given(
+        self,
+        gap: Gaps | None,
+        parameters: Mapping[str, float] | None,
+        keywords: Mapping[str, float],
+    ) -> dict[str, float]:
+        """The parameters that a caller gives in three ways, under their own names."""
+        given = dict(parameters or {})
+        known = {_plain(name): name for name in self.parameters}
+        for keyword, value in keywords.items():
+            given[known.get(keyword, keyword)] = value
+        if gap is not None:
+            given |= self._gaps(gap)
+        for name, value in given.items():
+            if name not in self.parameters:
+                raise self.unknown("parameter", name, self.parameters)
+            given[name] = number(name, value)
+        return given
+
+    def _gaps(self, gap: Gaps) -> dict[str, float]:
+        names = self.owners("initial_gap")
+        if not names:
+            raise self.unknown("parameter", "initial_gap", self.parameters)
+        if isinstance(gap, Mapping):
+            return {f"{contact}.initial_gap": value for contact, value in gap.items()}
+        if np.ndim(gap) == 0:
+            return dict.fromkeys(names, number("initial_gap", gap))
+        own = self.every("initial_gap")
+        if np.shape(gap) != (len(self.contacts),) or not own:
+            raise ContactError(
+                f"initial_gap = {gap}: the unit has {len(self.contacts)} contacts, "
+                f"and the parameters {', '.join(names)}"
+            )
+        return dict(zip(own, np.asarray(gap, dtype=float).tolist(), strict=True))
+
+
+def number(name: str, value: Any) -> float:
+    """`value` as a float; a text, for one, is none."""
+    if type(value) is float:
+        return value
+    try:
+        if isinstance(value, str | bytes | bool) or value is None:
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError):
+        kind = type(value).__name__
+        raise TypeError(f"{name} = {value!r}: a number is needed, not {kind}") from None
+
+
+def _plain(name: str) -> str:
+    """A name as a keyword: `target.yield_strength` is `target_yield_strength`."""
+    return name.replace(".", "_").replace("[", "_").replace("]", "")

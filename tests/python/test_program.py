@@ -1,0 +1,102 @@
+"""What the exporter answers, as numbers and arrays."""
+
+import brinell
+import numpy as np
+import pytest
+from brinell import ProgramError
+from units import SCENES, bounce
+
+SCENE = SCENES / "mass_known.toml"
+
+
+def test_an_exported_unit_does_what_is_predicted(tmp_path):
+    path = brinell.export(SCENE, tmp_path / "made.fmu")
+    assert path == tmp_path / "made.fmu"
+    predicted = brinell.predict(SCENE, speed=2.0)
+    with brinell.Contact(path) as made:
+        assert bounce(made, speed=2.0) / 2.0 == pytest.approx(predicted.restitution, rel=1e-12)
+        assert made["residual_indentation"] == pytest.approx(predicted.dent, rel=1e-12)
+        assert made["max_indentation"] == pytest.approx(predicted.largest_indentation, rel=1e-12)
+
+
+def test_an_export_without_a_path_goes_to_the_current_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert brinell.export(SCENE).resolve() == tmp_path / "mass_known.fmu"
+    assert (tmp_path / "mass_known.fmu").is_file()
+
+
+def test_the_impact_of_a_prediction():
+    plain = brinell.predict(SCENE)
+    assert (plain.mass, plain.speed, plain.law) == (4e-3, 1.0, "big-alabo")
+    assert brinell.predict(SCENE, speed=1.0, mass=4e-3) == plain
+    assert brinell.predict(SCENE, energy=2e-3).restitution == pytest.approx(plain.restitution)
+    dropped = brinell.predict(SCENE, drop_height=0.5 / 9.80665)
+    assert dropped.restitution == pytest.approx(plain.restitution)
+    assert plain.onsets[0][1] < plain.onsets[-1][1]
+    assert brinell.predict(SCENE, speed=100.0).warnings
+
+
+def test_several_laws():
+    both = brinell.predict(SCENE, laws=["big-alabo", "hertz"])
+    assert [it.law for it in both] == ["big-alabo", "hertz"]
+    assert both[0] == brinell.predict(SCENE) and both[1].restitution == pytest.approx(1.0)
+    assert len(brinell.predict(SCENE, laws=["all"])) > 15
+    damped = brinell.predict(SCENES / "damped.toml")
+    assert damped.dent == 0.0 and 0.0 < damped.restitution < 1.0
+
+
+def test_a_sweep_is_arrays_of_predictions():
+    columns = brinell.sweep(SCENE, 0.1, 10.0)
+    assert columns["speed"][0] == 0.1 and columns["speed"][-1] == 10.0
+    middle = len(columns["speed"]) // 2
+    one = brinell.predict(SCENE, speed=columns["speed"][middle])
+    assert columns["restitution"][middle] == pytest.approx(one.restitution, rel=1e-14)
+    assert columns["dent"][middle] == pytest.approx(one.dent, rel=1e-14)
+    assert columns["largest_force"].dtype == np.float64
+    assert set(brinell.sweep(SCENE, 0.1, 1.0, laws=["hertz", "stronge"], mass=1.0)) > {"hertz"}
+
+
+def test_a_curve_is_arrays_whose_work_is_the_integral_of_the_force():
+    curve = brinell.curve(SCENE, to=1e-5)
+    assert curve["indentation"].max() == 1e-5
+    work = np.sum(0.5 * (curve["force"][1:] + curve["force"][:-1]) * np.diff(curve["indentation"]))
+    assert curve["work"][-1] - curve["work"][0] == pytest.approx(work, rel=1e-3)
+    assert set(brinell.curve(SCENE, laws=["hertz"])) == {"hertz"}
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: brinell.predict("nowhere.toml"), "nowhere.toml"),
+        (lambda: brinell.export("nowhere.toml"), "nowhere.toml"),
+        (lambda: brinell.curve("nowhere.toml"), "nowhere.toml"),
+        (lambda: brinell.predict(SCENE, speed=-1.0), "speed = -1 must be positive"),
+        (lambda: brinell.predict(SCENE, mass=float("nan")), "mass"),
+        (lambda: brinell.predict(SCENE, speed=1.0, energy=1.0), "cannot be used with"),
+        (lambda: brinell.predict(SCENE, laws=["rubber"]), "unknown loading law `rubber`"),
+        (lambda: brinell.curve(SCENE, to=-1.0), "to = -1"),
+        (lambda: brinell.export(SCENE, "/nowhere/at/all.fmu"), "/nowhere/at/all.fmu"),
+    ],
+)
+def test_the_program_says_what_is_wrong(call, words):
+    with pytest.raises(ProgramError, match=words) as error:
+        call()
+    assert not str(error.value).startswith(("brinell:", "building"))
+
+
+def test_wrong_types():
+    with pytest.raises(TypeError, match="speed"):
+        brinell.predict(SCENE, speed="1")
+    with pytest.raises(TypeError, match="list of names"):
+        brinell.predict(SCENE, laws="hertz")
+
+
+def test_where_the_program_is_looked_for(monkeypatch, tmp_path):
+    found = brinell.program()
+    monkeypatch.setenv("BRINELL", str(tmp_path / "nothing"))
+    with pytest.raises(ProgramError, match="BRINELL = .*nothing"):
+        brinell.program()
+    monkeypatch.delenv("BRINELL")
+    (tmp_path / "brinell").symlink_to(found)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert brinell.program() == tmp_path / "brinell"

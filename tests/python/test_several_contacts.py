@@ -1,0 +1,84 @@
+"""Units with several contacts: sequences in, arrays out."""
+
+import numpy as np
+import pytest
+from brinell import ContactError, UnknownName
+from units import bits, contact
+
+H = 1e-5
+
+
+def test_names_of_contacts():
+    assert contact("two").contacts == ("left", "right")
+    assert contact("row").contacts == ("bead[1]", "bead[2]", "bead[3]")
+    assert contact("coupled").contacts == ("",)
+
+
+@pytest.mark.parametrize("kind", [list, tuple, np.array])
+def test_each_contact_is_as_it_would_be_alone(kind):
+    rates, gaps = kind([1.0, 0.5]), [0.0, 2e-6]
+    with contact("two", initial_gap=gaps) as both:
+        forces = [both.step(H, rates, [9.81, 0.0]) for _ in range(4)]
+        assert all(isinstance(force, np.ndarray) and force.shape == (2,) for force in forces)
+        for index in range(2):
+            with contact("mass_known", initial_gap=gaps[index]) as alone:
+                own = [alone.step(H, float(rates[index]), [9.81, 0.0][index]) for _ in range(4)]
+            assert own == pytest.approx([force[index] for force in forces], rel=1e-9)
+
+
+def test_values_of_one_and_of_all():
+    with contact("row") as made:
+        made.step(1e-6, [0.0, 1.0, 2.0])
+        assert bits(made["indentation"]) == bits([0.0, 1e-6, 2e-6])
+        assert made["bead[3].indentation"] == 2e-6
+        assert made["regime"].dtype.kind == "i" and made["regime"][2] > 0
+        assert made.derivative("force").shape == (3,)
+        with pytest.raises(KeyError, match=r"bead\[1\].force"):
+            made["depth"]
+
+
+def test_gaps_for_all_for_each_and_by_name():
+    for gap, expected in [
+        (1e-3, [1e-3, 1e-3]),
+        ([1e-3, 2e-3], [1e-3, 2e-3]),
+        (np.array([1e-3, 2e-3]), [1e-3, 2e-3]),
+        ({"right": 3e-3}, [0.0, 3e-3]),
+        (None, [0.0, 1e-5]),
+    ]:
+        with contact("two", initial_gap=gap) as made:
+            assert list(-made["indentation"]) == expected
+    with contact("row", initial_gap=1e-3) as made:
+        assert list(made["indentation"]) == [-1e-3] * 3
+    with pytest.raises(ContactError, match="3 contacts"):
+        contact("row", initial_gap=[1e-3, 2e-3, 3e-3])
+    with pytest.raises(ContactError, match="2 contacts"):
+        contact("two", initial_gap=[1e-3])
+    with pytest.raises(UnknownName, match="middle.initial_gap"):
+        contact("two", initial_gap={"middle": 1.0})
+
+
+def test_parameters_of_one_contact():
+    with contact("two", left_initial_gap=1e-4) as made:
+        assert made["left.initial_gap"] == 1e-4
+
+
+@pytest.mark.parametrize(
+    "rates", [1.0, [1.0], [1.0] * 3, [[1.0, 2.0]], "ab", b"ab", None, [1.0, "2"], {1.0, 2.0}]
+)
+def test_wrong_numbers_of_rates_are_refused(rates):
+    with contact("two") as made:
+        with pytest.raises(TypeError, match="rate"):
+            made.step(H, rates)
+        with pytest.raises(TypeError, match="acceleration"):
+            made.step(H, [1.0, 1.0], 1.0 if rates is None else rates)
+        assert made.time == 0.0
+
+
+def test_each_contact_follows_its_own_gap():
+    with contact("two", initial_gap=1e-3) as made:
+        # the left one stays apart; the right one touches within the step
+        forces = made.step(1e-3, [0.5, 2.0], [0.0, 0.0], gap=[2e-3, 1e-3])
+        assert forces[0] == 0.0 and forces[1] > 0.0
+        assert made["left.indentation"] == pytest.approx(-1.5e-3, rel=1e-14)
+        with pytest.raises(TypeError, match="gap"):
+            made.step(1e-3, [0.0, 0.0], gap=1.0)

@@ -1,0 +1,352 @@
+"""Studies: plans, runs, failures, files, and going on after a stop."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import brinell
+import numpy as np
+import pytest
+from brinell import ContactError, ProgramError, Range
+from brinell.studies import impacts, plan, scene, store
+
+SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
+SCENE = SCENES / "mass_known.toml"
+
+
+@pytest.fixture(scope="module")
+def unit(tmp_path_factory):
+    return scene.unit(SCENE, tmp_path_factory.mktemp("unit"), None)[0]
+
+
+def quick(unit, vary, **arguments):
+    arguments = {"mass": 4e-3, "progress": False, "workers": 1} | arguments
+    if "speed" not in vary:
+        arguments.setdefault("speed", 1.0)
+    return brinell.study(unit, vary, **arguments)
+
+
+# plans
+
+
+def test_ranges():
+    assert list(plan.read("1:3:3").values()) == [1.0, 2.0, 3.0]
+    assert plan.read("1:100:3log").values() == pytest.approx([1.0, 10.0, 100.0], rel=1e-14)
+    assert list(plan.read("2,1,5e-1")) == [2.0, 1.0, 0.5]
+    assert plan.read("1:2") == Range(1.0, 2.0) and plan.read("1:2:log").logarithmic
+    values = plan.read("0.1:0.7:50log").values()
+    assert (values[0], values[-1]) == (0.1, 0.7)
+    assert list(plan.read("3:1:2").values()) == [3.0, 1.0] and list(
+        plan.read("3:4:1").values()
+    ) == [3.0]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "a",
+        "1:",
+        "1:2:x",
+        "1:2:3:4",
+        "1,,2",
+        "1:2:3lin",
+        "1:2:-1",
+        "0:1:3log",
+        "-1:1:3log",
+        "1:inf:3",
+        "nan:1:3",
+        "1:2:0",
+    ],
+)
+def test_what_is_no_range(text):
+    with pytest.raises(ValueError, match="range|values"):
+        plan.read(text)
+
+
+def test_a_grid_has_every_pair_once():
+    columns = plan.runs({"a": "1:2:2", "b": [5.0, 6.0, 7.0]})
+    assert list(columns["a"]) == [1.0] * 3 + [2.0] * 3 and list(columns["b"]) == [5.0, 6.0, 7.0] * 2
+
+
+@pytest.mark.parametrize("kind", ["sobol", "lhs"])
+def test_samples_fill_their_ranges_evenly_and_repeat_with_their_seed(kind):
+    vary = {"a": Range(0.0, 8.0), "b": Range(1e-3, 1e5, logarithmic=True)}
+    columns = plan.runs(vary, f"{kind}:64", seed=3)
+    assert np.array_equal(columns["a"], plan.runs(vary, f"{kind}:64", seed=3)["a"])
+    assert not np.array_equal(columns["a"], plan.runs(vary, f"{kind}:64", seed=4)["a"])
+    # each eighth of either range has its eighth of the samples
+    assert set(np.histogram(columns["a"], bins=8, range=(0.0, 8.0))[0]) == {8}
+    assert set(np.histogram(np.log10(columns["b"]), bins=8, range=(-3.0, 5.0))[0]) == {8}
+
+
+@pytest.mark.parametrize(
+    ("vary", "sample", "words"),
+    [
+        ({}, "grid", "varies something"),
+        ({"a": "1:2"}, "random:10", "sobol:COUNT"),
+        ({"a": "1:2"}, "lhs:0", "lhs"),
+        ({"a": [1.0]}, "lhs:4", "from a range"),
+        ({"a": []}, "grid", "finite numbers"),
+        ({"a": [float("nan")]}, "grid", "finite numbers"),
+        ({"a": [[1.0]]}, "grid", "finite numbers"),
+    ],
+)
+def test_plans_that_are_refused(vary, sample, words):
+    with pytest.raises((ValueError, TypeError), match=words):
+        plan.runs(vary, sample)
+
+
+# runs
+
+
+@pytest.mark.parametrize(
+    "name", ["steel_ball", "coupled", "mass_known", "elastic", "two_contacts", "everything"]
+)
+def test_each_run_is_what_is_predicted(name):
+    vary = {"speed": "0.01:10:5log", "mass": [4e-3]}
+    table = brinell.study(SCENES / f"{name}.toml", vary, workers=1, progress=False)
+    assert list(table["error"]) == [""] * 5
+    for index, speed in enumerate(table["speed"]):
+        expected = brinell.predict(SCENES / f"{name}.toml", speed=speed, mass=4e-3)
+        assert table["restitution"][index] == pytest.approx(expected.restitution, rel=1e-9)
+        assert table["max_indentation"][index] == pytest.approx(
+            expected.largest_indentation, rel=1e-9
+        )
+        assert table["dent"][index] == pytest.approx(expected.dent, rel=1e-9, abs=1e-18)
+        assert table["energy_lost"][index] == pytest.approx(
+            expected.energy_lost, rel=1e-9, abs=1e-15
+        )
+
+
+def test_the_impulse_makes_the_rebound(unit):
+    table = quick(unit, {"mass": "1e-6:1e3:10log", "target.yield_strength": "1e8:1e9:3"})
+    momentum = table["mass"] * (table["rebound_speed"] + 1.0)
+    assert table["impulse"] == pytest.approx(momentum, rel=1e-14)
+    assert table["restitution"] == pytest.approx(table["rebound_speed"])
+
+
+def test_an_impact_that_is_longer_than_a_step_is_run_to_its_end(unit):
+    table = quick(
+        unit, {"mass": [4e-3, 1e12]}, speed=1e-6, parameters={"target.youngs_modulus": 1e3}
+    )
+    assert list(table["error"]) == ["", ""]
+    assert (table["restitution"] > 0.0).all() and (table["restitution"] <= 1.0 + 1e-12).all()
+
+
+def test_failed_runs_have_a_reason_and_the_others_their_results(unit):
+    table = quick(unit, {"target.yield_strength": [3e8, -1.0, 4e8], "speed": [1.0, 0.0]})
+    good = (table["target.yield_strength"] > 0.0) & (table["speed"] > 0.0)
+    assert np.array_equal(table["error"] == "", good)
+    assert (
+        np.isfinite(table["restitution"][good]).all()
+        and np.isnan(table["restitution"][~good]).all()
+    )
+    assert "yield_strength" in table["error"][2] and "speed = 0.0 m/s" in table["error"][1]
+
+
+def test_warnings_belong_to_their_run(unit):
+    table = quick(unit, {"speed": [1.0, 40.0, 1.0, 40.0]})
+    assert [bool(text) for text in table["warning"]] == [False, True, False, True]
+
+
+def test_workers_chunks_and_dask_change_nothing(unit):
+    vary = {"speed": "0.1:10:12log", "target.yield_strength": "2e8:9e8:10"}
+    expected = quick(unit, vary)
+    for arguments in [{"workers": 2}, {"workers": 2, "chunk": 7}, {"chunk": 1}]:
+        found = quick(unit, vary, **arguments)
+        assert all(np.array_equal(found[name], expected[name]) for name in expected)
+    pytest.importorskip("distributed")
+    from dask.distributed import LocalCluster
+
+    found = quick(unit, vary, workers=2, scheduler="local")
+    assert all(np.array_equal(found[name], expected[name]) for name in expected)
+    with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+        found = quick(unit, vary, scheduler=cluster.scheduler_address, chunk=9)
+        assert all(np.array_equal(found[name], expected[name]) for name in expected)
+
+
+ORIGINAL = impacts.run
+
+
+def lethal(unit, names, rows):
+    if (rows[:, names.index("speed")] == 2.0).any():
+        os._exit(1)
+    return ORIGINAL(unit, names, rows)
+
+
+def faulty(unit, names, rows):
+    if (rows[:, names.index("speed")] == 2.0).any():
+        raise OSError("the disk is gone")
+    return ORIGINAL(unit, names, rows)
+
+
+@pytest.mark.parametrize("chunk", [1, 3, 4])
+def test_a_run_that_ends_its_process_is_recorded_alone(unit, monkeypatch, chunk):
+    monkeypatch.setattr(impacts, "run", lethal)
+    table = quick(unit, {"speed": [1.0, 2.0, 3.0, 4.0, 5.0]}, workers=2, chunk=chunk)
+    assert [text[:17] for text in table["error"]] == ["", "the run has ended", "", "", ""]
+    assert table["speed"][1] == 2.0 and np.isfinite(table["restitution"][[0, 2, 3, 4]]).all()
+
+
+def test_a_chunk_that_fails_in_another_way_is_recorded(unit, monkeypatch):
+    monkeypatch.setattr(impacts, "run", faulty)
+    table = quick(unit, {"speed": [1.0, 2.0, 3.0, 4.0, 5.0]}, workers=2, chunk=2)
+    assert ["disk is gone" in text for text in table["error"]] == [True, True, False, False, False]
+    assert list(table["speed"]) == [1.0, 2.0, 3.0, 4.0, 5.0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "words"),
+    [
+        ({"vary": {"hardness": "1:2"}}, KeyError, "speed, mass, impactor.radius"),
+        ({"output": "x.txt"}, ValueError, ".parquet, .csv"),
+        ({"output": "/nowhere/at/all/x.csv"}, FileNotFoundError, "no such folder"),
+        ({"scheduler": "nothing"}, Exception, "nothing|resolve"),
+    ],
+)
+def test_studies_that_are_refused(unit, arguments, error, words):
+    with pytest.raises(error, match=words):
+        quick(unit, **({"vary": {"speed": "1:2:4"}, "chunk": 1, "workers": 2} | arguments))
+
+
+def test_scenes_that_are_refused(tmp_path):
+    with pytest.raises(ProgramError, match="rate"):
+        brinell.study(SCENES / "damped.toml", {"speed": "1:2:2"}, progress=False)
+    with pytest.raises(FileNotFoundError):
+        brinell.study(tmp_path / "nowhere.toml", {"speed": "1:2:2"}, progress=False)
+    plain = brinell.export(SCENES / "coupled.toml", tmp_path / "plain.fmu")
+    with pytest.raises(ContactError, match="knows the mass"):
+        quick(plain, {"speed": "1:2:2"})
+    (tmp_path / "bare.toml").write_text(
+        'name = "x"\nimpactor = { radius = 5e-3 }\ntarget = { material = "mild steel" }'
+    )
+    with pytest.raises(ValueError, match="mass"):
+        brinell.study(tmp_path / "bare.toml", {"speed": "1:2:2"}, progress=False)
+
+
+# files
+
+
+def test_tables_and_pictures_are_written(unit, tmp_path):
+    files = [tmp_path / name for name in ("x.parquet", "x.csv", "x.svg", "x.png")]
+    for vary in (
+        {"speed": "0.1:1:4log", "mass": "1e-3:1e-2:3"},
+        {"speed": "1:2:3"},
+        {"speed": "1:2", "mass": "1:2", "target.yield_strength": "1e8:2e8"},
+    ):
+        sample = "grid" if len(vary) < 3 else "lhs:20"
+        table = quick(unit, vary, output=files, sample=sample)
+        assert all(file.stat().st_size > 100 for file in files)
+        back = store.read(files[0])
+        assert all(np.array_equal(back[name], table[name]) for name in table)
+        lines = files[1].read_text().splitlines()
+        assert len(lines) == len(table["speed"]) + 1 and "restitution" in lines[0]
+        assert sorted(path.name for path in tmp_path.iterdir()) == sorted(
+            file.name for file in files
+        )
+
+
+def test_a_study_that_was_stopped_goes_on_where_it_was(unit, tmp_path, monkeypatch):
+    vary, output = {"speed": "0.1:10:20log"}, tmp_path / "x.parquet"
+    expected, calls = quick(unit, vary), []
+
+    def counted(unit, names, rows):
+        calls.append(len(rows))
+        if len(calls) == 4:
+            raise KeyboardInterrupt
+        return ORIGINAL(unit, names, rows)
+
+    monkeypatch.setattr(impacts, "run", counted)
+    with pytest.raises(KeyboardInterrupt):
+        quick(unit, vary, output=output, chunk=3)
+    assert not output.exists()
+    with pytest.raises(ValueError, match="another study"):
+        quick(unit, {"speed": "0.1:10:21log"}, output=output, chunk=3)
+    table = quick(unit, vary, output=output, chunk=3)
+    assert calls == [3] * 4 + [3, 3, 3, 2]
+    assert all(np.array_equal(table[name], expected[name]) for name in expected)
+    assert [path.name for path in tmp_path.iterdir()] == ["x.parquet"]
+
+
+def test_progress_is_counted_in_runs(unit, capsys):
+    quick(unit, {"speed": "1:2:7"}, progress=True)
+    assert "7/7" in capsys.readouterr().err
+
+
+# the command line
+
+
+def command(*arguments):
+    call = [sys.executable, "-m", "brinell", *map(str, arguments)]
+    return subprocess.run(call, capture_output=True, encoding="utf-8", check=False)
+
+
+def test_the_command_line(tmp_path):
+    out = tmp_path / "x.parquet"
+    done = command(
+        "study",
+        SCENE,
+        "--vary",
+        "target.yield_strength=200e6:900e6:4",
+        "--vary",
+        "speed=0.1:10:5log",
+        "--set",
+        "impactor.radius=4e-3",
+        "-o",
+        out,
+        "-o",
+        tmp_path / "x.svg",
+        "--workers",
+        "2",
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("20 runs, 0 failed") and "20/20" in done.stderr
+    table = store.read(out)
+    assert set(table["impactor.radius"]) == {4e-3} and len(table["speed"]) == 20
+    done = command("study", SCENE, "--vary", "speed=1:2", "--sample", "sobol:8", "--quiet")
+    assert done.returncode == 0 and done.stderr == "" and done.stdout.startswith("8 runs")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "words"),
+    [
+        (["study"], 2, "scene"),
+        ([], 2, "command"),
+        (["study", SCENE], 2, "--vary"),
+        (["study", SCENE, "--vary", "speed"], 2, "NAME=VALUE"),
+        (["study", SCENE, "--vary", "speed=x"], 1, "is no range"),
+        (["study", "nowhere.toml", "--vary", "speed=1:2"], 1, "nowhere.toml"),
+        (
+            ["study", SCENE, "--vary", "speed=1:2", "--set", "hardness=1"],
+            1,
+            "no parameter 'hardness'",
+        ),
+    ],
+)
+def test_mistakes_on_the_command_line(arguments, status, words):
+    done = command(*arguments)
+    assert done.returncode == status and words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_a_command_that_is_stopped_says_how_to_go_on(monkeypatch, capsys):
+    from brinell import __main__ as line
+
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(line, "study", stopped)
+    assert line.main(["study", str(SCENE), "--vary", "speed=1:2"]) == 130
+    assert "the same call goes on" in capsys.readouterr().err
+
+
+def test_without_the_packages_of_a_study_the_command_says_what_to_install(monkeypatch, capsys):
+    from brinell import __main__ as line
+
+    def missing(*_, **__):
+        raise ModuleNotFoundError("No module named 'pyarrow'", name="pyarrow")
+
+    monkeypatch.setattr(line, "study", missing)
+    assert line.main(["study", str(SCENE), "--vary", "speed=1:2"]) == 1
+    assert "pip install 'brinell[study]'" in capsys.readouterr().err
