@@ -1,7 +1,6 @@
 //! Reading and setting variables.
 
 use super::*;
-use crate::contact::path::Course;
 use crate::scene::{Integer, Real};
 
 impl<S: Scene> Instance<S> {
@@ -134,21 +133,33 @@ impl<S: Scene> Instance<S> {
             Real::DissipatedEnergy => history.dissipated_energy(&model),
             Real::Impulse => momentum().map_or(f64::NAN, Momentum::impulse),
             Real::MeanForce => momentum().map_or(f64::NAN, |momentum| momentum.mean_force),
-            Real::PredictedForce => {
-                let next = self.predicted(contact, &model, self.end_of(contact).0);
-                next.map_or(f64::NAN, |next| next.force(rate))
-            }
+            Real::PredictedForce => self.predicted_force(contact, history),
             Real::Parameter(index) => self.settings.values.as_ref().get(index).copied().unwrap_or(f64::NAN),
+        }
+    }
+
+    /// The force \[N\] of `contact`, whose state is `history`, at the end of the next step, if that is as long as the last one.
+    fn predicted_force(&self, contact: usize, history: &S::Contact) -> f64 {
+        let rate = self.rates().get(contact).copied().unwrap_or(0.0);
+        let end_rate = self.end_of(contact).0;
+        // on the branch a copy of a few numbers will do
+        let mut next = *history;
+        match next.short_step(end_rate * self.last_step()) {
+            true => next.force(rate),
+            false => self.predicted(contact, &self.model(contact), end_rate).map_or(f64::NAN, |next| next.force(rate)),
         }
     }
 
     /// `contact` at the end of the next step, if that is as long as the last one and its rate is `rate` \[m/s\]. Where the law
     /// ends it is where it is now.
+    #[inline(never)]
     pub(super) fn predicted(&self, contact: usize, model: &S::Model, rate: f64) -> Option<S::Contact> {
         let history = *self.histories().get(contact)?;
         let mut next = history;
-        let moved = next.step(&Course::held(rate), self.last_step(), || model);
-        Some(if moved.is_ok() { next } else { history })
+        let step = self.last_step();
+        let moved =
+            next.short_step(rate * step) || next.step_held(rate, step, &S::Contact::kept(model), || *model).is_ok();
+        Some(if moved { next } else { history })
     }
 
     /// Length of the last step \[s\], where a force is predicted from it.
