@@ -5,7 +5,7 @@ use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2E
 use super::complaint::Complaint;
 use super::handle::Handle;
 use super::order::Function;
-use super::report::{Category, DEEP, DISCARD, FAST, GUARD, describe, describe_warning};
+use super::report::{Category, DEEP, DISCARD, FAST, GUARD, MISWIRED, describe, describe_warning};
 use super::text::Text;
 use crate::instance::{Instance, Phase, Warning};
 use crate::scene::Scene;
@@ -90,6 +90,13 @@ impl<S: Scene> Component<S> {
         }
         if let Some(warning) = self.instance.find_fast() {
             self.warn(function, FAST, &warning);
+        }
+    }
+
+    /// Warns of a master that applies the force in another order than the scene is made for.
+    pub fn warn_of_wiring(&mut self, function: Function) {
+        if let Some(warning) = self.instance.take_miswired() {
+            self.warn(function, MISWIRED, &warning);
         }
     }
 

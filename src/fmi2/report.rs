@@ -4,8 +4,8 @@ use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status};
 use super::complaint::Complaint;
 use super::text::Text;
 use crate::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
-use crate::instance::{FASTEST, Fault, LATEST, Phase, Warning};
-use crate::scene::{Scene, Settable};
+use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
+use crate::scene::{Coupling, Presence, Scene, Settable};
 use core::ffi::CStr;
 
 /// A category of log messages, as declared in the model description.
@@ -32,8 +32,11 @@ pub const DEEP: u8 = 8;
 /// The bit of [`Warning::Fast`].
 pub const FAST: u8 = 16;
 
+/// The bit of [`Warning::Miswired`].
+pub const MISWIRED: u8 = 32;
+
 /// Those of [`Category::Warning`].
-const WARNINGS: u8 = GUARD | DEEP | FAST;
+const WARNINGS: u8 = GUARD | DEEP | FAST | MISWIRED;
 
 impl Category {
     /// The name of the category in the model description.
@@ -210,6 +213,12 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
                 "@ = ~ is out of range: allowed is ~ to ~ @"
             }
         }
+        // what a scene hasn't got is not in its library
+        Fault::MassOutOfRange { .. } if !<S::Coupling as Coupling>::Mass::IS_PRESENT => "",
+        Fault::MassOutOfRange { mass } => {
+            *numbers = [mass, *MASSES.start(), *MASSES.end()];
+            "effective_mass = ~ is out of range: allowed is ~ to ~ kg"
+        }
         Fault::NoPointContact { impactor, target } => {
             (numbers[0], numbers[1]) = (impactor, target);
             "impactor.radius = ~ m does not fit target.radius = ~ m: a socket (negative) must be wider than the impactor, \
@@ -258,6 +267,9 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         }
         Fault::DerivativeNotFinite => "the derivative is beyond all numbers",
         Fault::NotAnInput => "there are derivatives by indentation_rate only",
+        Fault::NoInputDerivatives if <S::Coupling as Coupling>::Acceleration::IS_PRESENT => {
+            "inputs of this unit have no derivatives: external_acceleration is the input for the acceleration"
+        }
         Fault::NoInputDerivatives => "inputs of this unit have no derivatives: its law depends on the rate",
     }
 }
@@ -271,6 +283,18 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             message.contact = Some(contact);
             (message.numbers[0], message.numbers[1]) = (indentation, allowed);
             "at an indentation of ~ m the contact radius is above 0.3 effective radii: the law is valid up to ~ m"
+        }
+        Warning::Miswired { .. } if !<S::Coupling as Coupling>::Ending::IS_PRESENT => "",
+        Warning::Miswired { contact, rate, expected, parallel } => {
+            message.contact = Some(contact);
+            (message.numbers[0], message.numbers[1]) = (rate, expected);
+            if parallel {
+                "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force over the same step already; leave out \
+                 master = \"parallel\" under [coupling] in the scene"
+            } else {
+                "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force one step late; write \
+                 master = \"parallel\" under [coupling] in the scene"
+            }
         }
         Warning::Fast { contact, rate, allowed } => {
             message.contact = Some(contact);

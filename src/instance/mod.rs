@@ -14,6 +14,7 @@
 //! assert!(instance.real((Real::Force, 0)) > 200.0);
 //! ```
 
+mod account;
 mod clock;
 mod coupling;
 mod derivatives;
@@ -29,7 +30,8 @@ pub use fault::{Fault, Warning};
 
 use crate::contact::behaviour::is_finite_at;
 use crate::contact::{Contact, TooDeep};
-use crate::scene::{Presence, Scene, Settable, Store};
+use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
+use account::{Account, Ending, Miswired};
 use clock::Clock;
 use coupling::{Curve, Momentum};
 use start::{Bodies, NO_BODIES, model_of};
@@ -52,6 +54,13 @@ struct Contacts<S: Scene> {
     curves: IfPresent<S::Course, S, Curve>,
     /// Length of the last step \[s\], where a force is predicted from it.
     last_step: <S::Prediction as Presence>::Of<f64, [f64; 1]>,
+    endings: IfPresent<<S::Coupling as Coupling>::Ending, S, Ending>,
+    accounts: IfPresent<<S::Coupling as Coupling>::Account, S, Account>,
+    /// By all other forces \[m/s^2\].
+    accelerations: IfPresent<<S::Coupling as Coupling>::Acceleration, S, f64>,
+    /// Effective masses \[kg\], where they are inputs.
+    masses: IfPresent<<S::Coupling as Coupling>::Mass, S, f64>,
+    miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
 }
 
 /// What follows from the parameters.
@@ -168,6 +177,10 @@ impl<S: Scene> Instance<S> {
         for (history, &rate) in self.histories().iter().zip(self.rates()) {
             check_rate(history, rate)?;
         }
+        // what moves has its speed from the start
+        for (ending, &rate) in self.contacts.endings.as_mut().iter_mut().zip(self.contacts.rates.as_ref()) {
+            ending.speed = rate;
+        }
         self.set_phase(Phase::StepComplete);
         // a contact may begin anywhere
         self.look();
@@ -199,6 +212,15 @@ impl<S: Scene> Instance<S> {
 fn allows(settable: &Settable, value: f64) -> bool {
     // written positively, so that a NaN fails
     value >= settable.minimum && value <= settable.maximum
+}
+
+/// Allowed effective masses \[kg\].
+pub const MASSES: core::ops::RangeInclusive<f64> = 1e-30..=1e30;
+
+/// Whether this is an effective mass \[kg\].
+fn is_mass(mass: f64) -> bool {
+    // a NaN is in no range
+    MASSES.contains(&mass)
 }
 
 fn check_rate<M, C: Contact<M>>(history: &C, rate: f64) -> Result<(), Fault> {

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::contact::{Body, Pair};
-use crate::scene::Parameter;
 
 /// What of a pair is worth keeping; the rest are parameters.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +86,11 @@ impl<S: Scene> Instance<S> {
                 momenta: Store::filled(Momentum::default()),
                 curves: Store::filled(Curve::default()),
                 last_step: Store::filled(0.0),
+                endings: Store::filled(Ending::default()),
+                accounts: Store::filled(Account::default()),
+                accelerations: Store::filled(0.0),
+                masses: Store::filled(f64::NAN),
+                miswired: Store::filled(Miswired::default()),
             },
             settings: Settings { lowest_rate: 0.0, stamp: 0, bodies: Store::filled(NO_BODIES), values },
             deep: Deep { contact: 0, indentation: 0.0 },
@@ -103,6 +107,10 @@ impl<S: Scene> Instance<S> {
         self.settings.values = S::start_values();
         self.contacts.rates.as_mut().fill(0.0);
         self.contacts.last_step.as_mut().fill(0.0);
+        self.contacts.accelerations.as_mut().fill(0.0);
+        for (contact, mass) in self.contacts.masses.as_mut().iter_mut().enumerate() {
+            *mass = S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values);
+        }
         self.clock = Clock::START;
         self.deep.contact = 0;
         self.straighten();
@@ -155,10 +163,15 @@ impl<S: Scene> Instance<S> {
             }
             first = end;
         }
-        let Contacts { histories, momenta, .. } = &mut self.contacts;
+        let Contacts { histories, momenta, endings, accounts, miswired, .. } = &mut self.contacts;
         for (momentum, history) in momenta.as_mut().iter_mut().zip(histories.as_ref()) {
             *momentum = Momentum::start(history.force(0.0));
         }
+        for (ending, history) in endings.as_mut().iter_mut().zip(histories.as_ref()) {
+            *ending = Ending::start(history.force(0.0));
+        }
+        accounts.as_mut().fill(Account::default());
+        miswired.as_mut().fill(Miswired::default());
         self.note_forces();
         Ok(())
     }

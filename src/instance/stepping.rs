@@ -3,7 +3,6 @@
 use super::*;
 use crate::contact::motion::{Drive, NoMotion};
 use crate::contact::path::Course;
-use crate::scene::Parameter;
 
 /// A contact after a step that it has yet to make.
 struct Moved<C> {
@@ -11,6 +10,8 @@ struct Moved<C> {
     /// The course that ends as the step did.
     course: Course,
     mean_force: f64,
+    /// Closing speed at the end, of bodies that the unit moves \[m/s\].
+    speed: f64,
     /// The largest indentation on the way \[m\].
     deepest: f64,
 }
@@ -159,7 +160,9 @@ impl<S: Scene> Instance<S> {
         let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(is_curved);
         self.curved |= !Self::PLAIN;
         for contact in 0..S::CONTACTS {
-            let Moved { mut history, course, mean_force, deepest } = self.moved(contact, step)?;
+            self.check_wiring(contact);
+            let Moved { mut history, course, mean_force, speed, deepest } = self.moved(contact, step)?;
+            self.end_step(contact, speed, mean_force, step);
             let allowed = self.valid_depth(contact);
             history.stays_within(allowed);
             if deepest >= allowed {
@@ -196,23 +199,24 @@ impl<S: Scene> Instance<S> {
         let model = self.model(contact);
         let failed = |deep| too_deep(contact, deep);
         if let Some(follow) = S::FOLLOW {
-            let mass = S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values);
-            let drive = Drive { mass, acceleration: course.slope };
-            let outcome = follow(&mut history, &model, &drive, rate, step).map_err(|reason| match reason {
+            let mass = self.mass(contact);
+            let drive = Drive { mass, acceleration: self.acceleration(contact, course.slope) };
+            let speed = rate - self.owed(contact);
+            let outcome = follow(&mut history, &model, &drive, speed, step).map_err(|reason| match reason {
                 NoMotion::TooDeep(deep) => failed(deep),
                 NoMotion::TooLong => Fault::TooLong { step },
             })?;
             let mean_force = mass * outcome.taken / step;
             // as if the rate had gone there in a straight line
-            let slope = course.slope - history.force(outcome.speed) / mass;
+            let slope = drive.acceleration - history.force(outcome.speed) / mass;
             course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
-            return Ok(Moved { history, course, mean_force, deepest: outcome.deepest });
+            return Ok(Moved { history, course, mean_force, speed: outcome.speed, deepest: outcome.deepest });
         }
         let mean_force = match S::Momentum::IS_PRESENT {
             true => history.mean_force(&model, &course, step).map_err(failed)?,
             false => 0.0,
         };
         let deepest = history.step(&model, &course, step).map_err(failed)?;
-        Ok(Moved { history, course, mean_force, deepest })
+        Ok(Moved { history, course, mean_force, speed: 0.0, deepest })
     }
 }

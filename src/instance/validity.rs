@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::contact::validity;
-use crate::scene::Parameter;
 
 /// The closing speed \[m/s\] up to which elastic waves can be left out in `group`; any, if its density isn't known.
 fn largest_speed<S: Scene>(group: usize, values: &S::Values) -> f64 {

@@ -54,6 +54,7 @@ impl Scene for Exported {
     type Momentum = Absent;
     type Course = Present;
     type Prediction = Absent;
+    type Coupling = Absent;
 
     fn guid() -> &'static str {
         GUID

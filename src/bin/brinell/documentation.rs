@@ -108,7 +108,7 @@ fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
 
 /// How the unit and its master work together.
 fn coupling(scene: &Scene) -> &'static str {
-    if scene.knows_mass {
+    if scene.coupling.is_some() {
         "The unit knows the mass that the contact force accelerates, <code>effective_mass</code>, and moves the bodies through \
          each step itself. Before a step set <code>indentation_rate</code> to the closing speed of the bodies at its start, and \
          its first input derivative to the acceleration by all other forces, such as gravity \
@@ -203,7 +203,9 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
         };
         let start = start.map(digits).unwrap_or_default();
         let allowed = match (variable.causality, variable.minimum, variable.maximum) {
-            (Causality::Parameter, Some(low), Some(high)) => format!("{} to {}", digits(low), digits(high)),
+            (Causality::Parameter | Causality::Input, Some(low), Some(high)) => {
+                format!("{} to {}", digits(low), digits(high))
+            }
             _ => String::new(),
         };
         let unit = variable.unit.as_deref().unwrap_or("");

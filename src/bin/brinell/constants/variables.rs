@@ -85,11 +85,14 @@ mod tests {
             Impulse,
             MeanForce,
             PredictedForce,
+            ClosingSpeed,
+            ExternalAcceleration,
+            EffectiveMass,
         ];
         match all[0] {
             IndentationRate | Force | Indentation | MaxIndentation | ResidualIndentation | ContactRadius
             | MeanPressure | Stiffness | Work | ElasticEnergy | DissipatedEnergy | Impulse | MeanForce
-            | PredictedForce | Parameter(_) => {}
+            | PredictedForce | ClosingSpeed | ExternalAcceleration | EffectiveMass | Parameter(_) => {}
         }
         all.iter().map(|variable| format!("{variable:?}")).collect()
     }

@@ -83,6 +83,19 @@ pub struct Fmu {
 #[serde(deny_unknown_fields)]
 pub struct CouplingTable {
     pub effective_mass: Spanned<f64>,
+    pub master: Option<MasterName>,
+    #[serde(default)]
+    pub inputs: Vec<Spanned<String>>,
+}
+
+/// Which units a master steps first.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MasterName {
+    /// The contact, whose force it applies over the same step.
+    Serial,
+    /// All at once.
+    Parallel,
 }
 
 #[derive(Deserialize)]
