@@ -1,8 +1,8 @@
-//! Masters of both orders of execution, with steps of any length: the bodies rebound as the energy balance says.
-//!
-//! A *serial* master steps the contact first and applies its mean force over the same step; a *parallel* one steps contact and
-//! bodies at once and exchanges afterwards. Each is used with the scene that is made for it.
+//! Masters of both orders of execution, with steps of any length: the bodies rebound as the energy balance says. Each is used
+//! with the scene that is made for it.
 
+#[path = "support/masters.rs"]
+mod masters;
 #[path = "support/physics.rs"]
 mod physics;
 #[path = "support/scenes.rs"]
@@ -10,86 +10,10 @@ mod scenes;
 
 use brinell::contact::impact::{Impact, predict};
 use brinell::contact::{Loading, Surface};
-use brinell::instance::Instance;
-use brinell::scene::{Absent, Coupled, Present, Real, Scene};
+use brinell::scene::{Real, Scene};
+use masters::{MASS, Master, PATTERNS, Parallel, Serial, WiredParallel, WiredSerial, choice};
 use physics::{AnyModel, Random, all_models, mild};
-use scenes::{Choice, Chosen, Massive, choose, ready, set_rate};
-
-type Serial = Chosen<Massive, 1, Present>;
-type Parallel = Chosen<Massive<Coupled<Present>>, 1, Present>;
-type WiredSerial = Chosen<Massive<Coupled<Absent, Present, Present>>, 1, Present>;
-type WiredParallel = Chosen<Massive<Coupled<Present, Present, Present>>, 1, Present>;
-
-const MASS: f64 = 4e-3;
-
-/// How the steps of a master follow each other, as multiples of their size.
-#[derive(Clone, Copy, Debug)]
-enum Pattern {
-    Equal,
-    /// 1:3
-    Alternating,
-    /// Two short ones and one three times as long.
-    OneInThree,
-    /// From a third to three times the size.
-    Any,
-}
-
-const PATTERNS: [Pattern; 4] = [Pattern::Equal, Pattern::Alternating, Pattern::OneInThree, Pattern::Any];
-
-impl Pattern {
-    fn factor(self, count: usize, random: &mut Random) -> f64 {
-        match self {
-            Pattern::Equal => 1.0,
-            Pattern::Alternating => [0.5, 1.5][count % 2],
-            Pattern::OneInThree => [0.6, 0.6, 1.8][count % 3],
-            Pattern::Any => 3f64.powf(2.0 * random.next() - 1.0),
-        }
-    }
-}
-
-/// A mass that a master moves against one contact.
-struct Master<S: Scene> {
-    instance: Instance<S>,
-    parallel: bool,
-    wired: bool,
-    mass: f64,
-    /// Closing speed as the master knows it [m/s].
-    speed: f64,
-    /// By all other forces [m/s^2].
-    acceleration: f64,
-}
-
-impl<S: Scene> Master<S> {
-    fn new(choice: Choice, parallel: bool, wired: bool, speed: f64, acceleration: f64) -> Master<S> {
-        choose(choice);
-        Master { instance: ready::<S>(), parallel, wired, mass: choice.effective_mass, speed, acceleration }
-    }
-
-    fn get(&self, output: Real) -> f64 {
-        self.instance.real((output, 0))
-    }
-
-    fn step(&mut self, step: f64) {
-        set_rate(&mut self.instance, 0, self.speed);
-        if self.wired {
-            self.instance.set_real((Real::ExternalAcceleration, 0), self.acceleration);
-            self.instance.set_real((Real::EffectiveMass, 0), self.mass);
-        } else if self.acceleration != 0.0 {
-            self.instance.set_input_derivative(0, 1, self.acceleration);
-        }
-        let before = self.get(Real::MeanForce);
-        let time = self.instance.time();
-        self.instance.do_step(time, step).expect("the bodies can be followed");
-        let force = if self.parallel { before } else { self.get(Real::MeanForce) };
-        self.speed += step * (self.acceleration - force / self.mass);
-    }
-
-    /// Whether the bodies are apart and parting, and the master knows their speed.
-    fn has_parted(&self) -> bool {
-        let speed = self.get(Real::ClosingSpeed);
-        self.get(Real::Force) == 0.0 && speed < 0.0 && (self.speed - speed).abs() < 1e-13
-    }
-}
+use scenes::Choice;
 
 /// Runs `one` with the masters of both kinds, by input derivatives and by inputs.
 fn with_each_master(choice: Choice, speed: f64, acceleration: f64, mut one: impl FnMut(&str, &mut dyn AnyMaster)) {
@@ -124,11 +48,6 @@ impl<S: Scene> AnyMaster for Master<S> {
     fn is_miswired(&mut self) -> bool {
         self.instance.take_miswired().is_some()
     }
-}
-
-fn choice(model: &AnyModel, surface: Surface, gap: f64) -> Choice {
-    let choice = Choice::of(model.loading, model.unloading);
-    Choice { surface, initial_gap: gap, effective_mass: MASS, target_radius: f64::INFINITY, ..choice }
 }
 
 #[test]

@@ -81,7 +81,7 @@ impl Account {
 }
 
 /// A change of speed below this part of the speeds themselves says nothing of the master.
-const TELLING: f64 = 1e-3;
+const TELLING: f64 = 1e-6;
 
 /// Rounding of a master's own sums, as a part of such a change.
 const ROUNDING: f64 = 1e-8;
