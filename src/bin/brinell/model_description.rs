@@ -41,12 +41,13 @@ fn document(xml: &mut Xml, plan: &Plan, guid: &str) -> io::Result<()> {
         ("guid", guid),
         ("description", &scene.description),
         ("generationTool", tool),
-        ("variableNamingConvention", "structured"),
+        ("variableNamingConvention", if scene.structured_names { "structured" } else { "flat" }),
     ];
     let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
     xml.create_element("fmiModelDescription").with_attributes(given).write_inner_content(|xml| {
         co_simulation(xml, scene)?;
         units(xml, entries)?;
+        types(xml, entries)?;
         xml.create_element("LogCategories").write_inner_content(|xml| {
             for (name, description) in LOG_CATEGORIES {
                 let category = xml.create_element("Category");
@@ -111,6 +112,36 @@ fn definition(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
     Ok(())
 }
 
+/// The enumerations among the variables, with their values.
+fn types(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
+    let mut used: Vec<_> = entries.iter().map(|entry| entry.variable).collect();
+    used.retain(|variable| variable.r#type == Type::Enumeration);
+    used.dedup_by_key(|variable| variable.name.as_str());
+    // the schema allows no empty list
+    if used.is_empty() {
+        return Ok(());
+    }
+    xml.create_element("TypeDefinitions").write_inner_content(|xml| {
+        for variable in used {
+            let name = [("name", variable.rust.as_str())];
+            xml.create_element("SimpleType").with_attributes(name).write_inner_content(|xml| {
+                xml.create_element("Enumeration").write_inner_content(|xml| {
+                    for (value, item) in variable.items.iter().enumerate() {
+                        let value = value.to_string();
+                        let item = [("name", &item.name), ("value", &value), ("description", &item.description)];
+                        let item = item.map(|(name, value)| (name, value.as_str()));
+                        xml.create_element("Item").with_attributes(item).write_empty()?;
+                    }
+                    Ok(())
+                })?;
+                Ok(())
+            })?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
+
 fn variables(xml: &mut Xml, scene: &Scene, entries: &[Entry]) -> io::Result<()> {
     xml.create_element("ModelVariables").write_inner_content(|xml| {
         for entry in entries {
@@ -128,7 +159,7 @@ fn scalar_variable(xml: &mut Xml, scene: &Scene, entry: &Entry, index: usize) ->
     let (causality, variability, initial) = match (variable.causality, variable.r#type) {
         (Causality::Input, _) => ("input", "continuous", ""),
         (Causality::Output, Type::Real) => ("output", "continuous", "calculated"),
-        (Causality::Output, Type::Integer) => ("output", "discrete", "calculated"),
+        (Causality::Output, Type::Enumeration) => ("output", "discrete", "calculated"),
         (Causality::Parameter, _) if is_tunable(scene, &variable.name) => ("parameter", "tunable", "exact"),
         (Causality::Parameter, _) => ("parameter", "fixed", "exact"),
     };
@@ -144,7 +175,9 @@ fn scalar_variable(xml: &mut Xml, scene: &Scene, entry: &Entry, index: usize) ->
     let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
     let real = variable.r#type == Type::Real;
     let limit = |value: Option<f64>| value.map(number).unwrap_or_default();
+    let declared = if real { "" } else { variable.rust.as_str() };
     let kind = [
+        ("declaredType", declared.to_string()),
         ("unit", variable.unit.clone().unwrap_or_default()),
         ("displayUnit", variable.display_unit.clone().unwrap_or_default()),
         ("min", limit(entry.minimum)),
@@ -154,7 +187,7 @@ fn scalar_variable(xml: &mut Xml, scene: &Scene, entry: &Entry, index: usize) ->
     ];
     let kind = kind.iter().filter(|(_, value)| !value.is_empty()).map(|(name, value)| (*name, value.as_str()));
     xml.create_element("ScalarVariable").with_attributes(given).write_inner_content(|xml| {
-        xml.create_element(if real { "Real" } else { "Integer" }).with_attributes(kind).write_empty()?;
+        xml.create_element(if real { "Real" } else { "Enumeration" }).with_attributes(kind).write_empty()?;
         Ok(())
     })?;
     Ok(())

@@ -25,9 +25,20 @@ pub struct Variable {
     #[serde(default)]
     pub follows_rate: Follows,
     pub description: String,
+    /// The values of an enumeration, counted from 0.
+    #[serde(default)]
+    pub items: Vec<Item>,
     /// What is said instead in units of another kind.
     #[serde(default)]
     pub instead: Vec<Instead>,
+}
+
+/// A value of an enumeration.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Item {
+    pub name: String,
+    pub description: String,
 }
 
 /// What is said of a variable in units of one kind.
@@ -92,7 +103,8 @@ pub enum Follows {
 pub enum Type {
     #[default]
     Real,
-    Integer,
+    /// Read as an integer.
+    Enumeration,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]

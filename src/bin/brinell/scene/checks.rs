@@ -2,7 +2,7 @@
 
 use super::contacts::Contacts;
 use super::coupling;
-use super::file::{File, ImpactTable};
+use super::file::{File, ImpactTable, NamesName};
 use super::laws;
 use super::{Mistake, Parameter, Scene};
 use crate::predict;
@@ -72,6 +72,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         coupling,
         impact,
         predictions: Vec::new(),
+        structured_names: file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),
     };

@@ -75,8 +75,19 @@ pub struct Law {
 pub struct Fmu {
     #[serde(default)]
     pub outputs: Vec<Spanned<String>>,
+    pub names: Option<NamesName>,
     pub parameters: Option<Vec<Spanned<String>>>,
     pub initial_gap: Option<Spanned<f64>>,
+}
+
+/// How importers read the names of variables.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum NamesName {
+    /// As they are, dots and all.
+    Flat,
+    /// With dots and brackets as a tree.
+    Structured,
 }
 
 #[derive(Deserialize)]
