@@ -277,30 +277,35 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
 /// Writes what a user should know.
 pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
     let mut message = Message::BLANK;
+    let guard = S::GUARD.map_or("", |guard| guard.words);
     message.template = match *warning {
-        Warning::Guarded => S::GUARD.map_or("", |guard| guard.words),
         Warning::Deep { contact, indentation, allowed } => {
             message.contact = Some(contact);
             (message.numbers[0], message.numbers[1]) = (indentation, allowed);
             "at an indentation of ~ m the contact radius is above 0.3 effective radii: the law is valid up to ~ m"
-        }
-        Warning::Miswired { .. } if !<S::Coupling as Coupling>::Ending::IS_PRESENT => "",
-        Warning::Miswired { contact, rate, expected, parallel } => {
-            message.contact = Some(contact);
-            (message.numbers[0], message.numbers[1]) = (rate, expected);
-            if parallel {
-                "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force over the same step already; leave out \
-                 master = \"parallel\" under [coupling] in the scene"
-            } else {
-                "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force one step late; write \
-                 master = \"parallel\" under [coupling] in the scene"
-            }
         }
         Warning::Fast { contact, rate, allowed } => {
             message.contact = Some(contact);
             (message.numbers[0], message.numbers[1]) = (rate, allowed);
             "indentation_rate = ~ m/s is above 0.01 of the wave speed: the law is valid up to ~ m/s"
         }
+        // what a scene hasn't got is not in its library
+        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired(&mut message, *warning, guard),
+        _ => guard,
     };
     message.write::<S>(text);
+}
+
+/// The template for a master of the other order of execution, or else for the passivity `guard`.
+fn miswired(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
+    let Warning::Miswired { contact, rate, expected, parallel } = warning else { return guard };
+    message.contact = Some(contact);
+    (message.numbers[0], message.numbers[1]) = (rate, expected);
+    if parallel {
+        "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force over the same step already; leave out \
+         master = \"parallel\" under [coupling] in the scene"
+    } else {
+        "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force one step late; write \
+         master = \"parallel\" under [coupling] in the scene"
+    }
 }
