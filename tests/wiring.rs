@@ -261,3 +261,18 @@ fn steps_of_any_length_in_any_order_leave_numbers() {
         }
     }
 }
+
+#[test]
+fn a_debt_is_paid_whatever_the_pattern_of_steps_up_to_one_in_eight() {
+    for short in 1..16 {
+        for ratio in [2.0, 5.0, 8.0] {
+            let mut master = Master::<Parallel>::new(default_choice(0.0), true, false, 1.0, 0.0);
+            let mut count = 0;
+            while !master.has_parted() {
+                master.step(1e-5 * if count % (short + 1) == short { ratio } else { 1.0 });
+                count += 1;
+                assert!(count < 1000, "{short} short steps and one {ratio} times as long: the debt isn't paid");
+            }
+        }
+    }
+}
