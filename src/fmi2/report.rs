@@ -34,9 +34,11 @@ pub const FAST: u8 = 16;
 
 /// The bit of [`Warning::Miswired`].
 pub const MISWIRED: u8 = 32;
+/// The bit of [`Warning::Unstable`].
+pub const UNSTABLE: u8 = 64;
 
 /// Those of [`Category::Warning`].
-const WARNINGS: u8 = GUARD | DEEP | FAST | MISWIRED;
+const WARNINGS: u8 = GUARD | DEEP | FAST | MISWIRED | UNSTABLE;
 
 impl Category {
     /// The name of the category in the model description.
@@ -288,6 +290,10 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             message.contact = Some(contact);
             (message.numbers[0], message.numbers[1]) = (rate, allowed);
             "indentation_rate = ~ m/s is above 0.01 of the wave speed: the law is valid up to ~ m/s"
+        }
+        Warning::Unstable { step, mass } if S::Watch::IS_PRESENT => {
+            (message.numbers[0], message.numbers[1]) = (step, mass);
+            "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
         }
         // what a scene hasn't got is not in its library
         _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired(&mut message, *warning, guard),

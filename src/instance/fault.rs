@@ -136,6 +136,13 @@ pub enum Warning {
         /// Whether the scene is made for a master that steps all units at once.
         parallel: bool,
     },
+    /// A mass that answers the force is stepped further than is stable.
+    Unstable {
+        /// The step \[s\].
+        step: f64,
+        /// The mass of the scene's impact \[kg\].
+        mass: f64,
+    },
     /// A contact closes so fast that waves take more energy than can be left out.
     Fast {
         /// Which contact, counted from 0.

@@ -20,6 +20,7 @@ mod coupling;
 mod derivatives;
 mod fault;
 mod saved;
+mod stability;
 mod start;
 mod stepping;
 mod validity;
@@ -60,6 +61,8 @@ struct Contacts<S: Scene> {
     accelerations: IfPresent<<S::Coupling as Coupling>::Acceleration, S, f64>,
     /// Effective masses \[kg\], where they are inputs.
     masses: IfPresent<<S::Coupling as Coupling>::Mass, S, f64>,
+    /// Rates of the last steps that left their branch \[m/s\], where it is noticed that steps are too long.
+    watched: IfPresent<S::Watch, S, f64>,
     miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
 }
 
@@ -74,12 +77,13 @@ struct Settings<S: Scene> {
     values: S::Values,
 }
 
-/// A contact that a step has left deeper than its law is valid for, or had there on the way, until its user hears of it.
+/// A contact that a step has left deeper than its law is valid for, or had there on the way, until its user hears of it; or a step
+/// that was too long to be [stable](stability).
 #[derive(Clone, Copy)]
 struct Deep {
     /// The contact, counted from 1; 0 is none.
     contact: u32,
-    /// Its largest indentation \[m\].
+    /// Its largest indentation \[m\], or the step \[s\].
     indentation: f64,
 }
 

@@ -1,5 +1,6 @@
 //! Steps: the plain one, and any other.
 
+use super::stability::watch;
 use super::*;
 use crate::contact::motion::{Drive, NoMotion};
 use crate::contact::path::Course;
@@ -77,14 +78,17 @@ impl<S: Scene> Instance<S> {
     /// Moves the one contact of a simple instance over `step` \[s\], to the time `end` \[s\].
     #[inline(never)]
     fn advance_one(&mut self, end: f64, step: f64) -> Result<(), Fault> {
-        let Contacts { histories, rates, last_step, .. } = &mut self.contacts;
+        let Contacts { histories, rates, last_step, watched, .. } = &mut self.contacts;
         let Settings { bodies, values, .. } = &self.settings;
         for ((history, &rate), &bodies) in histories.as_mut().iter_mut().zip(rates.as_ref()).zip(bodies.as_ref()) {
             let model = || model_of::<S>(0, bodies, values);
+            let long = watch::<S>(watched, 0, history, rate, step);
             history.step_held(rate, step, model).map_err(|deep| too_deep(0, deep))?;
             if !history.stays_within(bodies.depth) {
                 self.deep = Deep { contact: 1, indentation: history.max_indentation() };
             }
+            // the depth is told by a later step
+            self.deep = long.unwrap_or(self.deep);
         }
         last_step.as_mut().fill(step);
         self.clock.time = end;
@@ -120,7 +124,7 @@ impl<S: Scene> Instance<S> {
     /// Moves all contacts with their rates held.
     #[inline]
     fn advance_held(&mut self, step: f64) -> Result<(), Fault> {
-        let Contacts { histories, rates, forces, momenta, .. } = &mut self.contacts;
+        let Contacts { histories, rates, forces, momenta, watched, .. } = &mut self.contacts;
         let Settings { bodies, values, .. } = &self.settings;
         let (bodies, forces, momenta) = (bodies.as_ref(), forces.as_mut(), momenta.as_mut());
         for (contact, (history, &rate)) in histories.as_mut().iter_mut().zip(rates.as_ref()).enumerate() {
@@ -132,13 +136,16 @@ impl<S: Scene> Instance<S> {
             let bodies = || bodies.get(group).copied().unwrap_or(NO_BODIES);
             let model = || model_of::<S>(group, bodies(), values);
             let course = Course::held(rate);
+            let mut long = None;
             if !short {
+                long = watch::<S>(watched, contact, &before, rate, step);
                 history.step_held(rate, step, model).map_err(|deep| too_deep(contact, deep))?;
             }
             let allowed = bodies().depth;
             if (S::CONTACTS == 1 || !short) && !history.stays_within(allowed) {
                 self.deep = Deep { contact: contact as u32 + 1, indentation: history.max_indentation() };
             }
+            self.deep = long.unwrap_or(self.deep);
             if let Some(force) = forces.get_mut(contact) {
                 *force = history.force(rate);
             }

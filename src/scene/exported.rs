@@ -55,6 +55,7 @@ impl Scene for Exported {
     type Course = Present;
     type Prediction = Absent;
     type Coupling = Absent;
+    type Watch = Absent;
 
     fn guid() -> &'static str {
         GUID

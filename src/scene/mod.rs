@@ -45,6 +45,11 @@ pub trait Scene: Sized {
     /// How a scene that knows the mass works together with its master; [`Absent`] in all others.
     type Coupling: Coupling;
 
+    /// Whether it is noticed that steps are too long for a mass like that of the scene's impact.
+    type Watch: Presence;
+
+    /// Effective mass of the scene's impact \[kg\], if it names one.
+    const IMPACT_MASS: f64 = f64::NAN;
     /// How the bodies move through a step, if the scene knows their mass.
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
     /// The passivity guard, if there is one.

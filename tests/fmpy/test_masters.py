@@ -222,3 +222,23 @@ def test_a_bouncing_ball_ends_and_starts_again():
     while not master.has_parted():
         master.step(5e-6)
     assert abs(-master.speed / test_coupling.impact().restitution - 1.0) < 1e-11
+
+
+def test_steps_that_are_unstable_with_the_mass_of_the_impact_are_told_once():
+    contact = unit("coupled").instance(logging=True)
+    contact.initialize(initial_gap=1e-4)
+    speed, size = 1.0, 2e-3
+    for _ in range(4):
+        contact.step(size, rate=speed)
+        speed -= size * contact.get("force") / MASS
+    assert abs(speed) > 100.0
+    told = [message for *_, category, message in contact.log if "unstable" in message and category == "logStatusWarning"]
+    assert told == ["fmi2DoStep: steps of 0.002 s are unstable with a mass of 0.004 kg: make them shorter, or let the unit move it by [coupling]"]
+
+
+def test_a_prescribed_motion_of_the_same_length_is_not_told():
+    contact = unit("coupled").instance(logging=True)
+    contact.initialize()
+    for count in range(200):
+        contact.step(2e-3, rate=1e-3 * math.cos(0.3 * count))
+    assert contact.log == []

@@ -76,6 +76,7 @@ pub trait Kind {
     type Contact: Contact<Self::Model>;
     type Course: Presence;
     type Coupling: Coupling;
+    type Watch: Presence;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model;
 }
@@ -99,6 +100,7 @@ impl Kind for Elastoplastic {
     type Contact = History;
     type Course = Present;
     type Coupling = Absent;
+    type Watch = Present;
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
         elastoplastic(pair)
     }
@@ -109,6 +111,7 @@ impl<C: Coupling> Kind for Massive<C> {
     type Contact = History;
     type Course = Present;
     type Coupling = C;
+    type Watch = Absent;
     const FOLLOW: Option<Follow<History, Self::Model>> = Some(follow);
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
         elastoplastic(pair)
@@ -120,6 +123,7 @@ impl Kind for Damped {
     type Contact = damped::History<AnyDamped>;
     type Course = Absent;
     type Coupling = Absent;
+    type Watch = Absent;
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
         damped::Model { pair, law: chosen().damped, restitution, mass }
     }
@@ -165,6 +169,8 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Course = K::Course;
     type Prediction = M;
     type Coupling = K::Coupling;
+    type Watch = K::Watch;
+    const IMPACT_MASS: f64 = 4e-3;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
 
     fn guid() -> &'static str {

@@ -67,6 +67,11 @@ impl File {
             }
             None => "Absent".into(),
         };
+        let watch = presence(scene.watches);
+        let mass = match scene.watches {
+            true => format!("\n    const IMPACT_MASS: f64 = {};\n", literal(scene.impact.mass)),
+            false => String::new(),
+        };
         let follow = match scene.coupling.is_some() {
             true => "\n    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(follow);\n",
             false => "",
@@ -92,7 +97,8 @@ impl File {
     type Course = {course};
     type Prediction = {prediction};
     type Coupling = {coupling};
-{follow}{guard}{methods}}}
+    type Watch = {watch};
+{mass}{follow}{guard}{methods}}}
 "
         );
         let text = format!(

@@ -43,6 +43,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         coupling: mass.map(|_| Coupling::default()),
         impact: Impact { ..scene.impact },
         predictions: vec![scene.predictions[0]],
+        watches: false,
         structured_names: false,
         impact_is_assumed: scene.impact_is_assumed,
         text: scene.text.clone(),

@@ -72,6 +72,10 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         coupling,
         impact,
         predictions: Vec::new(),
+        // a master that moves the mass itself, by a law that has a stable step
+        watches: coupling.is_none()
+            && damped.is_none()
+            && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
         structured_names: file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),

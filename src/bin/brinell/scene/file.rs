@@ -114,6 +114,7 @@ pub enum MasterName {
 pub struct ImpactTable {
     pub mass: Spanned<f64>,
     pub speed: Spanned<f64>,
+    pub watch: Option<bool>,
 }
 
 /// One contact, or `count` equal ones: what differs from the tables above.

@@ -47,6 +47,8 @@ pub struct Scene {
     pub predictions: Vec<Prediction>,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
     pub impact_is_assumed: bool,
+    /// The unit tells of steps that are unstable with the mass of the impact.
+    pub watches: bool,
     /// The names of variables are declared to be a tree, not as flat.
     pub structured_names: bool,
     /// The file as it is.
