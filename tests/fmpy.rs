@@ -60,7 +60,7 @@ fn the_model_description_is_valid() {
     let mut all = scenes();
     all.push(write_scene("structured_names", &named(&one, "structured")));
     all.push(write_scene("flat_names", &named(&several, "flat")));
-    all.push(for_master("wired", "parallel", &BOTH_INPUTS));
+    all.push(for_master("both_inputs", "parallel", &BOTH_INPUTS));
     all.push(for_master("parallel", "parallel", &[]));
     pytest("test_model_description_is_valid.py", &all);
 }
