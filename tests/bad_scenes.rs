@@ -404,3 +404,24 @@ fn a_law_that_follows_the_rate_can_not_know_the_mass() {
     let law = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.5\n";
     refused_with(&format!("{law}§[coupling]\neffective_mass = 1.0"), &["hunt-crossley", "rate"]);
 }
+
+#[test]
+fn a_coupling_that_there_is_not_is_refused() {
+    let with = |more: &str| format!("[coupling]\neffective_mass = 1e-3\n{more}");
+    refused_with(&with("§colour = 1"), &["`colour`", "`effective_mass`", "`master`", "`inputs`"]);
+    refused_with(&with("master = §\"jacobi\""), &["`jacobi`", "`serial`", "`parallel`"]);
+    refused_with(
+        &with("inputs = [\"effective_mass\", §\"gravity\"]"),
+        &["input", "`gravity`", "`external_acceleration`", "`effective_mass`"],
+    );
+    // an input is no parameter
+    let both =
+        "[fmu]\nparameters = [§\"effective_mass\"]\n[coupling]\neffective_mass = 1e-3\ninputs = [\"effective_mass\"]";
+    refused_with(both, &["parameter", "`effective_mass`", "`target.yield_strength`"]);
+}
+
+#[test]
+fn a_closing_speed_needs_a_mass_and_names_are_of_two_kinds() {
+    refused_with("[fmu]\noutputs = [§\"closing_speed\"]", &["closing_speed", "[coupling] effective_mass"]);
+    refused_with("[fmu]\nnames = §\"round\"", &["`round`", "`flat`", "`structured`"]);
+}

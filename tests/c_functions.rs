@@ -8,7 +8,7 @@ mod scenes;
 use brinell::contact::damped::AnyDamped;
 use brinell::fmi2::abi::{fmi2CallbackFunctions, fmi2Component, fmi2FMUstate, fmi2Status};
 use brinell::fmi2::{lifecycle, states, stepping, variables};
-use brinell::scene::{Absent, Present, Scene};
+use brinell::scene::{Absent, Coupled, Present, Scene};
 use physics::{all_models, mild};
 use scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, choose};
 use std::marker::PhantomData;
@@ -110,6 +110,9 @@ impl<S: Scene> Drop for Made<S> {
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Massive1 = Chosen<Massive, 1, Present>;
+// as long as each other
+type WithAcceleration = Chosen<Massive<Coupled<Absent, Present, Absent>>, 1, Present>;
+type WithMass = Chosen<Massive<Coupled<Absent, Absent, Present>>, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Absent>;
 type DampedOne = Chosen<Damped, 1, Present>;
 
@@ -122,17 +125,17 @@ fn choose_default() {
 #[test]
 fn a_state_of_another_unit_is_refused_even_if_it_is_as_long() {
     choose_default();
-    let (one, massive) = (Made::<One>::ready(), Made::<Massive1>::ready());
+    let (one, massive) = (Made::<WithAcceleration>::ready(), Made::<WithMass>::ready());
     let state = one.save();
     let bytes = one.bytes(state);
     let own = massive.save();
     assert_eq!(massive.bytes(own).len(), bytes.len(), "the two must not be told apart by their length");
     // SAFETY: states of two units of one layout, and bytes as long as announced.
     unsafe {
-        assert_eq!(states::set_fmu_state::<Massive1>(massive.c, state), ERROR);
+        assert_eq!(states::set_fmu_state::<WithMass>(massive.c, state), ERROR);
         let mut made = null_mut();
         let refused =
-            states::deserialize_fmu_state::<Massive1>(massive.c, bytes.as_ptr().cast(), bytes.len(), &mut made);
+            states::deserialize_fmu_state::<WithMass>(massive.c, bytes.as_ptr().cast(), bytes.len(), &mut made);
         assert_eq!((refused, made.is_null()), (ERROR, true));
     }
     massive.free(own);

@@ -51,7 +51,7 @@ fn compile(name: &str, options: &[&str]) -> PathBuf {
 
 /// The program's arguments: the library, its GUID, and four value references.
 static ARGUMENTS: LazyLock<Vec<String>> = LazyLock::new(|| {
-    let library = unit::library(&unit::export(&unit::scene("steel_ball")));
+    let library = unit::library(&unit::export(&unit::steel_ball_with_regime()));
     let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
     let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
     let guid = attribute(&description, "guid").expect("a unit has a GUID");

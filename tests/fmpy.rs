@@ -8,9 +8,10 @@ mod python;
 mod unit;
 
 use std::collections::HashMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use unit::{export, plain_scenes, scene, scenes, write_scene};
+use unit::{export, plain_scenes, scene, scenes, steel_ball_with_regime, write_scene};
 
 /// Runs tests/fmpy/`file` with the units of `scenes`, whose paths it finds as JSON in the variable BRINELL_TEST_UNITS,
 /// by the name of the scene, and the program in BRINELL_TEST_PROGRAM.
@@ -53,7 +54,15 @@ fmu = {{ outputs = ["indentation", "max_indentation", "residual_indentation", "d
 
 #[test]
 fn the_model_description_is_valid() {
-    pytest("test_model_description_is_valid.py", &scenes());
+    let one = fs::read_to_string(scene("steel_ball")).expect("a scene file");
+    let several = fs::read_to_string(scene("two_contacts")).expect("a scene file");
+    let named = |text: &str, names: &str| text.replacen("[fmu]", &format!("[fmu]\nnames = \"{names}\""), 1);
+    let mut all = scenes();
+    all.push(write_scene("structured_names", &named(&one, "structured")));
+    all.push(write_scene("flat_names", &named(&several, "flat")));
+    all.push(for_master("both_inputs", "parallel", &BOTH_INPUTS));
+    all.push(for_master("parallel", "parallel", &[]));
+    pytest("test_model_description_is_valid.py", &all);
 }
 
 #[test]
@@ -132,6 +141,31 @@ fn with_bodies_of_coupled(name: &str, more: &str) -> PathBuf {
     write_scene(name, &format!("name = \"{name}\"\n{bodies}[impact]\nmass = 4e-3\nspeed = 1.0\n{more}\n"))
 }
 
+/// What can be an input of a unit that knows the mass.
+const BOTH_INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
+
+/// The contact of scenes/mass_known.toml for this kind of master, with these inputs and more outputs.
+fn for_master(name: &str, master: &str, inputs: &[&str]) -> PathBuf {
+    let text = fs::read_to_string(scene("mass_known")).expect("a scene file");
+    let text = text.replacen("\"mass_known\"", &format!("\"{name}\""), 1);
+    let text = text.replacen("outputs = [", "outputs = [\"elastic_energy\", \"work\", \"closing_speed\", ", 1);
+    write_scene(name, &format!("{text}master = \"{master}\"\ninputs = {inputs:?}\n"))
+}
+
+#[test]
+fn masters_of_both_orders_of_execution_find_the_predicted_rebound() {
+    let scenes = [
+        for_master("serial", "serial", &[]),
+        for_master("parallel", "parallel", &[]),
+        for_master("serial_wired", "serial", &BOTH_INPUTS),
+        for_master("parallel_wired", "parallel", &BOTH_INPUTS),
+        with_bodies_of_coupled("energies", ENERGIES),
+        scene("coupled"),
+        scene("mass_known"),
+    ];
+    pytest("test_masters.py", &scenes);
+}
+
 const ENERGIES: &str = r#"[fmu]
 outputs = ["residual_indentation", "work", "elastic_energy", "mean_force"]"#;
 
@@ -173,7 +207,7 @@ fmu = { outputs = [
 
 #[test]
 fn calls_out_of_order_and_wrong_references_are_refused() {
-    pytest("test_call_order.py", &steel_ball());
+    pytest("test_call_order.py", &[steel_ball_with_regime()]);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::instance::{FASTEST, Fault, Instance, LATEST, Phase, Plain};
 use brinell::scene::exported::Exported;
-use brinell::scene::{Present, Real, Scene};
+use brinell::scene::{Coupled, Present, Real, Scene};
 use physics::{Random, all_models, mild};
 use scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, choose, outputs, ready, set_rate, words};
 
@@ -22,6 +22,8 @@ type DampedOne = Chosen<Damped, 1, Present>;
 type DampedSeveral = Chosen<Damped, 3, Present>;
 type MassiveOne = Chosen<Massive, 1, Present>;
 type MassiveSeveral = Chosen<Massive, 2, Present>;
+type ParallelOne = Chosen<Massive<Coupled<Present>>, 1, Present>;
+type WiredSeveral = Chosen<Massive<Coupled<Present, Present, Present>>, 2, Present>;
 
 /// Length of the steps [s].
 const STEP: f64 = 1e-6;
@@ -89,6 +91,8 @@ fn instances_of_every_kind_run_copy_save_and_reset_to_the_bit() {
         behaves::<Several>(&name);
         behaves::<MassiveOne>(&name);
         behaves::<MassiveSeveral>(&name);
+        behaves::<ParallelOne>(&name);
+        behaves::<WiredSeveral>(&name);
     }
     for (name, damped) in AnyDamped::ALL {
         choose(Choice { damped, ..some_pairings()[0].1 });

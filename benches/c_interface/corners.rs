@@ -75,9 +75,9 @@ impl Place {
 
 /// Each place is what it is said to be, if `step` is made from there.
 pub fn check(trio: &Trio, places: &[Place], step: impl Fn(&Instance, &Place) -> Status) {
-    let regime = trio.exported.reference("regime");
+    let (unit, regime) = (&trio.with_regime.0, trio.with_regime.1);
     for place in places {
-        let instance = trio.units[0].instance();
+        let instance = unit.instance();
         follow(&instance, &place.before, STEP);
         let before = instance.integer(regime);
         ok(step(&instance, place));

@@ -25,8 +25,8 @@ fn goals(steps_per_cycle: usize) -> [Goal; 2] {
 
 /// In how many steps of the cycles the regime becomes another one.
 pub fn changes(trio: &Trio, steps_per_cycle: usize) -> usize {
-    let regime = trio.exported.reference("regime");
-    let instance = trio.units[0].instance();
+    let (unit, regime) = (&trio.with_regime.0, trio.with_regime.1);
+    let instance = unit.instance();
     let mut last = instance.integer(regime);
     let mut changes = 0;
     for (index, rate) in cycles(steps_per_cycle).into_iter().enumerate() {

@@ -1,6 +1,6 @@
 //! The three units that are compared: what the program exports for the default scene, and two in C.
 
-use super::build::{Exported, compile, export};
+use super::build::{Exported, compile, export, export_text};
 use super::instructions::{self, Work};
 use super::paths::{self, CYCLE_STEP, STEP, STEPS_PER_CYCLE};
 use super::unit::{FORCE, INPUT, Instance, Unit, ok};
@@ -11,6 +11,8 @@ pub struct Trio {
     pub units: [Unit; 3],
     pub libraries: [PathBuf; 3],
     pub exported: Exported,
+    /// Brinell's unit with the output `regime`, which the default scene hasn't got, and its reference.
+    pub with_regime: (Unit, u32),
     pub folder: PathBuf,
 }
 
@@ -22,7 +24,10 @@ impl Trio {
         let [contact, empty] = c;
         let libraries = [exported.library.clone(), contact, empty];
         let units = libraries.each_ref().map(|library| Unit::open(library, &exported.guid));
-        Trio { units, libraries, exported, folder: folder.to_owned() }
+        let text = include_str!("../../scenes/steel_ball.toml").replacen("outputs = [", "outputs = [\"regime\", ", 1);
+        let regime = export_text("with_regime", &text, folder);
+        let with_regime = (Unit::open(&regime.library, &regime.guid), regime.reference("regime"));
+        Trio { units, libraries, exported, with_regime, folder: folder.to_owned() }
     }
 
     /// The comparison means something only if all calls succeed and both contacts are the same one.

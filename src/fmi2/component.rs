@@ -5,10 +5,10 @@ use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2E
 use super::complaint::Complaint;
 use super::handle::Handle;
 use super::order::Function;
-use super::report::{Category, DEEP, DISCARD, FAST, GUARD, describe, describe_warning};
+use super::report::{Category, DEEP, DISCARD, FAST, GUARD, MISWIRED, UNSTABLE, describe, describe_warning};
 use super::text::Text;
 use crate::instance::{Instance, Phase, Warning};
-use crate::scene::Scene;
+use crate::scene::{Presence, Scene};
 use core::ffi::c_char;
 
 /// An instance with what its importer gave it. The name of the instance follows it in memory.
@@ -86,10 +86,18 @@ impl<S: Scene> Component<S> {
     #[inline(never)]
     pub fn warn_of_limits(&mut self, function: Function) {
         if let Some(warning) = self.instance.take_deep() {
-            self.warn(function, DEEP, &warning);
+            let long = S::Watch::IS_PRESENT && matches!(warning, Warning::Unstable { .. });
+            self.warn(function, if long { UNSTABLE } else { DEEP }, &warning);
         }
         if let Some(warning) = self.instance.find_fast() {
             self.warn(function, FAST, &warning);
+        }
+    }
+
+    /// Warns of a master that applies the force in another order than the scene is made for.
+    pub fn warn_of_wiring(&mut self, function: Function) {
+        if let Some(warning) = self.instance.take_miswired() {
+            self.warn(function, MISWIRED, &warning);
         }
     }
 

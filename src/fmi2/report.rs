@@ -4,8 +4,8 @@ use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status};
 use super::complaint::Complaint;
 use super::text::Text;
 use crate::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
-use crate::instance::{FASTEST, Fault, LATEST, Phase, Warning};
-use crate::scene::{Scene, Settable};
+use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
+use crate::scene::{Coupling, Presence, Scene, Settable};
 use core::ffi::CStr;
 
 /// A category of log messages, as declared in the model description.
@@ -32,8 +32,13 @@ pub const DEEP: u8 = 8;
 /// The bit of [`Warning::Fast`].
 pub const FAST: u8 = 16;
 
+/// The bit of [`Warning::Miswired`].
+pub const MISWIRED: u8 = 32;
+/// The bit of [`Warning::Unstable`].
+pub const UNSTABLE: u8 = 64;
+
 /// Those of [`Category::Warning`].
-const WARNINGS: u8 = GUARD | DEEP | FAST;
+const WARNINGS: u8 = GUARD | DEEP | FAST | MISWIRED | UNSTABLE;
 
 impl Category {
     /// The name of the category in the model description.
@@ -210,6 +215,12 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
                 "@ = ~ is out of range: allowed is ~ to ~ @"
             }
         }
+        // what a scene hasn't got is not in its library
+        Fault::MassOutOfRange { .. } if !<S::Coupling as Coupling>::Mass::IS_PRESENT => "",
+        Fault::MassOutOfRange { mass } => {
+            *numbers = [mass, *MASSES.start(), *MASSES.end()];
+            "effective_mass = ~ is out of range: allowed is ~ to ~ kg"
+        }
         Fault::NoPointContact { impactor, target } => {
             (numbers[0], numbers[1]) = (impactor, target);
             "impactor.radius = ~ m does not fit target.radius = ~ m: a socket (negative) must be wider than the impactor, \
@@ -258,6 +269,9 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         }
         Fault::DerivativeNotFinite => "the derivative is beyond all numbers",
         Fault::NotAnInput => "there are derivatives by indentation_rate only",
+        Fault::NoInputDerivatives if <S::Coupling as Coupling>::Acceleration::IS_PRESENT => {
+            "inputs of this unit have no derivatives: external_acceleration is the input for the acceleration"
+        }
         Fault::NoInputDerivatives => "inputs of this unit have no derivatives: its law depends on the rate",
     }
 }
@@ -265,8 +279,8 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
 /// Writes what a user should know.
 pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
     let mut message = Message::BLANK;
+    let guard = S::GUARD.map_or("", |guard| guard.words);
     message.template = match *warning {
-        Warning::Guarded => S::GUARD.map_or("", |guard| guard.words),
         Warning::Deep { contact, indentation, allowed } => {
             message.contact = Some(contact);
             (message.numbers[0], message.numbers[1]) = (indentation, allowed);
@@ -277,6 +291,27 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             (message.numbers[0], message.numbers[1]) = (rate, allowed);
             "indentation_rate = ~ m/s is above 0.01 of the wave speed: the law is valid up to ~ m/s"
         }
+        Warning::Unstable { step, mass } if S::Watch::IS_PRESENT => {
+            (message.numbers[0], message.numbers[1]) = (step, mass);
+            "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
+        }
+        // what a scene hasn't got is not in its library
+        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired(&mut message, *warning, guard),
+        _ => guard,
     };
     message.write::<S>(text);
+}
+
+/// The template for a master of the other order of execution, or else for the passivity `guard`.
+fn miswired(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
+    let Warning::Miswired { contact, rate, expected, parallel } = warning else { return guard };
+    message.contact = Some(contact);
+    (message.numbers[0], message.numbers[1]) = (rate, expected);
+    if parallel {
+        "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force over the same step already; leave out \
+         master = \"parallel\" under [coupling] in the scene"
+    } else {
+        "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force one step late; write \
+         master = \"parallel\" under [coupling] in the scene"
+    }
 }

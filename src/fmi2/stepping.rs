@@ -93,6 +93,7 @@ unsafe fn do_any_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2S
             }
             component.instance.do_step(time, step)?;
             component.warn_of_guard(order::DO_STEP);
+            component.warn_of_wiring(order::DO_STEP);
             component.warn_of_limits(order::DO_STEP);
             Ok(())
         })

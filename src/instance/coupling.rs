@@ -4,7 +4,7 @@
 use crate::contact::path::{Course, Sum};
 
 /// The next finite number of stored words.
-fn number(words: &mut impl Iterator<Item = u64>) -> Option<f64> {
+pub(super) fn number(words: &mut impl Iterator<Item = u64>) -> Option<f64> {
     words.next().map(f64::from_bits).filter(|number| number.is_finite())
 }
 

@@ -14,9 +14,9 @@ impl<S: Scene> Instance<S> {
     ///
     /// # Errors
     /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`], [`Fault::NotFinite`],
-    /// [`Fault::NoInputDerivatives`] for a law that follows the rate.
+    /// [`Fault::NoInputDerivatives`] for a law that follows the rate, and where the acceleration is an input.
     pub fn check_input_derivative(&self, (variable, _): (Real, usize), order: i32, value: f64) -> Result<(), Fault> {
-        if !S::Course::IS_PRESENT {
+        if !S::Course::IS_PRESENT || <S::Coupling as Coupling>::Acceleration::IS_PRESENT {
             return Err(Fault::NoInputDerivatives);
         }
         if variable != Real::IndentationRate {
@@ -92,7 +92,7 @@ impl<S: Scene> Instance<S> {
     /// [`Fault::NoDerivative`] for a variable that is no output, [`Fault::DerivativeOrder`], [`Fault::DerivativeNotFinite`].
     #[inline(always)]
     pub fn output_derivative(&self, (variable, contact): (Real, usize), order: i32) -> Result<f64, Fault> {
-        if matches!(variable, Real::IndentationRate | Real::Parameter(_)) {
+        if !variable.is_output() {
             return Err(Fault::NoDerivative { of: "outputs" });
         }
         check_order(order, S::Contact::DERIVATIVES)?;
@@ -123,7 +123,8 @@ impl<S: Scene> Instance<S> {
             Real::Work => return Some(work),
             Real::Impulse => return Some((force, stiffness * rate)),
             Real::MeanForce | Real::PredictedForce => return Some((0.0, 0.0)),
-            Real::IndentationRate | Real::Parameter(_) => return None,
+            // the force changes with the way
+            Real::ClosingSpeed if Self::MOVES => return Some((slope, -stiffness * rate / self.mass(contact))),
             Real::ResidualIndentation => |contact, model, _| contact.residual_indentation(model),
             Real::ContactRadius => |contact, model, _| contact.contact_radius(model),
             Real::MeanPressure => |contact, model, rate| contact.mean_pressure(model, rate),
@@ -131,6 +132,7 @@ impl<S: Scene> Instance<S> {
             // heat isn't a function of the indentation, but the rest of the work
             Real::DissipatedEnergy if !S::Contact::FOLLOWS_RATE => |contact, model, _| contact.dissipated_energy(model),
             Real::ElasticEnergy | Real::DissipatedEnergy => |contact, model, _| contact.elastic_energy(model),
+            _ => return None,
         };
         if history.regime() == Regime::Apart {
             return Some((0.0, 0.0));
@@ -151,13 +153,13 @@ impl<S: Scene> Instance<S> {
         (variable, contact): (Real, usize),
         (input, by): (Real, usize),
     ) -> Result<f64, Fault> {
-        if matches!(variable, Real::IndentationRate | Real::Parameter(_)) {
+        if !variable.is_output() {
             return Err(Fault::NoDerivative { of: "outputs" });
         }
-        if input != Real::IndentationRate {
+        if input != Real::IndentationRate && !Self::has_input(input) {
             return Err(Fault::NotAnInput);
         }
-        let derivative = match contact == by {
+        let derivative = match contact == by && input == Real::IndentationRate {
             true => self.by_own_input(variable, contact).unwrap_or(f64::NAN),
             false => 0.0,
         };
@@ -171,6 +173,9 @@ impl<S: Scene> Instance<S> {
         let model = self.model(contact);
         if variable == Real::PredictedForce {
             return self.prediction_by_input(contact, &model, rate);
+        }
+        if Self::MOVES && variable == Real::ClosingSpeed && self.phase() == Phase::Initialization {
+            return Some(1.0);
         }
         if !S::Contact::FOLLOWS_RATE {
             return Some(0.0);

@@ -34,6 +34,11 @@ pub enum Fault {
         /// The value.
         value: f64,
     },
+    /// An effective mass out of its range.
+    MassOutOfRange {
+        /// The mass \[kg\].
+        mass: f64,
+    },
     /// The impactor doesn't fit into the socket.
     NoPointContact {
         /// Radius of the impactor \[m\].
@@ -102,7 +107,7 @@ pub enum Fault {
     DerivativeNotFinite,
     /// A derivative by a variable that is not the input.
     NotAnInput,
-    /// Inputs of this scene have no derivatives.
+    /// Inputs of this scene have no derivatives: its law follows the rate, or the acceleration is an input of its own.
     NoInputDerivatives,
 }
 
@@ -119,6 +124,24 @@ pub enum Warning {
         indentation: f64,
         /// Up to which the law is valid \[m\].
         allowed: f64,
+    },
+    /// The master applies the force in another order than the scene is made for.
+    Miswired {
+        /// Which contact, counted from 0.
+        contact: usize,
+        /// Its rate \[m/s\].
+        rate: f64,
+        /// What its rate had to be \[m/s\].
+        expected: f64,
+        /// Whether the scene is made for a master that steps all units at once.
+        parallel: bool,
+    },
+    /// A mass that answers the force is stepped further than is stable.
+    Unstable {
+        /// The step \[s\].
+        step: f64,
+        /// The mass of the scene's impact \[kg\].
+        mass: f64,
     },
     /// A contact closes so fast that waves take more energy than can be left out.
     Fast {

@@ -14,12 +14,14 @@
 //! assert!(instance.real((Real::Force, 0)) > 200.0);
 //! ```
 
+mod account;
 mod clock;
 mod coupling;
 mod course;
 mod derivatives;
 mod fault;
 mod saved;
+mod stability;
 mod start;
 mod stepping;
 mod validity;
@@ -31,7 +33,8 @@ pub use stepping::Plain;
 
 use crate::contact::behaviour::is_finite_at;
 use crate::contact::{Contact, TooDeep};
-use crate::scene::{Presence, Scene, Settable, Store};
+use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
+use account::{Account, Ending, Miswired};
 use clock::Clock;
 use coupling::{Curve, Momentum};
 use start::{Bodies, BodiesOf, model_of};
@@ -54,6 +57,15 @@ struct Contacts<S: Scene> {
     curves: IfPresent<S::Course, S, Curve>,
     /// Length of the last step \[s\], where a force is predicted from it.
     last_step: <S::Prediction as Presence>::Of<f64, [f64; 1]>,
+    endings: IfPresent<<S::Coupling as Coupling>::Ending, S, Ending>,
+    accounts: IfPresent<<S::Coupling as Coupling>::Account, S, Account>,
+    /// By all other forces \[m/s^2\].
+    accelerations: IfPresent<<S::Coupling as Coupling>::Acceleration, S, f64>,
+    /// Effective masses \[kg\], where they are inputs.
+    masses: IfPresent<<S::Coupling as Coupling>::Mass, S, f64>,
+    /// Rates of the last steps that left their branch \[m/s\], where it is noticed that steps are too long.
+    watched: IfPresent<S::Watch, S, f64>,
+    miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
 }
 
 /// What follows from the parameters.
@@ -67,12 +79,13 @@ struct Settings<S: Scene> {
     values: S::Values,
 }
 
-/// A contact that a step has left deeper than its law is valid for, or had there on the way, until its user hears of it.
+/// A contact that a step has left deeper than its law is valid for, or had there on the way, until its user hears of it; or a step
+/// that was too long to be [stable](stability).
 #[derive(Clone, Copy)]
 struct Deep {
     /// The contact, counted from 1; 0 is none.
     contact: u32,
-    /// Its largest indentation \[m\].
+    /// Its largest indentation \[m\], or the step \[s\].
     indentation: f64,
 }
 
@@ -187,6 +200,10 @@ impl<S: Scene> Instance<S> {
         for (history, &rate) in self.histories().iter().zip(self.rates()) {
             check_rate(history, rate)?;
         }
+        // what moves has its speed from the start
+        for (ending, &rate) in self.contacts.endings.as_mut().iter_mut().zip(self.contacts.rates.as_ref()) {
+            ending.speed = rate;
+        }
         self.set_phase(Phase::StepComplete);
         // a contact may begin anywhere
         self.look();
@@ -217,6 +234,15 @@ impl<S: Scene> Instance<S> {
 fn allows(settable: &Settable, value: f64) -> bool {
     // written positively, so that a NaN fails
     value >= settable.minimum && value <= settable.maximum
+}
+
+/// Allowed effective masses \[kg\].
+pub const MASSES: core::ops::RangeInclusive<f64> = 1e-30..=1e30;
+
+/// Whether this is an effective mass \[kg\].
+fn is_mass(mass: f64) -> bool {
+    // a NaN is in no range
+    MASSES.contains(&mass)
 }
 
 fn check_rate<M, C: Contact<M>>(history: &C, rate: f64) -> Result<(), Fault> {

@@ -11,7 +11,11 @@ impl<S: Scene> Instance<S> {
     const CONTACT_WORDS: usize = 1
         + S::Contact::WORDS
         + if S::Course::IS_PRESENT { Curve::WORDS } else { 0 }
-        + if S::Momentum::IS_PRESENT { Momentum::WORDS } else { 0 };
+        + if S::Momentum::IS_PRESENT { Momentum::WORDS } else { 0 }
+        + if <S::Coupling as Coupling>::Ending::IS_PRESENT { Ending::WORDS } else { 0 }
+        + if <S::Coupling as Coupling>::Account::IS_PRESENT { Account::WORDS } else { 0 }
+        + <S::Coupling as Coupling>::Acceleration::IS_PRESENT as usize
+        + <S::Coupling as Coupling>::Mass::IS_PRESENT as usize;
 
     /// Number of words that hold an instance.
     pub const WORDS: usize =
@@ -35,6 +39,10 @@ impl<S: Scene> Instance<S> {
         own.forces.as_mut().copy_from_slice(given.forces.as_ref());
         own.momenta.as_mut().copy_from_slice(given.momenta.as_ref());
         own.last_step.as_mut().copy_from_slice(given.last_step.as_ref());
+        own.endings.as_mut().copy_from_slice(given.endings.as_ref());
+        own.accounts.as_mut().copy_from_slice(given.accounts.as_ref());
+        own.accelerations.as_mut().copy_from_slice(given.accelerations.as_ref());
+        own.masses.as_mut().copy_from_slice(given.masses.as_ref());
         // what isn't curved has curves of no meaning
         if other.clock.curved {
             own.curves.as_mut().copy_from_slice(given.curves.as_ref());
@@ -81,6 +89,7 @@ impl<S: Scene> Instance<S> {
             if let Some(momentum) = momenta.get(contact) {
                 momentum.save(&mut store);
             }
+            self.save_coupling(contact, &mut store);
         }
     }
 
@@ -117,7 +126,10 @@ impl<S: Scene> Instance<S> {
                 (bodies.radius, bodies.modulus) = (radius, modulus);
             }
         }
-        let Contacts { histories, rates, curves, momenta, .. } = &mut self.contacts;
+        let Contacts { histories, rates, curves, momenta, endings, accounts, accelerations, masses, .. } =
+            &mut self.contacts;
+        let (mut endings, mut accounts) = (endings.as_mut().iter_mut(), accounts.as_mut().iter_mut());
+        let (mut accelerations, mut masses) = (accelerations.as_mut().iter_mut(), masses.as_mut().iter_mut());
         let (mut curves, mut momenta) = (curves.as_mut().iter_mut(), momenta.as_mut().iter_mut());
         let slots = histories.as_mut().iter_mut().zip(rates.as_mut());
         for (contact, (history_slot, rate_slot)) in slots.enumerate() {
@@ -132,6 +144,10 @@ impl<S: Scene> Instance<S> {
                 curves.next().into_iter().for_each(|slot| *slot = curve);
                 momenta.next().into_iter().for_each(|slot| *slot = momentum);
             }
+            put(endings.next(), in_earnest, || Ending::load(&mut words))?;
+            put(accounts.next(), in_earnest, || Account::load(&mut words))?;
+            put(accelerations.next(), in_earnest, || coupling::number(&mut words))?;
+            put(masses.next(), in_earnest, || coupling::number(&mut words).filter(|&mass| is_mass(mass)))?;
         }
         if in_earnest {
             self.settings.values = values;
@@ -146,4 +162,28 @@ impl<S: Scene> Instance<S> {
         }
         Some(())
     }
+
+    /// Hands what `contact` remembers for its master to `store`.
+    fn save_coupling(&self, contact: usize, store: &mut impl FnMut(u64)) {
+        let Contacts { endings, accounts, accelerations, masses, .. } = &self.contacts;
+        if let Some(ending) = endings.as_ref().get(contact) {
+            ending.save(store);
+        }
+        if let Some(account) = accounts.as_ref().get(contact) {
+            account.save(store);
+        }
+        let inputs = [accelerations.as_ref().get(contact), masses.as_ref().get(contact)];
+        inputs.into_iter().flatten().for_each(|input| store(input.to_bits()));
+    }
+}
+
+/// Puts what `load` finds into its slot, if the scene has one and this is `in_earnest`; `None` if nothing can be found.
+fn put<T>(slot: Option<&mut T>, in_earnest: bool, load: impl FnOnce() -> Option<T>) -> Option<()> {
+    if let Some(slot) = slot {
+        let value = load()?;
+        if in_earnest {
+            *slot = value;
+        }
+    }
+    Some(())
 }

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::contact::{Body, Pair};
-use crate::scene::Parameter;
 
 /// What the parameters of a group say of its bodies, as far as it is worth keeping.
 #[derive(Clone, Copy, Debug, Default)]
@@ -88,6 +87,12 @@ impl<S: Scene> Instance<S> {
                 momenta: Store::filled(Momentum::default()),
                 curves: Store::filled(Curve::default()),
                 last_step: Store::filled(0.0),
+                endings: Store::filled(Ending::default()),
+                accounts: Store::filled(Account::default()),
+                accelerations: Store::filled(0.0),
+                masses: Store::filled(f64::NAN),
+                miswired: Store::filled(Miswired::default()),
+                watched: Store::filled(0.0),
             },
             settings: Settings { lowest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
             deep: Deep { contact: 0, indentation: 0.0 },
@@ -104,6 +109,10 @@ impl<S: Scene> Instance<S> {
         self.settings.values = S::start_values();
         self.contacts.rates.as_mut().fill(0.0);
         self.contacts.last_step.as_mut().fill(0.0);
+        self.contacts.accelerations.as_mut().fill(0.0);
+        for (contact, mass) in self.contacts.masses.as_mut().iter_mut().enumerate() {
+            *mass = S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values);
+        }
         self.clock = Clock::START;
         self.deep.contact = 0;
         self.straighten();
@@ -157,10 +166,16 @@ impl<S: Scene> Instance<S> {
             }
             first = end;
         }
-        let Contacts { histories, momenta, .. } = &mut self.contacts;
+        let Contacts { histories, momenta, endings, accounts, miswired, watched, .. } = &mut self.contacts;
         for (momentum, history) in momenta.as_mut().iter_mut().zip(histories.as_ref()) {
             *momentum = Momentum::start(history.force(0.0));
         }
+        for (ending, history) in endings.as_mut().iter_mut().zip(histories.as_ref()) {
+            *ending = Ending::start(history.force(0.0));
+        }
+        accounts.as_mut().fill(Account::default());
+        miswired.as_mut().fill(Miswired::default());
+        watched.as_mut().fill(0.0);
         self.note_forces();
         Ok(())
     }

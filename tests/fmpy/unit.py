@@ -44,9 +44,15 @@ class Unit:
         self.parameters = [name for name, v in self.variables.items() if v.causality == "parameter"]
         self.outputs = [name for name, v in self.variables.items() if v.causality == "output"]
 
+    def moves_bodies(self):
+        """Whether it moves the bodies itself within a step: it then says what force to apply."""
+        masses = [name for name in self.variables if name.split(".")[-1] == "effective_mass"]
+        return bool(masses) and any(name.split(".")[-1] == "mean_force" for name in self.variables) and not any(
+            name.split(".")[-1] == "restitution" for name in self.variables)
+
     def knows_mass(self):
         """Whether it moves the bodies itself within a step, so that the rate isn't held over it."""
-        return "effective_mass" in self.variables and self.description.coSimulation.canInterpolateInputs
+        return "effective_mass" in self.variables and self.moves_bodies()
 
     def instance(self, **arguments):
         return Instance(self, **arguments)
@@ -138,7 +144,7 @@ class Instance:
 
     def get(self, name):
         """The value of a variable of either type."""
-        if not isinstance(name, int) and self.unit.variables[name.replace("__", ".")].type == "Integer":
+        if not isinstance(name, int) and self.unit.variables[name.replace("__", ".")].type == "Enumeration":
             value = (c_int * 1)()
             self.call("GetInteger", (fmi2.fmi2ValueReference * 1)(self._reference(name)), 1, value)
             return value[0]

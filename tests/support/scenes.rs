@@ -11,7 +11,9 @@ use brinell::contact::motion::{Follow, follow};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Contact, History, Model, Pair, Surface};
 use brinell::instance::Instance;
-use brinell::scene::{Absent, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of};
+use brinell::scene::{
+    Absent, Coupled, Coupling, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of,
+};
 use std::cell::RefCell;
 use std::marker::PhantomData;
 
@@ -73,6 +75,8 @@ pub trait Kind {
     type Model: Copy;
     type Contact: Contact<Self::Model>;
     type Course: Presence;
+    type Coupling: Coupling;
+    type Watch: Presence;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model;
 }
@@ -80,8 +84,8 @@ pub trait Kind {
 /// A law of indentation and largest indentation.
 pub struct Elastoplastic;
 
-/// The same, moved by its mass.
-pub struct Massive;
+/// The same, moved by its mass, for a master as `C` says.
+pub struct Massive<C = Coupled>(PhantomData<C>);
 
 /// A rate-dependent law.
 pub struct Damped;
@@ -95,15 +99,19 @@ impl Kind for Elastoplastic {
     type Model = Model<AnyLoading, AnyUnloading>;
     type Contact = History;
     type Course = Present;
+    type Coupling = Absent;
+    type Watch = Present;
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
         elastoplastic(pair)
     }
 }
 
-impl Kind for Massive {
+impl<C: Coupling> Kind for Massive<C> {
     type Model = Model<AnyLoading, AnyUnloading>;
     type Contact = History;
     type Course = Present;
+    type Coupling = C;
+    type Watch = Absent;
     const FOLLOW: Option<Follow<History, Self::Model>> = Some(follow);
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
         elastoplastic(pair)
@@ -114,6 +122,8 @@ impl Kind for Damped {
     type Model = damped::Model<AnyDamped>;
     type Contact = damped::History<AnyDamped>;
     type Course = Absent;
+    type Coupling = Absent;
+    type Watch = Absent;
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
         damped::Model { pair, law: chosen().damped, restitution, mass }
     }
@@ -158,6 +168,9 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Momentum = M;
     type Course = K::Course;
     type Prediction = M;
+    type Coupling = K::Coupling;
+    type Watch = K::Watch;
+    const IMPACT_MASS: f64 = 4e-3;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
 
     fn guid() -> &'static str {

@@ -37,6 +37,12 @@ pub fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml")
 }
 
+/// The default scene with the output `regime`, which it hasn't got: some importers can't read an enumeration.
+pub fn steel_ball_with_regime() -> PathBuf {
+    let text = fs::read_to_string(scene("steel_ball")).expect("a scene file");
+    write_scene("steel_ball", &text.replacen("outputs = [", "outputs = [\"regime\", ", 1))
+}
+
 /// All scene files of the project.
 pub fn scenes() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");

@@ -107,21 +107,43 @@ fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
 }
 
 /// How the unit and its master work together.
-fn coupling(scene: &Scene) -> &'static str {
-    if scene.knows_mass {
-        "The unit knows the mass that the contact force accelerates, <code>effective_mass</code>, and moves the bodies through \
-         each step itself. Before a step set <code>indentation_rate</code> to the closing speed of the bodies at its start, and \
-         its first input derivative to the acceleration by all other forces, such as gravity \
-         (<code>fmi2SetRealInputDerivatives</code>, for every step anew; without it they have none during the step). After the \
-         step apply <code>mean_force</code> to the bodies over that step: they end it with the speed that the unit has found, \
-         however short an impact was within it. <code>force</code> and the other outputs are those at the end of the step."
+fn coupling(scene: &Scene) -> String {
+    if let Some(coupling) = scene.coupling {
+        let mass = if coupling.mass_input {
+            "the input <code>effective_mass</code>"
+        } else {
+            "the parameter <code>effective_mass</code>, which may be set between steps"
+        };
+        let acceleration = if coupling.acceleration_input {
+            "<code>external_acceleration</code> to the acceleration by all other forces, such as gravity"
+        } else {
+            "its first input derivative to the acceleration by all other forces, such as gravity \
+             (<code>fmi2SetRealInputDerivatives</code>, for every step anew; without it they have none during the step)"
+        };
+        let force = if coupling.parallel {
+            "The master steps all units at once: it applies the <code>mean_force</code> of one step over the next, held constant. The \
+             unit keeps an account of the momentum that is on its way, so that it is right at any step. A master that steps the \
+             contact first and applies its force over the same step needs a scene without <code>master = \"parallel\"</code>"
+        } else {
+            "After the step apply <code>mean_force</code> to the bodies over that step: they end it with the speed that the unit has \
+             found, however short an impact was within it. A master that steps all units at once, and so applies it over the \
+             next step, needs a scene with <code>master = \"parallel\"</code>"
+        };
+        format!(
+            "The unit knows the mass that the contact force accelerates, {mass}, and moves the bodies through each step itself. \
+             Before a step set <code>indentation_rate</code> to the closing speed of the bodies at its start, and {acceleration}. \
+             {force}; the unit tells once in the log if it is in the wrong one. <code>force</code> and the other outputs are those \
+             at the end of the step."
+        )
     } else if scene.damped.is_some() {
         "The rate is held over a step, and the law is followed exactly: the result doesn't depend on how time is cut. The \
          force follows the rate at the same instant: set the rate again before the force is read, or solve that loop."
+            .into()
     } else {
         "The rate is held over a step, or is a polynomial in time if its first and second derivative are set \
          (<code>fmi2SetRealInputDerivatives</code>, for one step). The law is followed exactly: the result doesn't depend on how \
          time is cut."
+            .into()
     }
 }
 
@@ -203,7 +225,9 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
         };
         let start = start.map(digits).unwrap_or_default();
         let allowed = match (variable.causality, variable.minimum, variable.maximum) {
-            (Causality::Parameter, Some(low), Some(high)) => format!("{} to {}", digits(low), digits(high)),
+            (Causality::Parameter | Causality::Input, Some(low), Some(high)) => {
+                format!("{} to {}", digits(low), digits(high))
+            }
             _ => String::new(),
         };
         let unit = variable.unit.as_deref().unwrap_or("");

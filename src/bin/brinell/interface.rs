@@ -11,6 +11,8 @@ pub struct Entry<'a> {
     pub variable: &'static Variable,
     /// What is said of it in this unit.
     pub description: &'static str,
+    /// Its smallest value.
+    pub minimum: Option<f64>,
     /// The group that it belongs to; none for a parameter of all contacts.
     pub group: Option<&'a Group>,
     /// Value reference of the first.
@@ -52,7 +54,7 @@ impl Entry<'_> {
 /// The variables of the scene's unit, which is of these `kinds`.
 pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     let shown = |variable: &&'static Variable| match variable.causality {
-        Causality::Input => true,
+        Causality::Input => variable.name == "indentation_rate" || scene.has_input(&variable.name),
         Causality::Output => variable.name == "force" || scene.outputs.contains(&variable.name),
         Causality::Parameter => false,
     };
@@ -64,22 +66,24 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     for variable in shown {
         let mut first = 0;
         let follows = follows(variable, scene);
-        let follows_at_start = follows && is_damped_at_start(variable, scene);
+        let damped_at_start = follows && is_damped_at_start(variable, scene);
+        let follows_at_start = damped_at_start || variable.follows_rate == Follows::AtStart;
         let is_listed = |name: &str| variable.depends_on.iter().any(|other| other == "*" || other == name);
         let depends = |name: &str| match name {
             // all that it makes is the damping
-            "restitution" => follows_at_start,
-            "effective_mass" => follows_at_start || is_listed(name) && elastic_part_follows_mass(scene),
+            "restitution" => damped_at_start,
+            "effective_mass" => damped_at_start || is_listed(name) && elastic_part_follows_mass(scene),
             _ => is_listed(name),
         };
         for (index, group) in scene.contacts.iter().enumerate() {
             entries.push(Entry {
                 variable,
                 description: variable.description(kinds),
+                minimum: variable.minimum(kinds),
                 group: Some(group),
                 reference,
                 count: group.len(),
-                start: (variable.causality == Causality::Input).then_some(0.0),
+                start: (variable.causality == Causality::Input).then(|| start(variable, scene)),
                 dependencies: parameters.of_group(index, depends),
                 follows: follows.then_some(first),
                 follows_at_start: follows_at_start.then_some(first),
@@ -92,6 +96,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     entries.extend(parameters.0.iter().map(|settable| Entry {
         variable: table::variable(settable.parameter.name),
         description: table::variable(settable.parameter.name).description(kinds),
+        minimum: table::variable(settable.parameter.name).minimum,
         group: settable.group.map(|group| &scene.contacts[group]),
         reference: settable.reference,
         count: 1,
@@ -104,10 +109,21 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     entries
 }
 
+/// Whether the parameter `name` can be set between steps, too: the mass of bodies that the unit moves.
+pub fn is_tunable(scene: &Scene, name: &str) -> bool {
+    name == "effective_mass" && scene.coupling.is_some()
+}
+
+/// What the input `variable` is before anyone sets it.
+fn start(variable: &Variable, scene: &Scene) -> f64 {
+    // of the inputs the mass alone is something that the scene knows
+    scene.value(&variable.name).unwrap_or(0.0)
+}
+
 /// Whether `variable` follows the rate at the same instant.
 fn follows(variable: &Variable, scene: &Scene) -> bool {
     match variable.follows_rate {
-        Follows::Never => false,
+        Follows::Never | Follows::AtStart => false,
         Follows::WithLaw => scene.damped.is_some(),
         Follows::Always => true,
     }

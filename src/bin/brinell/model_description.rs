@@ -1,6 +1,6 @@
 //! `modelDescription.xml`.
 
-use crate::interface::Entry;
+use crate::interface::{Entry, is_tunable};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::table::{Causality, Type, UNITS, Unit};
@@ -13,7 +13,10 @@ type Xml = Writer<Cursor<Vec<u8>>>;
 
 /// The log categories of `src/fmi2/report.rs`.
 const LOG_CATEGORIES: [(&str, &str); 4] = [
-    ("logStatusWarning", "the law is not valid there, or the passivity guard acts; each told once"),
+    (
+        "logStatusWarning",
+        "the law is not valid there, the passivity guard acts, or the coupling is wrong; each told once",
+    ),
     ("logStatusDiscard", "information that is not available"),
     ("logStatusError", "refused calls; logged in any case"),
     ("logAll", "all of them"),
@@ -38,12 +41,13 @@ fn document(xml: &mut Xml, plan: &Plan, guid: &str) -> io::Result<()> {
         ("guid", guid),
         ("description", &scene.description),
         ("generationTool", tool),
-        ("variableNamingConvention", "structured"),
+        ("variableNamingConvention", if scene.structured_names { "structured" } else { "flat" }),
     ];
     let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
     xml.create_element("fmiModelDescription").with_attributes(given).write_inner_content(|xml| {
         co_simulation(xml, scene)?;
         units(xml, entries)?;
+        types(xml, entries)?;
         xml.create_element("LogCategories").write_inner_content(|xml| {
             for (name, description) in LOG_CATEGORIES {
                 let category = xml.create_element("Category");
@@ -55,18 +59,19 @@ fn document(xml: &mut Xml, plan: &Plan, guid: &str) -> io::Result<()> {
         let times = times.map(|(name, value)| (name, number(value)));
         let times = times.iter().map(|(name, value)| (*name, value.as_str()));
         xml.create_element("DefaultExperiment").with_attributes(times).write_empty()?;
-        variables(xml, entries)?;
+        variables(xml, scene, entries)?;
         structure(xml, entries)
     })?;
     Ok(())
 }
 
 fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
+    let takes_derivatives = scene.damped.is_none() && !scene.has_input("external_acceleration");
     let attributes = [
         ("modelIdentifier", scene.name.as_str()),
         ("needsExecutionTool", "false"),
         ("canHandleVariableCommunicationStepSize", "true"),
-        ("canInterpolateInputs", if scene.damped.is_some() { "false" } else { "true" }),
+        ("canInterpolateInputs", if takes_derivatives { "true" } else { "false" }),
         ("maxOutputDerivativeOrder", if scene.damped.is_some() { "1" } else { "2" }),
         ("canRunAsynchronuously", "false"),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
@@ -107,11 +112,41 @@ fn definition(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
     Ok(())
 }
 
-fn variables(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
+/// The enumerations among the variables, with their values.
+fn types(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
+    let mut used: Vec<_> = entries.iter().map(|entry| entry.variable).collect();
+    used.retain(|variable| variable.r#type == Type::Enumeration);
+    used.dedup_by_key(|variable| variable.name.as_str());
+    // the schema allows no empty list
+    if used.is_empty() {
+        return Ok(());
+    }
+    xml.create_element("TypeDefinitions").write_inner_content(|xml| {
+        for variable in used {
+            let name = [("name", variable.rust.as_str())];
+            xml.create_element("SimpleType").with_attributes(name).write_inner_content(|xml| {
+                xml.create_element("Enumeration").write_inner_content(|xml| {
+                    for (value, item) in variable.items.iter().enumerate() {
+                        let value = value.to_string();
+                        let item = [("name", &item.name), ("value", &value), ("description", &item.description)];
+                        let item = item.map(|(name, value)| (name, value.as_str()));
+                        xml.create_element("Item").with_attributes(item).write_empty()?;
+                    }
+                    Ok(())
+                })?;
+                Ok(())
+            })?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
+
+fn variables(xml: &mut Xml, scene: &Scene, entries: &[Entry]) -> io::Result<()> {
     xml.create_element("ModelVariables").write_inner_content(|xml| {
         for entry in entries {
             for index in 0..entry.count {
-                scalar_variable(xml, entry, index)?;
+                scalar_variable(xml, scene, entry, index)?;
             }
         }
         Ok(())
@@ -119,12 +154,13 @@ fn variables(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
     Ok(())
 }
 
-fn scalar_variable(xml: &mut Xml, entry: &Entry, index: usize) -> io::Result<()> {
+fn scalar_variable(xml: &mut Xml, scene: &Scene, entry: &Entry, index: usize) -> io::Result<()> {
     let variable = entry.variable;
     let (causality, variability, initial) = match (variable.causality, variable.r#type) {
         (Causality::Input, _) => ("input", "continuous", ""),
         (Causality::Output, Type::Real) => ("output", "continuous", "calculated"),
-        (Causality::Output, Type::Integer) => ("output", "discrete", "calculated"),
+        (Causality::Output, Type::Enumeration) => ("output", "discrete", "calculated"),
+        (Causality::Parameter, _) if is_tunable(scene, &variable.name) => ("parameter", "tunable", "exact"),
         (Causality::Parameter, _) => ("parameter", "fixed", "exact"),
     };
     let (name, reference) = (entry.name(index), (entry.reference + index).to_string());
@@ -139,17 +175,19 @@ fn scalar_variable(xml: &mut Xml, entry: &Entry, index: usize) -> io::Result<()>
     let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
     let real = variable.r#type == Type::Real;
     let limit = |value: Option<f64>| value.map(number).unwrap_or_default();
+    let declared = if real { "" } else { variable.rust.as_str() };
     let kind = [
+        ("declaredType", declared.to_string()),
         ("unit", variable.unit.clone().unwrap_or_default()),
         ("displayUnit", variable.display_unit.clone().unwrap_or_default()),
-        ("min", limit(variable.minimum)),
+        ("min", limit(entry.minimum)),
         ("max", limit(variable.maximum)),
         ("nominal", limit(entry.nominal)),
         ("start", limit(entry.start)),
     ];
     let kind = kind.iter().filter(|(_, value)| !value.is_empty()).map(|(name, value)| (*name, value.as_str()));
     xml.create_element("ScalarVariable").with_attributes(given).write_inner_content(|xml| {
-        xml.create_element(if real { "Real" } else { "Integer" }).with_attributes(kind).write_empty()?;
+        xml.create_element(if real { "Real" } else { "Enumeration" }).with_attributes(kind).write_empty()?;
         Ok(())
     })?;
     Ok(())

@@ -35,6 +35,7 @@ impl Nominal {
             "max_mean_pressure" => max_force / (PI * max_contact_radius * max_contact_radius),
             "max_stiffness" => self.stiffness,
             "energy" => energy,
+            "speed" => self.speed,
             "momentum" => 2.0 * energy / self.speed,
             other => unreachable!("variables.toml names the nominal size {other}, which nobody computes"),
         };

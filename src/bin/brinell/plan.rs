@@ -63,9 +63,12 @@ impl Plan<'_> {
 
 /// The kinds of unit that the unit of `scene`, whose laws do this with `energy`, is one of.
 fn kinds(scene: &Scene, energy: Energy) -> Vec<Kind> {
+    let coupling = scene.coupling;
     let kinds = [
         (Kind::RateDependent, scene.damped.is_some()),
-        (Kind::MassKnown, scene.knows_mass),
+        (Kind::Parallel, coupling.is_some_and(|coupling| coupling.parallel)),
+        (Kind::AccelerationInput, coupling.is_some_and(|coupling| coupling.acceleration_input)),
+        (Kind::MassKnown, coupling.is_some()),
         (Kind::MakesEnergy, matches!(energy, Energy::MayBeMade { .. })),
         (Kind::LosesLess, energy == Energy::Guarded),
     ];
@@ -75,8 +78,13 @@ fn kinds(scene: &Scene, energy: Energy) -> Vec<Kind> {
 /// The parameters of `scene` that can't be set: those of all contacts, then group by group.
 fn constants(scene: &Scene) -> Vec<Constant> {
     let mut constants = Vec::new();
+    let mass_is_input = scene.coupling.is_some_and(|coupling| coupling.mass_input);
     let mut add = |group: Option<&Group>, parameters: &[Parameter]| {
         for Parameter { name, value, .. } in parameters.iter().filter(|parameter| !parameter.settable) {
+            // only where it starts
+            if mass_is_input && *name == "effective_mass" {
+                continue;
+            }
             let unit = table::variable(name).unit.as_deref().unwrap_or("");
             let shared = group.is_none();
             let name = group.map_or((*name).into(), |group| group.variable(name));

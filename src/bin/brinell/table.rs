@@ -25,9 +25,20 @@ pub struct Variable {
     #[serde(default)]
     pub follows_rate: Follows,
     pub description: String,
+    /// The values of an enumeration, counted from 0.
+    #[serde(default)]
+    pub items: Vec<Item>,
     /// What is said instead in units of another kind.
     #[serde(default)]
     pub instead: Vec<Instead>,
+}
+
+/// A value of an enumeration.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Item {
+    pub name: String,
+    pub description: String,
 }
 
 /// What is said of a variable in units of one kind.
@@ -36,6 +47,9 @@ pub struct Variable {
 pub struct Instead {
     pub of: Kind,
     pub description: String,
+    /// It may be negative, whatever the table says.
+    #[serde(default)]
+    pub negative: bool,
 }
 
 /// A kind of unit in which variables mean something else.
@@ -44,6 +58,10 @@ pub struct Instead {
 pub enum Kind {
     /// The force depends on the rate.
     RateDependent,
+    /// The unit knows the mass, and its master steps all units at once.
+    Parallel,
+    /// The unit knows the mass, and has an input for the acceleration.
+    AccelerationInput,
     /// The unit knows the mass.
     MassKnown,
     /// Its laws can give back more than they took.
@@ -55,8 +73,16 @@ pub enum Kind {
 impl Variable {
     /// What is said of the variable in a unit of these `kinds`.
     pub fn description(&self, kinds: &[Kind]) -> &str {
-        let instead = self.instead.iter().find(|instead| kinds.contains(&instead.of));
-        instead.map_or(&self.description, |instead| &instead.description)
+        self.instead(kinds).map_or(&self.description, |instead| &instead.description)
+    }
+
+    /// Its smallest value in a unit of these `kinds`.
+    pub fn minimum(&self, kinds: &[Kind]) -> Option<f64> {
+        self.minimum.filter(|_| !self.instead(kinds).is_some_and(|instead| instead.negative))
+    }
+
+    fn instead(&self, kinds: &[Kind]) -> Option<&Instead> {
+        self.instead.iter().find(|instead| kinds.contains(&instead.of))
     }
 }
 
@@ -68,6 +94,8 @@ pub enum Follows {
     Never,
     /// Where the law does.
     WithLaw,
+    /// Before the first step only.
+    AtStart,
     Always,
 }
 
@@ -75,7 +103,8 @@ pub enum Follows {
 pub enum Type {
     #[default]
     Real,
-    Integer,
+    /// Read as an integer.
+    Enumeration,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]

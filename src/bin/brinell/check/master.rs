@@ -25,7 +25,12 @@ pub struct Master<'a, 'b> {
     pub follows: bool,
     /// The mean force of a unit that moves the mass itself: the rate is then that at the start of a step.
     pub mean_force: Option<u32>,
+    /// Whether that unit is made for a master that steps all units at once: its force is then one for the next step.
+    pub parallel: bool,
 }
+
+/// Short steps after which a unit has forgotten a long one.
+const FORGOTTEN: u32 = 120;
 
 impl Master<'_, '_> {
     /// Steps with `rate` [m/s] and gives the force at the end [N].
@@ -42,25 +47,41 @@ impl Master<'_, '_> {
         self.instance.real(self.force)
     }
 
+    /// Crosses `gap` [m] at `speed` [m/s].
+    fn approach(&mut self, speed: f64, gap: f64, step: f64) -> Result<(), ImportError> {
+        if gap <= 0.0 {
+            return Ok(());
+        }
+        let short = if self.parallel { f64::min(gap, f64::from(FORGOTTEN) * step * speed) } else { 0.0 };
+        if gap > short {
+            self.step(speed, (gap - short) / speed)?;
+        }
+        for _ in 0..if short > 0.0 { FORGOTTEN } else { 0 } {
+            self.step(speed, short / speed / f64::from(FORGOTTEN))?;
+        }
+        Ok(())
+    }
+
     /// Lets the mass of `impact` meet the contact, after the way across `gap` [m], until they part again.
     pub fn impact(&mut self, impact: &Impact, gap: f64, step: f64) -> Result<Simulated, ImportError> {
-        if gap > 0.0 {
-            self.step(impact.speed, gap / impact.speed)?;
-        }
+        self.approach(impact.speed, gap, step)?;
         // the speed in the middle of each step; that the force at first contact may not be zero is an error of one step
-        let mut speed = impact.speed;
+        let (mut speed, mut owed) = (impact.speed, 0.0);
         let (mut indentation, mut time) = (0.0, 0.0);
         let (mut max_indentation, mut max_force) = (0.0, 0.0);
         // indentation and force at the ends of the last two steps
         let mut before = [(0.0, 0.0); 2];
         loop {
             let start = speed;
-            let mut force = self.step(speed, step)?;
+            let mut force = self.step(speed + owed, step)?;
             for _ in 0..if self.follows { ITERATIONS } else { 0 } {
                 force = self.force_at(speed - 0.5 * step * force / impact.mass)?;
             }
             if let Some(mean_force) = self.mean_force {
-                speed -= step * self.instance.real(mean_force)? / impact.mass;
+                let change = step * self.instance.real(mean_force)? / impact.mass;
+                speed -= change;
+                // what has been applied by the end of a step doesn't have it yet
+                owed = if self.parallel { change } else { 0.0 };
             }
             indentation += 0.5 * (start + speed) * step;
             time += step;

@@ -75,8 +75,9 @@ impl Trial {
         let before = forces(instance, &at_rest)?;
         let follows = scene.damped.is_some();
         let mean_force = format!("{prefix}mean_force");
-        let mean_force = if scene.knows_mass { Some(description.real(&mean_force)?) } else { None };
-        let mut master = Master { instance: &mut *instance, rate, force, time: 0.0, follows, mean_force };
+        let mean_force = if scene.coupling.is_some() { Some(description.real(&mean_force)?) } else { None };
+        let parallel = scene.coupling.is_some_and(|coupling| coupling.parallel);
+        let mut master = Master { instance: &mut *instance, rate, force, time: 0.0, follows, mean_force, parallel };
         let simulated = master.impact(&scene.impact, gap, step)?;
         trial.rows = compare(prediction, &simulated);
         if follows {

@@ -5,7 +5,7 @@ mod parameters;
 mod variables;
 
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{Coupling, Scene};
 use brinell::contact::damped::AnyDamped;
 use std::fmt::Write;
 
@@ -19,7 +19,7 @@ pub fn write(plan: &Plan, guid: &str) -> String {
     file.add_method("guid() -> &'static str", "GUID");
     file.add_method("identity() -> u64", "const { identity_of(GUID) }");
     groups::add_groups(&mut file, scene);
-    parameters::add_settable(&mut file, entries);
+    parameters::add_settable(&mut file, scene, entries);
     parameters::add_parameters(&mut file, scene);
     add_laws(&mut file, scene);
     groups::add_density(&mut file, scene);
@@ -60,7 +60,19 @@ impl File {
         let forces = presence(scene.contact_count() > 1 && !follows_rate);
         let momentum = presence(chosen(&["impulse", "mean_force"]));
         let (course, prediction) = (presence(!follows_rate), presence(chosen(&["predicted_force"])));
-        let follow = match scene.knows_mass {
+        let coupling = match scene.coupling {
+            Some(Coupling { parallel, acceleration_input, mass_input }) => {
+                let [account, acceleration, mass] = [parallel, acceleration_input, mass_input].map(presence);
+                format!("Coupled<{account}, {acceleration}, {mass}>")
+            }
+            None => "Absent".into(),
+        };
+        let watch = presence(scene.watches);
+        let mass = match scene.watches {
+            true => format!("\n    const IMPACT_MASS: f64 = {};\n", literal(scene.impact.mass)),
+            false => String::new(),
+        };
+        let follow = match scene.coupling.is_some() {
             true => "\n    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(follow);\n",
             false => "",
         };
@@ -84,7 +96,9 @@ impl File {
     type Momentum = {momentum};
     type Course = {course};
     type Prediction = {prediction};
-{follow}{guard}{methods}}}
+    type Coupling = {coupling};
+    type Watch = {watch};
+{mass}{follow}{guard}{methods}}}
 "
         );
         let text = format!(
@@ -102,7 +116,7 @@ fn uses(text: &str) -> String {
     let mut contact = vec!["self", "Pair"];
     contact.extend(named(&["Surface", "damped", "loading", "unloading"]));
     let follow = if text.contains("Some(follow)") { "use crate::contact::motion::{Follow, follow};\n" } else { "" };
-    let mut scene = named(&["Absent", "Guard", "Integer", "Parameter", "Present", "Real"]);
+    let mut scene = named(&["Absent", "Coupled", "Guard", "Integer", "Parameter", "Present", "Real"]);
     scene.extend(["Scene", "Settable", "identity_of"]);
     // a scene without a contact law that asks for them has no use for these names alone
     if !text.contains("contact::") {

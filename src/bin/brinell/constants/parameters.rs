@@ -1,7 +1,7 @@
 //! The parameters as constants: those that can be set, and where every one has its value from.
 
 use super::{File, list, literal};
-use crate::interface::Entry;
+use crate::interface::{Entry, is_tunable};
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, Variable};
 use std::fmt::Write;
@@ -17,7 +17,7 @@ const ABSENT: [(&str, f64); 6] = [
     ("effective_mass", f64::INFINITY),
 ];
 
-pub fn add_settable(file: &mut File, entries: &[Entry]) {
+pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
     let settable: Vec<_> = entries.iter().filter(|entry| entry.variable.causality == Causality::Parameter).collect();
     let number = |value: Option<f64>| literal(value.expect("a parameter has a start value and limits"));
     let mut table = format!("/// The parameters that can be set.\nstatic SETTABLE: [Settable; {}] = [", settable.len());
@@ -35,6 +35,10 @@ pub fn add_settable(file: &mut File, entries: &[Entry]) {
     table.push_str(if settable.is_empty() { "];\n" } else { "\n];\n" });
     file.add_item(&table);
     file.add_method("settable() -> &'static [Settable]", "&SETTABLE");
+    let tunable = settable.iter().position(|entry| is_tunable(scene, &entry.variable.name));
+    if let Some(place) = tunable {
+        file.add_method("is_tunable(index: usize) -> bool", &format!("index == {place}"));
+    }
     let starts: Vec<_> = settable.iter().map(|entry| number(entry.start)).collect();
     let line = format!("[{}]", starts.join(", "));
     let starts = if line.len() < 90 { line } else { format!("[\n    {},\n]", starts.join(",\n    ")) };

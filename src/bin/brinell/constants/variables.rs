@@ -10,9 +10,17 @@ fn arms(entries: &[Entry], kind: Type) -> (usize, String) {
     kinds.retain(|variable| variable.causality != Causality::Parameter);
     kinds.dedup_by_key(|variable| variable.name.as_str());
     let arm = |(place, variable): (usize, &&Variable)| {
-        (variable.r#type == kind).then(|| format!("    {place} => {kind:?}::{},\n", variable.rust))
+        (variable.r#type == kind).then(|| format!("    {place} => {}::{},\n", rust_name(kind), variable.rust))
     };
     (kinds.len(), kinds.iter().enumerate().filter_map(arm).collect())
+}
+
+/// The library's enum of the variables of this type.
+fn rust_name(kind: Type) -> &'static str {
+    match kind {
+        Type::Real => "Real",
+        Type::Enumeration => "Integer",
+    }
 }
 
 pub fn add_reals(file: &mut File, entries: &[Entry]) {
@@ -42,7 +50,7 @@ pub fn add_reals(file: &mut File, entries: &[Entry]) {
 }
 
 pub fn add_integers(file: &mut File, entries: &[Entry]) {
-    let (_, arms) = arms(entries, Type::Integer);
+    let (_, arms) = arms(entries, Type::Enumeration);
     let (argument, body) = if arms.is_empty() {
         ("_value_reference", "None".to_string())
     } else {
@@ -85,11 +93,14 @@ mod tests {
             Impulse,
             MeanForce,
             PredictedForce,
+            ClosingSpeed,
+            ExternalAcceleration,
+            EffectiveMass,
         ];
         match all[0] {
             IndentationRate | Force | Indentation | MaxIndentation | ResidualIndentation | ContactRadius
             | MeanPressure | Stiffness | Work | ElasticEnergy | DissipatedEnergy | Impulse | MeanForce
-            | PredictedForce | Parameter(_) => {}
+            | PredictedForce | ClosingSpeed | ExternalAcceleration | EffectiveMass | Parameter(_) => {}
         }
         all.iter().map(|variable| format!("{variable:?}")).collect()
     }
@@ -98,7 +109,7 @@ mod tests {
     fn the_library_and_the_table_have_the_same_variables_in_the_same_order() {
         let is_real = |variable: &Variable| variable.r#type == Type::Real && variable.causality != Causality::Parameter;
         assert_eq!(listed(is_real), reals());
-        assert_eq!(listed(|variable| variable.r#type == Type::Integer), [format!("{:?}", Integer::Regime)]);
+        assert_eq!(listed(|variable| variable.r#type == Type::Enumeration), [format!("{:?}", Integer::Regime)]);
     }
 
     #[test]

@@ -59,7 +59,7 @@ impl Description {
                             let reference = get("valueReference").parse().map_err(|error| wrong(&error))?;
                             current = Some((get("name"), reference));
                         }
-                        kind @ ("Real" | "Integer") => {
+                        kind @ ("Real" | "Integer" | "Enumeration") => {
                             if let Some((name, reference)) = current.take() {
                                 let start = attributes.get("start").map(|start| start.parse());
                                 let start = start.transpose().map_err(|error| wrong(&error))?;

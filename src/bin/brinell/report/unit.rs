@@ -2,7 +2,7 @@
 
 use super::ways::Needs;
 use crate::importer::{Archive, Description, ImportError, Instance, Unit};
-use crate::scene::{Group, Parameter, Scene};
+use crate::scene::{Coupling, Group, Parameter, Scene};
 use crate::table::VARIABLES;
 use brinell::contact::impact::Impact;
 
@@ -40,9 +40,11 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         damped: scene.damped,
         passivity_guard: scene.passivity_guard,
         yield_strength: scene.yield_strength,
-        knows_mass: mass.is_some(),
+        coupling: mass.map(|_| Coupling::default()),
         impact: Impact { ..scene.impact },
         predictions: vec![scene.predictions[0]],
+        watches: false,
+        structured_names: false,
         impact_is_assumed: scene.impact_is_assumed,
         text: scene.text.clone(),
     }

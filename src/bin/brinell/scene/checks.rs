@@ -1,7 +1,8 @@
 //! Checking a scene: from the file as it is written to what can be built.
 
 use super::contacts::Contacts;
-use super::file::{CouplingTable, File, ImpactTable};
+use super::coupling;
+use super::file::{File, ImpactTable, NamesName};
 use super::laws;
 use super::{Mistake, Parameter, Scene};
 use crate::predict;
@@ -36,24 +37,25 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     if elastic {
         contacts.forget_strength();
     }
-    let coupling = check_coupling(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
-    let knows_mass = coupling.is_some();
-    let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), coupling.as_ref(), &contacts)?;
+    let coupling = coupling::check(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
+    let (coupling, known_mass) = coupling.unzip();
+    let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), known_mass.as_ref(), &contacts)?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     predict::check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let (mut parameters, groups) = contacts.parameters();
     let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
     let span = file.impact.as_ref().map(|table| table.get_ref().mass.span());
-    let mass = coupling.or(mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass)));
+    let mass = known_mass.or(mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass)));
     for (name, value) in [("restitution", file.law.restitution.clone()), ("effective_mass", mass)] {
         let Some(value) = value else { continue };
         check_limits(name, "", &value)?;
-        parameters.push(Parameter { name, value: *value.get_ref(), settable: true });
+        let is_input = name == "effective_mass" && coupling.is_some_and(|coupling| coupling.mass_input);
+        parameters.push(Parameter { name, value: *value.get_ref(), settable: !is_input });
     }
     parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
-    let mut outputs = check_outputs(&file.fmu.outputs)?;
+    let mut outputs = check_outputs(&file.fmu.outputs, coupling.is_some())?;
     // of no use without it
-    if knows_mass && !outputs.iter().any(|output| output == "mean_force") {
+    if coupling.is_some() && !outputs.iter().any(|output| output == "mean_force") {
         outputs.push("mean_force".into());
     }
     let mut scene = Scene {
@@ -67,9 +69,14 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         damped,
         passivity_guard,
         yield_strength,
-        knows_mass,
+        coupling,
         impact,
         predictions: Vec::new(),
+        // a master that moves the mass itself, by a law that has a stable step
+        watches: coupling.is_none()
+            && damped.is_none()
+            && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
+        structured_names: file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),
     };
@@ -139,22 +146,6 @@ fn check_impact(
     Ok(Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 })
 }
 
-/// The mass that the unit is to know.
-fn check_coupling(
-    given: Option<&Spanned<CouplingTable>>,
-    damped: Option<&str>,
-) -> Result<Option<Spanned<f64>>, Mistake> {
-    let Some(table) = given else { return Ok(None) };
-    if let Some(name) = damped {
-        let message =
-            format!("a contact that knows the mass needs a law whose force doesn't depend on the rate; {name}'s does");
-        return Err(Mistake(table.span(), message));
-    }
-    let mass = &table.get_ref().effective_mass;
-    positive("coupling.effective_mass", mass)?;
-    Ok(Some(mass.clone()))
-}
-
 /// Refuses bodies that don't touch in one point.
 fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mistake> {
     if scene.pair_of(group).is_some() {
@@ -209,7 +200,7 @@ pub fn check_range(
     Err(Mistake(value.span(), message.trim_end().into()))
 }
 
-fn positive(name: &str, value: &Spanned<f64>) -> Result<f64, Mistake> {
+pub fn positive(name: &str, value: &Spanned<f64>) -> Result<f64, Mistake> {
     let number = *value.get_ref();
     if number > 0.0 && number.is_finite() {
         return Ok(number);
@@ -222,7 +213,11 @@ fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Res
     let Some(chosen) = chosen else { return Ok(()) };
     let names: HashSet<&str> = chosen.iter().map(|name| name.get_ref().as_str()).collect();
     let mut known = Vec::new();
+    let mass_is_input = scene.coupling.is_some_and(|coupling| coupling.mass_input);
     let mut choose = |parameter: &mut Parameter, name: String| {
+        if mass_is_input && parameter.name == "effective_mass" {
+            return;
+        }
         parameter.settable = names.contains(name.as_str());
         known.push(name);
     };
@@ -244,13 +239,18 @@ fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Res
     }
 }
 
-fn check_outputs(chosen: &[Spanned<String>]) -> Result<Vec<String>, Mistake> {
+fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool) -> Result<Vec<String>, Mistake> {
     let available = || VARIABLES.iter().filter(|v| v.causality == Causality::Output).map(|v| v.name.as_str());
     let mut outputs: Vec<String> = Vec::new();
     for name in chosen {
         let text = name.get_ref();
         if !available().any(|output| output == text) {
             return Err(Mistake(name.span(), unknown("output", text, available())));
+        }
+        if text == "closing_speed" && !knows_mass {
+            let message =
+                "the output closing_speed is that of bodies which the unit moves: it needs [coupling] effective_mass";
+            return Err(Mistake(name.span(), message.into()));
         }
         if text != "force" && !outputs.contains(text) {
             outputs.push(text.clone());

@@ -75,14 +75,38 @@ pub struct Law {
 pub struct Fmu {
     #[serde(default)]
     pub outputs: Vec<Spanned<String>>,
+    pub names: Option<NamesName>,
     pub parameters: Option<Vec<Spanned<String>>>,
     pub initial_gap: Option<Spanned<f64>>,
+}
+
+/// How importers read the names of variables.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum NamesName {
+    /// As they are, dots and all.
+    Flat,
+    /// With dots and brackets as a tree.
+    Structured,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CouplingTable {
     pub effective_mass: Spanned<f64>,
+    pub master: Option<MasterName>,
+    #[serde(default)]
+    pub inputs: Vec<Spanned<String>>,
+}
+
+/// Which units a master steps first.
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MasterName {
+    /// The contact, whose force it applies over the same step.
+    Serial,
+    /// All at once.
+    Parallel,
 }
 
 #[derive(Deserialize)]
@@ -90,6 +114,7 @@ pub struct CouplingTable {
 pub struct ImpactTable {
     pub mass: Spanned<f64>,
     pub speed: Spanned<f64>,
+    pub watch: Option<bool>,
 }
 
 /// One contact, or `count` equal ones: what differs from the tables above.

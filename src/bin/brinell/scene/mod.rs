@@ -3,6 +3,7 @@
 mod bodies;
 mod checks;
 mod contacts;
+mod coupling;
 mod file;
 mod laws;
 
@@ -39,15 +40,30 @@ pub struct Scene {
     pub passivity_guard: bool,
     /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law asks for it.
     pub yield_strength: Option<f64>,
-    /// The unit moves the bodies through a step by their mass.
-    pub knows_mass: bool,
+    /// How the unit moves the bodies through a step by their mass, if it does.
+    pub coupling: Option<Coupling>,
     pub impact: Impact,
     /// What the impact will do to the contacts of each group.
     pub predictions: Vec<Prediction>,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
     pub impact_is_assumed: bool,
+    /// The unit tells of steps that are unstable with the mass of the impact.
+    pub watches: bool,
+    /// The names of variables are declared to be a tree, not as flat.
+    pub structured_names: bool,
     /// The file as it is.
     pub text: String,
+}
+
+/// How a unit that knows the mass works together with its master.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Coupling {
+    /// The master steps all units at once.
+    pub parallel: bool,
+    /// `external_acceleration` is an input.
+    pub acceleration_input: bool,
+    /// `effective_mass` is an input.
+    pub mass_input: bool,
 }
 
 /// A parameter of a scene.
@@ -129,6 +145,15 @@ impl Scene {
     pub fn group_value(&self, group: usize, name: &str) -> Option<f64> {
         let own = self.contacts[group].own.iter().find(|parameter| parameter.name == name);
         own.map(|parameter| parameter.value).or_else(|| self.value(name))
+    }
+
+    /// Whether the input `name` stands beside the rate.
+    pub fn has_input(&self, name: &str) -> bool {
+        self.coupling.is_some_and(|coupling| match name {
+            "external_acceleration" => coupling.acceleration_input,
+            "effective_mass" => coupling.mass_input,
+            _ => false,
+        })
     }
 
     /// The parameters of all contacts that stay settable.

@@ -1,0 +1,32 @@
+//! The table `[coupling]`: the mass that the unit is to know, and the master that it is made for.
+
+use super::checks::{positive, unknown};
+use super::file::{CouplingTable, MasterName};
+use super::{Coupling, Mistake};
+use toml::Spanned;
+
+/// What can be an input beside the rate.
+const INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
+
+/// The coupling that the table asks for, and the mass; `damped` is the name of a law whose force depends on the rate.
+pub fn check(
+    given: Option<&Spanned<CouplingTable>>,
+    damped: Option<&str>,
+) -> Result<Option<(Coupling, Spanned<f64>)>, Mistake> {
+    let Some(table) = given else { return Ok(None) };
+    if let Some(name) = damped {
+        let message =
+            format!("a contact that knows the mass needs a law whose force doesn't depend on the rate; {name}'s does");
+        return Err(Mistake(table.span(), message));
+    }
+    let CouplingTable { effective_mass, master, inputs } = table.get_ref();
+    positive("coupling.effective_mass", effective_mass)?;
+    for input in inputs {
+        if !INPUTS.contains(&input.get_ref().as_str()) {
+            return Err(Mistake(input.span(), unknown("input", input.get_ref(), INPUTS.into_iter())));
+        }
+    }
+    let [acceleration_input, mass_input] = INPUTS.map(|name| inputs.iter().any(|input| input.get_ref() == name));
+    let parallel = *master == Some(MasterName::Parallel);
+    Ok(Some((Coupling { parallel, acceleration_input, mass_input }, effective_mass.clone())))
+}
