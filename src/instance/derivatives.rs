@@ -45,7 +45,8 @@ impl<S: Scene> Instance<S> {
     #[inline(always)]
     pub fn set_plain_derivatives(&mut self, derivatives: impl Iterator<Item = (i32, f64)>) -> bool {
         let phases = Phase::Instantiated as u8 | Phase::Initialization as u8 | Phase::StepComplete as u8;
-        let in_order = self.phase() as u8 & phases != 0;
+        let has_derivatives = !<S::Coupling as Coupling>::Acceleration::IS_PRESENT;
+        let in_order = has_derivatives && self.phase() as u8 & phases != 0;
         let before = self.contacts.curves.as_ref().first().filter(|_| self.clock.curved).copied().unwrap_or_default();
         let mut numbers = [before.slope, before.bend];
         for (order, value) in derivatives {

@@ -27,7 +27,8 @@ def unit(scene: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str,
         raise ValueError(f"{scene} has no [impact] with a mass: give mass=, or vary it")
     path = folder / "scene.toml"
     path.write_text(toml(of_impacts(data, float(known))), encoding="utf-8")
-    return export(path, folder / "unit.fmu"), impact | {"mass": float(known)}
+    usual = {name: impact[name] for name in ("speed",) if name in impact}
+    return export(path, folder / "unit.fmu"), usual | {"mass": float(known)}
 
 
 def of_impacts(data: Mapping[str, Any], mass: float) -> dict[str, Any]:

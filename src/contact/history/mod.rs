@@ -144,7 +144,9 @@ impl History {
             } else if indentation >= self.segment.upper {
                 self.meet::<U>(indentation) || self.touch(model().borrow(), point, indentation)
             } else {
-                indentation > -LARGEST_INDENTATION && self.leave::<U>(model().borrow().surface, indentation)
+                // a step that is looked at may stay where it is
+                let leaves = indentation < self.segment.lower && indentation > -LARGEST_INDENTATION;
+                leaves && self.leave::<U>(model().borrow().surface, indentation)
             };
         if found {
             self.indentation = sum;
