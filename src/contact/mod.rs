@@ -92,14 +92,18 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {
-        Peak { work: self.work_for_unloading(indentation), ..self.point_of_loading(indentation) }
+        let mut peak = self.point_of_loading(indentation);
+        if self.unloading.needs_work() {
+            peak.work = self.loading.work(&self.pair, indentation);
+        }
+        peak
     }
 
     /// The same without the work: one piece of code for whoever is in no hurry.
     #[inline(never)]
     fn point_of_loading(&self, indentation: f64) -> Peak {
         let point = self.yield_point();
-        let force = self.loading.piece(&self.pair, indentation).0.force(indentation);
+        let force = self.loading.segment(&self.pair, indentation).force(indentation);
         let contact_radius = self.loading.radius_at(&self.pair, &point, indentation, force);
         Peak { indentation, force, contact_radius, yield_force: point.force, work: f64::NAN }
     }

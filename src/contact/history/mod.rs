@@ -235,7 +235,12 @@ impl History {
         // on the loading curve the largest indentation is the present one
         let largest = self.max_indentation();
         if indentation > 0.0 && indentation >= largest {
-            return self.load(model, model.loading.piece(&model.pair, indentation), indentation);
+            let (loading, pair) = (&model.loading, &model.pair);
+            return self.load(
+                model,
+                (loading.segment(pair, indentation), loading.regime(pair, indentation)),
+                indentation,
+            );
         }
         self.max_indentation = largest;
         let forgets = model.surface == Surface::Fresh && indentation <= 0.0;
@@ -249,7 +254,7 @@ impl History {
             let peak = model.peak(largest);
             self.unload(model, &peak, model.path_from(&peak), indentation, rising);
         } else if indentation > 0.0 {
-            self.spring(model.loading.piece(&model.pair, 0.0).0, largest);
+            self.spring(model.loading.segment(&model.pair, 0.0), largest);
         } else {
             self.regime = Regime::Apart;
             self.segment = Segment::apart(FARTHEST, TOUCHING);

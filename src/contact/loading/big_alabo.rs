@@ -70,8 +70,9 @@ impl Loading for BigAlabo {
         pair.yield_point(self.yield_pressure_factor)
     }
 
+    #[inline(never)]
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
-        self.piece(pair, indentation).0
+        self.branch(pair, &self.yield_point(pair), indentation).0
     }
 
     /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + (x-1) + 0.4 (x-1)^2.5`, then `w_tep + f_tep (x-x_tep) + k_l (x-x_tep)^2/2`,
@@ -87,12 +88,13 @@ impl Loading for BigAlabo {
     /// 2000, section 6.3), which is 1.1 S at yield and 2.8 S at `x_p`.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let point = self.yield_point(pair);
-        let force = self.piece(pair, indentation).0.force(indentation);
+        let force = self.segment(pair, indentation).force(indentation);
         self.radius_at(pair, &point, indentation, force)
     }
 
+    #[inline(never)]
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
-        self.piece(pair, indentation).1
+        self.branch(pair, &self.yield_point(pair), indentation).1
     }
 
     #[inline]

@@ -56,12 +56,6 @@ pub trait Loading {
         (self.segment(pair, indentation), self.regime(pair, indentation))
     }
 
-    /// [`Loading::branch`] for whoever is in no hurry: one piece of code, however many ask.
-    #[inline(never)]
-    fn piece(&self, pair: &Pair, indentation: f64) -> (Segment, Regime) {
-        self.branch(pair, &self.yield_point(pair), indentation)
-    }
-
     /// [`Loading::contact_radius`] \[m\] where the load begins to come off. A law may find it in less, as it is told the yield
     /// `point` and the `force` \[N\].
     fn radius_at(&self, pair: &Pair, _point: &YieldPoint, indentation: f64, _force: f64) -> f64 {
