@@ -40,6 +40,7 @@ pub mod quadrature;
 pub mod segment;
 pub mod unloading;
 pub mod validity;
+pub(crate) mod words;
 
 pub use behaviour::Contact;
 pub use history::{History, Regime, TooDeep};
@@ -91,21 +92,39 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {
-        let point = self.yield_point();
-        let force = self.loading.branch(&self.pair, &point, indentation).0.force(indentation);
-        self.peak_at(&point, indentation, force)
+        let mut peak = self.point_of_loading(indentation);
+        if self.unloading.needs_work() {
+            peak.work = self.loading.work(&self.pair, indentation);
+        }
+        peak
     }
 
-    /// The same for a contact that yields at `point` and has this `force` \[N\] there.
+    /// The same without the work: one piece of code for whoever is in no hurry.
+    #[inline(never)]
+    fn point_of_loading(&self, indentation: f64) -> Peak {
+        let point = self.yield_point();
+        let force = self.loading.segment(&self.pair, indentation).force(indentation);
+        let contact_radius = self.loading.radius_at(&self.pair, &point, indentation, force);
+        Peak { indentation, force, contact_radius, yield_force: point.force, work: f64::NAN }
+    }
+
+    /// [`Model::peak`] of a contact that yields at `point` and has this `force` \[N\] there.
     #[inline(always)]
     fn peak_at(&self, point: &YieldPoint, indentation: f64, force: f64) -> Peak {
         let contact_radius = self.loading.radius_at(&self.pair, point, indentation, force);
-        let work = if self.unloading.needs_work() { self.loading.work(&self.pair, indentation) } else { f64::NAN };
+        let work = self.work_for_unloading(indentation);
         Peak { indentation, force, contact_radius, yield_force: point.force, work }
+    }
+
+    /// Work of the loading up to `indentation` \[J\]; NaN if the unloading law doesn't need it.
+    #[inline(always)]
+    fn work_for_unloading(&self, indentation: f64) -> f64 {
+        if self.unloading.needs_work() { self.loading.work(&self.pair, indentation) } else { f64::NAN }
     }
 
     /// The path on which the load comes off from `max_indentation` \[m\] > 0, from the residual indentation (its lower end)
     /// to `max_indentation` (its upper end). Up to the yield point it is the loading curve itself.
+    #[inline(never)]
     pub fn unloading_path(&self, max_indentation: f64) -> Segment {
         if self.is_elastic_at(max_indentation) {
             Segment { upper: max_indentation, ..self.loading.segment(&self.pair, 0.0) }
@@ -140,7 +159,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The indentation up to which the loading law is valid \[m\].
     pub fn valid_depth(&self) -> f64 {
-        validity::largest_indentation(self.pair.radius, |depth| self.loading.contact_radius(&self.pair, depth))
+        validity::largest_indentation(self.pair.radius, |depth| self.point_of_loading(depth).contact_radius)
     }
 
     /// Whether the passivity guard shortens the path from `max_indentation` \[m\].
@@ -149,6 +168,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
     }
 
     /// Whether a contact that never was deeper than `max_indentation` \[m\] has not yielded.
+    #[inline(never)]
     pub fn is_elastic_at(&self, max_indentation: f64) -> bool {
         !self.yields_before(&self.yield_point(), max_indentation)
     }

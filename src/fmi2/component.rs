@@ -4,7 +4,7 @@ use super::abi::fmi2ComponentEnvironment;
 use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2Error, fmi2OK, fmi2Status, fmi2String};
 use super::complaint::Complaint;
 use super::handle::Handle;
-use super::order::Function;
+use super::order::{Function, PREFIX};
 use super::report::{Category, DEEP, DISCARD, FAST, GUARD, MISWIRED, UNSTABLE, describe, describe_warning};
 use super::text::Text;
 use crate::instance::{Instance, Phase, Warning};
@@ -41,6 +41,12 @@ pub struct Logger {
     environment: fmi2ComponentEnvironment,
 }
 
+/// The beginning of a message about the function that has this `name` behind `fmi2`.
+#[inline(never)]
+fn begin<'a>(text: &'a mut Text, name: &str) -> &'a mut Text {
+    text.string(PREFIX).string(name).string(": ")
+}
+
 impl Logger {
     /// The logger among the importer's functions.
     pub fn of(callbacks: &fmi2CallbackFunctions) -> Logger {
@@ -60,7 +66,7 @@ impl Logger {
         };
     }
 
-    /// Logs why the function `name` refuses a call.
+    /// Logs why the function refuses a call that has this `name` behind `fmi2`.
     ///
     /// # Safety
     /// As for [`Logger::send`].
@@ -68,7 +74,7 @@ impl Logger {
     #[inline(never)]
     pub unsafe fn log<S: Scene>(&self, instance_name: fmi2String, name: &str, complaint: &Complaint) {
         let mut text = Text::new();
-        describe::<S>(text.string(name).string(": "), complaint);
+        describe::<S>(begin(&mut text, name), complaint);
         // SAFETY: as the caller promises.
         unsafe { self.send(instance_name, &text, Category::of(complaint)) };
     }
@@ -115,7 +121,7 @@ impl<S: Scene> Component<S> {
         if self.categories & bit != 0 {
             self.categories &= !bit;
             let mut text = Text::new();
-            describe_warning::<S>(text.string(function.name()).string(": "), warning);
+            describe_warning::<S>(begin(&mut text, function.name()), warning);
             // SAFETY: the name ends with 0.
             unsafe { self.logger.send(self.name(), &text, Category::Warning) };
         }

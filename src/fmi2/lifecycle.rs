@@ -7,8 +7,9 @@ use super::handle::Handle;
 use super::memory;
 use super::order;
 use super::report::{ALL_CATEGORIES, Category};
+use super::text::{extent, is_same};
 use crate::scene::Scene;
-use core::ffi::CStr;
+use core::ffi::c_char;
 
 /// The platform types: those of `fmi2TypesPlatform.h`, "default".
 ///
@@ -52,7 +53,7 @@ pub unsafe fn instantiate<S: Scene>(
         Err(complaint) => {
             let name = if instanceName.is_null() { c"".as_ptr() } else { instanceName };
             // SAFETY: the name ends with 0.
-            unsafe { logger.log::<S>(name, "fmi2Instantiate", &complaint) };
+            unsafe { logger.log::<S>(name, "Instantiate", &complaint) };
             core::ptr::null_mut()
         }
     }
@@ -71,8 +72,8 @@ unsafe fn make<S: Scene>(
         return Err(Complaint::NullPointer { argument: if name.is_null() { "instanceName" } else { "fmuGUID" } });
     }
     // SAFETY: neither is null, and both end with 0.
-    let (name, guid) = unsafe { (CStr::from_ptr(name), CStr::from_ptr(guid)) };
-    if name.to_bytes().iter().all(u8::is_ascii_whitespace) {
+    let ((length, says_something), fits) = unsafe { (extent(name), is_same(guid, S::guid())) };
+    if !says_something {
         return Err(Complaint::BadInstance { reason: "instanceName is empty" });
     }
     if kind != fmi2CoSimulation {
@@ -80,13 +81,12 @@ unsafe fn make<S: Scene>(
             reason: "fmuType must be fmi2CoSimulation: this unit has no model exchange",
         });
     }
-    if guid.to_bytes() != S::guid().as_bytes() {
+    if !fits {
         return Err(Complaint::BadInstance {
             reason: "fmuGUID is not the one of this library: modelDescription.xml and binary are from different exports",
         });
     }
-    let name = name.to_bytes_with_nul();
-    let memory = memory::allocate(size_of::<Component<S>>() + name.len());
+    let memory = memory::allocate(size_of::<Component<S>>() + length);
     if memory.is_null() {
         return Err(Complaint::NoMemory);
     }
@@ -95,7 +95,13 @@ unsafe fn make<S: Scene>(
     // zeros, and so is a component: `ZEROS` proves it.
     unsafe {
         let component = Component::<S>::pointer(memory);
-        core::ptr::copy_nonoverlapping(name.as_ptr(), component.add(1).cast(), name.len());
+        let copy = component.add(1).cast::<c_char>();
+        let mut place = 0;
+        // the final 0 is there already
+        while *name.add(place) != 0 {
+            *copy.add(place) = *name.add(place);
+            place += 1;
+        }
         let component = &mut *component;
         component.logger = logger;
         component.categories = if logging_on { ALL_CATEGORIES } else { 0 };
@@ -136,7 +142,7 @@ pub unsafe fn set_debug_logging<S: Scene>(
                 if name.is_null() {
                     return Err(Complaint::NullPointer { argument: "categories" });
                 }
-                bits |= Category::bits(CStr::from_ptr(name)).ok_or(Complaint::UnknownCategory)?;
+                bits |= Category::bits(name).ok_or(Complaint::UnknownCategory)?;
             }
             if loggingOn != fmi2False {
                 component.categories |= bits;

@@ -14,8 +14,16 @@ pub struct Function {
     phases: u8,
 }
 
-/// The names of the functions, one after the other, as far as they pass the guard.
-const NAMES: &str = "fmi2SetDebugLogging fmi2SetupExperiment fmi2EnterInitializationMode fmi2ExitInitializationMode fmi2Terminate fmi2Reset fmi2GetReal fmi2GetInteger fmi2GetBoolean fmi2GetString fmi2SetReal fmi2SetInteger fmi2SetBoolean fmi2SetString fmi2GetFMUstate fmi2SetFMUstate fmi2FreeFMUstate fmi2SerializedFMUstateSize fmi2SerializeFMUstate fmi2DeSerializeFMUstate fmi2GetDirectionalDerivative fmi2SetRealInputDerivatives fmi2GetRealOutputDerivatives fmi2DoStep fmi2CancelStep fmi2GetStatus fmi2GetRealStatus fmi2GetIntegerStatus fmi2GetBooleanStatus fmi2GetStringStatus";
+/// What the names of all functions begin with.
+pub const PREFIX: &str = "fmi2";
+
+/// The rest of the names, as far as the functions pass the guard. Some are the beginning or the end of another one, as
+/// `GetReal` is of `GetRealStatus`.
+const NAMES: &str = "\
+    SetDebugLoggingSetupExperimentEnterInitializationModeExitInitializationModeTerminateResetSetInteger\
+    SetBooleanSetStringGetFMUstateSetFMUstateFreeFMUstateSerializedFMUstateSizeDeSerializeFMUstate\
+    GetDirectionalDerivativeSetRealInputDerivativesGetRealOutputDerivativesDoStepCancelStepGetStatus\
+    GetRealStatusGetIntegerStatusGetBooleanStatusGetStringStatus";
 
 const INSTANTIATED: u8 = Phase::Instantiated as u8;
 const INITIALIZATION: u8 = Phase::Initialization as u8;
@@ -31,21 +39,20 @@ impl Function {
     const fn new(name: &str, phases: u8) -> Function {
         let (name, names) = (name.as_bytes(), NAMES.as_bytes());
         let mut begin = 0;
+        // a name that isn't among them ends the search with an error of the compiler
         loop {
-            let mut length = 0;
-            while length < name.len() && names[begin + length] == name[length] {
+            let mut length = PREFIX.len();
+            while length < name.len() && names[begin + length - PREFIX.len()] == name[length] {
                 length += 1;
             }
-            // fmi2GetReal isn't fmi2GetRealStatus
-            let whole = begin + length == names.len() || names[begin + length] == b' ';
-            if length == name.len() && whole {
-                return Function { begin: begin as u16, length: length as u8, phases };
+            if length == name.len() {
+                return Function { begin: begin as u16, length: (length - PREFIX.len()) as u8, phases };
             }
             begin += 1;
         }
     }
 
-    /// Its name, for messages.
+    /// Its name behind [`PREFIX`], for messages.
     pub fn name(self) -> &'static str {
         let begin = usize::from(self.begin);
         NAMES.get(begin..begin + usize::from(self.length)).unwrap_or("")

@@ -1,8 +1,8 @@
 //! A refused call or a warning as status, log category and text: the one place where it becomes words.
 
-use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status};
+use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status, fmi2String};
 use super::complaint::Complaint;
-use super::text::Text;
+use super::text::{Text, is_same};
 use crate::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
 use crate::scene::{Coupling, Presence, Scene, Settable};
@@ -69,15 +69,21 @@ impl Category {
     }
 
     /// The bits that the declared category `name` stands for.
-    pub fn bits(name: &CStr) -> Option<u8> {
-        let name = name.to_bytes();
-        let known = [
-            (Category::Discard.name(), DISCARD),
-            (Category::Error.name(), ERROR),
-            (Category::Warning.name(), WARNINGS),
-            (c"logAll", ALL_CATEGORIES),
-        ];
-        known.into_iter().find(|(own, _)| own.to_bytes() == name).map(|(_, bits)| bits)
+    ///
+    /// # Safety
+    /// `name` ends with 0.
+    pub unsafe fn bits(name: fmi2String) -> Option<u8> {
+        // SAFETY: as the caller promises.
+        let is = |own| unsafe { is_same(name, own) };
+        if is("logStatusDiscard") {
+            Some(DISCARD)
+        } else if is("logStatusError") {
+            Some(ERROR)
+        } else if is("logStatusWarning") {
+            Some(WARNINGS)
+        } else {
+            is("logAll").then_some(ALL_CATEGORIES)
+        }
     }
 }
 

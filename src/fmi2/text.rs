@@ -2,6 +2,34 @@
 
 use core::ffi::c_char;
 
+/// Whether the string at `text` is `own`. Byte by byte: a function of the C library would have to be bound by the loader.
+///
+/// # Safety
+/// `text` ends with 0.
+#[inline(never)]
+pub unsafe fn is_same(text: *const c_char, own: &str) -> bool {
+    let mut bytes = own.bytes().chain([0]).enumerate();
+    // SAFETY: there is a next byte where all before were those of `own`, and not the final 0.
+    bytes.all(|(place, byte)| unsafe { *text.add(place) } as u8 == byte)
+}
+
+/// Length of the string at `text` with its final 0 \[bytes\], and whether there is anything but white space in it.
+///
+/// # Safety
+/// `text` ends with 0.
+pub unsafe fn extent(text: *const c_char) -> (usize, bool) {
+    let (mut length, mut says_something) = (0, false);
+    loop {
+        // SAFETY: none before was the final 0.
+        let byte = unsafe { *text.add(length) } as u8;
+        length += 1;
+        if byte == 0 {
+            return (length, says_something);
+        }
+        says_something |= !byte.is_ascii_whitespace();
+    }
+}
+
 /// Room for a message with its final 0.
 const CAPACITY: usize = 320;
 
@@ -49,11 +77,32 @@ impl Text {
     }
 
     /// Appends `value` in decimal.
-    #[inline(never)]
     pub fn integer(&mut self, value: u32) -> &mut Text {
-        let digits = Digits::of(value.into());
-        for place in 0..digits.count {
-            self.byte(digits.at(place));
+        self.digits(value, 0)
+    }
+
+    /// Appends the digits of `value`, with a point behind the first `before_point` of them. If they are fewer zeros follow; if it
+    /// is not positive there is no point.
+    #[inline(never)]
+    fn digits(&mut self, mut value: u32, before_point: i32) -> &mut Text {
+        let mut reversed = [0; MOST_DIGITS];
+        let mut count = 0;
+        for slot in &mut reversed {
+            *slot = (value % 10) as u8;
+            value /= 10;
+            count += 1;
+            if value == 0 {
+                break;
+            }
+        }
+        let last = if before_point > count { before_point } else { count };
+        for place in 0..last {
+            if place == before_point && place > 0 {
+                self.byte(b'.');
+            }
+            // there is nothing behind the last digit
+            let digit = reversed.get((count - 1 - place) as usize);
+            self.byte(b'0' + digit.copied().unwrap_or(0));
         }
         self
     }
@@ -72,35 +121,28 @@ impl Text {
             return self.string("infinity");
         }
         if magnitude == 0.0 {
-            return self.string("0");
+            return self.byte(b'0');
         }
         let (digits, exponent) = nine_digits(magnitude);
-        let plain = (-5..9).contains(&exponent);
-        let before_point = if plain { exponent + 1 } else { 1 };
-        if before_point <= 0 {
+        if !(-5..9).contains(&exponent) {
+            let sign = if exponent < 0 { "e-" } else { "e" };
+            return self.digits(digits, 1).string(sign).integer(exponent.unsigned_abs());
+        }
+        if exponent < 0 {
             self.string("0.");
         }
-        for _ in before_point..0 {
+        for _ in exponent..-1 {
             self.byte(b'0');
         }
-        for place in 0..digits.count {
-            if place == before_point && place > 0 {
-                self.byte(b'.');
-            }
-            self.byte(digits.at(place));
-        }
-        for _ in digits.count..before_point {
-            self.byte(b'0');
-        }
-        if !plain {
-            self.string(if exponent < 0 { "e-" } else { "e" }).integer(exponent.unsigned_abs());
-        }
-        self
+        self.digits(digits, exponent + 1)
     }
 }
 
+/// Digits of the largest number that occurs, 2^32.
+const MOST_DIGITS: usize = 10;
+
 /// The digits of a positive finite number, without trailing zeros, and the power of ten of the first one.
-fn nine_digits(mut mantissa: f64) -> (Digits, i32) {
+fn nine_digits(mut mantissa: f64) -> (u32, i32) {
     let mut exponent = 0;
     while mantissa >= 10.0 {
         mantissa /= 10.0;
@@ -110,7 +152,7 @@ fn nine_digits(mut mantissa: f64) -> (Digits, i32) {
         mantissa *= 10.0;
         exponent -= 1;
     }
-    let mut digits = (mantissa * 1e8 + 0.5) as u64;
+    let mut digits = (mantissa * 1e8 + 0.5) as u32;
     if digits >= 1_000_000_000 {
         digits /= 10;
         exponent += 1;
@@ -118,35 +160,5 @@ fn nine_digits(mut mantissa: f64) -> (Digits, i32) {
     while digits > 9 && digits.is_multiple_of(10) {
         digits /= 10;
     }
-    (Digits::of(digits), exponent)
-}
-
-/// A number in decimal, first digit first.
-struct Digits {
-    reversed: [u8; Digits::MOST],
-    count: i32,
-}
-
-impl Digits {
-    /// Digits of the largest number that occurs, 2^32.
-    const MOST: usize = 10;
-
-    fn of(mut value: u64) -> Digits {
-        let mut digits = Digits { reversed: [0; Digits::MOST], count: 0 };
-        for slot in &mut digits.reversed {
-            *slot = (value % 10) as u8;
-            value /= 10;
-            digits.count += 1;
-            if value == 0 {
-                break;
-            }
-        }
-        digits
-    }
-
-    /// The digit at `place`, counted from the first, as a character.
-    fn at(&self, place: i32) -> u8 {
-        let index = (self.count - 1 - place) as usize;
-        b'0' + self.reversed.get(index).copied().unwrap_or(0)
-    }
+    (digits, exponent)
 }

@@ -6,8 +6,8 @@
 //! step adds the impulse of the contact to the debt and takes off what the master has applied; and the force to apply over the
 //! next step is the debt over the length of a step. Momentum is neither lost nor given twice, however long the steps are.
 
-use super::coupling::number;
 use super::*;
+use crate::contact::words::{load_numbers, store_numbers};
 use crate::scene::Real;
 
 /// How the last step ended, as the master has been told.
@@ -32,12 +32,13 @@ impl Ending {
     }
 
     pub fn save(&self, store: &mut impl FnMut(u64)) {
-        [self.speed, self.force, self.jump].into_iter().for_each(|number| store(number.to_bits()));
+        store_numbers(&[self.speed, self.force, self.jump], store);
     }
 
     /// The ending that [`Ending::save`] has stored; `None` if a word is not a finite number.
     pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Ending> {
-        Some(Ending { speed: number(words)?, force: number(words)?, jump: number(words)? })
+        let [speed, force, jump] = load_numbers(words)?;
+        Some(Ending { speed, force, jump })
     }
 }
 
@@ -71,12 +72,13 @@ impl Account {
     }
 
     pub fn save(&self, store: &mut impl FnMut(u64)) {
-        [self.debt, self.span].into_iter().for_each(|number| store(number.to_bits()));
+        store_numbers(&[self.debt, self.span], store);
     }
 
     /// The account that [`Account::save`] has stored; `None` if a word is not a finite number.
     pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Account> {
-        Some(Account { debt: number(words)?, span: number(words)? })
+        let [debt, span] = load_numbers(words)?;
+        Some(Account { debt, span })
     }
 }
 

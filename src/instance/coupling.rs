@@ -2,11 +2,7 @@
 //! momentum of the last one.
 
 use crate::contact::path::{Course, Sum};
-
-/// The next finite number of stored words.
-pub(super) fn number(words: &mut impl Iterator<Item = u64>) -> Option<f64> {
-    words.next().map(f64::from_bits).filter(|number| number.is_finite())
-}
+use crate::contact::words::{load_numbers, store_numbers};
 
 /// The course of the input over the next step, and how the last one ended.
 #[derive(Clone, Copy, Debug, Default)]
@@ -46,12 +42,13 @@ impl Curve {
     }
 
     pub fn save(&self, store: &mut impl FnMut(u64)) {
-        [self.slope, self.bend, self.end_rate, self.end_slope].into_iter().for_each(|number| store(number.to_bits()));
+        store_numbers(&[self.slope, self.bend, self.end_rate, self.end_slope], store);
     }
 
     /// The curve that [`Curve::save`] has stored; `None` if a word is not a finite number.
     pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Curve> {
-        Some(Curve { slope: number(words)?, bend: number(words)?, end_rate: number(words)?, end_slope: number(words)? })
+        let [slope, bend, end_rate, end_slope] = load_numbers(words)?;
+        Some(Curve { slope, bend, end_rate, end_slope })
     }
 }
 
@@ -85,12 +82,12 @@ impl Momentum {
     }
 
     pub fn save(&self, store: &mut impl FnMut(u64)) {
-        [self.impulse.value, self.impulse.rest, self.mean_force].into_iter().for_each(|number| store(number.to_bits()));
+        store_numbers(&[self.impulse.value, self.impulse.rest, self.mean_force], store);
     }
 
     /// The momentum that [`Momentum::save`] has stored; `None` if a word is not a finite number.
     pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Momentum> {
-        let impulse = Sum { value: number(words)?, rest: number(words)? };
-        Some(Momentum { impulse, mean_force: number(words)? })
+        let [value, rest, mean_force] = load_numbers(words)?;
+        Some(Momentum { impulse: Sum { value, rest }, mean_force })
     }
 }

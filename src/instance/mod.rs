@@ -106,7 +106,8 @@ fn too_deep(contact: usize, TooDeep { indentation }: TooDeep) -> Fault {
 }
 
 impl<S: Scene> Settings<S> {
-    /// What is in contact in `group`, and by which laws.
+    /// What is in contact in `group`, and by which laws. Whoever asks is in no hurry: inlined it would be everywhere.
+    #[inline(never)]
     fn model(&self, group: usize) -> S::Model {
         let none = Bodies::default();
         model_of::<S>(group, self.bodies.as_ref().get(group).unwrap_or(&none), &self.values)

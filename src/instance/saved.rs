@@ -2,6 +2,7 @@
 
 use super::start::pair_of;
 use super::*;
+use crate::contact::words::{load_numbers, store_numbers};
 
 /// The words of an instance that don't belong to a contact, a group or a parameter.
 const OWN_WORDS: usize = 5;
@@ -65,16 +66,12 @@ impl<S: Scene> Instance<S> {
     pub fn save(&self, mut store: impl FnMut(u64)) {
         let last_step = self.contacts.last_step.as_ref().first().copied().unwrap_or(0.0);
         let flags = u64::from(self.clock.experiment_defined) | u64::from(self.clock.curved) << 1;
-        let [time, stop, last_step] = [self.clock.time, self.clock.stop(), last_step].map(f64::to_bits);
-        for word in [self.clock.phase as u64, flags, time, stop, last_step] {
-            store(word);
-        }
-        for value in self.settings.values.as_ref() {
-            store(value.to_bits());
-        }
+        store(self.clock.phase as u64);
+        store(flags);
+        store_numbers(&[self.clock.time, self.clock.stop(), last_step], &mut store);
+        store_numbers(self.settings.values.as_ref(), &mut store);
         for bodies in self.settings.bodies.as_ref() {
-            store(bodies.radius.to_bits());
-            store(bodies.modulus.to_bits());
+            store_numbers(&[bodies.radius, bodies.modulus], &mut store);
         }
         let (curves, momenta) = (self.contacts.curves.as_ref(), self.contacts.momenta.as_ref());
         for (contact, (history, rate)) in self.histories().iter().zip(self.rates()).enumerate() {
@@ -106,16 +103,18 @@ impl<S: Scene> Instance<S> {
         let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
         let (phase, flags) = (words.next()?, words.next().filter(|&flags| flags <= 3)?);
         let phase = Phase::ALL.into_iter().find(|&known| known as u64 == phase)?;
-        let mut number = || words.next().map(f64::from_bits).filter(|number| number.is_finite());
-        let (time, stop, last_step) = (number()?, number()?, number()?);
+        let [time, stop, last_step] = load_numbers(&mut words)?;
         let clock = Clock::of(time, stop, phase, flags & 1 != 0)?;
         let mut values = S::start_values();
         for (value, settable) in values.as_mut().iter_mut().zip(S::settable()) {
-            *value = number().filter(|&value| allows(settable, value))?;
+            [*value] = load_numbers(&mut words)?;
+            if !allows(settable, *value) {
+                return None;
+            }
         }
         let unfit = !matches!(phase, Phase::StepComplete | Phase::Terminated);
         for (group, bodies) in self.settings.bodies.as_mut().iter_mut().enumerate() {
-            let (radius, modulus) = (number()?, number()?);
+            let [radius, modulus] = load_numbers(&mut words)?;
             let (radius, modulus) = match pair_of::<S>(group, &values) {
                 Ok(pair) => (pair.radius, pair.modulus),
                 // parameters that don't fit together leave the bodies that there were before
@@ -135,7 +134,10 @@ impl<S: Scene> Instance<S> {
         for (contact, (history_slot, rate_slot)) in slots.enumerate() {
             let group = S::group(contact);
             let model = model_of::<S>(group, self.settings.bodies.as_ref().get(group)?, &values);
-            let rate = words.next().map(f64::from_bits).filter(|rate| rate.abs() <= FASTEST)?;
+            let [rate] = load_numbers(&mut words)?;
+            if f64::abs(rate) > FASTEST {
+                return None;
+            }
             let history = S::Contact::load(&mut words, &model)?;
             let curve = if S::Course::IS_PRESENT { Curve::load(&mut words)? } else { Curve::default() };
             let momentum = if S::Momentum::IS_PRESENT { Momentum::load(&mut words)? } else { Momentum::default() };
@@ -146,8 +148,11 @@ impl<S: Scene> Instance<S> {
             }
             put(endings.next(), in_earnest, || Ending::load(&mut words))?;
             put(accounts.next(), in_earnest, || Account::load(&mut words))?;
-            put(accelerations.next(), in_earnest, || coupling::number(&mut words))?;
-            put(masses.next(), in_earnest, || coupling::number(&mut words).filter(|&mass| is_mass(mass)))?;
+            put(accelerations.next(), in_earnest, || load_numbers(&mut words).map(|[value]| value))?;
+            put(masses.next(), in_earnest, || {
+                let [mass] = load_numbers(&mut words)?;
+                is_mass(mass).then_some(mass)
+            })?;
         }
         if in_earnest {
             self.settings.values = values;

@@ -164,10 +164,11 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
             moved.indentation = Sum::new(0.0);
         }
         // where the law has ended there is no neighbour
-        match moved.go_to(model, indentation, self.is_loading()) {
-            Ok(()) => moved,
-            Err(TooDeep { .. }) => *self,
+        if moved.enter(model, indentation, self.is_loading()).is_err() {
+            return *self;
         }
+        moved.indentation = Sum::new(indentation);
+        moved
     }
 
     fn valid_depth(model: &Model<L, U>) -> f64 {

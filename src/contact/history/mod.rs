@@ -140,7 +140,11 @@ impl History {
             && if self.is_loading() && indentation < before {
                 self.turn(model().borrow(), point, before, indentation)
             } else if indentation > 0.0 && indentation >= self.max_indentation {
-                indentation != before && self.load(model().borrow(), point, indentation).is_ok()
+                indentation != before && {
+                    let model = model();
+                    let Model { loading, pair, .. } = model.borrow();
+                    self.load(model.borrow(), loading.branch(pair, point, indentation), indentation).is_ok()
+                }
             } else if indentation >= self.segment.upper {
                 self.meet::<U>(indentation) || self.touch(model().borrow(), point, indentation)
             } else {
@@ -230,11 +234,15 @@ impl History {
         if !within {
             return Err(TooDeep { indentation });
         }
-        let point = model.yield_point();
         // on the loading curve the largest indentation is the present one
         let largest = self.max_indentation();
         if indentation > 0.0 && indentation >= largest {
-            return self.load(model, &point, indentation);
+            let (loading, pair) = (&model.loading, &model.pair);
+            return self.load(
+                model,
+                (loading.segment(pair, indentation), loading.regime(pair, indentation)),
+                indentation,
+            );
         }
         self.max_indentation = largest;
         let forgets = model.surface == Surface::Fresh && indentation <= 0.0;
@@ -244,11 +252,11 @@ impl History {
         }
         let largest = self.max_indentation;
         self.least_increment = ANY;
-        if model.yields_before(&point, largest) {
+        if !model.is_elastic_at(largest) {
             let peak = model.peak(largest);
             self.unload(model, &peak, model.path_from(&peak), indentation, rising);
         } else if indentation > 0.0 {
-            self.spring(model, &point, largest);
+            self.spring(model.loading.segment(&model.pair, 0.0), largest);
         } else {
             self.regime = Regime::Apart;
             self.segment = Segment::apart(FARTHEST, TOUCHING);
@@ -256,15 +264,14 @@ impl History {
         Ok(())
     }
 
-    /// Below the `largest` indentation \[m\] of a contact that has not yielded.
+    /// Below the `largest` indentation \[m\] of a contact that has not yielded, on the `elastic` branch of the law.
     #[inline(always)]
-    fn spring<L: Loading, U>(&mut self, model: &Model<L, U>, point: &YieldPoint, largest: f64) {
+    fn spring(&mut self, elastic: Segment, largest: f64) {
         self.regime = Regime::Elastic;
-        let elastic = model.loading.branch(&model.pair, point, 0.0).0;
         self.segment = Segment { lower: TOUCHING, upper: largest, ..elastic };
     }
 
-    /// On the loading curve at `indentation` \[m\] > 0, which is the largest one.
+    /// On this branch of the loading curve at `indentation` \[m\] > 0, which is the largest one.
     ///
     /// # Errors
     /// [`TooDeep`] where a law ends before; the history is left as it was.
@@ -272,10 +279,9 @@ impl History {
     fn load<L: Loading, U>(
         &mut self,
         model: &Model<L, U>,
-        point: &YieldPoint,
+        (segment, regime): (Segment, Regime),
         indentation: f64,
     ) -> Result<(), TooDeep> {
-        let (segment, regime) = model.loading.branch(&model.pair, point, indentation);
         // a law without segments may be a fit that ends before
         let Segment { constant: force, linear: stiffness, .. } = segment;
         let shows_numbers = model.loading.is_segmented() || force < LARGEST_FORCE && stiffness < LARGEST_FORCE;
@@ -312,7 +318,7 @@ impl History {
             let path = model.unloading.path(&model.pair, &peak);
             self.unload(model, &peak, path, indentation, false);
         } else {
-            self.spring(model, point, largest);
+            self.spring(model.loading.branch(&model.pair, point, 0.0).0, largest);
         }
         true
     }
@@ -361,7 +367,7 @@ impl History {
         let touches =
             self.regime == Regime::Apart && indentation > 0.0 && !model.yields_before(point, self.max_indentation);
         if touches {
-            self.spring(model, point, self.max_indentation);
+            self.spring(model.loading.branch(&model.pair, point, 0.0).0, self.max_indentation);
         }
         touches
     }

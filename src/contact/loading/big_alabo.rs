@@ -70,6 +70,7 @@ impl Loading for BigAlabo {
         pair.yield_point(self.yield_pressure_factor)
     }
 
+    #[inline(never)]
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         self.branch(pair, &self.yield_point(pair), indentation).0
     }
@@ -87,10 +88,11 @@ impl Loading for BigAlabo {
     /// 2000, section 6.3), which is 1.1 S at yield and 2.8 S at `x_p`.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let point = self.yield_point(pair);
-        let force = self.branch(pair, &point, indentation).0.force(indentation);
+        let force = self.segment(pair, indentation).force(indentation);
         self.radius_at(pair, &point, indentation, force)
     }
 
+    #[inline(never)]
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
         self.branch(pair, &self.yield_point(pair), indentation).1
     }

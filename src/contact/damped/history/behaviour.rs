@@ -4,6 +4,7 @@ use super::{Damped, Factors, History, Model, Regime, Sum, TooDeep, within};
 use crate::contact::behaviour::{Contact, slopes};
 use crate::contact::history::LARGEST_INDENTATION;
 use crate::contact::path::Course;
+use crate::contact::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
 impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
@@ -147,18 +148,18 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         // words are finite; no speed is zero, and stands for none
         let touch_speed = if self.touch_speed < f64::INFINITY { self.touch_speed } else { 0.0 };
         let numbers = [value, rest, self.max_indentation, touch_speed, heat.value, heat.rest, elastic, damping];
-        numbers.into_iter().for_each(|number| store(number.to_bits()));
+        store_numbers(&numbers, store);
     }
 
     fn load(words: &mut impl Iterator<Item = u64>, model: &Model<D>) -> Option<History<D>> {
-        let mut number = || words.next().map(f64::from_bits).filter(|number| number.is_finite());
+        let [value, rest, max_indentation, touch_speed, heat, heat_rest, elastic, damping] = load_numbers(words)?;
         Some(History {
             law: model.law,
-            indentation: Sum { value: number()?, rest: number()? },
-            max_indentation: number()?,
-            touch_speed: Some(number()?).filter(|&speed| speed != 0.0).unwrap_or(f64::INFINITY),
-            dissipated: Sum { value: number()?, rest: number()? },
-            factors: Factors { elastic: number()?, damping: number()? },
+            indentation: Sum { value, rest },
+            max_indentation,
+            touch_speed: if touch_speed == 0.0 { f64::INFINITY } else { touch_speed },
+            dissipated: Sum { value: heat, rest: heat_rest },
+            factors: Factors { elastic, damping },
         })
     }
 }
