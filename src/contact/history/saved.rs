@@ -5,7 +5,7 @@ use crate::contact::segment::Segment;
 use crate::contact::words::{load_numbers, store_numbers};
 
 impl History {
-    /// Hands thirteen words to `store`.
+    /// Hands thirteen words to `store`, in the order in which they lie in memory: they are then copied in pairs.
     pub(super) fn save_words(&self, store: &mut impl FnMut(u64)) {
         let Sum { value, rest } = self.indentation;
         let Segment { lower, upper, origin, constant, linear, power, square } = self.segment;
