@@ -109,6 +109,12 @@ impl<S: Scene> Settings<S> {
     /// What is in contact in `group`, and by which laws. Whoever asks is in no hurry: inlined it would be everywhere.
     #[inline(never)]
     fn model(&self, group: usize) -> S::Model {
+        self.model_at_once(group)
+    }
+
+    /// The same for the steps of many contacts.
+    #[inline(always)]
+    fn model_at_once(&self, group: usize) -> S::Model {
         let none = Bodies::default();
         model_of::<S>(group, self.bodies.as_ref().get(group).unwrap_or(&none), &self.values)
     }

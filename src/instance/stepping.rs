@@ -191,7 +191,7 @@ impl<S: Scene> Instance<S> {
             if !short {
                 long = watch::<S>(watched, contact, &before, rate, step);
                 history
-                    .step_held(rate, step, &kept(), || settings.model(group))
+                    .step_held(rate, step, &kept(), || settings.model_at_once(group))
                     .map_err(|deep| too_deep(contact, deep))?;
             }
             if (S::CONTACTS == 1 || !short) && !history.stays_within(settings.valid_depth(group)) {
@@ -204,9 +204,9 @@ impl<S: Scene> Instance<S> {
             if let Some(momentum) = momenta.get_mut(contact) {
                 let mean = match short {
                     true => history.mean_force_of_short_step(from),
-                    false => {
-                        before.mean_force(&settings.model(group), rate, step).map_err(|deep| too_deep(contact, deep))?
-                    }
+                    false => before
+                        .mean_force(&settings.model_at_once(group), rate, step)
+                        .map_err(|deep| too_deep(contact, deep))?,
                 };
                 momentum.add(mean, step);
             }
