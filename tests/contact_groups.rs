@@ -127,3 +127,24 @@ fn a_guarded_unit_tells_where_the_guard_acts_on_each_contact() {
     }
     assert!(all.is_sorted() && all.windows(2).all(|pair| pair[0].1 < pair[1].0), "{all:?}");
 }
+
+/// No scene says which bodies two contacts have in common.
+#[test]
+fn contacts_whose_bodies_the_unit_moves_come_with_a_word_on_shared_bodies() {
+    let folder = tempfile::tempdir().unwrap();
+    let bodies = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
+    let coupling = "[coupling]\neffective_mass = 4e-3\n";
+    let contacts = "[[contact]]\nname = \"left\"\n[[contact]]\nname = \"right\"\n";
+    for (name, text, told) in [
+        ("chain", format!("name = \"chain\"\n{bodies}{coupling}{contacts}"), true),
+        ("ball", format!("name = \"ball\"\n{bodies}{coupling}"), false),
+        ("walls", format!("name = \"walls\"\n{bodies}{contacts}"), false),
+    ] {
+        std::fs::write(folder.path().join(format!("{name}.toml")), text).unwrap();
+        let arguments = ["export", &format!("{name}.toml"), "-o", &format!("{name}.fmu")];
+        let printed = run(folder.path(), arguments).with_status(0).out;
+        let page = run(folder.path(), [&arguments[..], &["--json"]].concat()).with_status(0).json();
+        assert_eq!(printed.contains("a body that two contacts share"), told, "{printed}");
+        assert_eq!(page["shared_bodies"].is_string(), told, "{page}");
+    }
+}

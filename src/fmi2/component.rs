@@ -69,7 +69,7 @@ impl Logger {
     /// Logs why the function refuses a call that has this `name` behind `fmi2`.
     ///
     /// # Safety
-    /// As for [`Logger::send`].
+    /// `instance_name` is a string that ends with 0.
     #[cold]
     #[inline(never)]
     pub unsafe fn log<S: Scene>(&self, instance_name: fmi2String, name: &str, complaint: &Complaint) {

@@ -6,7 +6,7 @@ use crate::instance::Phase;
 
 /// A function with its place in the order of calls.
 ///
-/// Its name is a piece of [`NAMES`]: a pointer to it would be an address that the loader has to write, in each of them.
+/// Its name is a piece of `NAMES`: a pointer to it would be an address that the loader has to write, in each of them.
 #[derive(Clone, Copy)]
 pub struct Function {
     begin: u16,

@@ -178,6 +178,9 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     for warning in &plan.warnings {
         writeln!(page, "<p><strong>Beyond the validity of the law:</strong> {warning}.</p>")?;
     }
+    if let Some(shared) = plan.shared_bodies {
+        writeln!(page, "<p><strong>Bodies:</strong> {shared}.</p>")?;
+    }
     writeln!(
         page,
         "<p>The law is valid {}. A simulation that leaves this goes on, and it is logged once (category logStatusWarning).</p>",

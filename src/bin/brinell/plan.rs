@@ -24,9 +24,15 @@ pub struct Plan<'a> {
     pub guard: Option<Guard>,
     /// Where the scene's impact leaves the validity of its law, on the first contact, in words.
     pub warnings: Vec<String>,
+    /// What a unit of several contacts that moves their bodies doesn't know, in words.
+    pub shared_bodies: Option<&'static str>,
     /// Up to where the law is valid on the first contact, in words.
     pub valid: String,
 }
+
+/// No scene says which bodies two contacts have in common.
+const SHARED_BODIES: &str = "the unit moves the bodies of each contact by themselves: a body that two contacts share, as in a chain or \
+                             between two walls, would be moved twice. Give such contacts units without [coupling], and short steps";
 
 /// A parameter that can't be set.
 pub struct Constant {
@@ -51,6 +57,7 @@ impl Plan<'_> {
             experiment: experiment(scene),
             guard: Guard::of(scene),
             warnings: validity::warnings(&model.pair(), density, &scene.predictions[0], scene.impact.speed),
+            shared_bodies: (scene.coupling.is_some() && scene.contact_count() > 1).then_some(SHARED_BODIES),
             valid: validity::limits(&model.pair(), density, model.valid_depth()),
         }
     }

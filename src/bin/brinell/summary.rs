@@ -70,7 +70,7 @@ impl Summary<'_> {
         let OtherLaws { loading, unloading, damped } = &self.laws;
         let mut object = json!({
             "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
-            "imports": exported.imports, "warnings": warnings,
+            "imports": exported.imports, "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
             "makes_energy": self.plan.makes_energy, "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
             "variables": variables.iter().map(Entry::label).collect::<Vec<_>>(), "variable_count": self.variable_count(),
             "constants": constants.iter().map(|constant| &constant.name).collect::<Vec<_>>(),
@@ -109,7 +109,7 @@ impl Summary<'_> {
         if self.plan.makes_energy {
             println!("  energy     these laws can give back more than they took");
         }
-        for warning in warnings {
+        for warning in warnings.iter().map(String::as_str).chain(self.plan.shared_bodies) {
             println!("  warning    {warning}");
         }
         if scene.contacts[0].name.is_some() {
