@@ -35,38 +35,52 @@ pub fn site_packages_file(path: &str) -> PathBuf {
 
 /// Makes the virtual environment if it isn't there as tests/requirements.txt wants it.
 fn environment() -> PathBuf {
-    let folder = target_folder().join("test-venv");
+    environment_of("test-venv", Path::new(REQUIREMENTS)).unwrap_or_else(|reason| panic!("{reason}"))
+}
+
+/// The interpreter of the virtual environment `name` in the target folder, made if it isn't there as `requirements` wants it.
+///
+/// # Errors
+/// Why it can't be made.
+pub fn environment_of(name: &str, requirements: &Path) -> Result<PathBuf, String> {
+    let folder = target_folder().join(name);
     let interpreter = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let wanted = fs::read(REQUIREMENTS).unwrap_or_else(|error| panic!("{REQUIREMENTS}: {error}"));
+    let wanted = fs::read(requirements).map_err(|error| format!("{}: {error}", requirements.display()))?;
     // test programs may run at the same time, and one environment serves all of them. The lock ends with the process.
-    let lock = File::create(target_folder().join("test-venv.lock")).expect("the target folder can be written to");
+    let lock = File::create(folder.with_extension("lock")).expect("the target folder can be written to");
     lock.lock().expect("the target folder is on a file system with locks");
     // the copy of the requirements is written last: an environment without it is unfinished
     let marker = folder.join("requirements.txt");
     if fs::read(&marker).is_ok_and(|made| made == wanted) && interpreter.exists() {
-        return interpreter;
+        return Ok(interpreter);
     }
     let _ = fs::remove_dir_all(&folder);
-    let hint = "the tests with fmpy need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
-    run(Command::new("python3").args(["-m", "venv"]).arg(&folder), hint);
-    run(
+    let hint = "the tests in Python need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
+    succeed(Command::new("python3").args(["-m", "venv"]).arg(&folder), hint)?;
+    succeed(
         Command::new(&interpreter)
             .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"])
-            .arg(REQUIREMENTS),
-        "tests/requirements.txt can't be installed; the first run needs the Python Package Index",
-    );
+            .arg(requirements),
+        &format!("{} can't be installed; the first run needs the Python Package Index", requirements.display()),
+    )?;
     fs::write(&marker, wanted).expect("the target folder can be written to");
-    interpreter
+    Ok(interpreter)
 }
 
 /// Runs `command`; if it fails the test fails with `hint` and what the command wrote.
 fn run(command: &mut Command, hint: &str) -> Output {
-    let output = command.output().unwrap_or_else(|error| panic!("{command:?} can't be started ({error}): {hint}"));
-    assert!(
-        output.status.success(),
-        "{command:?} failed: {hint}\n{}{}",
-        String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr)
-    );
-    output
+    succeed(command, hint).unwrap_or_else(|reason| panic!("{reason}"))
+}
+
+/// Runs `command`.
+///
+/// # Errors
+/// `hint` and what the command wrote.
+fn succeed(command: &mut Command, hint: &str) -> Result<Output, String> {
+    let output = command.output().map_err(|error| format!("{command:?} can't be started ({error}): {hint}"))?;
+    if output.status.success() {
+        return Ok(output);
+    }
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    Err(format!("{command:?} failed: {hint}\n{out}{err}"))
 }
