@@ -26,6 +26,14 @@ pub enum Command {
         #[arg(short, long)]
         output: Option<PathBuf>,
     },
+    /// Builds the unit of a scene and packs it as a system (SSP 1.0) with its parameters, to be connected with other units
+    Ssp {
+        /// The scene file (TOML)
+        scene: PathBuf,
+        /// Where to write the system, a name in .ssp [default: NAME.ssp in the current folder]
+        #[arg(short, long)]
+        output: Option<PathBuf>,
+    },
     /// Loads a unit as an importer would, runs the impact of its scene, compares it with the energy balance
     Check {
         /// The unit
