@@ -78,6 +78,11 @@ fn folder(name: &str, swapped: bool) -> PathBuf {
     fs::copy(unit::export(&ball("serial")), folder.join(serial).with_extension("fmu")).unwrap();
     fs::copy(unit::export(&ball("parallel")), folder.join(parallel).with_extension("fmu")).unwrap();
     pack_mass(&folder);
+    // the ball as a system
+    let scene = ball(if swapped { "serial" } else { "parallel" }).display().to_string();
+    let system = ["ssp", &scene, "-o", "ball.ssp", "--with", "mass.fmu"];
+    let connections = ["--connect", "contact.mean_force=mass.force", "--connect", "mass.rate=contact.indentation_rate"];
+    command::run(&folder, system.into_iter().chain(connections)).with_status(0);
     folder
 }
 

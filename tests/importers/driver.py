@@ -1,7 +1,7 @@
 """What every importer is asked to do, and how its answer is written down.
 
-A driver `with_TOOL.py FOLDER RESULT` finds in FOLDER `contact.fmu`, `serial.fmu`, `parallel.fmu`, `mass.fmu` and
-`history.txt`, and writes to RESULT what it found as JSON; `tests/importers.rs` judges it. A driver has ways: a name, the order
+A driver `with_TOOL.py FOLDER RESULT` finds in FOLDER `contact.fmu`, `serial.fmu`, `parallel.fmu`, `mass.fmu`,
+`ball.ssp` and `history.txt`, and writes to RESULT what it found as JSON; `tests/importers.rs` judges it. A driver has ways: a name, the order
 of execution, and what to do.
 """
 
@@ -24,6 +24,10 @@ BALL_SIZES = [1e-6, 1e-4, 2e-3]
 
 folder, result_file = (Path(argument).resolve() for argument in sys.argv[1:3])
 rates = [float(line.split()[0]) for line in (folder / "history.txt").read_text().splitlines()]
+
+
+# the ball of a parallel master as a system
+package = str(folder / "ball.ssp")
 
 
 def unit(name):

@@ -6,7 +6,7 @@ import sys
 # Ecos links it, and neither brings it along nor names it as a requirement
 ctypes.CDLL(f"{sys.prefix}/lib/libtbb.so.12", ctypes.RTLD_GLOBAL)
 
-from driver import BALL_STEPS, STEP, rates, run, unit
+from driver import BALL_STEPS, STEP, package, rates, run, unit
 from ecospy import EcosSimulation, EcosSimulationStructure
 
 
@@ -40,5 +40,15 @@ def ball(path, step, watch):
             return rate
 
 
+def system(_path, step, watch):
+    with EcosSimulation(ssp_path=package, step_size=step) as simulation:
+        simulation.init()
+        with watch.running():
+            simulation.step(BALL_STEPS)
+        rate = simulation.get_real("mass::rate")
+        simulation.terminate()
+        return rate
+
+
 if __name__ == "__main__":
-    run("ecospy", [("Ecos", "parallel", history, ball)])
+    run("ecospy", [("Ecos", "parallel", history, ball), ("Ecos, SSP 1.0", "parallel", None, system)])

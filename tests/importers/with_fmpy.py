@@ -1,11 +1,10 @@
 """fmpy: `simulate_fmu`, its classes one by one, and its simulation of SSP packages."""
 
-import zipfile
 from concurrent.futures import ProcessPoolExecutor
 
 import fmpy
 import numpy
-from driver import BALL_STEPS, STEP, rates, run, unit
+from driver import BALL_STEPS, STEP, package, rates, run, unit
 from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.simulation import simulate_ssp
 
@@ -87,37 +86,9 @@ def simulated_alone(_index):
     return simulated(Watch())
 
 
-SSD = """<?xml version="1.0" encoding="UTF-8"?>
-<ssd:SystemStructureDescription xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
-    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon" name="ball" version="1.0">
-  <ssd:System name="ball"><ssd:Elements>
-    <ssd:Component name="contact" type="application/x-fmu-sharedlibrary" source="resources/contact.fmu"><ssd:Connectors>
-      <ssd:Connector name="indentation_rate" kind="input"><ssc:Real/></ssd:Connector>
-      <ssd:Connector name="mean_force" kind="output"><ssc:Real/></ssd:Connector>
-    </ssd:Connectors></ssd:Component>
-    <ssd:Component name="mass" type="application/x-fmu-sharedlibrary" source="resources/mass.fmu"><ssd:Connectors>
-      <ssd:Connector name="force" kind="input"><ssc:Real/></ssd:Connector>
-      <ssd:Connector name="rate" kind="output"><ssc:Real/></ssd:Connector>
-    </ssd:Connectors></ssd:Component>
-  </ssd:Elements><ssd:Connections>
-    <ssd:Connection startElement="contact" startConnector="mean_force" endElement="mass" endConnector="force"/>
-    <ssd:Connection startElement="mass" startConnector="rate" endElement="contact" endConnector="indentation_rate"/>
-  </ssd:Connections></ssd:System>
-</ssd:SystemStructureDescription>
-"""
-
-
-def package(path, target):
-    with zipfile.ZipFile(target, "w") as archive:
-        archive.writestr("SystemStructure.ssd", SSD)
-        archive.write(path, "resources/contact.fmu")
-        archive.write(unit("mass"), "resources/mass.fmu")
-    return target
-
-
-def system(path, step, watch):
+def system(_path, step, watch):
     with watch.running():
-        result = simulate_ssp(package(path, "ball.ssp"), stop_time=(BALL_STEPS - 0.5) * step, step_size=step)
+        result = simulate_ssp(package, stop_time=(BALL_STEPS - 0.5) * step, step_size=step)
     return result["mass.rate"][-1]
 
 

@@ -1,7 +1,8 @@
 """libcosim of the Open Simulation Platform, by `libcosimpy`: all units step at once, with a clock of nanoseconds."""
 
-from driver import BALL_STEPS, STEP, rates, run, unit
-from libcosimpy.CosimEnums import CosimVariableType  # noqa: F401  (loads the library's own enumerations)
+import zipfile
+
+from driver import BALL_STEPS, STEP, package, rates, run, unit
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimManipulator import CosimManipulator
 from libcosimpy.CosimObserver import CosimObserver
@@ -52,5 +53,17 @@ def ball(path, step, watch):
     return execution.get("mass", "rate")
 
 
+def system(_path, step, watch):
+    # it wants the folder, and finds the parts of the package there
+    zipfile.ZipFile(package).extractall("system")
+    execution, observer = CosimExecution.from_ssp_file("system", round(step * 1e9)), CosimObserver.create_last_value()
+    execution.add_observer(observer)
+    mass = execution.slave_index_from_instance_name("mass")
+    rate = next(v.reference for v in execution.slave_variables(mass) if v.name == b"rate")
+    with watch.running():
+        assert execution.step(BALL_STEPS)
+    return observer.last_real_values(mass, [rate])[0]
+
+
 if __name__ == "__main__":
-    run("libcosimpy", [("libcosim", "parallel", history, ball)])
+    run("libcosimpy", [("libcosim", "parallel", history, ball), ("libcosim, SSP 1.0", "parallel", None, system)])
