@@ -157,7 +157,13 @@ fn run(driver: &Driver, folder: &Path) -> Result<Value, String> {
         let text = String::from_utf8_lossy(&fs::read(&log).unwrap_or_default()).into_owned();
         return Err(format!("{status}: {}", last_line(&text)));
     }
-    let text = fs::read_to_string(&result).map_err(|error| format!("no result: {error}"))?;
+    result_of(driver, folder)
+}
+
+/// What a driver has written.
+fn result_of(driver: &Driver, folder: &Path) -> Result<Value, String> {
+    let text = fs::read_to_string(folder.join(driver.name).with_extension("json"));
+    let text = text.map_err(|error| format!("no result: {error}"))?;
     serde_json::from_str(&text).map_err(|error| format!("no result: {error}"))
 }
 
@@ -199,7 +205,12 @@ fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitutio
         match run(driver, &folder) {
             Ok(result) => table.rows.extend(importer_table::rows(&result, &forces, restitution)),
             Err(reason) if reason.starts_with("can't be installed") => table.not_run.push((driver.name.into(), reason)),
-            Err(reason) => table.rows.push(Row { failure: Some(reason), ..Row::named(driver.name, "", "-") }),
+            Err(reason) => {
+                // what it had done before it crashed
+                let done = result_of(driver, &folder).unwrap_or_default();
+                table.rows.extend(importer_table::rows(&done, &forces, restitution));
+                table.rows.push(Row { failure: Some(reason), ..Row::named(driver.name, "", "-") });
+            }
         }
     }
     table.not_run.extend(NOT_RUN.map(|(tool, reason)| (tool.to_string(), reason.to_string())));
