@@ -25,6 +25,7 @@ fn pytest(file: &str, scenes: &[PathBuf]) {
         .current_dir(folder)
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
         .env("BRINELL_TEST_PROGRAM", env!("CARGO_BIN_EXE_brinell"))
+        .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         // nothing is left behind in the source tree
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
@@ -301,6 +302,11 @@ contact = [
 #[test]
 fn simulate_fmu_runs_with_its_defaults() {
     pytest("test_simulate_fmu.py", &plain_scenes());
+}
+
+#[test]
+fn systems_are_valid_and_run_as_their_unit_does() {
+    pytest("test_ssp.py", &scenes());
 }
 
 #[test]

@@ -1,23 +1,19 @@
 //! A unit in the hands of another importer: the `fmi` crate must read it and get the same bits from it as fmpy.
 
+#[path = "support/fmi_crate.rs"]
+mod fmi_crate;
 #[path = "support/python.rs"]
 mod python;
 #[path = "support/unit.rs"]
 mod unit;
 
+use fmi_crate::{forces_by_fmi_crate, output_of};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::{env, fs};
 
 /// Steps of the history.
 const STEPS: u32 = 3000;
-
-/// What `command` prints; if it fails the test fails with what it wrote.
-fn output_of(command: &mut Command) -> String {
-    let output = command.output().unwrap_or_else(|error| panic!("{command:?} can't be started: {error}"));
-    assert!(output.status.success(), "{command:?} failed:\n{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("the importers print ASCII")
-}
 
 /// Presses, lets go and presses deeper, with rates and steps that change from line to line: a few visits to each branch of
 /// the law, at times that no decimal number of steps hits.
@@ -32,22 +28,6 @@ fn history() -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("second_importer_history.txt");
     fs::write(&path, text).expect("the target folder can be written to");
     path
-}
-
-/// The forces over `history` by the `fmi` crate, as bits. Its package is built in a folder of its own.
-fn forces_by_fmi_crate(unit: &Path, history: &Path) -> String {
-    // bindgen, which the crate needs, loads libclang, and that from PyPI comes without the compiler's own headers
-    let headers = output_of(Command::new("cc").arg("-print-file-name=include"));
-    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command
-        .args(["run", "--quiet", "--release", "--locked", "--manifest-path"])
-        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers/Cargo.toml"))
-        .arg("--")
-        .args([unit, history])
-        .env("CARGO_TARGET_DIR", python::target_folder().join("second-importer"))
-        .env("LIBCLANG_PATH", python::site_packages_file("clang/native"))
-        .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{}", headers.trim()));
-    output_of(&mut command)
 }
 
 fn forces_by_fmpy(unit: &Path, history: &Path) -> String {

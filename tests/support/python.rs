@@ -20,14 +20,14 @@ pub fn target_folder() -> PathBuf {
 /// The interpreter that has fmpy, pytest and libclang.
 pub fn python() -> PathBuf {
     static PYTHON: OnceLock<PathBuf> = OnceLock::new();
-    PYTHON.get_or_init(|| environment("test-venv", None)).clone()
+    PYTHON.get_or_init(|| made("test-venv", None)).clone()
 }
 
 /// The interpreter of a second environment, made from `tests/requirements-engines.txt`, too: multibody engines and what
 /// studies take. They are large, and some have no package for some platforms: what can't be installed is left out.
 pub fn engines() -> PathBuf {
     static ENGINES_PYTHON: OnceLock<PathBuf> = OnceLock::new();
-    ENGINES_PYTHON.get_or_init(|| environment("engines-venv", Some(ENGINES))).clone()
+    ENGINES_PYTHON.get_or_init(|| made("engines-venv", Some(ENGINES))).clone()
 }
 
 /// What the virtual environment has at `path` below its packages, such as `fmpy/c-code` with the official C headers and
@@ -42,32 +42,45 @@ pub fn site_packages_file(path: &str) -> PathBuf {
     file
 }
 
-/// Makes the virtual environment `name` if it isn't there as tests/requirements.txt wants it, and the file `more`, of which
-/// each line is installed by itself if they can't be together.
-fn environment(name: &str, more: Option<&str>) -> PathBuf {
+/// The environment `name` of the tests, as tests/requirements.txt and the file `more` want it.
+fn made(name: &str, more: Option<&str>) -> PathBuf {
+    environment(name, Path::new(REQUIREMENTS), more).unwrap_or_else(|reason| panic!("{reason}"))
+}
+
+/// The interpreter of the virtual environment `name` in the target folder, made if it isn't there as `requirements` wants it.
+///
+/// # Errors
+/// Why it can't be made.
+pub fn environment_of(name: &str, requirements: &Path) -> Result<PathBuf, String> {
+    environment(name, requirements, None)
+}
+
+/// The same with the packages of the file `more`, of which each line is installed by itself if they can't be together.
+fn environment(name: &str, requirements: &Path, more: Option<&str>) -> Result<PathBuf, String> {
     let folder = target_folder().join(name);
     let interpreter = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let read = |path: &str| fs::read(path).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let wanted = [read(REQUIREMENTS), more.map(read).unwrap_or_default()].concat();
+    let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
+    let mut wanted = read(requirements)?;
+    if let Some(more) = more {
+        wanted.extend(read(Path::new(more))?);
+    }
     // test programs may run at the same time, and one environment serves all of them. The lock ends with the process.
-    let lock = File::create(target_folder().join(format!("{name}.lock"))).expect("the target folder can be written to");
+    let lock = File::create(folder.with_extension("lock")).expect("the target folder can be written to");
     lock.lock().expect("the target folder is on a file system with locks");
     // the copy of the requirements is written last: an environment without it is unfinished
     let marker = folder.join("requirements.txt");
     if fs::read(&marker).is_ok_and(|made| made == wanted) && interpreter.exists() {
-        return interpreter;
+        return Ok(interpreter);
     }
     let _ = fs::remove_dir_all(&folder);
-    let hint = "the tests with fmpy need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
-    run(Command::new("python3").args(["-m", "venv"]).arg(&folder), hint);
-    run(
-        pip(&interpreter).arg("-r").arg(REQUIREMENTS),
-        "tests/requirements.txt can't be installed; the first run needs the Python Package Index",
-    );
+    let hint = "the tests in Python need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
+    succeed(Command::new("python3").args(["-m", "venv"]).arg(&folder), hint)?;
+    let hint = format!("{} can't be installed; the first run needs the Python Package Index", requirements.display());
+    succeed(pip(&interpreter).arg("-r").arg(requirements), &hint)?;
     if more.is_none_or(|file| install_what_can_be(&interpreter, file)) {
         fs::write(&marker, wanted).expect("the target folder can be written to");
     }
-    interpreter
+    Ok(interpreter)
 }
 
 fn pip(interpreter: &Path) -> Command {
@@ -94,12 +107,18 @@ fn install_what_can_be(interpreter: &Path, file: &str) -> bool {
 
 /// Runs `command`; if it fails the test fails with `hint` and what the command wrote.
 fn run(command: &mut Command, hint: &str) -> Output {
-    let output = command.output().unwrap_or_else(|error| panic!("{command:?} can't be started ({error}): {hint}"));
-    assert!(
-        output.status.success(),
-        "{command:?} failed: {hint}\n{}{}",
-        String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr)
-    );
-    output
+    succeed(command, hint).unwrap_or_else(|reason| panic!("{reason}"))
+}
+
+/// Runs `command`.
+///
+/// # Errors
+/// `hint` and what the command wrote.
+fn succeed(command: &mut Command, hint: &str) -> Result<Output, String> {
+    let output = command.output().map_err(|error| format!("{command:?} can't be started ({error}): {hint}"))?;
+    if output.status.success() {
+        return Ok(output);
+    }
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    Err(format!("{command:?} failed: {hint}\n{out}{err}"))
 }

@@ -26,6 +26,8 @@ pub enum Command {
         #[arg(short, long)]
         output: Option<PathBuf>,
     },
+    /// Builds the unit of a scene and packs it as a system (SSP 1.0) with its parameters
+    Ssp(SspArguments),
     /// Loads a unit as an importer would, runs the impact of its scene, compares it with the energy balance
     Check {
         /// The unit
@@ -60,6 +62,21 @@ pub enum Command {
     /// Prints the Rust constants of a scene, as they are compiled into its unit
     #[command(hide = true)]
     Constants { scene: PathBuf },
+}
+
+#[derive(clap::Args)]
+pub struct SspArguments {
+    /// The scene file (TOML); its unit is called `contact` in the system
+    pub scene: PathBuf,
+    /// Where to write the system, a name in .ssp [default: NAME.ssp in the current folder]
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// Another unit that stands beside the contact, called as its file; may be given several times
+    #[arg(long, value_name = "FMU")]
+    pub with: Vec<PathBuf>,
+    /// A connection such as contact.mean_force=mass.force; may be given several times
+    #[arg(long, value_name = "UNIT.OUTPUT=UNIT.INPUT", requires = "with")]
+    pub connect: Vec<String>,
 }
 
 #[derive(clap::Args)]

@@ -77,6 +77,7 @@ pub fn ending(output: Option<&Path>, allowed: &[&'static str]) -> Result<&'stati
     allowed.iter().copied().find(|&ending| given == Some(ending)).ok_or_else(|| {
         let (last, others) = allowed.split_last().expect("something is allowed");
         let others = others.iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
-        format!("{}: the name must end in {others} or .{last}", path.display())
+        let or = if others.is_empty() { "" } else { " or " };
+        format!("{}: the name must end in {others}{or}.{last}", path.display())
     })
 }

@@ -32,6 +32,7 @@ mod plot;
 mod predict;
 mod report;
 mod scene;
+mod ssp;
 mod summary;
 mod symbols;
 mod table;
@@ -83,6 +84,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Export { scene, output }) => {
             export::run(&Scene::read(scene)?, output.as_deref(), json)?;
         }
+        Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
         Some(Command::Predict(arguments)) => predict::command::run(arguments, json)?,
         Some(Command::Curve(arguments)) => curve::run(arguments)?,
         Some(Command::Laws { output }) => law_list::run(output.as_deref(), json)?,

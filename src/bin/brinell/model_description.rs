@@ -229,6 +229,6 @@ fn unknown(xml: &mut Xml, place: usize, input: Option<usize>, parameters: &[usiz
 }
 
 /// The shortest text that reads back as the same number.
-fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     if value == 0.0 || (1e-3..1e6).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }

@@ -10,6 +10,7 @@ use std::collections::HashMap;
 pub struct Variable {
     pub reference: u32,
     pub is_real: bool,
+    pub causality: String,
     /// Of a Real variable.
     pub start: Option<f64>,
 }
@@ -57,13 +58,13 @@ impl Description {
                         }
                         "ScalarVariable" => {
                             let reference = get("valueReference").parse().map_err(|error| wrong(&error))?;
-                            current = Some((get("name"), reference));
+                            current = Some((get("name"), reference, get("causality")));
                         }
                         kind @ ("Real" | "Integer" | "Enumeration") => {
-                            if let Some((name, reference)) = current.take() {
+                            if let Some((name, reference, causality)) = current.take() {
                                 let start = attributes.get("start").map(|start| start.parse());
                                 let start = start.transpose().map_err(|error| wrong(&error))?;
-                                let variable = Variable { reference, is_real: kind == "Real", start };
+                                let variable = Variable { reference, is_real: kind == "Real", causality, start };
                                 description.variables.insert(name, variable);
                             }
                         }

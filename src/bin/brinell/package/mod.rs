@@ -42,6 +42,16 @@ pub struct Exported {
 /// # Errors
 /// [`ExportError`]; nothing is then written.
 pub fn export(plan: &Plan, path: &Path) -> Result<Exported, ExportError> {
+    let (archive, exported) = build(plan)?;
+    write_whole(path, &archive)?;
+    Ok(Exported { path: path.into(), ..exported })
+}
+
+/// Builds the planned unit: the bytes of its archive, and what is in it. It has no path yet.
+///
+/// # Errors
+/// [`ExportError`]
+pub fn build(plan: &Plan) -> Result<(Vec<u8>, Exported), ExportError> {
     let platform = platform::here()?;
     let Platform { folder, extension, .. } = platform;
     let scene = plan.scene;
@@ -59,8 +69,8 @@ pub fn export(plan: &Plan, path: &Path) -> Result<Exported, ExportError> {
         ("resources/scene.toml".into(), scene.text.as_bytes()),
     ];
     let archive = archive(&files)?;
-    write_whole(path, &archive)?;
-    Ok(Exported { path: path.into(), guid, size: archive.len(), library_size: library.len(), imports })
+    let size = archive.len();
+    Ok((archive, Exported { path: PathBuf::new(), guid, size, library_size: library.len(), imports }))
 }
 
 /// The two texts that the unit recognises itself by, and what they have in common.
@@ -100,7 +110,10 @@ fn hash<'a>(texts: impl Iterator<Item = &'a str>) -> String {
 }
 
 /// The files as a zip archive: the same bytes for the same files.
-fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
+///
+/// # Errors
+/// [`ExportError::Zip`]
+pub fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
     let mut archive = zip::ZipWriter::new(io::Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)

@@ -1,0 +1,109 @@
+//! `brinell ssp`: the unit of a scene as a system of SSP 1.0, with its parameters in a file of their own.
+//!
+//! Reference: *System Structure and Parameterization*, version 1.0 (Modelica Association, 2019): SystemStructure.ssd is the
+//! system, a `.ssv` file the values of its parameters, and `resources/` has what both refer to.
+
+mod structure;
+mod values;
+mod wiring;
+
+use crate::arguments::SspArguments;
+use crate::files::{ending, write_whole};
+use crate::interface::Entry;
+use crate::package::{self, Exported};
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::table::Causality;
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, Event};
+use serde_json::json;
+use std::error::Error;
+use std::io::{self, Cursor};
+use std::path::Path;
+use wiring::Wiring;
+
+type Xml = Writer<Cursor<Vec<u8>>>;
+
+const TOOL: &str = concat!("Brinell ", env!("CARGO_PKG_VERSION"));
+const COMMON: (&str, &str) = ("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon");
+
+/// The name of the unit within the system.
+const COMPONENT: &str = "contact";
+
+/// The command: writes the system of a scene where the user wants it, or into the current folder.
+///
+/// # Errors
+/// That of the name, the scene, the wiring, the export, or the file.
+pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
+    let SspArguments { scene, output, with, connect } = arguments;
+    let output = output.as_deref();
+    // told before anything is built
+    ending(output, &["ssp"])?;
+    let scene = Scene::read(scene)?;
+    let plan = Plan::of(&scene);
+    let wiring = Wiring::read(&plan, with, connect)?;
+    let path = output.map_or_else(|| format!("{}.ssp", scene.name).into(), Path::to_path_buf);
+    eprintln!("building {} ...", path.display());
+    let (unit, exported) = package::build(&plan)?;
+    let files = Files::of(&plan);
+    let structure = document(|xml| structure::write(xml, &plan, &files, &wiring));
+    let values = document(|xml| values::write(xml, &plan));
+    let mut parts = vec![
+        ("SystemStructure.ssd".into(), structure.as_bytes()),
+        (files.values.clone(), values.as_bytes()),
+        (files.unit.clone(), unit.as_slice()),
+    ];
+    parts.extend(wiring.peers.iter().map(|peer| (peer.file(), peer.bytes.as_slice())));
+    let archive = package::archive(&parts)?;
+    write_whole(&path, &archive)?;
+    tell(&plan, &files, Exported { path, size: archive.len(), ..exported }, as_json);
+    Ok(())
+}
+
+/// The names of the other files of the package.
+struct Files {
+    unit: String,
+    values: String,
+}
+
+impl Files {
+    fn of(plan: &Plan) -> Files {
+        let name = &plan.scene.name;
+        Files { unit: format!("resources/{name}.fmu"), values: format!("resources/{name}.ssv") }
+    }
+}
+
+fn tell(plan: &Plan, files: &Files, system: Exported, as_json: bool) {
+    let Exported { path, size, guid, .. } = system;
+    let labels = |causality| -> Vec<_> { of_kind(plan, causality).map(Entry::label).collect() };
+    let (inputs, outputs) = (labels(Causality::Input), labels(Causality::Output));
+    let parameters = labels(Causality::Parameter);
+    if as_json {
+        let object = json!({
+            "ssp": path, "size": size, "guid": guid, "component": COMPONENT, "fmu": files.unit, "parameter_values": files.values,
+            "inputs": inputs, "outputs": outputs, "parameters": parameters,
+        });
+        println!("{object}");
+        return;
+    }
+    println!("{}", path.display());
+    println!("  {size} bytes; the unit is its component `{COMPONENT}`");
+    println!("  inputs      {}", inputs.join(", "));
+    println!("  outputs     {}", outputs.join(", "));
+    println!("  parameters  {}", parameters.join(", "));
+}
+
+/// The variables of one kind.
+fn of_kind<'a>(plan: &'a Plan, causality: Causality) -> impl Iterator<Item = &'a Entry<'a>> {
+    plan.variables.iter().filter(move |entry| entry.variable.causality == causality)
+}
+
+/// A file of XML with this content.
+fn document(content: impl FnOnce(&mut Xml) -> io::Result<()>) -> String {
+    let mut xml = Writer::new_with_indent(Cursor::new(Vec::new()), b' ', 2);
+    let written = xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)));
+    written.and_then(|()| content(&mut xml)).expect("memory takes everything");
+    let mut text = String::from_utf8(xml.into_inner().into_inner()).expect("XML is written as UTF-8");
+    text.push('\n');
+    text
+}

@@ -1,0 +1,57 @@
+//! The `.ssv` file: the values of the parameters.
+
+use super::{COMMON, COMPONENT, TOOL, Xml, of_kind};
+use crate::interface::Entry;
+use crate::model_description::number;
+use crate::plan::Plan;
+use crate::table::{Causality, UNITS};
+use std::collections::BTreeSet;
+use std::io;
+
+const VALUES: (&str, &str) = ("xmlns:ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues");
+
+/// The parameters with the values of the scene, under their names in the system.
+pub fn write(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
+    let attributes = [VALUES, COMMON, ("version", "1.0"), ("name", plan.scene.name.as_str()), ("generationTool", TOOL)];
+    let parameters: Vec<_> = of_kind(plan, Causality::Parameter).collect();
+    xml.create_element("ssv:ParameterSet").with_attributes(attributes).write_inner_content(|xml| {
+        xml.create_element("ssv:Parameters").write_inner_content(|xml| {
+            for entry in &parameters {
+                let variable = entry.variable;
+                let name = format!("{COMPONENT}.{}", entry.name(0));
+                let parameter = [("name", name.as_str()), ("description", entry.description)];
+                xml.create_element("ssv:Parameter").with_attributes(parameter).write_inner_content(|xml| {
+                    let value = entry.start.map(number).unwrap_or_default();
+                    let value = [("value", Some(value.as_str())), ("unit", variable.unit.as_deref())];
+                    let given = value.into_iter().filter_map(|(key, value)| value.map(|value| (key, value)));
+                    xml.create_element("ssv:Real").with_attributes(given).write_empty().map(|_| ())
+                })?;
+            }
+            Ok(())
+        })?;
+        units(xml, "ssv:Units", &parameters)
+    })?;
+    Ok(())
+}
+
+/// The units that these variables use; no list if there are none, since the schema allows no empty one.
+pub fn units(xml: &mut Xml, list: &str, entries: &[&Entry]) -> io::Result<()> {
+    let used: BTreeSet<_> = entries.iter().filter_map(|entry| entry.variable.unit.as_deref()).collect();
+    if used.is_empty() {
+        return Ok(());
+    }
+    xml.create_element(list).write_inner_content(|xml| {
+        for unit in UNITS.iter().filter(|unit| used.contains(unit.name.as_str())) {
+            let name = ("name", unit.name.as_str());
+            xml.create_element("ssc:Unit").with_attribute(name).write_inner_content(|xml| {
+                let exponents =
+                    [("kg", unit.kg), ("m", unit.m), ("s", unit.s)].map(|(name, power)| (name, power.to_string()));
+                let exponents =
+                    exponents.iter().filter(|(_, power)| power != "0").map(|(name, power)| (*name, power.as_str()));
+                xml.create_element("ssc:BaseUnit").with_attributes(exponents).write_empty().map(|_| ())
+            })?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}

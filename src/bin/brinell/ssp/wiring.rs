@@ -1,0 +1,166 @@
+//! The other units of a system, and what is connected with what.
+
+use super::{COMPONENT, of_kind};
+use crate::importer::{Archive, Description, ImportError};
+use crate::plan::Plan;
+use crate::table::{Causality, Type};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// A call that can't be carried out.
+#[derive(Debug, thiserror::Error)]
+pub enum WiringError {
+    #[error("{path}: {source}", path = path.display())]
+    Unreadable { path: PathBuf, source: io::Error },
+    #[error("{path}: {source}", path = path.display())]
+    Unit { path: PathBuf, source: ImportError },
+    #[error("{path}: its fmiVersion is `{version}`, and a system takes co-simulation units of 2.0", path = path.display())]
+    Version { path: PathBuf, version: String },
+    #[error("{path}: the unit would be called `{name}`, and a name has letters, digits, `_` and `-` only", path = path.display())]
+    Name { path: PathBuf, name: String },
+    #[error("{path}: there is a unit `{name}` already; give the file another name", path = path.display())]
+    Twice { path: PathBuf, name: String },
+    #[error("--connect {0}: a connection is written as UNIT.OUTPUT=UNIT.INPUT, such as contact.mean_force=mass.force")]
+    Form(String),
+    #[error("--connect {connection}: there is no unit `{name}`, the system has {allowed}")]
+    NoUnit { connection: String, name: String, allowed: String },
+    #[error("--connect {connection}: {unit} has no {kind} `{name}` of type Real, it has {allowed}")]
+    NoVariable { connection: String, unit: String, kind: &'static str, name: String, allowed: String },
+    #[error("--connect {connection}: the input {input} is connected already")]
+    Taken { connection: String, input: String },
+}
+
+/// What can be connected.
+struct Unit {
+    name: String,
+    inputs: BTreeSet<String>,
+    outputs: BTreeSet<String>,
+}
+
+/// One end of a connection.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct End {
+    pub unit: String,
+    pub variable: String,
+}
+
+/// A unit that stands beside the contact.
+pub struct Peer {
+    pub name: String,
+    pub bytes: Vec<u8>,
+}
+
+impl Peer {
+    /// Its place in the package.
+    pub fn file(&self) -> String {
+        format!("resources/{}.fmu", self.name)
+    }
+}
+
+/// What stands beside the contact, and what is connected with what.
+#[derive(Default)]
+pub struct Wiring {
+    pub peers: Vec<Peer>,
+    /// From outputs to inputs.
+    pub connections: Vec<(End, End)>,
+}
+
+impl Wiring {
+    /// Reads the units at `with`, and checks the connections.
+    ///
+    /// # Errors
+    /// [`WiringError`]
+    pub fn read(plan: &Plan, with: &[PathBuf], connect: &[String]) -> Result<Wiring, WiringError> {
+        let mut units = vec![contact(plan)];
+        let mut wiring = Wiring::default();
+        for path in with {
+            let unit = unit(path, plan, &units)?;
+            let bytes = fs::read(path).map_err(|source| WiringError::Unreadable { path: path.clone(), source })?;
+            wiring.peers.push(Peer { name: unit.name.clone(), bytes });
+            units.push(unit);
+        }
+        for text in connect {
+            let (from, to) = connection(text, &units)?;
+            if wiring.connections.iter().any(|(_, taken)| *taken == to) {
+                let input = format!("{}.{}", to.unit, to.variable);
+                return Err(WiringError::Taken { connection: text.clone(), input });
+            }
+            wiring.connections.push((from, to));
+        }
+        Ok(wiring)
+    }
+
+    /// The connected variables of the unit `name`, each once: with `input` those that something goes to.
+    pub fn connected(&self, name: &str, input: bool) -> BTreeSet<&str> {
+        let ends = self.connections.iter().map(|(from, to)| if input { to } else { from });
+        ends.filter(|end| end.unit == name).map(|end| end.variable.as_str()).collect()
+    }
+}
+
+/// The contact itself.
+fn contact(plan: &Plan) -> Unit {
+    let names = |causality| {
+        let entries = of_kind(plan, causality).filter(|entry| entry.variable.r#type == Type::Real);
+        entries.flat_map(|entry| (0..entry.count).map(|index| entry.name(index))).collect()
+    };
+    Unit { name: COMPONENT.into(), inputs: names(Causality::Input), outputs: names(Causality::Output) }
+}
+
+/// The unit at `path`, which is called as its file.
+fn unit(path: &Path, plan: &Plan, others: &[Unit]) -> Result<Unit, WiringError> {
+    let archive = Archive::open(path).map_err(|source| WiringError::Unit { path: path.into(), source })?;
+    let Description { fmi_version: version, identifier, variables, .. } = archive.description;
+    if version != "2.0" || identifier.is_empty() {
+        return Err(WiringError::Version { path: path.into(), version });
+    }
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    if !name.chars().all(|character| character.is_ascii_alphanumeric() || "_-".contains(character)) {
+        return Err(WiringError::Name { path: path.into(), name });
+    }
+    // the file of the contact has the name of the scene
+    if name == plan.scene.name || others.iter().any(|other| other.name == name) {
+        return Err(WiringError::Twice { path: path.into(), name });
+    }
+    let names = |causality: &str| {
+        let named = variables.iter().filter(|(_, variable)| variable.is_real && variable.causality == causality);
+        named.map(|(name, _)| name.clone()).collect()
+    };
+    Ok(Unit { name, inputs: names("input"), outputs: names("output") })
+}
+
+fn connection(text: &str, units: &[Unit]) -> Result<(End, End), WiringError> {
+    let form = || WiringError::Form(text.into());
+    let end = |part: &str, kind: &'static str| {
+        let (name, variable) = part.split_once('.').ok_or_else(form)?;
+        let unit = units.iter().find(|unit| unit.name == name).ok_or_else(|| WiringError::NoUnit {
+            connection: text.into(),
+            name: name.into(),
+            allowed: list(units.iter().map(|unit| unit.name.as_str())),
+        })?;
+        let variables = if kind == "input" { &unit.inputs } else { &unit.outputs };
+        if !variables.contains(variable) {
+            return Err(WiringError::NoVariable {
+                connection: text.into(),
+                unit: name.into(),
+                kind,
+                name: variable.into(),
+                allowed: list(variables.iter().map(String::as_str)),
+            });
+        }
+        Ok(End { unit: name.into(), variable: variable.into() })
+    };
+    let (from, to) = text.split_once('=').ok_or_else(form)?;
+    Ok((end(from, "output")?, end(to, "input")?))
+}
+
+/// The first of them, in words.
+fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    const SHOWN: usize = 20;
+    let names: Vec<_> = names.collect();
+    let more = if names.len() > SHOWN { format!(" and {} more", names.len() - SHOWN) } else { String::new() };
+    match names.len() {
+        0 => "none".into(),
+        _ => names.into_iter().take(SHOWN).collect::<Vec<_>>().join(", ") + &more,
+    }
+}

@@ -1,0 +1,237 @@
+//! Units in the hands of other people's tools: the drivers in tests/importers/, each in a process of its own.
+//!
+//! Every tool runs the same history of rates, whose forces are those of the C interface, and, if it is a master, a ball that
+//! meets the block, whose restitution is the predicted one. At the end there is one table, also of what didn't run and why.
+//! `BRINELL_IMPORTERS=all` adds the tools that are large (two gigabytes), `BRINELL_WRITE=1` writes the table to docs/importers.md.
+#![cfg(target_os = "linux")]
+
+#[path = "support/command.rs"]
+mod command;
+#[path = "support/fmi_crate.rs"]
+mod fmi_crate;
+#[path = "support/importer_table.rs"]
+mod importer_table;
+#[path = "support/loaded.rs"]
+mod loaded;
+#[path = "support/python.rs"]
+mod python;
+#[path = "support/unit.rs"]
+mod unit;
+
+use importer_table::{Row, Table};
+use loaded::{OK, Unit};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::env;
+use std::f64::consts::TAU;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// A driver with the file that its environment is made from, and whether that is large.
+struct Driver {
+    name: &'static str,
+    requirements: &'static str,
+    large: bool,
+}
+
+const DRIVERS: [Driver; 7] = [
+    Driver { name: "fmpy", requirements: "light", large: false },
+    Driver { name: "libcosim", requirements: "light", large: false },
+    Driver { name: "ecos", requirements: "light", large: false },
+    Driver { name: "container", requirements: "light", large: false },
+    Driver { name: "pathsim", requirements: "light", large: false },
+    Driver { name: "cofmupy", requirements: "cofmupy", large: true },
+    Driver { name: "gemseo", requirements: "gemseo", large: true },
+];
+
+/// Tools without a driver.
+const NOT_RUN: [(&str, &str); 4] = [
+    ("OMSimulator", "its package on PyPI has no binary and downloads one from another server when it is installed"),
+    ("FMI++ (fmipp)", "no wheel for Python 3.11; its source needs SWIG and Boost"),
+    ("PyFMI", "no wheel for Python 3.11; its source package wants numpy before any is installed"),
+    ("fmi-sim", "not tried: it is the program of the `fmi` crate, which is run"),
+];
+
+/// Time that no driver needs: one that has taken it hangs.
+const HANGS: Duration = Duration::from_secs(300);
+
+const STEPS: u32 = 2000;
+const STEP: f64 = 1e-6;
+
+/// The closing rate [m/s] of a step: presses, lets go until the bodies part, and presses deeper, five times.
+fn rate(index: u32) -> f64 {
+    0.06 * (TAU * f64::from(index) / 400.3).sin() + 0.006
+}
+
+/// The folder with all that drivers need. `swapped` gives each kind of master the unit of the other kind.
+fn folder(name: &str, swapped: bool) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("importers").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let lines: String = (0..STEPS).map(|index| format!("{:?} {STEP:?}\n", rate(index))).collect();
+    fs::write(folder.join("history.txt"), lines).unwrap();
+    let (serial, parallel) = if swapped { ("parallel", "serial") } else { ("serial", "parallel") };
+    fs::copy(unit::export(&unit::scene("steel_ball")), folder.join("contact.fmu")).unwrap();
+    fs::copy(unit::export(&ball("serial")), folder.join(serial).with_extension("fmu")).unwrap();
+    fs::copy(unit::export(&ball("parallel")), folder.join(parallel).with_extension("fmu")).unwrap();
+    pack_mass(&folder);
+    // the ball as a system
+    let scene = ball(if swapped { "serial" } else { "parallel" }).display().to_string();
+    let system = ["ssp", &scene, "-o", "ball.ssp", "--with", "mass.fmu"];
+    let connections = ["--connect", "contact.mean_force=mass.force", "--connect", "mass.rate=contact.indentation_rate"];
+    command::run(&folder, system.into_iter().chain(connections)).with_status(0);
+    folder
+}
+
+/// The ball of scenes/mass_known.toml for a master of this kind. It meets the block within the second microsecond.
+fn ball(master: &str) -> PathBuf {
+    let text = fs::read_to_string(unit::scene("mass_known")).unwrap();
+    let text = text.replacen("\"mass_known\"", &format!("\"{master}\""), 1);
+    let text = text.replacen("[fmu]\n", "[fmu]\ninitial_gap = 1.3e-6\n", 1);
+    unit::write_scene(master, &format!("{text}master = \"{master}\"\ninputs = [\"external_acceleration\"]\n"))
+}
+
+/// Compiles c/mass.c and packs it as `mass.fmu`.
+fn pack_mass(folder: &Path) {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let parts = folder.join("mass");
+    fs::create_dir_all(parts.join("binaries/linux64")).unwrap();
+    fs::copy(tests.join("importers/mass.xml"), parts.join("modelDescription.xml")).unwrap();
+    let mut compiler = Command::new("cc");
+    compiler.args(["-shared", "-fPIC", "-O2", "-Wall", "-Wextra", "-Werror", "-o"]);
+    compiler.arg(parts.join("binaries/linux64/mass.so")).arg(tests.join("c/mass.c"));
+    command::output(&mut compiler).with_status(0);
+    let mut zip = Command::new("python3");
+    zip.args(["-m", "zipfile", "-c", "../mass.fmu", "binaries", "modelDescription.xml"]).current_dir(&parts);
+    command::output(&mut zip).with_status(0);
+}
+
+/// The forces [N] after each step by the C interface; the history must go through every regime.
+fn reference() -> Vec<f64> {
+    let unit = Unit::load(&unit::steel_ball_with_regime());
+    let mut instance = unit.ready();
+    let mut regimes = BTreeSet::new();
+    let forces = (0..STEPS).map(|index| {
+        instance.set_one("indentation_rate", rate(index));
+        assert_eq!(instance.step(f64::from(index) * STEP, STEP), OK);
+        regimes.insert(instance.integer("regime"));
+        instance.real("force")
+    });
+    let forces = forces.collect();
+    assert_eq!(regimes.into_iter().collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
+    forces
+}
+
+/// Runs a driver to its end; its result is in `result` as far as it came.
+fn run(driver: &Driver, folder: &Path) -> Result<Value, String> {
+    let importers = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers");
+    let requirements = importers.join(format!("requirements-{}.txt", driver.requirements));
+    let python = python::environment_of(&format!("importers-{}", driver.requirements), &requirements)
+        .map_err(|reason| format!("can't be installed: {}", last_line(&reason)))?;
+    let [result, log] = ["json", "log"].map(|ending| folder.join(driver.name).with_extension(ending));
+    let written = File::create(&log).unwrap();
+    let mut process = Command::new(python)
+        .arg(importers.join(format!("with_{}.py", driver.name)))
+        .args([folder, &result])
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .stdin(Stdio::null())
+        .stdout(written.try_clone().unwrap())
+        .stderr(written)
+        .spawn()
+        .map_err(|error| format!("can't be started: {error}"))?;
+    let start = Instant::now();
+    let status = loop {
+        match process.try_wait().map_err(|error| error.to_string())? {
+            Some(status) => break status,
+            None if start.elapsed() > HANGS => {
+                process.kill().and_then(|()| process.wait()).map_err(|error| error.to_string())?;
+                return Err(format!("hangs, see {}", log.display()));
+            }
+            None => sleep(Duration::from_millis(20)),
+        }
+    };
+    if !status.success() {
+        let text = String::from_utf8_lossy(&fs::read(&log).unwrap_or_default()).into_owned();
+        return Err(format!("{status}: {}", last_line(&text)));
+    }
+    result_of(driver, folder)
+}
+
+/// What a driver has written.
+fn result_of(driver: &Driver, folder: &Path) -> Result<Value, String> {
+    let text = fs::read_to_string(folder.join(driver.name).with_extension("json"));
+    let text = text.map_err(|error| format!("no result: {error}"))?;
+    serde_json::from_str(&text).map_err(|error| format!("no result: {error}"))
+}
+
+fn last_line(text: &str) -> String {
+    text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default().to_string()
+}
+
+/// The restitution of the ball by `brinell predict`.
+fn predicted() -> f64 {
+    let run =
+        command::run(command::empty_folder().path(), [Path::new("predict"), &ball("serial"), Path::new("--json")]);
+    run.with_status(0).json()["laws"][0]["restitution"].as_f64().expect("a number")
+}
+
+/// The row of the `fmi` crate.
+fn fmi_crate(folder: &Path, forces: &[f64]) -> Row {
+    let bits = fmi_crate::forces_by_fmi_crate(&folder.join("contact.fmu"), &folder.join("history.txt"));
+    let found: Vec<_> = bits.lines().map(|line| f64::from_bits(u64::from_str_radix(line, 16).unwrap())).collect();
+    let (_, version) =
+        include_str!("importers/Cargo.toml").split_once("fmi = { version = \"").expect("its requirement");
+    let version = version.split('"').next().unwrap_or_default();
+    Row {
+        agreement: Some(importer_table::difference(&found, forces)),
+        ..Row::named("`fmi` crate (Rust)", version, "-")
+    }
+}
+
+#[test]
+fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitution() {
+    let (folder, forces, restitution) = (folder("right", false), reference(), predicted());
+    let mut table = Table::default();
+    table.rows.push(fmi_crate(&folder, &forces));
+    let all = env::var("BRINELL_IMPORTERS").is_ok_and(|value| value == "all");
+    for driver in &DRIVERS {
+        if driver.large && !all {
+            table.not_run.push((driver.name.into(), "large; with BRINELL_IMPORTERS=all".into()));
+            continue;
+        }
+        match run(driver, &folder) {
+            Ok(result) => table.rows.extend(importer_table::rows(&result, &forces, restitution)),
+            Err(reason) if reason.starts_with("can't be installed") => table.not_run.push((driver.name.into(), reason)),
+            Err(reason) => {
+                // what it had done before it crashed
+                let done = result_of(driver, &folder).unwrap_or_default();
+                table.rows.extend(importer_table::rows(&done, &forces, restitution));
+                table.rows.push(Row { failure: Some(reason), ..Row::named(driver.name, "", "-") });
+            }
+        }
+    }
+    table.not_run.extend(NOT_RUN.map(|(tool, reason)| (tool.to_string(), reason.to_string())));
+    table.print();
+    let wrong = table.wrong();
+    assert!(wrong.is_empty(), "{wrong:#?}; logs are in {}", folder.display());
+    assert!(table.rows.len() > 1, "no importer could be installed");
+    if env::var_os("BRINELL_WRITE").is_some() {
+        table.write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/importers.md"));
+    }
+}
+
+/// The table can fail: with the unit for the other kind of master the ball is far off.
+#[test]
+fn a_unit_for_the_other_kind_of_master_is_seen_in_the_table() {
+    let (folder, forces, restitution) = (folder("swapped", true), reference(), predicted());
+    let result = run(&DRIVERS[0], &folder).unwrap_or_else(|reason| panic!("{reason}"));
+    let rows: Vec<_> = importer_table::rows(&result, &forces, restitution).collect();
+    for order in ["serial", "parallel"] {
+        for row in rows.iter().filter(|row| row.order == order) {
+            assert!(row.errors.iter().any(|error| error.abs() > 0.1), "{row:?}");
+        }
+    }
+}
