@@ -150,7 +150,7 @@ fn an_elastic_unit_has_no_code_of_a_plastic_law() {
     assert_eq!(named(&elastic, &loading), BTreeSet::from(["hertz.rs".to_string()]));
     assert_eq!(named(&elastic, &unloading), BTreeSet::new());
     // functions of their own, by their mangled names
-    let names = ["unloading_path", "unloading_segment", "recovered_work", "dissipated_in_dent"];
+    let names = ["path_of_dent", "unloading_segment", "recovered_work", "dissipated_in_dent"];
     let functions = |library: &[u8]| -> Vec<&str> {
         names.into_iter().filter(|name| contains(library, format!("{}{name}", name.len()).as_bytes())).collect()
     };

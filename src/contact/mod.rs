@@ -124,13 +124,28 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The path on which the load comes off from `max_indentation` \[m\] > 0, from the residual indentation (its lower end)
     /// to `max_indentation` (its upper end). Up to the yield point it is the loading curve itself.
-    #[inline(never)]
+    #[inline(always)]
     pub fn unloading_path(&self, max_indentation: f64) -> Segment {
+        // of a law that never yields nothing plastic is compiled
+        match self.loading.can_yield() {
+            true => self.path_of_dent(max_indentation),
+            false => self.elastic_path(max_indentation),
+        }
+    }
+
+    /// The same for a law that yields.
+    #[inline(never)]
+    fn path_of_dent(&self, max_indentation: f64) -> Segment {
         if self.is_elastic_at(max_indentation) {
-            Segment { upper: max_indentation, ..self.loading.segment(&self.pair, 0.0) }
+            self.elastic_path(max_indentation)
         } else {
             self.path_from(&self.peak(max_indentation))
         }
+    }
+
+    /// The same before yield.
+    fn elastic_path(&self, max_indentation: f64) -> Segment {
+        Segment { upper: max_indentation, ..self.loading.segment(&self.pair, 0.0) }
     }
 
     /// The same for a `peak` beyond the yield point.
