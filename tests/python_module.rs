@@ -26,6 +26,7 @@ fn scenes() -> Vec<PathBuf> {
         scene("steel_ball"),
         scene("coupled"),
         scene("mass_known"),
+        with("regime", "[fmu]\noutputs = [\"indentation\", \"regime\"]"),
         with("two", &format!("[fmu]\noutputs = {OUTPUTS}\n[coupling]\neffective_mass = 4e-3\n{two}")),
         with("row", "[fmu]\noutputs = [\"indentation\", \"regime\"]\n[[contact]]\nname = \"bead\"\ncount = 3"),
         with(

@@ -151,7 +151,7 @@ def test_a_refused_parameter_is_told_in_the_words_of_the_unit(value):
 
 
 def test_values_by_name():
-    with contact("steel_ball") as made:
+    with contact("regime") as made:
         made.step(1e-6, 1.0)
         assert made["indentation"] == 1e-6 and isinstance(made["regime"], int)
         assert set(made.outputs) | set(made.parameters) | {"indentation_rate"} == {
