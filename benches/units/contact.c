@@ -14,7 +14,7 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { INDENTATION_RATE, FORCE, FIRST_PARAMETER = 6, PARAMETERS = sizeof(Parameters) / sizeof(double) };
+enum { INDENTATION_RATE, FORCE, FIRST_PARAMETER = 5, PARAMETERS = sizeof(Parameters) / sizeof(double) };
 
 typedef struct {
     Clock clock;
