@@ -47,7 +47,8 @@ pub trait Contact<M>: Copy {
     /// [`TooDeep`] beyond the range of the law; the contact is then where it was.
     fn step<B: Borrow<M>>(&mut self, course: &Course, step: f64, model: impl Fn() -> B) -> Result<f64, TooDeep>;
 
-    /// [`Contact::step`], which for a contact that follows the rate has that held, with the mean force of it \[N\] behind the largest indentation \[m\].
+    /// [`Contact::step`], with two results: the largest indentation on the way \[m\], and the mean force of the step \[N\]. A contact
+    /// that follows the rate has it held.
     ///
     /// # Errors
     /// As for [`Contact::step`].
@@ -65,8 +66,8 @@ pub trait Contact<M>: Copy {
     /// and began at the indentation `from` \[m\].
     fn mean_force_of_short_course(&self, from: f64, course: &Course, step: f64) -> f64;
 
-    /// [`Contact::step`] with `rate` \[m/s\] held, for a step that is not a [short](Contact::short_step) one. It asks for the model,
-    /// of which this much is `kept`, only if it needs the law.
+    /// [`Contact::step`] with `rate` \[m/s\] held, mostly for a step that is not a [short](Contact::short_step) one. It asks for the
+    /// model, of which this much is `kept`, only if it needs the law.
     ///
     /// # Errors
     /// As for [`Contact::step`].

@@ -92,11 +92,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
 
     /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
     pub fn peak(&self, indentation: f64) -> Peak {
-        let mut peak = self.point_of_loading(indentation);
-        if self.unloading.needs_work() {
-            peak.work = self.loading.work(&self.pair, indentation);
-        }
-        peak
+        Peak { work: self.work_for_unloading(indentation), ..self.point_of_loading(indentation) }
     }
 
     /// The same without the work: one piece of code for whoever is in no hurry.

@@ -101,9 +101,9 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
 
     /// Impulse over the smooth `piece`, from one time and indentation to another.
     fn over(&self, piece: &Piece<'_, L, U>, (start, end): (f64, f64), (from, to): (f64, f64)) -> f64 {
-        // a law of segments is only asked with the rate held
-        let whole = if self.model.is_segmented() { Some(piece.segment()) } else { piece.whole() };
-        if let Some(segment) = whole.filter(|_| self.model.is_segmented() || self.course.is_held()) {
+        // a law that is made of segments comes here with the rate held only, and then needs no rule
+        let is_held = self.model.is_segmented() || self.course.is_held();
+        if is_held && let Some(segment) = piece.whole() {
             return (end - start) * segment.mean_force(from, to);
         }
         let force = |time: f64| piece.force(self.at(time));

@@ -102,11 +102,6 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         self.model.is_segmented() || self.is_whole
     }
 
-    /// The segment that the whole piece is, or one somewhere on it.
-    pub(super) fn segment(&self) -> &Segment {
-        &self.segment
-    }
-
     /// The segment that the whole piece is, if it is one.
     pub fn whole(&self) -> Option<&Segment> {
         self.is_whole().then_some(&self.segment)

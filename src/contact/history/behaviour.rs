@@ -83,7 +83,8 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         model: impl Fn() -> Model<L, U>,
     ) -> Result<(), TooDeep> {
         let increment = rate * step;
-        if self.go_to_next_branch(increment, kept, &model) { Ok(()) } else { self.find_branch(&model(), increment) }
+        // a step that is only looked at may stay where it is
+        if self.go_to_next_branch(increment, kept, &model) { Ok(()) } else { self.advance(&model(), increment) }
     }
 
     fn mean_force(&self, model: &Model<L, U>, rate: f64, step: f64) -> Result<f64, TooDeep> {

@@ -104,22 +104,9 @@ impl History {
                 return Ok(());
             }
             // the indentation stays where it was until the branch is the one on which the way ends
-            self.turn_into(border, true, &model)?;
+            self.change_branch(model().borrow(), border, true)?;
         }
         Err(TooDeep { indentation: self.indentation() + increment })
-    }
-
-    /// Goes to the branch that holds at `indentation` \[m\], and leaves the contact where it is.
-    #[inline(never)]
-    fn turn_into<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
-        &mut self,
-        indentation: f64,
-        rising: bool,
-        model: impl Fn() -> B,
-    ) -> Result<(), TooDeep> {
-        let model = model();
-        let known = self.goes_on_path::<U>(indentation, rising, model.borrow().surface);
-        if known { Ok(()) } else { self.enter(model.borrow(), indentation, rising) }
     }
 
     /// Goes back by `increment` \[m\] until the time `end` \[s\]: down one path, and through the air.
@@ -139,7 +126,7 @@ impl History {
         if !self.advance_on_branch(increment) {
             let sum = self.indentation.plus(increment);
             if sum.total() != way.indentation {
-                self.turn_into(sum.total(), false, &model)?;
+                self.change_branch(model().borrow(), sum.total(), false)?;
             }
             self.indentation = sum;
         }

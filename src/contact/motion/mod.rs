@@ -13,7 +13,6 @@ mod fit;
 mod flight;
 mod line;
 mod moment;
-
 mod series;
 mod short;
 mod stretch;

@@ -1,0 +1,304 @@
+//! From branch to branch: the next one is found from the present one, and where that doesn't tell, from nothing.
+
+use super::{ANY, FARTHEST, History, LARGEST_FORCE, LARGEST_INDENTATION, Regime, TOUCHING, TooDeep};
+use crate::contact::loading::Loading;
+use crate::contact::material::YieldPoint;
+use crate::contact::numbers::next_above;
+use crate::contact::path::Sum;
+use crate::contact::segment::Segment;
+use crate::contact::unloading::Unloading;
+use crate::contact::{Model, Peak, Surface};
+use core::borrow::Borrow;
+
+impl History {
+    /// Moves the contact by `increment` \[m\] to the next branch, where the present one tells which that is; otherwise nothing is
+    /// done, and false. Where the law says what it is like the yield `point` and the model are asked for.
+    #[inline(always)]
+    pub(super) fn go_to_next_branch<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
+        &mut self,
+        increment: f64,
+        point: &YieldPoint,
+        model: impl Fn() -> B,
+    ) -> bool {
+        let sum = self.indentation.plus(increment);
+        let (before, indentation) = (self.indentation.total(), sum.total());
+        // a NaN is not below it
+        let found = indentation < LARGEST_INDENTATION
+            && if self.is_loading() && indentation < before {
+                self.turn(model().borrow(), point, before, indentation)
+            } else if indentation >= self.segment.upper {
+                if indentation > 0.0 && indentation >= self.max_indentation {
+                    indentation != before && {
+                        let model = model();
+                        let Model { loading, pair, .. } = model.borrow();
+                        self.load(model.borrow(), loading.branch(pair, point, indentation), indentation).is_ok()
+                    }
+                } else {
+                    self.meet::<U>(indentation) || self.touch(model().borrow(), point, indentation)
+                }
+            } else {
+                let leaves = indentation < self.segment.lower && indentation > -LARGEST_INDENTATION;
+                leaves && self.leave::<U>(model().borrow().surface, indentation)
+            };
+        if found {
+            self.indentation = sum;
+        }
+        found
+    }
+
+    /// Moves the contact by `increment` \[m\] to whatever branch holds there.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn find_branch<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        increment: f64,
+    ) -> Result<(), TooDeep> {
+        let sum = self.indentation.plus(increment);
+        // what overflows has no rest
+        let indentation = if sum.value.is_finite() { sum.total() } else { sum.value };
+        // no motion, no other branch: at its very end a branch that was entered from below is still the right one
+        if indentation != self.indentation.total() {
+            self.enter(model, indentation, increment > 0.0)?;
+        }
+        self.indentation = sum;
+        Ok(())
+    }
+
+    /// Puts the contact at `indentation` \[m\] exactly; at a corner on the branch that lies in the direction of motion.
+    ///
+    /// # Errors
+    /// As for [`History::advance`].
+    pub(in crate::contact) fn go_to<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        indentation: f64,
+        rising: bool,
+    ) -> Result<(), TooDeep> {
+        self.change_branch(model, indentation, rising)?;
+        self.indentation = Sum::new(indentation);
+        Ok(())
+    }
+
+    /// Goes to the branch that holds at `indentation` \[m\], and leaves the contact where it is.
+    ///
+    /// # Errors
+    /// As for [`History::advance`].
+    pub(super) fn change_branch<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        indentation: f64,
+        rising: bool,
+    ) -> Result<(), TooDeep> {
+        let known = self.goes_on_path::<U>(indentation, rising, model.surface);
+        if known { Ok(()) } else { self.enter(model, indentation, rising) }
+    }
+
+    /// Finds the branch that holds at `indentation`; at a corner the one that lies in the direction of motion.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn enter<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        indentation: f64,
+        rising: bool,
+    ) -> Result<(), TooDeep> {
+        let within = indentation > -LARGEST_INDENTATION && indentation < LARGEST_INDENTATION;
+        if !within {
+            return Err(TooDeep { indentation });
+        }
+        // on the loading curve the largest indentation is the present one
+        let largest = self.max_indentation();
+        if indentation > 0.0 && indentation >= largest {
+            let Model { loading, pair, .. } = model;
+            let branch = (loading.segment(pair, indentation), loading.regime(pair, indentation));
+            return self.load(model, branch, indentation);
+        }
+        self.max_indentation = largest;
+        let forgets = model.surface == Surface::Fresh && indentation <= 0.0;
+        if forgets && self.has_parted(model, indentation) {
+            self.left_behind += self.dissipated_in_dent(model);
+            self.max_indentation = 0.0;
+        }
+        let largest = self.max_indentation;
+        self.least_increment = ANY;
+        if !model.is_elastic_at(largest) {
+            let peak = model.peak(largest);
+            self.unload(model, &peak, model.path_from(&peak), indentation, rising);
+        } else if indentation > 0.0 {
+            self.spring(model.loading.segment(&model.pair, 0.0), largest);
+        } else {
+            self.regime = Regime::Apart;
+            self.segment = Segment::apart(FARTHEST, TOUCHING);
+        }
+        Ok(())
+    }
+
+    /// Below the `largest` indentation \[m\] of a contact that has not yielded, on the `elastic` branch of the law.
+    #[inline(always)]
+    fn spring(&mut self, elastic: Segment, largest: f64) {
+        self.regime = Regime::Elastic;
+        self.segment = Segment { lower: TOUCHING, upper: largest, ..elastic };
+    }
+
+    /// On this branch of the loading curve at `indentation` \[m\] > 0, which is the largest one.
+    ///
+    /// # Errors
+    /// [`TooDeep`] where a law ends before; the history is left as it was.
+    #[inline(always)]
+    fn load<L: Loading, U>(
+        &mut self,
+        model: &Model<L, U>,
+        (segment, regime): (Segment, Regime),
+        indentation: f64,
+    ) -> Result<(), TooDeep> {
+        // a law without segments may be a fit that ends before
+        let Segment { constant: force, linear: stiffness, .. } = segment;
+        let shows_numbers = model.loading.is_segmented() || force < LARGEST_FORCE && stiffness < LARGEST_FORCE;
+        if !shows_numbers {
+            return Err(TooDeep { indentation });
+        }
+        self.max_indentation = indentation;
+        self.segment = Segment { lower: indentation, ..segment };
+        self.least_increment = 0.0;
+        self.regime = regime;
+        Ok(())
+    }
+
+    /// Back from the loading curve, on which the contact is at `largest` \[m\], to `indentation` \[m\]; false, with nothing done,
+    /// if that may be outside of the dent.
+    #[inline(always)]
+    fn turn<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        point: &YieldPoint,
+        largest: f64,
+        indentation: f64,
+    ) -> bool {
+        if indentation <= 0.0 {
+            return false;
+        }
+        self.max_indentation = largest;
+        self.least_increment = ANY;
+        if self.regime == Regime::Elastic {
+            // both ways on the same curve
+            (self.segment.lower, self.segment.upper) = (TOUCHING, largest);
+        } else if model.yields_before(point, largest) {
+            let peak = model.peak_at(point, largest, self.force_at::<U>(largest));
+            let path = model.unloading.path(&model.pair, &peak);
+            self.unload(model, &peak, path, indentation, false);
+        } else {
+            self.spring(model.loading.segment(&model.pair, 0.0), largest);
+        }
+        true
+    }
+
+    /// Below `peak`, on the `path` of its dent or apart from it.
+    #[inline(always)]
+    fn unload<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U>,
+        peak: &Peak,
+        path: Segment,
+        indentation: f64,
+        rising: bool,
+    ) {
+        if indentation > path.lower || (rising && indentation == path.lower) {
+            let segment = match U::SEGMENTED {
+                true => path,
+                false => model.unloading.tangent(&model.pair, peak, &path, indentation),
+            };
+            self.press(&path, segment);
+        } else {
+            self.part(&path, model, indentation);
+        }
+    }
+
+    /// Meets the path of the dent again at `indentation` \[m\], if the contact has kept it; otherwise nothing is done, and false.
+    #[inline(always)]
+    fn meet<U: Unloading>(&mut self, indentation: f64) -> bool {
+        let residual = self.segment.origin;
+        // a fresh surface may forget its dent below zero
+        let is_kept = U::SEGMENTED && self.regime == Regime::Apart && residual == self.segment.upper;
+        let meets = is_kept && indentation > 0.0;
+        if meets {
+            (self.segment.lower, self.segment.upper) = (next_above(residual), self.max_indentation);
+            self.regime = Regime::Unloaded;
+        }
+        meets
+    }
+
+    /// Touches a surface that has not yielded, at `indentation` \[m\] below the largest one; otherwise nothing is done, and false.
+    #[inline(always)]
+    fn touch<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, point: &YieldPoint, indentation: f64) -> bool {
+        let touches =
+            self.regime == Regime::Apart && indentation > 0.0 && !model.yields_before(point, self.max_indentation);
+        if touches {
+            self.spring(model.loading.segment(&model.pair, 0.0), self.max_indentation);
+        }
+        touches
+    }
+
+    /// Parts from the path of the dent, or meets it again, if the contact knows it; otherwise nothing is done, and false. At the
+    /// end of the path the direction decides.
+    #[inline]
+    fn goes_on_path<U: Unloading>(&mut self, indentation: f64, rising: bool, surface: Surface) -> bool {
+        let residual = self.segment.origin;
+        let inside = indentation > residual || (rising && indentation == residual);
+        // written so that a NaN is left to the law
+        let below = indentation < self.max_indentation && indentation > -LARGEST_INDENTATION;
+        below && if inside { self.meet::<U>(indentation) } else { self.leave::<U>(surface, indentation) }
+    }
+
+    /// Leaves the surface for `indentation` \[m\]: the path of a dent that begins with no force, or where it has not yielded.
+    /// Otherwise nothing is done, and false.
+    #[inline(always)]
+    fn leave<U: Unloading>(&mut self, surface: Surface, indentation: f64) -> bool {
+        let residual = self.segment.origin;
+        // a fresh surface may forget its dent
+        let stays = surface == Surface::Dented || indentation > 0.0;
+        let begins = U::SEGMENTED && self.segment.lower == next_above(residual);
+        if self.regime == Regime::Unloaded && begins && self.segment.constant == 0.0 && stays {
+            (self.segment.lower, self.segment.upper) = (farthest(surface, indentation), residual);
+            self.regime = Regime::Apart;
+            return true;
+        }
+        let springs = self.regime == Regime::Elastic && !self.is_loading() && stays;
+        if springs {
+            self.segment = Segment::apart(FARTHEST, TOUCHING);
+            self.regime = Regime::Apart;
+        }
+        springs
+    }
+
+    /// On the `path` of a dent, or on a `segment` of it.
+    #[inline(always)]
+    fn press(&mut self, path: &Segment, segment: Segment) {
+        self.regime = Regime::Unloaded;
+        let lower = if segment.lower > path.lower { segment.lower } else { next_above(path.lower) };
+        self.segment = Segment { lower, ..segment };
+    }
+
+    /// Apart at `indentation` \[m\], with the dent that `path` leads to.
+    #[inline(always)]
+    fn part<L, U: Unloading>(&mut self, path: &Segment, model: &Model<L, U>, indentation: f64) {
+        self.regime = Regime::Apart;
+        let lower = farthest(model.surface, indentation);
+        self.segment = match U::SEGMENTED && path.begins_at_origin() {
+            true => Segment { lower, upper: path.origin, ..*path },
+            false => Segment::apart(lower, path.lower),
+        };
+    }
+
+    /// Whether there is no contact at `indentation` \[m\] <= 0. Laws that make energy may hold on beyond the original surface.
+    fn has_parted<L: Loading, U: Unloading>(&self, model: &Model<L, U>, indentation: f64) -> bool {
+        let largest = self.max_indentation();
+        model.is_elastic_at(largest) || indentation <= model.unloading_path(largest).lower
+    }
+}
+
+/// How far a contact can go from `indentation` \[m\] without another branch \[m\]. A fresh surface forgets its dent at zero, so that
+/// the border must be noticed.
+fn farthest(surface: Surface, indentation: f64) -> f64 {
+    if surface == Surface::Fresh && indentation > 0.0 { TOUCHING } else { FARTHEST }
+}
