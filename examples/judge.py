@@ -77,6 +77,24 @@ def alone(path, height, gravity, mass, end, h):
     return np.array(rows).T
 
 
+def ball(engine, motion, reference, own, error):
+    """Judges the dropped ball and draws it: times [s], heights [m] and speeds [m/s] in the engine and
+    by the unit alone, and times and heights by the engine's own contact. Heights may differ by
+    `error` [m]."""
+    time, height, speed = motion
+    agree("speed, engine against the unit alone [m/s]", speed, reference[2], 1e-9)
+    agree("height, engine against the unit alone [m]", height, reference[1], error)
+    second_flight(height, own[1])
+    picture(
+        f"{engine}: a steel ball bounces, 1 ms steps",
+        [
+            (time, 1e3 * height, "engine with the unit", "-"),
+            (reference[0][::25], 1e3 * reference[1][::25], "the unit alone", "."),
+            (own[0], 1e3 * own[1], "the engine's own contact", "--"),
+        ],
+    )
+
+
 def second_flight(height, own):
     """Prints the largest height [m] between first and second impact, by the unit and by an engine's
     own contact; rows are milliseconds apart."""

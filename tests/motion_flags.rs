@@ -87,20 +87,24 @@ fn no_motion_raises_an_exception() {
     }
 }
 
+/// A course of any size, and the length of its step [s].
+fn any_course(random: &mut Random) -> (Course, f64) {
+    let step = signed(random, 1e-18, 1e3).abs().max(1e-18);
+    let size = signed(random, 1e-30, 1e-4).abs();
+    let mut derivative = |order: i32| {
+        let number = if random.next() < 0.3 { signed(random, 1e-300, 1e-4) } else { size * (random.next() - 0.5) };
+        number / step.powi(order)
+    };
+    (Course { rate: derivative(1), slope: derivative(2), bend: derivative(3) }, step)
+}
+
 #[test]
 fn no_step_along_a_course_raises_an_exception() {
     let models = all_models(pair_of(0.005, 2e11, 3e8));
     let mut random = Random(4);
     for _ in 0..30_000 {
         let Some((name, model, mut history)) = contact(&mut random, &models) else { continue };
-        let step = signed(&mut random, 1e-18, 1e3).abs().max(1e-18);
-        let size = signed(&mut random, 1e-30, 1e-4).abs();
-        let mut derivative = |order: i32| {
-            let number =
-                if random.next() < 0.3 { signed(&mut random, 1e-300, 1e-4) } else { size * (random.next() - 0.5) };
-            number / step.powi(order)
-        };
-        let course = Course { rate: derivative(1), slope: derivative(2), bend: derivative(3) };
+        let (course, step) = any_course(&mut random);
         let (result, flags) = raised(|| impulse(&history, &model, &course, step));
         let what = format!("{name}, {course:?} for {step:e} s from {} m", history.indentation());
         if result.is_ok() {
@@ -127,14 +131,7 @@ fn no_mean_force_along_branches_raises_an_exception() {
     for _ in 0..30_000 {
         let Ok(mut history) = History::start(&model, -signed(&mut random, 1e-30, 1e-3)) else { continue };
         for _ in 0..4 {
-            let step = signed(&mut random, 1e-18, 1e3).abs().max(1e-18);
-            let size = signed(&mut random, 1e-30, 1e-4).abs();
-            let mut derivative = |order: i32| {
-                let number =
-                    if random.next() < 0.3 { signed(&mut random, 1e-300, 1e-4) } else { size * (random.next() - 0.5) };
-                number / step.powi(order)
-            };
-            let course = Course { rate: derivative(1), slope: derivative(2), bend: derivative(3) };
+            let (course, step) = any_course(&mut random);
             let from = history.indentation();
             let (result, flags) = raised(|| history.step_with_mean_force(&course, step, || &model));
             assert!(result.is_err() || flags == 0, "{course:?} for {step:e} s from {from} m: {result:?}");

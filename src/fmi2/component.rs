@@ -2,10 +2,11 @@
 
 use super::abi::fmi2ComponentEnvironment;
 use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2Error, fmi2OK, fmi2Status, fmi2String};
+use super::category::{Category, DEEP, DISCARD, FAST, GUARD, MISWIRED, UNSTABLE};
 use super::complaint::Complaint;
 use super::handle::Handle;
 use super::order::{Function, PREFIX};
-use super::report::{Category, DEEP, DISCARD, FAST, GUARD, MISWIRED, UNSTABLE, describe, describe_warning};
+use super::report::{describe, describe_warning};
 use super::text::Text;
 use crate::instance::{Instance, Phase, Warning};
 use crate::scene::{Presence, Scene};

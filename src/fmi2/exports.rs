@@ -4,7 +4,7 @@
 //! does a reader.
 
 use super::abi::*;
-use super::{lifecycle, states, stepping, variables};
+use super::{lifecycle, states, status, stepping, variables};
 use crate::scene::exported::Exported;
 
 /// The platform types: those of `fmi2TypesPlatform.h`, "default".
@@ -289,14 +289,14 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
     // SAFETY: as the caller promises.
-    unsafe { stepping::get_status::<Exported>(c, s, value) }
+    unsafe { status::get_status::<Exported>(c, s, value) }
 }
 
 /// For fmi2LastSuccessfulTime: the end of the last step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
     // SAFETY: as the caller promises.
-    unsafe { stepping::get_real_status::<Exported>(c, s, value) }
+    unsafe { status::get_real_status::<Exported>(c, s, value) }
 }
 
 /// There is no status of this type.
@@ -307,7 +307,7 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(
     value: *mut fmi2Integer,
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
-    unsafe { stepping::get_integer_status::<Exported>(c, s, value) }
+    unsafe { status::get_integer_status::<Exported>(c, s, value) }
 }
 
 /// For fmi2Terminated: false, since the unit never wants to end by itself.
@@ -318,7 +318,7 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(
     value: *mut fmi2Boolean,
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
-    unsafe { stepping::get_boolean_status::<Exported>(c, s, value) }
+    unsafe { status::get_boolean_status::<Exported>(c, s, value) }
 }
 
 /// There is no status of this type: no step is ever pending.
@@ -329,7 +329,7 @@ pub unsafe extern "C" fn fmi2GetStringStatus(
     value: *mut fmi2String,
 ) -> fmi2Status {
     // SAFETY: as the caller promises.
-    unsafe { stepping::get_string_status::<Exported>(c, s, value) }
+    unsafe { status::get_string_status::<Exported>(c, s, value) }
 }
 
 /// Copies the instance into a state; memory is allocated only if `FMUstate` points to null.

@@ -1,12 +1,12 @@
 //! Versions, instantiation, logging, initialization, termination, reset.
 
 use super::abi::*;
+use super::category::{ALL_CATEGORIES, Category};
 use super::complaint::Complaint;
 use super::component::{Component, Logger, array, call};
 use super::handle::Handle;
 use super::memory;
 use super::order;
-use super::report::{ALL_CATEGORIES, Category};
 use super::text::{extent, is_same};
 use crate::scene::Scene;
 use core::ffi::c_char;

@@ -9,12 +9,13 @@
 //! | [`component`] | what an `fmi2Component` points to; the guard that every call passes |
 //! | [`order`] | which function may be called in which phase: the standard's state table |
 //! | [`complaint`] | why a call is refused |
-//! | [`report`] | a refused call or a warning as status, log category and text |
+//! | [`category`] | the categories of the log, and the status of a refused call |
+//! | [`report`] | a refused call or a warning as text |
 //! | [`text`] | text without allocation and without panic |
 //! | [`memory`] | memory from the process |
 //! | [`handle`] | the pointers that importers get, each with its type |
 //! | [`state`] | FMU states and their bytes |
-//! | [`lifecycle`], [`variables`], [`stepping`], [`states`] | the functions, for any scene |
+//! | [`lifecycle`], [`variables`], [`stepping`], [`status`], [`states`] | the functions, for any scene |
 //! | `exports` | the C symbols |
 //!
 //! # Safety
@@ -24,6 +25,7 @@
 #![allow(non_camel_case_types, non_snake_case, non_upper_case_globals, clippy::missing_safety_doc)]
 
 pub mod abi;
+pub mod category;
 pub mod complaint;
 pub mod component;
 #[cfg(feature = "fmu")]
@@ -35,6 +37,7 @@ pub mod order;
 pub mod report;
 pub mod state;
 pub mod states;
+pub mod status;
 pub mod stepping;
 pub mod text;
 pub mod variables;

@@ -1,12 +1,12 @@
-//! The step, its derivatives and its status.
+//! The step, and derivatives of inputs and outputs.
 
 use super::abi::*;
 use super::complaint::Complaint;
-use super::component::{Component, array, array_mut, call, object};
+use super::component::{Component, array, array_mut, call};
 use super::handle::Handle;
-use super::order::{self, Function};
+use super::order;
 use super::variables::{any_real, real};
-use crate::instance::{Instance, Plain};
+use crate::instance::Plain;
 use crate::scene::{Presence, Scene};
 
 /// Reference of the input of the first contact.
@@ -100,22 +100,13 @@ unsafe fn do_any_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2S
     }
 }
 
-/// The answer of a function that this unit doesn't support.
-///
-/// # Safety
-/// The caller's component.
-unsafe fn unsupported<S: Scene>(c: fmi2Component, function: Function) -> fmi2Status {
-    // SAFETY: as the caller promises.
-    unsafe { call::<S>(c, function, |_| Err(Complaint::Unsupported)) }
-}
-
 /// Refused: no step is ever in progress.
 ///
 /// # Safety
 /// See [the module](super#safety).
 pub unsafe fn cancel_step<S: Scene>(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { unsupported::<S>(c, order::CANCEL_STEP) }
+    unsafe { call::<S>(c, order::CANCEL_STEP, |_| Err(Complaint::Unsupported)) }
 }
 
 /// Sets derivatives of inputs for the next step, after the inputs themselves. If one is refused none is set.
@@ -241,75 +232,4 @@ pub unsafe fn get_directional_derivative<S: Scene>(
             Ok(())
         })
     }
-}
-
-/// Writes `answer` for the status `kind`, if `kind` is the one that there is an answer to.
-///
-/// # Safety
-/// The caller's component and pointer.
-unsafe fn status<S: Scene, T: Copy>(
-    c: fmi2Component,
-    function: Function,
-    value: *mut T,
-    answer: impl FnOnce(&Instance<S>) -> Option<T>,
-) -> fmi2Status {
-    // SAFETY: as the caller promises.
-    unsafe {
-        call::<S>(c, function, |component| {
-            let value = object(value, "value")?;
-            *value = answer(&component.instance).ok_or(Complaint::Unavailable)?;
-            Ok(())
-        })
-    }
-}
-
-/// For fmi2DoStepStatus: fmi2OK, since no step runs on after its call.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn get_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
-    // SAFETY: the caller's component and pointer.
-    unsafe { status::<S, _>(c, order::GET_STATUS, value, |_| (s == fmi2DoStepStatus).then_some(fmi2OK)) }
-}
-
-/// For fmi2LastSuccessfulTime: the end of the last step.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn get_real_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
-    // SAFETY: the caller's component and pointer.
-    unsafe {
-        status::<S, _>(c, order::GET_REAL_STATUS, value, |instance| {
-            (s == fmi2LastSuccessfulTime).then_some(instance.time())
-        })
-    }
-}
-
-/// There is no status of this type.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn get_integer_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Integer) -> fmi2Status {
-    let _ = s;
-    // SAFETY: the caller's component and pointer.
-    unsafe { status::<S, _>(c, order::GET_INTEGER_STATUS, value, |_| None) }
-}
-
-/// For fmi2Terminated: false, since the unit never wants to end by itself.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn get_boolean_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Boolean) -> fmi2Status {
-    // SAFETY: the caller's component and pointer.
-    unsafe { status::<S, _>(c, order::GET_BOOLEAN_STATUS, value, |_| (s == fmi2Terminated).then_some(fmi2False)) }
-}
-
-/// There is no status of this type: no step is ever pending.
-///
-/// # Safety
-/// See [the module](super#safety).
-pub unsafe fn get_string_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2String) -> fmi2Status {
-    let _ = s;
-    // SAFETY: the caller's component and pointer.
-    unsafe { status::<S, _>(c, order::GET_STRING_STATUS, value, |_| None) }
 }

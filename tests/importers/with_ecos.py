@@ -31,17 +31,15 @@ def ball(path, step, watch):
         structure.add_model("mass", unit("mass"))
         structure.make_real_connection("mass::rate", "contact::indentation_rate")
         structure.make_real_connection("contact::mean_force", "mass::force")
-        with EcosSimulation(structure=structure, step_size=step) as simulation:
-            simulation.init()
-            with watch.running():
-                simulation.step(BALL_STEPS)
-            rate = simulation.get_real("mass::rate")
-            simulation.terminate()
-            return rate
+        return rebound(EcosSimulation(structure=structure, step_size=step), watch)
 
 
 def system(_path, step, watch):
-    with EcosSimulation(ssp_path=package, step_size=step) as simulation:
+    return rebound(EcosSimulation(ssp_path=package, step_size=step), watch)
+
+
+def rebound(ball, watch):
+    with ball as simulation:
         simulation.init()
         with watch.running():
             simulation.step(BALL_STEPS)

@@ -1,0 +1,89 @@
+//! The categories of log messages, and the bits that say which of them are logged.
+
+use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status, fmi2String};
+use super::complaint::Complaint;
+use super::text::is_same;
+use core::ffi::CStr;
+
+/// A category of log messages, as declared in the model description.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Category {
+    /// `logStatusDiscard`
+    Discard,
+    /// `logStatusError`
+    Error,
+    /// `logStatusWarning`: what a user should know of a simulation that goes on all the same.
+    Warning,
+}
+
+/// The bit of [`Category::Discard`] among those that are logged.
+pub const DISCARD: u8 = 1;
+
+/// That of [`Category::Error`], which has no effect.
+const ERROR: u8 = 2;
+
+/// The bit of [`Warning::Guarded`](crate::instance::Warning::Guarded). Each warning is told once: then its bit is off, until the
+/// importer switches its category on again.
+pub const GUARD: u8 = 4;
+/// The bit of [`Warning::Deep`](crate::instance::Warning::Deep).
+pub const DEEP: u8 = 8;
+/// The bit of [`Warning::Fast`](crate::instance::Warning::Fast).
+pub const FAST: u8 = 16;
+
+/// The bit of [`Warning::Miswired`](crate::instance::Warning::Miswired).
+pub const MISWIRED: u8 = 32;
+/// The bit of [`Warning::Unstable`](crate::instance::Warning::Unstable).
+pub const UNSTABLE: u8 = 64;
+
+/// Those of [`Category::Warning`].
+const WARNINGS: u8 = GUARD | DEEP | FAST | MISWIRED | UNSTABLE;
+
+impl Category {
+    /// The name of the category in the model description.
+    pub fn name(self) -> &'static CStr {
+        match self {
+            Category::Discard => c"logStatusDiscard",
+            Category::Error => c"logStatusError",
+            Category::Warning => c"logStatusWarning",
+        }
+    }
+
+    /// Where the message about a refused call belongs.
+    pub fn of(complaint: &Complaint) -> Category {
+        match complaint {
+            Complaint::Unavailable => Category::Discard,
+            _ => Category::Error,
+        }
+    }
+
+    /// What a call returns with such a message.
+    pub fn status(self) -> fmi2Status {
+        match self {
+            Category::Discard => fmi2Discard,
+            Category::Error => fmi2Error,
+            // many an importer stops at any other status
+            Category::Warning => fmi2OK,
+        }
+    }
+
+    /// The bits that the declared category `name` stands for.
+    ///
+    /// # Safety
+    /// `name` ends with 0.
+    pub unsafe fn bits(name: fmi2String) -> Option<u8> {
+        // SAFETY: as the caller promises.
+        let is = |own| unsafe { is_same(name, own) };
+        if is("logStatusDiscard") {
+            Some(DISCARD)
+        } else if is("logStatusError") {
+            Some(ERROR)
+        } else if is("logStatusWarning") {
+            Some(WARNINGS)
+        } else {
+            is("logAll").then_some(ALL_CATEGORIES)
+        }
+    }
+}
+
+/// `logAll`
+pub const ALL_CATEGORIES: u8 = DISCARD | ERROR | WARNINGS;
