@@ -37,6 +37,20 @@ def test_the_run_after_restoring_is_the_run_before_it(name, at):
 
 
 @every_unit
+@pytest.mark.parametrize("at", range(len(RATES)))
+def test_the_run_after_restoring_ends_in_the_same_bytes(name, at):
+    instance = unit(name).ready()
+    run(instance, RATES[:at])
+    saved, time = instance.state(), instance.time
+    run(instance, RATES[at:])
+    end = instance.state()
+    instance.restore(saved)
+    instance.time = time
+    run(instance, RATES[at:])
+    assert instance.state() == end
+
+
+@every_unit
 def test_a_state_in_memory_can_be_set_many_times(name):
     instance = unit(name).ready()
     run(instance, RATES[:3])
