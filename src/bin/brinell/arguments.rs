@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::platform::{self, Platform};
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -22,9 +23,11 @@ pub enum Command {
     Export {
         /// The scene file (TOML)
         scene: PathBuf,
-        /// Where to write the unit [default: NAME.fmu in the current folder]
+        /// Where to write the FMU [default: NAME.fmu in the current folder]
         #[arg(short, long)]
         output: Option<PathBuf>,
+        #[command(flatten)]
+        platforms: PlatformArguments,
     },
     /// Builds the unit of a scene and packs it as a system (SSP 1.0) with its parameters
     Ssp(SspArguments),
@@ -77,6 +80,43 @@ pub struct SspArguments {
     /// A connection such as contact.mean_force=mass.force; may be given several times
     #[arg(long, value_name = "UNIT.OUTPUT=UNIT.INPUT", requires = "with")]
     pub connect: Vec<String>,
+    #[command(flatten)]
+    pub platforms: PlatformArguments,
+}
+
+#[derive(clap::Args, Default)]
+pub struct PlatformArguments {
+    /// Platforms of the FMU: linux64, aarch64-linux, win64, darwin64, aarch64-darwin, or "all" [default: this machine's]
+    #[arg(long, value_delimiter = ',', value_name = "PLATFORM")]
+    platforms: Vec<String>,
+    /// Puts the arm64 library into linux64, for importers on ARM Linux that look only there
+    #[arg(long)]
+    arm64_in_linux64: bool,
+}
+
+impl PlatformArguments {
+    /// The platforms, each once, in the order of [`Platform::ALL`].
+    ///
+    /// # Errors
+    /// A sentence about a platform that doesn't exist.
+    pub fn chosen(&self) -> Result<Vec<Platform>, String> {
+        let mut chosen = Vec::new();
+        for name in &self.platforms {
+            match name.as_str() {
+                "all" => chosen.extend(Platform::ALL),
+                _ => chosen.push(platform::named(name)?),
+            }
+        }
+        if chosen.is_empty() {
+            chosen.push(platform::here().map_err(|error| error.to_string())?);
+        }
+        let mut platforms: Vec<_> = Platform::ALL.into_iter().filter(|platform| chosen.contains(platform)).collect();
+        if self.arm64_in_linux64 {
+            platforms.retain(|platform| platform.folder != Platform::ARM64_IN_LINUX64.folder);
+            platforms.insert(0, Platform::ARM64_IN_LINUX64);
+        }
+        Ok(platforms)
+    }
 }
 
 #[derive(clap::Args)]

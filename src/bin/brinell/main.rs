@@ -36,11 +36,12 @@ mod ssp;
 mod summary;
 mod symbols;
 mod table;
+mod toolchain;
 mod truth;
 mod validity;
 mod xml;
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, PlatformArguments};
 use clap::Parser;
 use plan::Plan;
 use scene::Scene;
@@ -76,13 +77,16 @@ fn leave_quietly_when_nobody_reads() {
 fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     let json = arguments.json;
     match &arguments.command {
-        None => return check::run(&export::run(&Scene::default_scene()?, None, json)?, json),
+        None => {
+            let platforms = PlatformArguments::default().chosen()?;
+            return check::run(&export::run(&Scene::default_scene()?, &platforms, None, json)?, json);
+        }
         Some(Command::Check { fmu }) => return check::run(fmu, json),
         Some(Command::Report { scene, output, peer, quick }) => {
             return Ok(report::run(&Scene::read(scene)?, peer, output.as_deref(), *quick, json)?);
         }
-        Some(Command::Export { scene, output }) => {
-            export::run(&Scene::read(scene)?, output.as_deref(), json)?;
+        Some(Command::Export { scene, output, platforms }) => {
+            export::run(&Scene::read(scene)?, &platforms.chosen()?, output.as_deref(), json)?;
         }
         Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
         Some(Command::Predict(arguments)) => predict::command::run(arguments, json)?,

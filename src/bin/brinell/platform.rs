@@ -1,38 +1,154 @@
-//! The platform that the program runs on, which is the one that it makes units for.
+//! The platforms that an FMU can have a library for.
 
 use std::env;
 
-/// What FMI 2.0 and the operating system call things here.
+/// A platform as FMI 2.0 sees it: a folder of an FMU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Platform {
-    /// Folder of the binaries in a unit.
+    /// Folder of the library, below `binaries`.
     pub folder: &'static str,
-    /// Ending of a library.
+    /// Ending of the library.
     pub extension: &'static str,
-    /// What rustc calls it. Given to it, so that no other target is a default: not even that of a toolchain made for another
-    /// C library.
-    pub target: &'static str,
+    /// What the library is compiled for: several targets make a universal library.
+    pub targets: &'static [Target],
 }
 
-/// A platform that has no units.
+/// One processor architecture of one operating system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// The name that rustc has for it. It is always given to rustc, so that no other target is a default: not even that of
+    /// a toolchain made for another C library.
+    pub triple: &'static str,
+    pub system: System,
+    pub processor: Processor,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum System {
+    Linux,
+    Windows,
+    MacOs,
+}
+
+impl System {
+    /// Ending of a library.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            System::Linux => "so",
+            System::Windows => "dll",
+            System::MacOs => "dylib",
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Processor {
+    X86_64,
+    Arm64,
+}
+
+const fn platform(folder: &'static str, targets: &'static [Target]) -> Platform {
+    Platform { folder, extension: targets[0].system.extension(), targets }
+}
+
+const LINUX_X86_64: Target = target("x86_64-unknown-linux-gnu", System::Linux, Processor::X86_64);
+const LINUX_ARM64: Target = target("aarch64-unknown-linux-gnu", System::Linux, Processor::Arm64);
+const WINDOWS_X86_64: Target = target("x86_64-pc-windows-msvc", System::Windows, Processor::X86_64);
+const MACOS_X86_64: Target = target("x86_64-apple-darwin", System::MacOs, Processor::X86_64);
+const MACOS_ARM64: Target = target("aarch64-apple-darwin", System::MacOs, Processor::Arm64);
+
+const fn target(triple: &'static str, system: System, processor: Processor) -> Target {
+    Target { triple, system, processor }
+}
+
+impl Target {
+    /// All of them, each once.
+    pub const ALL: [Target; 5] = [LINUX_X86_64, LINUX_ARM64, WINDOWS_X86_64, MACOS_X86_64, MACOS_ARM64];
+
+    /// The oldest macOS that the library is for: the first with arm64, and the oldest that the Rust compiler supports.
+    pub fn oldest_macos(&self) -> (u16, u8) {
+        match self.processor {
+            Processor::Arm64 => (11, 0),
+            Processor::X86_64 => (10, 12),
+        }
+    }
+
+    /// Whether the program itself runs on this target.
+    pub fn is_here(&self) -> bool {
+        let system = match self.system {
+            System::Linux => "linux",
+            System::Windows => "windows",
+            System::MacOs => "macos",
+        };
+        let processor = match self.processor {
+            Processor::X86_64 => "x86_64",
+            Processor::Arm64 => "aarch64",
+        };
+        (system, processor) == (env::consts::OS, env::consts::ARCH)
+    }
+}
+
+impl Platform {
+    /// All platforms. The folders are those of FMI 2.0.5, section 2.3: `linux64`, `win64` and `darwin64` mean x86; other
+    /// processors have the names of FMI 3.0. Since importers on Apple silicon look into `darwin64`, too, its library is universal.
+    pub const ALL: [Platform; 5] = [
+        platform("linux64", &[LINUX_X86_64]),
+        platform("aarch64-linux", &[LINUX_ARM64]),
+        platform("win64", &[WINDOWS_X86_64]),
+        platform("darwin64", &[MACOS_X86_64, MACOS_ARM64]),
+        platform("aarch64-darwin", &[MACOS_ARM64]),
+    ];
+
+    /// The arm64 library in the folder of x86-64: importers on ARM Linux look into `linux64` alone, and there is no universal ELF file.
+    pub const ARM64_IN_LINUX64: Platform = platform("linux64", &[LINUX_ARM64]);
+}
+
+/// A platform that has no FMUs.
 #[derive(Debug, thiserror::Error)]
-#[error("units for {os} on {arch} can't be made here: FMI 2.0 has no folder for this platform")]
+#[error("FMUs for {os} on {arch} can't be made: FMI 2.0 has no folder for this platform")]
 pub struct NoPlatform {
     os: &'static str,
     arch: &'static str,
 }
 
-/// This platform.
+/// The platform that the program runs on.
 ///
 /// # Errors
 /// [`NoPlatform`]
 pub fn here() -> Result<Platform, NoPlatform> {
-    let (folder, extension, target) = match (env::consts::OS, env::consts::ARCH) {
-        ("linux", "x86_64") => ("linux64", "so", "x86_64-unknown-linux-gnu"),
-        ("linux", "aarch64") => ("aarch64-linux", "so", "aarch64-unknown-linux-gnu"),
-        ("windows", "x86_64") => ("win64", "dll", "x86_64-pc-windows-msvc"),
-        ("macos", "x86_64") => ("darwin64", "dylib", "x86_64-apple-darwin"),
-        ("macos", "aarch64") => ("aarch64-darwin", "dylib", "aarch64-apple-darwin"),
-        (os, arch) => return Err(NoPlatform { os, arch }),
-    };
-    Ok(Platform { folder, extension, target })
+    let (os, arch) = (env::consts::OS, env::consts::ARCH);
+    let is_here = |platform: &&Platform| platform.targets[0].is_here();
+    Platform::ALL.iter().find(is_here).copied().ok_or(NoPlatform { os, arch })
+}
+
+/// The platform with this folder.
+///
+/// # Errors
+/// A sentence with the folders there are.
+pub fn named(folder: &str) -> Result<Platform, String> {
+    Platform::ALL.into_iter().find(|platform| platform.folder == folder).ok_or_else(|| {
+        let folders = Platform::ALL.map(|platform| platform.folder).join(", ");
+        format!("there is no platform `{folder}`, only {folders}, and `all` for all of them")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Platform, Target, here, named};
+
+    #[test]
+    fn every_platform_is_found_by_its_folder() {
+        for platform in Platform::ALL {
+            assert_eq!(named(platform.folder), Ok(platform));
+        }
+        let refusal = named("linux32").unwrap_err();
+        assert!(refusal.contains("`linux32`") && refusal.contains("aarch64-linux, win64"), "{refusal}");
+    }
+
+    #[test]
+    fn the_platform_of_this_machine_is_one_of_them() {
+        let here = here().expect("tests run on a known platform");
+        assert!(Platform::ALL.contains(&here) && here.targets[0].is_here());
+        assert_eq!(Target::ALL.iter().filter(|target| target.is_here()).count(), 1);
+    }
 }

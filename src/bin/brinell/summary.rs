@@ -1,7 +1,7 @@
 //! What `brinell export` says: what the unit has, and what was left out of it.
 
 use crate::interface::Entry;
-use crate::package::Exported;
+use crate::package::{Exported, Packed};
 use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{Causality, VARIABLES};
@@ -68,9 +68,15 @@ impl Summary<'_> {
         let left_out = VARIABLES.iter().map(|variable| variable.name.as_str());
         let left_out: Vec<_> = left_out.filter(|name| !shows(self.plan, name)).collect();
         let OtherLaws { loading, unloading, damped } = &self.laws;
+        let libraries = exported.libraries.iter();
+        let libraries: Value = libraries
+            .map(|Packed { platform, size, imports }| {
+                (platform.to_string(), json!({ "size": size, "imports": imports }))
+            })
+            .collect();
         let mut object = json!({
-            "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
-            "imports": exported.imports, "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
+            "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size(),
+            "imports": exported.imports(), "libraries": libraries, "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
             "makes_energy": self.plan.makes_energy, "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
             "variables": variables.iter().map(Entry::label).collect::<Vec<_>>(), "variable_count": self.variable_count(),
             "constants": constants.iter().map(|constant| &constant.name).collect::<Vec<_>>(),
@@ -95,12 +101,11 @@ impl Summary<'_> {
     /// For people.
     pub fn print(&self, exported: &Exported) {
         println!("{}", exported.path.display());
-        println!(
-            "  {} bytes, library {} bytes; needs no library, takes {} from the process",
-            exported.size,
-            exported.library_size,
-            exported.imports.join(", ")
-        );
+        println!("  {} bytes", exported.size);
+        for Packed { platform, size, imports } in &exported.libraries {
+            let from = if platform.starts_with("win") { "kernel32" } else { "the process" };
+            println!("  {platform:<15}{size:>7} bytes; takes {} from {from}", imports.join(", "));
+        }
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
         println!("  law        {}", law(scene));
         if let Some(guard) = guard {

@@ -21,6 +21,8 @@ pub enum ExportError {
     BrokenRustc(String),
     #[error("rustc {found} is too old: units need {needed} or newer (`rustup update`)")]
     OldRustc { found: String, needed: &'static str },
+    #[error("no library can be built for {triple}: {reason}; {help}")]
+    NoTarget { triple: &'static str, reason: String, help: String },
     #[error("there is no C linker `{linker}`, which rustc makes the library with: {install}")]
     NoLinker { linker: String, install: &'static str },
     #[error("the C linker `{linker}` fails ({status}): {said}")]
@@ -29,8 +31,8 @@ pub enum ExportError {
     NoSpace { folder: PathBuf, said: String },
     #[error("rustc doesn't build the library: {0}")]
     Compiler(String),
-    #[error("the library is not packed: {0}")]
-    Symbols(#[from] SymbolError),
+    #[error("the library for {platform} is not packed: {reason}")]
+    Symbols { platform: &'static str, reason: SymbolError },
     #[error("the archive can't be written: {0}")]
     Zip(#[from] zip::result::ZipError),
 }

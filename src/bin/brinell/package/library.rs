@@ -1,14 +1,18 @@
 //! The library of a unit: what the compiler is given, and how it is called.
 
+use super::compiler::Compilers;
 use super::error::ExportError;
 use super::folder::Cache;
+use super::link::{self, Linker};
 use super::rustc::Rustc;
-use super::{LIBM_SOURCE, LIBRARY_SOURCE, hash};
+use super::{LIBM_SOURCE, LIBRARY_SOURCE, hash, universal};
 use crate::files::FileError;
-use crate::platform::Platform;
+use crate::platform::{Platform, System, Target};
 use crate::scene::Scene;
-use std::path::Path;
-use std::{env, fs, io};
+use std::num::NonZero;
+use std::panic::resume_unwind;
+use std::path::{Path, PathBuf};
+use std::{fs, io, slice, thread};
 
 /// How everything is compiled. There is nothing to unwind, and one piece of code is optimized as one.
 const SETTINGS: [&str; 4] = ["-Cpanic=abort", "-Ccodegen-units=1", "-Cdebuginfo=0", "--cap-lints=allow"];
@@ -26,14 +30,13 @@ const LIBM: [&str; 7] = [
 ];
 
 /// How the library is.
-const LIBRARY: [&str; 7] = [
+const LIBRARY: [&str; 6] = [
     "--crate-name=unit",
     "--crate-type=cdylib",
     "--edition=2024",
     "--cfg=feature=\"fmu\"",
     "--cfg=feature=\"c-interface\"",
     "-Clto=fat",
-    "-Cstrip=symbols",
 ];
 
 /// Contacts from which on their loops are worth being fast instead of small.
@@ -45,40 +48,94 @@ fn optimization(scene: &Scene) -> &'static str {
     if scene.contact_count() < MANY_CONTACTS { "-Copt-level=s" } else { "-Copt-level=3" }
 }
 
-/// Leaves out what unwinding would need, and the compiler's name. Nothing unwinds through a library that cannot panic.
-const LINKER_SCRIPT: (&str, &str) =
-    ("unit.ld", "SECTIONS { /DISCARD/ : { *(.eh_frame) *(.comment) } } INSERT AFTER .text;\n");
+/// The functions that copy and compare bytes, for a system whose C library can't be relied on: one object file for the linker.
+const BYTES: [&str; 6] =
+    ["--crate-name=bytes", "--crate-type=lib", "--edition=2024", "--emit=obj", "-Copt-level=s", "-o"];
 
-/// Arguments for the linker: no start files and no library, symbols bound inside the unit first and at once.
-fn link_arguments() -> &'static [&'static str] {
-    match env::consts::OS {
-        "linux" => &[
-            "-Clink-arg=-nostartfiles",
-            "-Clink-arg=-nodefaultlibs",
-            "-Clink-arg=-Wl,-z,now,-Bsymbolic,--build-id=none,--hash-style=gnu,--no-eh-frame-hdr,-T,unit.ld",
-        ],
-        "windows" => &["-Clink-arg=/NOENTRY", "-Clink-arg=/DEBUG:NONE", "-Clink-arg=/Brepro"],
-        _ => &[],
-    }
-}
+/// The root of the crate of [`BYTES`]. Without `no_builtins` the functions would be made into calls of themselves.
+const BYTES_ROOT: (&str, &str) =
+    ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\nmod bytes;\n");
 
-/// Compiles the library with `constants` as its scene and gives its bytes.
+/// Compiles the library of `platform` with `constants` as its scene and gives its bytes.
 ///
 /// # Errors
 /// [`ExportError`]
 pub fn build(scene: &Scene, constants: &str, platform: &Platform) -> Result<Vec<u8>, ExportError> {
+    let mut libraries = build_all(scene, constants, slice::from_ref(platform))?;
+    Ok(libraries.remove(0))
+}
+
+/// The libraries of `platforms`, as of [`build`]. What two platforms share is compiled once, and several targets at the same time.
+///
+/// # Errors
+/// [`ExportError`]
+pub fn build_all(scene: &Scene, constants: &str, platforms: &[Platform]) -> Result<Vec<Vec<u8>>, ExportError> {
     let cache = Cache::open()?;
-    let rustc = Rustc::find(&cache.folder)?;
+    let compilers = Compilers::find(&cache)?;
+    let mut targets: Vec<Target> = Vec::new();
+    for target in platforms.iter().flat_map(|platform| platform.targets) {
+        if !targets.contains(target) {
+            targets.push(*target);
+        }
+    }
     let folder = cache.build_folder()?;
-    let settings = [SETTINGS.as_slice(), &[optimization(scene), "--target", platform.target]].concat();
-    make_libm(&cache, &rustc, folder.path(), &settings)?;
-    let own = [("src/scene/exported.rs", constants), LINKER_SCRIPT];
-    write(&cache, folder.path(), LIBRARY_SOURCE.iter().copied().chain(own))?;
-    let library = format!("unit.{}", platform.extension);
-    let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library];
-    rustc.run(folder.path(), settings.iter().chain(&LIBRARY).chain(link_arguments()).chain(&named))?;
-    let library = folder.path().join(library);
-    Ok(fs::read(&library).map_err(FileError::at(&library))?)
+    // what is missing is told before anything is compiled
+    let builds = targets.iter().map(|target| {
+        let (rustc, linker) = compilers.for_target(target)?;
+        Ok(Build { cache: &cache, folder: folder.path().join(target.triple), rustc, linker, target: *target })
+    });
+    let builds = builds.collect::<Result<Vec<_>, ExportError>>()?;
+    let mut slices = Vec::new();
+    for at_once in builds.chunks(thread::available_parallelism().map_or(1, NonZero::get)) {
+        let built: Vec<_> = thread::scope(|scope| {
+            let threads = at_once.iter().map(|build| scope.spawn(|| build.run(scene, constants)));
+            let threads: Vec<_> = threads.collect();
+            threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+        });
+        for library in built {
+            slices.push(library?);
+        }
+    }
+    let slice = |target: &Target| {
+        let at = targets.iter().position(|other| other == target).expect("every target was built");
+        slices[at].as_slice()
+    };
+    let join = |platform: &Platform| universal::join(&platform.targets.iter().map(slice).collect::<Vec<_>>());
+    Ok(platforms.iter().map(join).collect())
+}
+
+/// One library for one target.
+struct Build<'a> {
+    cache: &'a Cache,
+    folder: PathBuf,
+    rustc: &'a Rustc,
+    linker: Linker,
+    target: Target,
+}
+
+impl Build<'_> {
+    fn run(&self, scene: &Scene, constants: &str) -> Result<Vec<u8>, ExportError> {
+        let Build { cache, folder, rustc, linker, target } = self;
+        let settings = [SETTINGS.as_slice(), &[optimization(scene), "--target", target.triple]].concat();
+        fs::create_dir_all(folder).map_err(FileError::at(folder)).map_err(|error| no_space(cache, error))?;
+        make_libm(cache, rustc, folder, &settings)?;
+        let own = [("src/scene/exported.rs", constants), BYTES_ROOT];
+        write(cache, folder, LIBRARY_SOURCE.iter().copied().chain(own).chain(link::files()))?;
+        let mut objects = Vec::new();
+        if target.system == System::Windows {
+            let bytes = "bytes.obj";
+            let settings = settings.iter().filter(|setting| !setting.starts_with("-Copt-level"));
+            rustc.run(folder, settings.chain(&BYTES).chain(&[bytes, BYTES_ROOT.0]), &[])?;
+            objects.push(bytes);
+        }
+        let library = format!("{}.{}", scene.name, target.system.extension());
+        let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library].map(String::from);
+        let arguments = settings.iter().chain(&LIBRARY).map(|argument| (*argument).to_string());
+        let arguments = arguments.chain(link::arguments(target, linker, &library, &objects)).chain(named);
+        rustc.run(folder, arguments, &link::variables(target, folder))?;
+        let library = folder.join(library);
+        Ok(fs::read(&library).map_err(FileError::at(&library))?)
+    }
 }
 
 /// Puts `libm.rlib` into `folder`: out of the cache, or else compiled with these `settings` and then put into the cache.
@@ -93,7 +150,7 @@ fn make_libm(cache: &Cache, rustc: &Rustc, folder: &Path, settings: &[&str]) -> 
     }
     write(cache, folder, LIBM_SOURCE.iter().copied())?;
     let named = ["libm/src/lib.rs", "-o", "libm.rlib"];
-    rustc.run(folder, settings.iter().chain(&LIBM).chain(&named))?;
+    rustc.run(folder, settings.iter().chain(&LIBM).chain(&named), &[])?;
     // whole, or not at all; a file system without links, and another export that was as far, do no harm
     let _ = fs::hard_link(&here, &known);
     Ok(())
@@ -141,7 +198,7 @@ mod tests {
         let mut cargo = Command::new(env!("CARGO"));
         cargo.current_dir(env!("CARGO_MANIFEST_DIR")).args(["metadata", "--format-version=1", "--locked", "--offline"]);
         // what other systems need has not been downloaded
-        cargo.args(["--filter-platform", crate::platform::here().expect("a known system").target]);
+        cargo.args(["--filter-platform", crate::platform::here().expect("a known system").targets[0].triple]);
         let metadata: Value = serde_json::from_str(&printed(&mut cargo)).expect("JSON");
         let libm = metadata["packages"].as_array().unwrap().iter().find(|package| package["name"] == "libm").unwrap();
         let folder = Path::new(libm["manifest_path"].as_str().unwrap()).parent().unwrap();

@@ -1,19 +1,23 @@
 //! From a plan to an `.fmu`: rustc builds the library, its symbols are checked, everything is zipped.
 
+mod compiler;
 mod diagnostics;
 mod error;
 mod folder;
 mod library;
+mod link;
 mod rustc;
+mod universal;
 
 pub use error::ExportError;
 
 use crate::files::write_whole;
 use crate::plan::Plan;
-use crate::platform::{self, Platform};
+use crate::platform::Platform;
 use crate::symbols;
 use crate::{constants, documentation, model_description};
 use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use zip::CompressionMethod;
@@ -32,45 +36,70 @@ pub struct Exported {
     pub guid: String,
     /// Size of the archive [bytes].
     pub size: usize,
-    /// Size of the library in it [bytes].
-    pub library_size: usize,
+    /// One library for each platform.
+    pub libraries: Vec<Packed>,
+}
+
+impl Exported {
+    /// Size of all libraries together [bytes].
+    pub fn library_size(&self) -> usize {
+        self.libraries.iter().map(|library| library.size).sum()
+    }
+
+    /// What any of the libraries takes from the process.
+    pub fn imports(&self) -> BTreeSet<&str> {
+        self.libraries.iter().flat_map(|library| &library.imports).map(String::as_str).collect()
+    }
+}
+
+/// A library that was packed.
+pub struct Packed {
+    /// Folder of its platform.
+    pub platform: &'static str,
+    /// Size [bytes].
+    pub size: usize,
+    /// What it takes from the process.
     pub imports: Vec<String>,
 }
 
-/// Builds the planned unit and writes it to `path`, which is replaced only when everything has gone well.
+/// Builds the planned FMU for `platforms` and writes it to `path`, which is replaced only when everything has gone well.
 ///
 /// # Errors
 /// [`ExportError`]; nothing is then written.
-pub fn export(plan: &Plan, path: &Path) -> Result<Exported, ExportError> {
-    let (archive, exported) = build(plan)?;
+pub fn export(plan: &Plan, platforms: &[Platform], path: &Path) -> Result<Exported, ExportError> {
+    let (archive, exported) = build(plan, platforms)?;
     write_whole(path, &archive)?;
     Ok(Exported { path: path.into(), ..exported })
 }
 
-/// Builds the planned unit: the bytes of its archive, and what is in it. It has no path yet.
+/// Builds the planned FMU for `platforms`: the bytes of its archive, and what is in it. It has no path yet.
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn build(plan: &Plan) -> Result<(Vec<u8>, Exported), ExportError> {
-    let platform = platform::here()?;
-    let Platform { folder, extension, .. } = platform;
+pub fn build(plan: &Plan, platforms: &[Platform]) -> Result<(Vec<u8>, Exported), ExportError> {
     let scene = plan.scene;
     let Identified { guid, description, constants } = Identified::of(plan);
-    let library = library::build(scene, &constants, &platform)?;
-    let imports = symbols::check(&library)?;
+    let built = library::build_all(scene, &constants, platforms)?;
+    let mut libraries = Vec::new();
+    for (platform, library) in platforms.iter().zip(&built) {
+        let refused = |reason| ExportError::Symbols { platform: platform.folder, reason };
+        let imports = symbols::check(library, platform).map_err(refused)?;
+        libraries.push(Packed { platform: platform.folder, size: library.len(), imports });
+    }
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
     let page = documentation::write(plan);
-    let files: [(String, &[u8]); 6] = [
-        ("modelDescription.xml".into(), description.as_bytes()),
-        ("model.png".into(), ICON),
-        (format!("binaries/{folder}/{}.{extension}", scene.name), &library),
+    let path = |platform: &Platform| format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension);
+    let mut files: Vec<(String, &[u8])> =
+        vec![("modelDescription.xml".into(), description.as_bytes()), ("model.png".into(), ICON)];
+    files.extend(platforms.iter().zip(&built).map(|(platform, library)| (path(platform), library.as_slice())));
+    files.extend([
         ("documentation/index.html".into(), page.as_bytes()),
         ("documentation/licenses/license.txt".into(), license.as_bytes()),
         ("resources/scene.toml".into(), scene.text.as_bytes()),
-    ];
+    ]);
     let archive = archive(&files)?;
     let size = archive.len();
-    Ok((archive, Exported { path: PathBuf::new(), guid, size, library_size: library.len(), imports }))
+    Ok((archive, Exported { path: PathBuf::new(), guid, size, libraries }))
 }
 
 /// The two texts that the unit recognises itself by, and what they have in common.

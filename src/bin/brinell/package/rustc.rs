@@ -3,6 +3,7 @@
 use super::diagnostics;
 use super::error::ExportError;
 use crate::files::FileError;
+use crate::platform::Target;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -11,6 +12,10 @@ use std::{env, fs};
 /// A compiler that can be called.
 pub struct Rustc {
     program: PathBuf,
+    /// Where its libraries are, in `lib/rustlib/TARGET`.
+    sysroot: PathBuf,
+    /// The target that it runs on.
+    host: String,
     /// What it says of itself, and how old its file is: no other compiler is the same.
     pub identity: String,
 }
@@ -56,27 +61,52 @@ impl Rustc {
     /// # Errors
     /// [`ExportError::NoRustc`], [`ExportError::BrokenRustc`], [`ExportError::OldRustc`]
     pub fn find(cache: &Path) -> Result<Rustc, ExportError> {
-        let name = format!("rustc{}", env::consts::EXE_SUFFIX);
-        let beside_cargo = env::var_os("CARGO").map(|cargo| Path::new(&cargo).with_file_name(&name));
+        let beside_cargo = env::var_os("CARGO").map(|cargo| Path::new(&cargo).with_file_name(name()));
         let found = beside_cargo.filter(|path| path.is_absolute() && path.is_file()).unwrap_or_else(|| "rustc".into());
+        Rustc::at(found, cache)
+    }
+
+    /// The compiler `found`.
+    ///
+    /// # Errors
+    /// As of [`Rustc::find`].
+    pub fn at(found: PathBuf, cache: &Path) -> Result<Rustc, ExportError> {
         let root = cache.ancestors().last().unwrap_or(cache);
-        let asked = Command::new(&found).args(["--print", "sysroot"]).current_dir(root).output();
-        let sysroot = answer(&asked.map_err(ExportError::NoRustc)?)?;
+        let asked = command(&found).args(["--print", "sysroot"]).current_dir(root).output();
+        let sysroot = PathBuf::from(answer(&asked.map_err(ExportError::NoRustc)?)?);
         // the compiler itself, where rustup has answered
-        let itself = Path::new(&sysroot).join("bin").join(&name);
+        let itself = sysroot.join("bin").join(name());
         let program = if itself.is_file() { itself } else { found };
         let asked = command(&program).arg("-vV").current_dir(root).output();
         let says = answer(&asked.map_err(ExportError::NoRustc)?)?;
-        let version = says.lines().find_map(|line| line.strip_prefix("release: ")).unwrap_or_default();
+        let line = |key: &str| says.lines().find_map(|line| line.strip_prefix(key)).unwrap_or_default();
+        let (version, host) = (line("release: "), line("host: ").into());
         if number(version) < number(NEEDED) {
             return Err(ExportError::OldRustc { found: version.into(), needed: NEEDED });
         }
         // none, if it is found on PATH only
         let modified = fs::metadata(&program).and_then(|metadata| metadata.modified()).ok();
-        Ok(Rustc { identity: format!("{} {modified:?} {says}", program.display()), program })
+        Ok(Rustc { identity: format!("{} {modified:?} {says}", program.display()), program, sysroot, host })
     }
 
-    /// Compiles in `folder`, with these arguments.
+    /// The folder of what it has for the target of this name.
+    fn target_folder(&self, triple: &str) -> PathBuf {
+        self.sysroot.join("lib").join("rustlib").join(triple)
+    }
+
+    /// Whether it has the library `core` for `target`.
+    pub fn has(&self, target: &Target) -> bool {
+        let Ok(files) = fs::read_dir(self.target_folder(target.triple).join("lib")) else { return false };
+        files.flatten().any(|file| file.file_name().to_string_lossy().starts_with("libcore"))
+    }
+
+    /// LLVM's linker, if it brings one.
+    pub fn lld(&self) -> Option<PathBuf> {
+        let name = format!("rust-lld{}", env::consts::EXE_SUFFIX);
+        Some(self.target_folder(&self.host).join("bin").join(name)).filter(|lld| lld.is_file())
+    }
+
+    /// Compiles in `folder`, with these arguments and environment variables.
     ///
     /// # Errors
     /// [`ExportError`] with the cause.
@@ -84,17 +114,23 @@ impl Rustc {
         &self,
         folder: &Path,
         arguments: impl IntoIterator<Item = A>,
+        variables: &[(&str, OsString)],
     ) -> Result<(), ExportError> {
         let temporary = folder.join("tmp");
         fs::create_dir_all(&temporary).map_err(FileError::at(&temporary))?;
         let mut command = command(&self.program);
-        command.args(arguments).arg("--error-format=json").current_dir(folder);
+        command.args(arguments).arg("--error-format=json").current_dir(folder).envs(variables.iter().cloned());
         for name in ["TMPDIR", "TEMP", "TMP"] {
             command.env(name, &temporary);
         }
         let output = command.output().map_err(ExportError::NoRustc)?;
         if output.status.success() { Ok(()) } else { Err(diagnostics::cause(&output, folder)) }
     }
+}
+
+/// The file name of a compiler.
+fn name() -> String {
+    format!("rustc{}", env::consts::EXE_SUFFIX)
 }
 
 /// A call of `program` that knows nothing of the user's settings and speaks English.

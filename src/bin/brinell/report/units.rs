@@ -8,6 +8,7 @@ use crate::files::private_folder;
 use crate::importer::{Archive, ImportError, Unit};
 use crate::package;
 use crate::plan::Plan;
+use crate::platform;
 use crate::scene::Scene;
 
 /// The units, loaded.
@@ -47,10 +48,11 @@ impl Units {
     pub fn build(scene: &Scene, progress: &Progress) -> Result<Units, ReportError> {
         let folder = private_folder("brinell-report-", &std::env::temp_dir())?;
         let mut loaded = Vec::new();
+        let here = [platform::here().map_err(ImportError::from)?];
         for (needs, name) in kinds(scene) {
             progress.say(&format!("building {name}"));
             let path = folder.path().join("unit.fmu");
-            package::export(&Plan::of(&unit::first_contact(scene, needs)), &path)?;
+            package::export(&Plan::of(&unit::first_contact(scene, needs)), &here, &path)?;
             let archive = Archive::open(&path)?;
             loaded.push(Loaded { needs, unit: archive.load()?, archive });
             progress.done(Work::Building);

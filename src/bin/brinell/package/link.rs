@@ -1,0 +1,90 @@
+//! How a library is linked: for every system by LLVM's linker, or on the own Linux by the C compiler that is there.
+
+use crate::platform::{System, Target};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+/// What links a library.
+pub enum Linker {
+    /// The C compiler `cc`, which knows the system's own linker.
+    Driver,
+    /// A program that takes the arguments of a C compiler, and gives those for the linker to LLVM's.
+    DriverOf(PathBuf),
+    /// LLVM's linker, in a form that knows all systems and is told by `-flavor` which one is meant.
+    Lld(PathBuf),
+}
+
+/// Leaves out what unwinding would need, and the compiler's name. Nothing unwinds through a library that cannot panic.
+const SCRIPT: (&str, &str) = ("unit.ld", "SECTIONS { /DISCARD/ : { *(.eh_frame) *(.comment) } } INSERT AFTER .text;\n");
+
+/// The functions of macOS's C library that an FMU may use. This takes the place of Apple's development kit.
+const LIB_SYSTEM: (&str, &str) = (
+    "sdk/usr/lib/libSystem.tbd",
+    "--- !tapi-tbd
+tbd-version:     4
+targets:         [ x86_64-macos, arm64-macos ]
+install-name:    '/usr/lib/libSystem.B.dylib'
+exports:
+  - targets:     [ x86_64-macos, arm64-macos ]
+    symbols:     [ _calloc, _free, _memcpy, _memmove, _memset, _memcmp, _bcmp, _bzero, _strlen, dyld_stub_binder ]
+...
+",
+);
+
+/// Symbols are bound inside the library first and at once.
+const ELF: [&str; 8] =
+    ["-z", "now", "-Bsymbolic", "--build-id=none", "--hash-style=gnu", "--no-eh-frame-hdr", "-T", "unit.ld"];
+
+/// No start code and no C library. `_fltused` is only a mark that floating point is used.
+const WINDOWS: [&str; 6] =
+    ["/NOENTRY", "/NODEFAULTLIB", "/ALTERNATENAME:_fltused=__ImageBase", "/DEBUG:NONE", "/Brepro", "/OPT:REF,ICF"];
+
+/// Local symbols are left out by the linker: nothing may change the file once it is signed.
+const MACOS: [&str; 4] = ["-adhoc_codesign", "-lSystem", "-x", "-install_name"];
+
+/// The files that the linker reads.
+pub fn files() -> [(&'static str, &'static str); 2] {
+    [SCRIPT, LIB_SYSTEM]
+}
+
+/// Environment variables for rustc, which compiles in `folder`.
+pub fn variables(target: &Target, folder: &Path) -> Vec<(&'static str, OsString)> {
+    let (major, minor) = target.oldest_macos();
+    match target.system {
+        System::MacOs => {
+            vec![
+                // rustc takes no relative path
+                ("SDKROOT", folder.join("sdk").into()),
+                ("MACOSX_DEPLOYMENT_TARGET", format!("{major}.{minor}").into()),
+            ]
+        }
+        System::Linux | System::Windows => Vec::new(),
+    }
+}
+
+/// Arguments for rustc.
+pub fn arguments(target: &Target, linker: &Linker, name: &str, objects: &[&str]) -> Vec<String> {
+    let mut arguments = Vec::new();
+    let install_name = format!("@rpath/{name}");
+    let (flavor, mut plain) = match target.system {
+        System::Linux => ("ld.lld", ELF.to_vec()),
+        System::Windows => ("lld-link", WINDOWS.to_vec()),
+        System::MacOs => ("ld64.lld", [MACOS.as_slice(), &[&install_name]].concat()),
+    };
+    plain.extend(objects);
+    let named = |linker: &Path, flavor| [format!("-Clinker={}", linker.display()), format!("-Clinker-flavor={flavor}")];
+    match linker {
+        Linker::Lld(lld) => arguments.extend(named(lld, flavor)),
+        Linker::Driver => {}
+        Linker::DriverOf(driver) => arguments.extend(named(driver, "gcc")),
+    }
+    if matches!(linker, Linker::Driver | Linker::DriverOf(_)) {
+        arguments.extend(["-nostartfiles", "-nodefaultlibs"].map(|argument| format!("-Clink-arg={argument}")));
+        arguments.push(format!("-Clink-arg=-Wl,{}", plain.join(",")));
+    } else {
+        arguments.extend(plain.iter().map(|argument| format!("-Clink-arg={argument}")));
+    }
+    // rustc would call a program of its own to strip a Mach-O file, which breaks the signature
+    arguments.push(if target.system == System::MacOs { "-Cstrip=none" } else { "-Cstrip=symbols" }.into());
+    arguments
+}

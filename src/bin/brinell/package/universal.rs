@@ -1,0 +1,30 @@
+//! Universal libraries of macOS: one file with a library for each processor.
+//!
+//! Reference: `mach-o/fat.h`. The libraries are not changed, so that their signatures stay valid.
+
+use object::macho::FAT_MAGIC;
+
+/// Each library begins at a multiple of the largest page that macOS has: 2 to the power of this.
+const ALIGNMENT: u32 = 14;
+
+/// One library of several: itself if it is one, otherwise a universal one.
+pub fn join(slices: &[&[u8]]) -> Vec<u8> {
+    if let [only] = slices {
+        return only.to_vec();
+    }
+    let align = |offset: usize| offset.next_multiple_of(1 << ALIGNMENT);
+    let mut head: Vec<u32> = vec![FAT_MAGIC, slices.len() as u32];
+    let mut offset = align(1);
+    for slice in slices {
+        // processor and its variant, as in the library itself
+        let processor = [4, 8].map(|at| u32::from_le_bytes([slice[at], slice[at + 1], slice[at + 2], slice[at + 3]]));
+        head.extend([processor[0], processor[1], offset as u32, slice.len() as u32, ALIGNMENT]);
+        offset = align(offset + slice.len());
+    }
+    let mut file: Vec<u8> = head.into_iter().flat_map(u32::to_be_bytes).collect();
+    for slice in slices {
+        file.resize(align(file.len()), 0);
+        file.extend_from_slice(slice);
+    }
+    file
+}
