@@ -99,7 +99,7 @@ impl Summary<'_> {
             "  {} bytes, library {} bytes; needs no library, takes {} from the process",
             exported.size,
             exported.library_size,
-            exported.imports.join(", ")
+            if exported.imports.is_empty() { "nothing".into() } else { exported.imports.join(", ") }
         );
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
         println!("  law        {}", law(scene));

@@ -81,11 +81,11 @@ pub enum SymbolError {
     Version,
 }
 
-/// Checks a library for any of the platforms; gives the names it takes from the process.
+/// Checks a library for any of the platforms; gives the names it takes from the process. A `standalone` one takes none.
 ///
 /// # Errors
 /// [`SymbolError`] with the first thing that is wrong.
-pub fn check(library: &[u8]) -> Result<Vec<String>, SymbolError> {
+pub fn check(library: &[u8], standalone: bool) -> Result<Vec<String>, SymbolError> {
     let file = object::File::parse(library)?;
     // Mach-O puts an underscore before every name
     let prefix = if file.format() == object::BinaryFormat::MachO { "_" } else { "" };
@@ -118,8 +118,8 @@ pub fn check(library: &[u8]) -> Result<Vec<String>, SymbolError> {
     }
     imports.remove("");
     let allowed = |import: &str| {
-        ALLOWED_IMPORTS.contains(&import)
-            || (file.format() == object::BinaryFormat::Pe && ALLOWED_ON_WINDOWS.contains(&import))
+        let on_windows = file.format() == object::BinaryFormat::Pe && ALLOWED_ON_WINDOWS.contains(&import);
+        !standalone && (ALLOWED_IMPORTS.contains(&import) || on_windows)
     };
     if let Some(import) = imports.iter().find(|import| !allowed(import)) {
         return Err(SymbolError::Import(import.clone()));

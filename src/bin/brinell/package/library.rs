@@ -49,6 +49,14 @@ fn optimization(scene: &Scene) -> &'static str {
 const LINKER_SCRIPT: (&str, &str) =
     ("unit.ld", "SECTIONS { /DISCARD/ : { *(.eh_frame) *(.comment) } } INSERT AFTER .text;\n");
 
+/// What a standalone library is compiled with.
+const STANDALONE: [&str; 2] = ["--cfg=feature=\"standalone\"", "-Clink-arg=bytes.o"];
+
+/// The functions that compilers make of loops over memory, as a crate of their own. They are linked as an object file, so that
+/// the library doesn't export them.
+const BYTES: (&str, &str) =
+    ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\npub mod bytes;\n");
+
 /// Arguments for the linker: no start files and no library, symbols bound inside the unit first and at once.
 fn link_arguments() -> &'static [&'static str] {
     match env::consts::OS {
@@ -74,9 +82,16 @@ pub fn build(scene: &Scene, constants: &str, platform: &Platform) -> Result<Vec<
     make_libm(&cache, &rustc, folder.path(), &settings)?;
     let own = [("src/scene/exported.rs", constants), LINKER_SCRIPT];
     write(&cache, folder.path(), LIBRARY_SOURCE.iter().copied().chain(own))?;
+    let mut more = link_arguments().to_vec();
+    if scene.standalone {
+        write(&cache, folder.path(), [BYTES].into_iter())?;
+        let how = ["bytes.rs", "--crate-type=lib", "--edition=2024", "--emit=obj", "-o", "bytes.o"];
+        rustc.run(folder.path(), settings.iter().chain(&how))?;
+        more.extend(STANDALONE);
+    }
     let library = format!("unit.{}", platform.extension);
     let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library];
-    rustc.run(folder.path(), settings.iter().chain(&LIBRARY).chain(link_arguments()).chain(&named))?;
+    rustc.run(folder.path(), settings.iter().chain(&LIBRARY).chain(&more).chain(&named))?;
     let library = folder.path().join(library);
     Ok(fs::read(&library).map_err(FileError::at(&library))?)
 }

@@ -57,7 +57,7 @@ pub fn build(plan: &Plan) -> Result<(Vec<u8>, Exported), ExportError> {
     let scene = plan.scene;
     let Identified { guid, description, constants } = Identified::of(plan);
     let library = library::build(scene, &constants, &platform)?;
-    let imports = symbols::check(&library)?;
+    let imports = symbols::check(&library, scene.standalone)?;
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
     let page = documentation::write(plan);
     let files: [(String, &[u8]); 6] = [

@@ -1,0 +1,165 @@
+//! The functions that compilers make of copies and loops over memory, for systems whose C library an FMU can't rely on.
+//!
+//! The exporter compiles this file as a crate of its own and without knowledge of these functions (`no_builtins`): the
+//! compiler would otherwise replace their loops by calls of themselves. The linker takes what the library uses.
+//!
+//! # Safety
+//! As in the C standard: the pointers are valid for as many bytes as given, and those of `memcpy` don't overlap.
+
+/// Bytes that are moved at once.
+const WORD: usize = size_of::<u64>();
+
+/// Copies `count` bytes.
+#[cfg_attr(not(test), unsafe(no_mangle))]
+pub unsafe extern "C" fn memcpy(to: *mut u8, from: *const u8, count: usize) -> *mut u8 {
+    let mut at = 0;
+    while count - at >= WORD {
+        // SAFETY: `at + WORD <= count`.
+        unsafe { to.add(at).cast::<u64>().write_unaligned(from.add(at).cast::<u64>().read_unaligned()) };
+        at += WORD;
+    }
+    while at < count {
+        // SAFETY: `at < count`.
+        unsafe { to.add(at).write(from.add(at).read()) };
+        at += 1;
+    }
+    to
+}
+
+/// Copies `count` bytes to a place that may overlap.
+#[cfg_attr(not(test), unsafe(no_mangle))]
+pub unsafe extern "C" fn memmove(to: *mut u8, from: *const u8, count: usize) -> *mut u8 {
+    if to.addr().wrapping_sub(from.addr()) >= count {
+        // SAFETY: the target doesn't begin within the source, and a copy upwards reads every word before it is overwritten.
+        return unsafe { memcpy(to, from, count) };
+    }
+    let mut end = count;
+    while end >= WORD {
+        end -= WORD;
+        // SAFETY: `end + WORD <= count`.
+        unsafe { to.add(end).cast::<u64>().write_unaligned(from.add(end).cast::<u64>().read_unaligned()) };
+    }
+    while end > 0 {
+        end -= 1;
+        // SAFETY: `end < count`.
+        unsafe { to.add(end).write(from.add(end).read()) };
+    }
+    to
+}
+
+/// Sets `count` bytes to the lowest byte of `value`.
+#[cfg_attr(not(test), unsafe(no_mangle))]
+pub unsafe extern "C" fn memset(to: *mut u8, value: i32, count: usize) -> *mut u8 {
+    let byte = value as u8;
+    let word = u64::from_ne_bytes([byte; WORD]);
+    let mut at = 0;
+    while count - at >= WORD {
+        // SAFETY: `at + WORD <= count`.
+        unsafe { to.add(at).cast::<u64>().write_unaligned(word) };
+        at += WORD;
+    }
+    while at < count {
+        // SAFETY: `at < count`.
+        unsafe { to.add(at).write(byte) };
+        at += 1;
+    }
+    to
+}
+
+/// The difference of the first two bytes that differ, or 0.
+#[cfg_attr(not(test), unsafe(no_mangle))]
+pub unsafe extern "C" fn memcmp(one: *const u8, other: *const u8, count: usize) -> i32 {
+    let mut at = 0;
+    while at < count {
+        // SAFETY: `at < count`.
+        let (first, second) = unsafe { (one.add(at).read(), other.add(at).read()) };
+        if first != second {
+            return i32::from(first) - i32::from(second);
+        }
+        at += 1;
+    }
+    0
+}
+
+/// 0 if the bytes are the same.
+#[cfg_attr(not(test), unsafe(no_mangle))]
+pub unsafe extern "C" fn bcmp(one: *const u8, other: *const u8, count: usize) -> i32 {
+    // SAFETY: as the caller promises.
+    unsafe { memcmp(one, other, count) }
+}
+
+/// The number of bytes before the zero that ends `text`.
+#[cfg_attr(not(test), unsafe(no_mangle))]
+pub unsafe extern "C" fn strlen(text: *const u8) -> usize {
+    let mut count = 0;
+    // SAFETY: no byte behind the zero is read.
+    while unsafe { text.add(count).read() } != 0 {
+        count += 1;
+    }
+    count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{bcmp, memcmp, memcpy, memmove, memset, strlen};
+    use std::vec::Vec;
+
+    /// Longer than several words.
+    const LENGTH: usize = 40;
+
+    fn bytes() -> Vec<u8> {
+        (1..=LENGTH as u8).collect()
+    }
+
+    #[test]
+    fn every_length_is_copied_and_set_from_and_to_every_place() {
+        for count in 0..=24 {
+            for from in 0..=16 {
+                for to in 0..=16 {
+                    let (source, mut copy, mut moved, mut set) = (bytes(), bytes(), bytes(), bytes());
+                    // SAFETY: both places end before LENGTH.
+                    unsafe {
+                        memcpy(copy.as_mut_ptr().add(to), source.as_ptr().add(from), count);
+                        let start = moved.as_mut_ptr();
+                        memmove(start.add(to), start.add(from), count);
+                        memset(set.as_mut_ptr().add(to), 0x1ff, count);
+                    }
+                    let mut expected = bytes();
+                    expected.copy_within(from..from + count, to);
+                    assert_eq!(copy, expected, "memcpy of {count} from {from} to {to}");
+                    assert_eq!(moved, expected, "memmove of {count} from {from} to {to}");
+                    expected = bytes();
+                    expected[to..to + count].fill(0xff);
+                    assert_eq!(set, expected, "memset of {count} at {to}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_first_different_byte_decides() {
+        for count in 0..LENGTH {
+            for at in 0..LENGTH {
+                let (one, mut other) = (bytes(), bytes());
+                other[at] = 200;
+                // SAFETY: both are longer than `count`.
+                let results = unsafe {
+                    let [one, other] = [one.as_ptr(), other.as_ptr()];
+                    [memcmp(one, other, count), memcmp(other, one, count), bcmp(one, other, count)]
+                };
+                let difference = if at < count { i32::from(one[at]) - 200 } else { 0 };
+                assert_eq!(results, [difference, -difference, difference], "{count} bytes, other at {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_text_ends_before_its_zero() {
+        for length in 0..LENGTH {
+            let mut text = bytes();
+            text[length] = 0;
+            // SAFETY: the zero is there.
+            assert_eq!(unsafe { strlen(text.as_ptr()) }, length);
+        }
+    }
+}
