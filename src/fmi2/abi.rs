@@ -55,16 +55,23 @@ pub const fmi2Terminated: fmi2StatusKind = 3;
 pub type fmi2CallbackLogger =
     unsafe extern "C" fn(fmi2ComponentEnvironment, fmi2String, fmi2Status, fmi2String, fmi2String, ...);
 
-/// The importer's functions. This unit uses the logger only.
+/// The importer's function for memory: as many objects as the first argument says, of the size of the second \[bytes\], all
+/// zeros.
+pub type fmi2CallbackAllocateMemory = unsafe extern "C" fn(usize, usize) -> *mut c_void;
+
+/// The importer's function that takes memory back.
+pub type fmi2CallbackFreeMemory = unsafe extern "C" fn(*mut c_void);
+
+/// The importer's functions. A unit uses the logger, and its memory if it is standalone.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fmi2CallbackFunctions {
     /// May be null.
     pub logger: Option<fmi2CallbackLogger>,
-    /// Not used: see `canNotUseMemoryManagementFunctions`.
-    pub allocateMemory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
-    /// Not used.
-    pub freeMemory: Option<unsafe extern "C" fn(*mut c_void)>,
+    /// Used by standalone units only: see `canNotUseMemoryManagementFunctions`.
+    pub allocateMemory: Option<fmi2CallbackAllocateMemory>,
+    /// The same.
+    pub freeMemory: Option<fmi2CallbackFreeMemory>,
     /// Not used: no step runs on after its call.
     pub stepFinished: Option<unsafe extern "C" fn(fmi2ComponentEnvironment, fmi2Status)>,
     /// Handed to the logger.

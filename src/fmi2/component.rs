@@ -5,6 +5,7 @@ use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2E
 use super::category::{Category, DEEP, DISCARD, FAST, GUARD, MISWIRED, UNSTABLE};
 use super::complaint::Complaint;
 use super::handle::Handle;
+use super::memory::Memory;
 use super::order::{Function, PREFIX};
 use super::report::{describe, describe_warning};
 use super::text::Text;
@@ -19,6 +20,8 @@ pub struct Component<S: Scene> {
     pub instance: Instance<S>,
     /// The importer's logger.
     pub logger: Logger,
+    /// Where it takes memory from.
+    pub memory: Memory,
     /// Categories that are logged; errors always are.
     pub categories: u8,
 }
@@ -30,9 +33,11 @@ impl<S: Scene> Component<S> {
     /// What isn't listed here is a number, a `bool`, a pointer that may be null, or an array of such.
     ///
     /// Zeros are what the system's memory has; a component of 100,000 contacts would not fit on every stack.
-    pub const ZEROS: (S::Contact, S::Values, Phase, Logger) =
+    pub const ZEROS: (S::Contact, S::Values, Phase, Logger, Memory) =
         // SAFETY: that it is evaluated is the proof.
-        unsafe { (core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed()) };
+        unsafe {
+            (core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed())
+        };
 }
 
 /// Where messages go.

@@ -5,7 +5,7 @@ use super::category::{ALL_CATEGORIES, Category};
 use super::complaint::Complaint;
 use super::component::{Component, Logger, array, call};
 use super::handle::Handle;
-use super::memory;
+use super::memory::Memory;
 use super::order;
 use super::text::{extent, is_same};
 use crate::scene::Scene;
@@ -48,7 +48,10 @@ pub unsafe fn instantiate<S: Scene>(
     let Some(callbacks) = (unsafe { functions.as_ref() }) else { return core::ptr::null_mut() };
     let logger = Logger::of(callbacks);
     // SAFETY: the caller's strings are null or end with 0.
-    match unsafe { make::<S>(instanceName, fmuType, fmuGUID, logger, loggingOn != fmi2False) } {
+    let made = Memory::of(callbacks).and_then(|memory| unsafe {
+        make::<S>(instanceName, fmuType, fmuGUID, logger, memory, loggingOn != fmi2False)
+    });
+    match made {
         Ok(component) => component,
         Err(complaint) => {
             let name = if instanceName.is_null() { c"".as_ptr() } else { instanceName };
@@ -66,6 +69,7 @@ unsafe fn make<S: Scene>(
     kind: fmi2Type,
     guid: fmi2String,
     logger: Logger,
+    memory: Memory,
     logging_on: bool,
 ) -> Result<fmi2Component, Complaint> {
     if name.is_null() || guid.is_null() {
@@ -86,15 +90,15 @@ unsafe fn make<S: Scene>(
             reason: "fmuGUID is not the one of this library: modelDescription.xml and binary are from different exports",
         });
     }
-    let memory = memory::allocate(size_of::<Component<S>>() + length);
-    if memory.is_null() {
+    let made = memory.allocate(size_of::<Component<S>>() + length);
+    if made.is_null() {
         return Err(Complaint::NoMemory);
     }
     let _ = Component::<S>::ZEROS;
     // SAFETY: the memory is large enough for the component and, behind it, the name, and aligned for any object; it is all
     // zeros, and so is a component: `ZEROS` proves it.
     unsafe {
-        let component = Component::<S>::pointer(memory);
+        let component = Component::<S>::pointer(made);
         let copy = component.add(1).cast::<c_char>();
         let mut place = 0;
         // the final 0 is there already
@@ -104,13 +108,14 @@ unsafe fn make<S: Scene>(
         }
         let component = &mut *component;
         component.logger = logger;
+        component.memory = memory;
         component.categories = if logging_on { ALL_CATEGORIES } else { 0 };
         if let Err(fault) = component.instance.reset() {
-            memory::release(memory);
+            memory.release(made);
             return Err(fault.into());
         }
     }
-    Ok(memory)
+    Ok(made)
 }
 
 /// Frees an instance; null is ignored.
@@ -118,9 +123,12 @@ unsafe fn make<S: Scene>(
 /// # Safety
 /// See [the module](super#safety).
 pub unsafe fn free_instance<S: Scene>(c: fmi2Component) {
-    if !c.is_null() {
-        // SAFETY: it came from fmi2Instantiate, and the caller doesn't use it again.
-        unsafe { memory::release(c) };
+    // SAFETY: it came from fmi2Instantiate, and the caller doesn't use it again.
+    unsafe {
+        if let Some(component) = Component::<S>::behind(c) {
+            let memory = component.memory;
+            memory.release(c);
+        }
     }
 }
 

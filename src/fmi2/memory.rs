@@ -1,49 +1,124 @@
-//! Memory from the process itself: from the C library, or from kernel32 where a library has no C library to rely on.
+//! Memory for instances and states.
 //!
-//! FMI 2.0.2 advises against the importer's memory functions; the model description says that they are not used.
+//! It comes from the process: from the C library, or from kernel32 where a library has no C library to rely on. FMI 2.0.2
+//! advises against the importer's memory functions; the model description says that they are not used.
+//!
+//! A standalone unit (feature `standalone`) takes nothing from the process. Its memory comes from `allocateMemory` and
+//! `freeMemory` of its importer, and its model description says so.
 
+use super::abi::fmi2CallbackFunctions;
+use super::complaint::Complaint;
 use core::ffi::c_void;
 
-#[cfg(not(windows))]
-mod system {
-    use core::ffi::c_void;
-    unsafe extern "C" {
-        pub fn calloc(count: usize, size: usize) -> *mut c_void;
-        pub fn free(memory: *mut c_void);
+#[cfg(feature = "standalone")]
+pub use importer::Memory;
+#[cfg(not(feature = "standalone"))]
+pub use process::Memory;
+
+#[cfg(not(feature = "standalone"))]
+mod process {
+    use super::*;
+
+    #[cfg(not(windows))]
+    mod system {
+        use core::ffi::c_void;
+        unsafe extern "C" {
+            pub fn calloc(count: usize, size: usize) -> *mut c_void;
+            pub fn free(memory: *mut c_void);
+        }
+    }
+
+    #[cfg(windows)]
+    mod system {
+        use core::ffi::c_void;
+        const HEAP_ZERO_MEMORY: u32 = 8;
+        #[link(name = "kernel32", kind = "raw-dylib")]
+        unsafe extern "system" {
+            fn GetProcessHeap() -> *mut c_void;
+            fn HeapAlloc(heap: *mut c_void, flags: u32, size: usize) -> *mut c_void;
+            fn HeapFree(heap: *mut c_void, flags: u32, memory: *mut c_void) -> i32;
+        }
+        pub unsafe fn calloc(count: usize, size: usize) -> *mut c_void {
+            // SAFETY: a null result is passed on; the only caller asks for one object, so that the product can't overflow.
+            unsafe { HeapAlloc(GetProcessHeap(), HEAP_ZERO_MEMORY, count * size) }
+        }
+        pub unsafe fn free(memory: *mut c_void) {
+            // SAFETY: the caller's memory came from `calloc` above.
+            unsafe { HeapFree(GetProcessHeap(), 0, memory) };
+        }
+    }
+
+    /// The memory of the process.
+    #[derive(Clone, Copy)]
+    pub struct Memory;
+
+    impl Memory {
+        /// The memory for an instance with these callbacks, which are not used.
+        ///
+        /// # Errors
+        /// None.
+        pub fn of(_: &fmi2CallbackFunctions) -> Result<Memory, Complaint> {
+            Ok(Memory)
+        }
+
+        /// `size` bytes, all zero, aligned for any object; null if there is no memory.
+        pub fn allocate(self, size: usize) -> *mut c_void {
+            // SAFETY: calloc has no precondition.
+            unsafe { system::calloc(1, size) }
+        }
+
+        /// Gives back what [`Memory::allocate`] gave.
+        ///
+        /// # Safety
+        /// `memory` came from [`Memory::allocate`] and is not used afterwards.
+        pub unsafe fn release(self, memory: *mut c_void) {
+            // SAFETY: as the caller promises.
+            unsafe { system::free(memory) }
+        }
     }
 }
 
-#[cfg(windows)]
-mod system {
-    use core::ffi::c_void;
-    const HEAP_ZERO_MEMORY: u32 = 8;
-    #[link(name = "kernel32", kind = "raw-dylib")]
-    unsafe extern "system" {
-        fn GetProcessHeap() -> *mut c_void;
-        fn HeapAlloc(heap: *mut c_void, flags: u32, size: usize) -> *mut c_void;
-        fn HeapFree(heap: *mut c_void, flags: u32, memory: *mut c_void) -> i32;
-    }
-    pub unsafe fn calloc(count: usize, size: usize) -> *mut c_void {
-        // SAFETY: a null result is passed on; the only caller asks for one object, so that the product can't overflow.
-        unsafe { HeapAlloc(GetProcessHeap(), HEAP_ZERO_MEMORY, count * size) }
-    }
-    pub unsafe fn free(memory: *mut c_void) {
-        // SAFETY: the caller's memory came from `calloc` above.
-        unsafe { HeapFree(GetProcessHeap(), 0, memory) };
-    }
-}
+#[cfg(feature = "standalone")]
+mod importer {
+    use super::*;
+    use crate::fmi2::abi::{fmi2CallbackAllocateMemory, fmi2CallbackFreeMemory};
 
-/// `size` bytes, all zero, aligned for any object; null if there is no memory.
-pub fn allocate(size: usize) -> *mut c_void {
-    // SAFETY: calloc has no precondition.
-    unsafe { system::calloc(1, size) }
-}
+    /// The memory of the importer.
+    #[derive(Clone, Copy)]
+    pub struct Memory {
+        allocate: Option<fmi2CallbackAllocateMemory>,
+        free: Option<fmi2CallbackFreeMemory>,
+    }
 
-/// Gives back what [`allocate`] gave.
-///
-/// # Safety
-/// `memory` came from [`allocate`] and is not used afterwards.
-pub unsafe fn release(memory: *mut c_void) {
-    // SAFETY: as the caller promises.
-    unsafe { system::free(memory) }
+    impl Memory {
+        /// The memory for an instance with these callbacks.
+        ///
+        /// # Errors
+        /// [`Complaint::NullPointer`] if one of the two functions is missing.
+        pub fn of(callbacks: &fmi2CallbackFunctions) -> Result<Memory, Complaint> {
+            let &fmi2CallbackFunctions { allocateMemory: allocate, freeMemory: free, .. } = callbacks;
+            if allocate.is_none() || free.is_none() {
+                let argument = if allocate.is_none() { "allocateMemory" } else { "freeMemory" };
+                return Err(Complaint::NullPointer { argument });
+            }
+            Ok(Memory { allocate, free })
+        }
+
+        /// `size` bytes, all zero, aligned for any object; null if there is no memory.
+        pub fn allocate(self, size: usize) -> *mut c_void {
+            // SAFETY: the importer's function; it has no precondition.
+            self.allocate.map_or(core::ptr::null_mut(), |allocate| unsafe { allocate(1, size) })
+        }
+
+        /// Gives back what [`Memory::allocate`] gave.
+        ///
+        /// # Safety
+        /// `memory` came from [`Memory::allocate`] and is not used afterwards.
+        pub unsafe fn release(self, memory: *mut c_void) {
+            if let Some(free) = self.free {
+                // SAFETY: as the caller promises.
+                unsafe { free(memory) }
+            }
+        }
+    }
 }

@@ -12,7 +12,7 @@
 //! | [`category`] | the categories of the log, and the status of a refused call |
 //! | [`report`] | a refused call or a warning as text |
 //! | [`text`] | text without allocation and without panic |
-//! | [`memory`] | memory from the process |
+//! | [`memory`] | memory from the process, or from the importer |
 //! | `bytes` | copying and comparing of bytes, compiled apart, for systems without a C library to rely on |
 //! | [`handle`] | the pointers that importers get, each with its type |
 //! | [`state`] | FMU states and their bytes |

@@ -3,7 +3,7 @@
 use super::abi::fmi2FMUstate;
 use super::complaint::Complaint;
 use super::handle::Handle;
-use super::memory;
+use super::memory::Memory;
 use crate::instance::Instance;
 use crate::scene::Scene;
 
@@ -59,15 +59,15 @@ impl<S: Scene> Snapshot<S> {
         }
     }
 
-    /// Puts `instance` into the snapshot at `state`, which is made if there is none.
+    /// Puts `instance` into the snapshot at `state`, which is made of `memory` if there is none.
     ///
     /// # Safety
     /// As for [`Snapshot::at`].
-    pub unsafe fn store(state: &mut fmi2FMUstate, instance: &Instance<S>) -> Result<(), Complaint> {
+    pub unsafe fn store(state: &mut fmi2FMUstate, instance: &Instance<S>, memory: Memory) -> Result<(), Complaint> {
         // SAFETY: as the caller promises.
         unsafe {
             if state.is_null() {
-                *state = Self::allocate()?;
+                *state = Self::allocate(memory)?;
             }
             Self::at(*state)?.instance.copy(instance);
         }
@@ -75,23 +75,23 @@ impl<S: Scene> Snapshot<S> {
     }
 
     /// A snapshot of nothing.
-    fn allocate() -> Result<fmi2FMUstate, Complaint> {
-        let made = memory::allocate(size_of::<Snapshot<S>>());
+    fn allocate(memory: Memory) -> Result<fmi2FMUstate, Complaint> {
+        let made = memory.allocate(size_of::<Snapshot<S>>());
         // SAFETY: the memory is large enough and aligned for any object, and zeros are a snapshot as they are a component.
         unsafe { Self::behind(made) }.ok_or(Complaint::NoMemory)?.mark = Self::mark();
         Ok(made)
     }
 
-    /// Frees the snapshot at `state`; null is nothing to free.
+    /// Frees the snapshot at `state`, which came from this `memory`; null is nothing to free.
     ///
     /// # Safety
     /// As for [`Snapshot::at`], and the snapshot is not used afterwards.
-    pub unsafe fn free(state: &mut fmi2FMUstate) -> Result<(), Complaint> {
+    pub unsafe fn free(state: &mut fmi2FMUstate, memory: Memory) -> Result<(), Complaint> {
         if !state.is_null() {
             // SAFETY: as the caller promises; a snapshot came from `allocate`.
             unsafe {
                 Self::at(*state)?;
-                memory::release(*state);
+                memory.release(*state);
             }
             *state = core::ptr::null_mut();
         }
@@ -121,7 +121,7 @@ impl<S: Scene> Snapshot<S> {
     ///
     /// # Errors
     /// [`Complaint::BadState`] for another length, another unit or version, and damaged bytes.
-    pub fn deserialize(bytes: &[u8]) -> Result<fmi2FMUstate, Complaint> {
+    pub fn deserialize(bytes: &[u8], memory: Memory) -> Result<fmi2FMUstate, Complaint> {
         let bad = |reason| Err(Complaint::BadState { reason });
         let (words, rest) = bytes.as_chunks();
         if words.len() != Self::CHECKSUM_AT + 1 || !rest.is_empty() {
@@ -137,12 +137,12 @@ impl<S: Scene> Snapshot<S> {
         if sum != word(words, Self::CHECKSUM_AT) {
             return bad("its checksum is wrong, it is damaged");
         }
-        let made = Self::allocate()?;
+        let made = Self::allocate(memory)?;
         let own = words.get(WORDS_AT..Self::CHECKSUM_AT).unwrap_or(&[]);
         // SAFETY: it was made here, nobody else knows it, and it is released here.
         unsafe {
             if !Self::at(made)?.instance.load(own) {
-                memory::release(made);
+                memory.release(made);
                 return bad("its values don't make a contact");
             }
         }

@@ -34,7 +34,7 @@ unsafe fn get_any_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUstate)
     // SAFETY: as the caller promises.
     unsafe {
         call::<S>(c, order::GET_FMU_STATE, |component| {
-            Snapshot::<S>::store(object(FMUstate, "FMUstate")?, &component.instance)
+            Snapshot::<S>::store(object(FMUstate, "FMUstate")?, &component.instance, component.memory)
         })
     }
 }
@@ -79,7 +79,9 @@ unsafe fn set_any_state<S: Scene>(c: fmi2Component, state: fmi2FMUstate) -> fmi2
 pub unsafe fn free_fmu_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
     // SAFETY: the caller's component and state.
     unsafe {
-        call::<S>(c, order::FREE_FMU_STATE, |_| FMUstate.as_mut().map_or(Ok(()), |state| Snapshot::<S>::free(state)))
+        call::<S>(c, order::FREE_FMU_STATE, |component| {
+            FMUstate.as_mut().map_or(Ok(()), |state| Snapshot::<S>::free(state, component.memory))
+        })
     }
 }
 
@@ -133,11 +135,11 @@ pub unsafe fn deserialize_fmu_state<S: Scene>(
 ) -> fmi2Status {
     // SAFETY: the caller's component and state, and an array as long as announced.
     unsafe {
-        call::<S>(c, order::DESERIALIZE_FMU_STATE, |_| {
+        call::<S>(c, order::DESERIALIZE_FMU_STATE, |component| {
             let bytes = array(serializedState.cast::<u8>(), size, "serializedState")?;
             let state = object(FMUstate, "FMUstate")?;
             // what was there before is not read: by the standard it need not be anything
-            *state = Snapshot::<S>::deserialize(bytes)?;
+            *state = Snapshot::<S>::deserialize(bytes, component.memory)?;
             Ok(())
         })
     }

@@ -68,6 +68,13 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(page, "<h2>Variables</h2>")?;
     variables(page, &plan.variables)?;
     constants(page, &plan.constants)?;
+    if scene.standalone {
+        writeln!(
+            page,
+            "<p>The library is standalone: it needs no library and no function of its process. Its memory comes from \
+             <code>allocateMemory</code> and <code>freeMemory</code> of the importer.</p>"
+        )?;
+    }
     writeln!(
         page,
         "<p>Brinell {}. Licenses: <a href=\"licenses/license.txt\">license.txt</a></p>",

@@ -75,7 +75,7 @@ fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
         ("maxOutputDerivativeOrder", if scene.damped.is_some() { "1" } else { "2" }),
         ("canRunAsynchronuously", "false"),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
-        ("canNotUseMemoryManagementFunctions", "true"),
+        ("canNotUseMemoryManagementFunctions", if scene.standalone { "false" } else { "true" }),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
         ("providesDirectionalDerivative", "true"),

@@ -104,7 +104,8 @@ impl Summary<'_> {
         println!("  {} bytes", exported.size);
         for Packed { platform, size, imports } in &exported.libraries {
             let from = if platform.starts_with("win") { "kernel32" } else { "the process" };
-            println!("  {platform:<15}{size:>7} bytes; takes {} from {from}", imports.join(", "));
+            let taken = if imports.is_empty() { "nothing".into() } else { imports.join(", ") };
+            println!("  {platform:<15}{size:>7} bytes; takes {taken} from {from}");
         }
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
         println!("  law        {}", law(scene));

@@ -52,6 +52,9 @@ fn optimization(scene: &Scene) -> &'static str {
 const BYTES: [&str; 6] =
     ["--crate-name=bytes", "--crate-type=lib", "--edition=2024", "--emit=obj", "-Copt-level=s", "-o"];
 
+/// What a library that takes nothing from its process is compiled with, beside [`BYTES`].
+const STANDALONE: &str = "--cfg=feature=\"standalone\"";
+
 /// The root of the crate of [`BYTES`]. Without `no_builtins` the functions would be made into calls of themselves.
 const BYTES_ROOT: (&str, &str) =
     ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\nmod bytes;\n");
@@ -122,7 +125,7 @@ impl Build<'_> {
         let own = [("src/scene/exported.rs", constants), BYTES_ROOT];
         write(cache, folder, LIBRARY_SOURCE.iter().copied().chain(own).chain(link::files()))?;
         let mut objects = Vec::new();
-        if target.system == System::Windows {
+        if target.system == System::Windows || scene.standalone {
             let bytes = "bytes.obj";
             let settings = settings.iter().filter(|setting| !setting.starts_with("-Copt-level"));
             rustc.run(folder, settings.chain(&BYTES).chain(&[bytes, BYTES_ROOT.0]), &[])?;
@@ -130,7 +133,8 @@ impl Build<'_> {
         }
         let library = format!("{}.{}", scene.name, target.system.extension());
         let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library].map(String::from);
-        let arguments = settings.iter().chain(&LIBRARY).map(|argument| (*argument).to_string());
+        let standalone = scene.standalone.then_some(&STANDALONE);
+        let arguments = settings.iter().chain(&LIBRARY).chain(standalone).map(|argument| (*argument).to_string());
         let arguments = arguments.chain(link::arguments(target, linker, &library, &objects)).chain(named);
         rustc.run(folder, arguments, &link::variables(target, folder))?;
         let library = folder.join(library);

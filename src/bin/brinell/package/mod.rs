@@ -83,7 +83,7 @@ pub fn build(plan: &Plan, platforms: &[Platform]) -> Result<(Vec<u8>, Exported),
     let mut libraries = Vec::new();
     for (platform, library) in platforms.iter().zip(&built) {
         let refused = |reason| ExportError::Symbols { platform: platform.folder, reason };
-        let imports = symbols::check(library, platform).map_err(refused)?;
+        let imports = symbols::check(library, platform, scene.standalone).map_err(refused)?;
         libraries.push(Packed { platform: platform.folder, size: library.len(), imports });
     }
     let license = format!("{LICENSE}\n{THIRD_PARTY}");

@@ -45,6 +45,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         predictions: vec![scene.predictions[0]],
         watches: false,
         structured_names: false,
+        standalone: false,
         impact_is_assumed: scene.impact_is_assumed,
         text: scene.text.clone(),
     }

@@ -77,6 +77,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
             && damped.is_none()
             && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
         structured_names: file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
+        standalone: file.fmu.standalone == Some(true),
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),
     };

@@ -78,6 +78,7 @@ pub struct Fmu {
     pub names: Option<NamesName>,
     pub parameters: Option<Vec<Spanned<String>>>,
     pub initial_gap: Option<Spanned<f64>>,
+    pub standalone: Option<bool>,
 }
 
 /// How importers read the names of variables.

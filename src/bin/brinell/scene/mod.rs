@@ -51,6 +51,8 @@ pub struct Scene {
     pub watches: bool,
     /// The names of variables are declared to be a tree, not as flat.
     pub structured_names: bool,
+    /// The library needs nothing from its process, and takes memory from its importer.
+    pub standalone: bool,
     /// The file as it is.
     pub text: String,
 }

@@ -87,11 +87,11 @@ pub enum SymbolError {
     Signature(&'static str),
 }
 
-/// Checks the library of `platform`; gives the names that it takes from the process.
+/// Checks the library of `platform`; gives the names that it takes from the process. A `standalone` one takes none.
 ///
 /// # Errors
 /// [`SymbolError`] with the first thing that is wrong.
-pub fn check(library: &[u8], platform: &Platform) -> Result<Vec<String>, SymbolError> {
+pub fn check(library: &[u8], platform: &Platform, standalone: bool) -> Result<Vec<String>, SymbolError> {
     let slices = slices(library)?;
     let mut found = Vec::new();
     for slice in &slices {
@@ -106,7 +106,10 @@ pub fn check(library: &[u8], platform: &Platform) -> Result<Vec<String>, SymbolE
     for (slice, target) in slices.iter().zip(platform.targets) {
         imports.extend(check_target(slice, target)?);
     }
-    Ok(imports.into_iter().collect())
+    match imports.first() {
+        Some(import) if standalone => Err(SymbolError::Import(import.clone())),
+        _ => Ok(imports.into_iter().collect()),
+    }
 }
 
 /// The libraries in a universal one; itself, if it is none.
