@@ -1,4 +1,4 @@
-/* The bits of laws on some platform: digests LIBRARY < LIST. Each line of LIST has the arguments of brinell_digest, whose result
+/* The bits of laws on some platform: digests LIBRARY digests < LIST. Each line of LIST has the arguments of brinell_digest, whose result
    is printed. */
 #include "load.h"
 
@@ -7,7 +7,7 @@
 
 int main(int count, char **arguments) {
     char message[256] = "";
-    void *library = count == 2 ? load_library(arguments[1], message, sizeof message) : NULL;
+    void *library = count == 3 ? load_library(arguments[1], message, sizeof message) : NULL;
     uint64_t (*digest)(uint32_t, uint32_t, uint32_t, uint64_t);
     if (library == NULL || !load_function(library, "brinell_digest", &digest)) {
         printf("FAIL %s\n", message);

@@ -213,7 +213,8 @@ fn impact(random: &mut Random, way: u32) -> Impact {
 /// What a contact by the laws at these places of the lists does on history `seed` of this kind; `guarded` takes the form of the
 /// unloading law with the passivity guard. 0 if there is no such law.
 pub fn elastoplastic(loading: usize, unloading: usize, guarded: bool, way: u32, seed: u64) -> u64 {
-    let (Some((_, loading)), Some((_, unloading))) = (AnyLoading::ALL.get(loading), AnyUnloading::ALL.get(unloading)) else {
+    let (Some((_, loading)), Some((_, unloading))) = (AnyLoading::ALL.get(loading), AnyUnloading::ALL.get(unloading))
+    else {
         return 0;
     };
     let Some(unloading) = (if guarded { unloading.guarded() } else { Some(*unloading) }) else { return 0 };
