@@ -48,21 +48,40 @@ fn have(packages: &[&str], skipped: &str) -> bool {
     missing.is_empty()
 }
 
+/// The folder of pictures: that of the documentation with `BRINELL_WRITE=1`.
+fn pictures() -> PathBuf {
+    match std::env::var_os("BRINELL_WRITE") {
+        Some(_) => root().join("docs/examples"),
+        None => PathBuf::from(env!("CARGO_TARGET_TMPDIR")),
+    }
+}
+
 /// Runs examples/`name`.py, which ends with an error if something isn't right, and looks at its picture.
 fn example(name: &str, packages: &[&str]) {
+    animated(name, packages, false);
+}
+
+/// The same of an example that draws an animation, too.
+fn animated(name: &str, packages: &[&str], moves: bool) {
     if !have(packages, name) {
         return;
     }
-    let picture = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.svg"));
+    let [picture, animation] = ["svg", "gif"].map(|ending| pictures().join(name).with_extension(ending));
     let _ = std::fs::remove_file(&picture);
     let script: PathBuf = root().join("examples").join(format!("{name}.py"));
-    let output = interpreter().arg(script).arg(&picture).output().expect("the environment has an interpreter");
+    let mut command = interpreter();
+    command.arg(script).arg(&picture).args(moves.then_some(&animation));
+    let output = command.output().expect("the environment has an interpreter");
     let text = text(&output);
     assert!(output.status.success(), "{name} failed:\n{text}");
     assert!(text.contains("balance of energy"), "{name} doesn't judge itself:\n{text}");
     let drawn = std::fs::read_to_string(&picture).unwrap_or_else(|error| panic!("{}: {error}", picture.display()));
     assert!(drawn.contains("</svg>"), "{name} draws no picture");
-    println!("{name}:\n{text}");
+    if moves {
+        let bytes = std::fs::read(&animation).unwrap_or_else(|error| panic!("{}: {error}", animation.display()));
+        assert!(bytes.starts_with(b"GIF89a") && bytes.len() < 500_000, "{name}: {} bytes", bytes.len());
+    }
+    tell(&format!("{name}:\n{text}"));
 }
 
 #[test]
@@ -72,7 +91,28 @@ fn a_ball_bounces_to_rest_in_mujoco() {
 
 #[test]
 fn an_arm_hits_a_stop_in_mujoco() {
-    example("mujoco_arm", &["mujoco"]);
+    animated("mujoco_arm", &["mujoco"], true);
+}
+
+#[test]
+fn a_newtons_cradle_swings() {
+    animated("cradle", &["mujoco"], true);
+}
+
+/// What is counted, and what isn't, is told in own_lines.py.
+#[test]
+fn an_example_is_at_most_forty_lines_of_the_users_own_code() {
+    let names = ["mujoco_ball", "mujoco_arm", "exudyn_ball", "drake_ball", "pendulum", "cradle", "ball_in_box"];
+    let paths = names.map(|name| root().join("examples").join(name).with_extension("py"));
+    let output = interpreter().arg(root().join("tests/python/own_lines.py")).args(paths).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    let counts = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(counts.lines().count(), names.len(), "{counts}");
+    for line in counts.lines() {
+        let count: u32 = line.split_whitespace().next().and_then(|word| word.parse().ok()).expect("a number");
+        assert!((10..=40).contains(&count), "{line}");
+    }
+    tell(&format!("lines of the user's own code:\n{counts}"));
 }
 
 #[test]
