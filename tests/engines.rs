@@ -173,6 +173,54 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
+/// The first block of `page` in this language.
+fn block<'a>(page: &'a str, language: &str) -> &'a str {
+    let start = format!("```{language}\n");
+    let rest = page.split(&start).nth(1).unwrap_or_else(|| panic!("the page has no block of {language}"));
+    rest.split("```").next().unwrap_or_default()
+}
+
+/// What docs/notes/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
+fn page(name: &str, packages: &[&str]) {
+    if !have(packages, &format!("the page {name}")) {
+        return;
+    }
+    let read = |name: &str| std::fs::read_to_string(root().join("docs/notes").join(name)).expect("the page is there");
+    let (page, scene) = (read(&format!("{name}.md")), read("mujoco.md"));
+    let folder = tempfile::tempdir().expect("a folder for what the page writes");
+    std::fs::write(folder.path().join("ball.toml"), block(&scene, "toml")).unwrap();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    program.env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"));
+    let exported = program.args(["export", "ball.toml"]).current_dir(folder.path()).output().unwrap();
+    assert!(exported.status.success(), "{}", text(&exported));
+    let output = interpreter().args(["-c", block(&page, "python")]).current_dir(folder.path()).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    // an engine may print more than the script does
+    let shown: Vec<_> = printed.lines().filter(|line| line.contains(" s: ") || line.starts_with("potential")).collect();
+    assert_eq!(shown, block(&page, "text").lines().collect::<Vec<_>>(), "{printed}");
+}
+
+#[test]
+fn the_page_on_mujoco_prints_what_it_shows() {
+    page("mujoco", &["mujoco"]);
+}
+
+#[test]
+fn the_page_on_exudyn_prints_what_it_shows() {
+    page("exudyn", &["exudyn"]);
+}
+
+#[test]
+fn the_page_on_drake_prints_what_it_shows() {
+    page("drake", &["pydrake.all"]);
+}
+
+#[test]
+fn the_page_on_fmpy_prints_what_it_shows() {
+    page("fmpy", &[]);
+}
+
 #[test]
 fn the_python_of_the_modules_readme_runs() {
     let readme = std::fs::read_to_string(root().join("python/README.md")).expect("the module has a README");
