@@ -6,7 +6,7 @@
 An impact takes 70 us, so that a wave of four impacts crosses the row within one step. In each step
 the contacts take their turns in the order in which they touch. A contact runs through its impact in
 one call. Its neighbours first run up to the moment of that impact, with the speeds from before it.
-This is exact if the impacts of a ball don't overlap, which a gap of 15 um is enough for.
+This is exact if the impacts of a ball don't overlap, which a gap of 20 um is enough for.
 """
 
 import brinell

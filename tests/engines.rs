@@ -56,58 +56,89 @@ fn pictures() -> PathBuf {
     }
 }
 
-/// Runs examples/`name`.py, which ends with an error if something isn't right, and looks at its picture.
-fn example(name: &str, packages: &[&str]) {
-    animated(name, packages, false);
+/// An example with the packages that it needs.
+struct Example {
+    name: &'static str,
+    packages: &'static [&'static str],
+    animated: bool,
 }
 
-/// The same of an example that draws an animation, too.
-fn animated(name: &str, packages: &[&str], moves: bool) {
-    if !have(packages, name) {
-        return;
-    }
+const EXAMPLES: [Example; 7] = [
+    Example { name: "mujoco_ball", packages: &["mujoco"], animated: false },
+    Example { name: "mujoco_arm", packages: &["mujoco"], animated: true },
+    Example { name: "exudyn_ball", packages: &["exudyn"], animated: false },
+    Example { name: "drake_ball", packages: &["pydrake.all"], animated: false },
+    Example { name: "pendulum", packages: &[], animated: false },
+    Example { name: "cradle", packages: &["mujoco"], animated: true },
+    Example { name: "ball_in_box", packages: &[], animated: false },
+];
+
+/// Runs an example, which ends with an error if something isn't right, and looks at its pictures. What it printed, and how
+/// long it took [s]; or what is wrong.
+fn run(example: &Example) -> Result<(String, f64), String> {
+    let name = example.name;
     let [picture, animation] = ["svg", "gif"].map(|ending| pictures().join(name).with_extension(ending));
-    let _ = std::fs::remove_file(&picture);
-    let script: PathBuf = root().join("examples").join(format!("{name}.py"));
-    let mut command = interpreter();
-    command.arg(script).arg(&picture).args(moves.then_some(&animation));
-    let output = command.output().expect("the environment has an interpreter");
-    let text = text(&output);
-    assert!(output.status.success(), "{name} failed:\n{text}");
-    assert!(text.contains("balance of energy"), "{name} doesn't judge itself:\n{text}");
-    let drawn = std::fs::read_to_string(&picture).unwrap_or_else(|error| panic!("{}: {error}", picture.display()));
-    assert!(drawn.contains("</svg>"), "{name} draws no picture");
-    if moves {
-        let bytes = std::fs::read(&animation).unwrap_or_else(|error| panic!("{}: {error}", animation.display()));
-        assert!(bytes.starts_with(b"GIF89a") && bytes.len() < 500_000, "{name}: {} bytes", bytes.len());
+    let drawn = [Some(&picture), example.animated.then_some(&animation)];
+    for path in drawn.into_iter().flatten() {
+        let _ = std::fs::remove_file(path);
     }
-    tell(&format!("{name}:\n{text}"));
+    let mut command = interpreter();
+    command.arg(root().join("examples").join(name).with_extension("py")).args(drawn.into_iter().flatten());
+    let start = std::time::Instant::now();
+    let output = command.output().expect("the environment has an interpreter");
+    let (text, seconds) = (text(&output), start.elapsed().as_secs_f64());
+    if !output.status.success() || !text.contains("balance of energy") {
+        return Err(format!("{name} fails or doesn't judge itself:\n{text}"));
+    }
+    if !std::fs::read_to_string(&picture).is_ok_and(|drawn| drawn.contains("</svg>")) {
+        return Err(format!("{name} draws no picture"));
+    }
+    let moves = |bytes: Vec<u8>| bytes.starts_with(b"GIF89a") && bytes.len() < 500_000;
+    if example.animated && !std::fs::read(&animation).is_ok_and(moves) {
+        return Err(format!("{name} draws no animation, or a large one"));
+    }
+    Ok((text, seconds))
+}
+
+/// The largest error of the balance of energy that an example has printed.
+fn balance(text: &str) -> f64 {
+    let errors =
+        text.lines().filter_map(|line| line.strip_prefix("balance of energy: ")?.split(' ').next()?.parse().ok());
+    errors.fold(f64::NAN, f64::max)
 }
 
 #[test]
-fn a_ball_bounces_to_rest_in_mujoco() {
-    example("mujoco_ball", &["mujoco"]);
-}
-
-#[test]
-fn an_arm_hits_a_stop_in_mujoco() {
-    animated("mujoco_arm", &["mujoco"], true);
-}
-
-#[test]
-fn a_newtons_cradle_swings() {
-    animated("cradle", &["mujoco"], true);
+fn every_example_judges_itself_and_draws_its_pictures() {
+    let mut table = String::from("| example | balance of energy | seconds |\n|---|---|---|\n");
+    let mut wrong = Vec::new();
+    for example in &EXAMPLES {
+        let name = example.name;
+        if !have(example.packages, name) {
+            table += &format!("| {name} | not run | |\n");
+            continue;
+        }
+        match run(example) {
+            Ok((text, seconds)) => {
+                println!("{name}:\n{text}");
+                table += &format!("| {name} | {:.1e} | {seconds:.0} |\n", balance(&text));
+                wrong
+                    .extend((balance(&text).is_nan() || balance(&text) > 1e-6).then(|| format!("{name}: the balance")));
+            }
+            Err(reason) => wrong.push(reason),
+        }
+    }
+    tell(&table);
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// What is counted, and what isn't, is told in own_lines.py.
 #[test]
 fn an_example_is_at_most_forty_lines_of_the_users_own_code() {
-    let names = ["mujoco_ball", "mujoco_arm", "exudyn_ball", "drake_ball", "pendulum", "cradle", "ball_in_box"];
-    let paths = names.map(|name| root().join("examples").join(name).with_extension("py"));
+    let paths = EXAMPLES.map(|example| root().join("examples").join(example.name).with_extension("py"));
     let output = interpreter().arg(root().join("tests/python/own_lines.py")).args(paths).output().unwrap();
     assert!(output.status.success(), "{}", text(&output));
     let counts = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert_eq!(counts.lines().count(), names.len(), "{counts}");
+    assert_eq!(counts.lines().count(), EXAMPLES.len(), "{counts}");
     for line in counts.lines() {
         let count: u32 = line.split_whitespace().next().and_then(|word| word.parse().ok()).expect("a number");
         assert!((10..=40).contains(&count), "{line}");

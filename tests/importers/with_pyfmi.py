@@ -28,7 +28,7 @@ def ball(path, step, watch):
         (mass, "rate", contact, "indentation_rate"),
     ])
     options = master.simulate_options()
-    options.update(step_size=step, extrapolation_order=0, result_handling="none")
+    options.update(step_size=step, extrapolation_order=0, result_handling="memory")
     with watch.running():
         master.simulate(start_time=0.0, final_time=BALL_STEPS * step, options=options)
     return float(mass.get("rate")[0])
