@@ -21,35 +21,44 @@ SOLVERS = {
 }
 
 
+def ball():
+    """A ball above the plate: the system, and the number of the node."""
+    system = exudyn.SystemContainer().AddSystem()
+    start = dict(initialDisplacement=[0, 0, HEIGHT], gravity=[0, 0, -GRAVITY])
+    ball = system.CreateMassPoint(mass=MASS, **start, returnDict=True)
+    return system, ball["nodeNumber"]
+
+
+def simulate(system, solver):
+    """Runs the system to the end."""
+    system.Assemble()
+    settings = exudyn.SimulationSettings()
+    settings.timeIntegration.endTime = END
+    settings.timeIntegration.numberOfSteps = round(END / STEP)
+    settings.timeIntegration.verboseMode = 0
+    settings.solution.file.write = settings.show.statistics = False
+    system.SolveDynamic(settings, solverType=solver)
+
+
 def fall(path, solver):
     """Height and speed in the engine, with the unit as the plate."""
-    container = exudyn.SystemContainer()
-    system = container.AddSystem()
-    system.CreateMassPoint(
-        referencePosition=[0, 0, 0],
-        initialDisplacement=[0, 0, HEIGHT],
-        mass=MASS,
-        gravity=[0, 0, -GRAVITY],
-    )
+    system, _ = ball()
     rows = []
     with brinell.Contact(path, initial_gap=HEIGHT) as contact:
         balance = judge.Balance(contact)
 
         def before_each_step(system, time):
-            place, speed = (
-                system.systemData.GetODE2Coordinates(),
-                system.systemData.GetODE2Coordinates_t(),
-            )
+            state = system.systemData
+            place, speed = state.GetODE2Coordinates(), state.GetODE2Coordinates_t()
             if rows and rows[-1][3] > 0.0:
                 # the engine can't know when within the last step the ball has turned
                 place[2] = -contact["indentation"]
-                system.systemData.SetODE2Coordinates(place)
-            rows.append([time, place[2], speed[2], 0.0])
-            force = rows[-1][3] = contact.step(STEP, -speed[2], GRAVITY)
-            after = speed[2] + STEP * force / MASS
-            balance.step(STEP, MASS, force, -speed[2], -after, GRAVITY)
-            speed[2] = after
-            system.systemData.SetODE2Coordinates_t(speed)
+                state.SetODE2Coordinates(place)
+            force = contact.step(STEP, -speed[2], GRAVITY)
+            rows.append([time, place[2], speed[2], force])
+            speed[2] += STEP * force / MASS
+            balance.step(STEP, MASS, force, -rows[-1][2], -speed[2], GRAVITY)
+            state.SetODE2Coordinates_t(speed)
             return True
 
         system.SetPreStepUserFunction(before_each_step)
@@ -61,19 +70,11 @@ def fall(path, solver):
 def soft():
     """Height by the engine's own contact: a spring with a damper, so soft that steps of a
     millisecond carry it."""
-    container = exudyn.SystemContainer()
-    system = container.AddSystem()
-    ball = system.CreateMassPoint(
-        referencePosition=[0, 0, 0],
-        initialDisplacement=[0, 0, HEIGHT],
-        mass=MASS,
-        gravity=[0, 0, -GRAVITY],
-        returnDict=True,
-    )
+    system, number = ball()
     ground = system.AddNode(items.NodePointGround())
     ends = [
         system.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=2))
-        for node in (ground, ball["nodeNumber"])
+        for node in (ground, number)
     ]
     data = system.AddNode(
         items.NodeGenericData(initialCoordinates=[HEIGHT], numberOfDataCoordinates=1)
@@ -92,17 +93,6 @@ def soft():
     system.SetPreStepUserFunction(before_each_step)
     simulate(system, exudyn.DynamicSolverType.GeneralizedAlpha)
     return np.array(rows).T
-
-
-def simulate(system, solver):
-    system.Assemble()
-    settings = exudyn.SimulationSettings()
-    settings.timeIntegration.endTime = END
-    settings.timeIntegration.numberOfSteps = round(END / STEP)
-    settings.timeIntegration.verboseMode = 0
-    settings.solution.file.write = False
-    settings.show.statistics = False
-    system.SolveDynamic(settings, solverType=solver)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import matplotlib
 import numpy as np
 
 matplotlib.use("svg")
+from matplotlib import animation as movie
 from matplotlib import pyplot
 
 FOLDER = Path(__file__).parent
@@ -127,3 +128,56 @@ def picture(title, lines, x="time [s]", y="height [mm]"):
     axes.legend(frameon=False)
     axes.grid(alpha=0.3)
     figure.savefig(sys.argv[1], metadata={"Date": None})
+
+
+def row(path, start, gap, mass, pull, h):
+    """Places [m] and speeds [m/s] of a row of balls, 2 ms after those of `start`.
+
+    All contacts go on together in steps of `h` [s], by units that don't know the mass."""
+    scene = (FOLDER / f"{path.stem}.toml").read_text(encoding="utf-8").split("[coupling]")[0]
+    loose = path.with_name("loose.toml")
+    loose.write_text(scene, encoding="utf-8")
+    unit = brinell.export(loose, path.with_name("loose.fmu"))
+    place, speed = np.split(np.array(start), 2)
+    contacts = [brinell.Contact(unit, initial_gap=distance) for distance in gap + np.diff(place)]
+    # nothing pushes from outside
+    force, mean = np.zeros((2, len(place) + 1))
+    for _ in range(round(2e-3 / h)):
+        rates, others = -np.diff(speed), np.diff(np.diff(force)) / mass
+        for index, contact in enumerate(contacts, start=1):
+            mean[index] = contact.step(h, rates[index - 1], others[index - 1])
+            force[index] = contact["force"]
+        change = h * (pull(place) - np.diff(mean) / mass)
+        place += h * (speed + 0.5 * change)
+        speed += change
+    return place, speed
+
+
+def animation(panels, seconds, slower=1.0, still=None, size=9, rate=20):
+    """Draws `panels`, a list of (title, strokes), into the second file that the command line names,
+    if it names one.
+
+    `strokes` has the points of each stroke at each millisecond: time, stroke, point, (x, y). A
+    stroke ends in a ball of `size` [points]; `still` is a line that doesn't move."""
+    if len(sys.argv) < 3:
+        return
+    ends = np.concatenate([strokes.reshape(-1, 2) for _, strokes in panels])
+    (left, low), (right, high) = ends.min(axis=0) - 0.02, ends.max(axis=0) + 0.005
+    figure, every = pyplot.subplots(1, len(panels), figsize=(5.6, 2.4), layout="constrained")
+    drawn = []
+    for axes, (title, strokes) in zip(every, panels, strict=True):
+        axes.set(title=title, xlim=(left, right + 0.015), ylim=(low, high))
+        axes.set_aspect("equal")
+        axes.set_axis_off()
+        if still is not None:
+            axes.plot(*still.T, color="0.5", linewidth=3)
+        lines = [axes.plot([], [], "o-", markevery=[-1], markersize=size)[0] for _ in strokes[0]]
+        drawn += [(line, strokes[:, index]) for index, line in enumerate(lines)]
+
+    def draw(frame):
+        for line, points in drawn:
+            line.set_data(*points[min(round(1e3 * frame / rate / slower), len(points) - 1)].T)
+
+    frames = round(seconds * slower * rate)
+    writer = movie.PillowWriter(fps=rate)
+    movie.FuncAnimation(figure, draw, frames).save(sys.argv[2], writer, dpi=72)

@@ -13,21 +13,13 @@ import mujoco
 import numpy as np
 
 STEP, END, RADIUS = 1e-3, 2.0, 5e-3  # s, s, m
-MODEL = """<mujoco><option timestep="1e-3" gravity="0 0 -9.81"/>
-<default><geom contype="0" conaffinity="0"/></default><worldbody>
-  <geom type="plane" pos="-.05 0 0" zaxis="1 0 0" size="1 1 .1" contype="{soft}"/>
-  <body><joint axis="0 1 0"/>
-    <geom type="capsule" fromto="0 0 0 0 0 -.3" size=".01" mass=".2"/>
-    <body pos="0 0 -.3"><joint axis="0 1 0" damping="2e-3"/>
-      <geom type="capsule" fromto="0 0 0 0 0 -.2" size=".008" mass=".1"/>
-      <geom type="sphere" pos="0 0 -.2" size="5e-3" mass="4e-3" conaffinity="1"/>
-      <site name="tip" pos="0 0 -.2"/>
-</body></body></worldbody></mujoco>"""
 
 
 def start(soft):
-    """The engine with the arm raised."""
-    model = mujoco.MjModel.from_xml_string(MODEL.format(soft=soft))
+    """The engine with the arm raised; `soft` switches its own contact with the stop on."""
+    spec = mujoco.MjSpec.from_file(__file__.replace("mujoco_arm.py", "arm.xml"))
+    spec.geom("stop").contype = soft
+    model = spec.compile()
     data = mujoco.MjData(model)
     data.qpos[:] = [-0.9, -0.5]
     mujoco.mj_forward(model, data)
@@ -39,27 +31,25 @@ def gap(data):
     return data.site("tip").xpos[0] - RADIUS + 0.05
 
 
-def swing(path, mass_of_pose=True):
-    """Times, distances from the stop; and of each blow speed, restitution and effective mass. With
-    the mass of the first pose only as far as the first blow: from there on it's nonsense."""
+def swing(path, fixed=None, end=END):
+    """Times, distances from the stop, effective masses and joint angles; and of each blow time, speed,
+    restitution and effective mass. `fixed` [kg] instead of the mass of the pose goes wrong."""
     model, data = start(soft=0)
-    finger, first = model.site("tip").bodyid[0], None
     jacobian, change, response = np.zeros((3, 2)), np.zeros((3, 2)), np.zeros((1, 2))
-    rows, blows = [], []
+    rows, blows, finger = [], [], model.body("finger").id
     with brinell.Contact(path, initial_gap=gap(data)) as contact:
         balance = judge.Balance(contact)
-        for _ in range(round(END / STEP)):
+        while data.time < end:
             mujoco.mj_forward(model, data)
             mujoco.mj_jacSite(model, data, jacobian, None, 0)
             mujoco.mj_jacDot(model, data, change, None, data.site("tip").xpos, finger)
             away = jacobian[:1]  # how the distance follows the joints
             mujoco.mj_solveM(model, data, response, away)
             mass = 1.0 / (away @ response.T).item()
-            first = first or mass
+            rows.append((data.time, gap(data), mass, *data.qpos))
             closing = -(away @ data.qvel).item()
             pull = -(away @ data.qacc + change[:1] @ data.qvel).item()
-            used = mass if mass_of_pose else first
-            force = contact.step(STEP, closing, pull, mass=used, gap=gap(data))
+            force = contact.step(STEP, closing, pull, mass=fixed or mass, gap=gap(data))
             data.qvel += STEP * force * response[0]
             after = -(away @ data.qvel).item()
             balance.step(STEP, mass, force, closing, after, pull)
@@ -68,12 +58,8 @@ def swing(path, mass_of_pose=True):
                 # the engine can't know when within the step the finger has turned
                 mujoco.mj_kinematics(model, data)
                 data.qpos += response[0] * mass * (-contact["indentation"] - gap(data))
-                blows.append((closing, -(after + STEP * pull) / closing, mass))
-                if not mass_of_pose:
-                    break
-            mujoco.mj_kinematics(model, data)
-            rows.append((data.time, gap(data)))
-    if mass_of_pose:
+                blows.append((data.time, closing, -(after + STEP * pull) / closing, mass))
+    if fixed is None:
         balance.told()
     return np.array(rows).T, np.array(blows)
 
@@ -84,27 +70,42 @@ def soft():
     rows = []
     while data.time < END:
         mujoco.mj_step(model, data)
-        rows.append((data.time, gap(data)))
+        rows.append((data.time, gap(data), 0.0, *data.qpos))
     return np.array(rows).T
+
+
+def drawn(angles):
+    """The points of the arm at all times, for the animation."""
+    links = [(0.0, 0.0), (0.3, angles[0]), (0.2, angles[0] + angles[1])]
+    points = [np.array([-length * np.sin(at), -length * np.cos(at)]) for length, at in links[1:]]
+    elbow, tip = points[0].T, (points[0] + points[1]).T
+    return np.stack([np.zeros_like(elbow), elbow, tip], axis=1)[:, None]
 
 
 if __name__ == "__main__":
     path = judge.unit("arm")
-    (time, distance), blows = swing(path)
-    for speed, restitution, mass in blows[:3]:
+    rows, blows = swing(path)
+    for _, speed, restitution, mass in blows[:3]:
         print(f"{speed:.3f} m/s with {mass:.4f} kg: restitution {restitution:.4f}")
-    speed, restitution, mass = blows[0]
+    time, speed, restitution, mass = blows[0]
     with brinell.Contact(path, effective_mass=mass) as alone:
         expected = STEP * alone.step(STEP, speed) / mass / speed - 1.0
     judge.agree("first restitution against the unit alone", restitution, expected, 5e-3)
-    _, wrong = swing(path, mass_of_pose=False)
-    print(f"the first with the mass of the first pose: restitution {wrong[0][1]:.4f}")
+    _, wrong = swing(path, fixed=rows[2, 0], end=time)
+    print(f"the first with the mass of the first pose: restitution {wrong[0][2]:.4f}")
     own = soft()
     judge.picture(
         "MuJoCo: an arm with two links swings against a stop, 1 ms steps",
         [
-            (time, 1e3 * distance, "engine with the unit", "-"),
+            (rows[0], 1e3 * rows[1], "engine with the unit", "-"),
             (own[0], 1e3 * own[1], "the engine's own contact", "--"),
         ],
         y="distance from the stop [mm]",
+    )
+    stop = np.array([[-0.055, -0.4], [-0.055, -0.52]])
+    judge.animation(
+        [("contact by the unit", drawn(rows[3:])), ("MuJoCo's own contact", drawn(own[3:]))],
+        seconds=END,
+        slower=2.0,
+        still=stop,
     )

@@ -48,31 +48,102 @@ fn have(packages: &[&str], skipped: &str) -> bool {
     missing.is_empty()
 }
 
-/// Runs examples/`name`.py, which ends with an error if something isn't right, and looks at its picture.
-fn example(name: &str, packages: &[&str]) {
-    if !have(packages, name) {
-        return;
+/// The folder of pictures: that of the documentation with `BRINELL_WRITE=1`.
+fn pictures() -> PathBuf {
+    match std::env::var_os("BRINELL_WRITE") {
+        Some(_) => root().join("docs/examples"),
+        None => PathBuf::from(env!("CARGO_TARGET_TMPDIR")),
     }
-    let picture = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.svg"));
-    let _ = std::fs::remove_file(&picture);
-    let script: PathBuf = root().join("examples").join(format!("{name}.py"));
-    let output = interpreter().arg(script).arg(&picture).output().expect("the environment has an interpreter");
-    let text = text(&output);
-    assert!(output.status.success(), "{name} failed:\n{text}");
-    assert!(text.contains("balance of energy"), "{name} doesn't judge itself:\n{text}");
-    let drawn = std::fs::read_to_string(&picture).unwrap_or_else(|error| panic!("{}: {error}", picture.display()));
-    assert!(drawn.contains("</svg>"), "{name} draws no picture");
-    println!("{name}:\n{text}");
+}
+
+/// An example with the packages that it needs.
+struct Example {
+    name: &'static str,
+    packages: &'static [&'static str],
+    animated: bool,
+}
+
+const EXAMPLES: [Example; 7] = [
+    Example { name: "mujoco_ball", packages: &["mujoco"], animated: false },
+    Example { name: "mujoco_arm", packages: &["mujoco"], animated: true },
+    Example { name: "exudyn_ball", packages: &["exudyn"], animated: false },
+    Example { name: "drake_ball", packages: &["pydrake.all"], animated: false },
+    Example { name: "pendulum", packages: &[], animated: false },
+    Example { name: "cradle", packages: &["mujoco"], animated: true },
+    Example { name: "ball_in_box", packages: &[], animated: false },
+];
+
+/// Runs an example, which ends with an error if something isn't right, and looks at its pictures. What it printed, and how
+/// long it took [s]; or what is wrong.
+fn run(example: &Example) -> Result<(String, f64), String> {
+    let name = example.name;
+    let [picture, animation] = ["svg", "gif"].map(|ending| pictures().join(name).with_extension(ending));
+    let drawn = [Some(&picture), example.animated.then_some(&animation)];
+    for path in drawn.into_iter().flatten() {
+        let _ = std::fs::remove_file(path);
+    }
+    let mut command = interpreter();
+    command.arg(root().join("examples").join(name).with_extension("py")).args(drawn.into_iter().flatten());
+    let start = std::time::Instant::now();
+    let output = command.output().expect("the environment has an interpreter");
+    let (text, seconds) = (text(&output), start.elapsed().as_secs_f64());
+    if !output.status.success() || !text.contains("balance of energy") {
+        return Err(format!("{name} fails or doesn't judge itself:\n{text}"));
+    }
+    if !std::fs::read_to_string(&picture).is_ok_and(|drawn| drawn.contains("</svg>")) {
+        return Err(format!("{name} draws no picture"));
+    }
+    let moves = |bytes: Vec<u8>| bytes.starts_with(b"GIF89a") && bytes.len() < 500_000;
+    if example.animated && !std::fs::read(&animation).is_ok_and(moves) {
+        return Err(format!("{name} draws no animation, or a large one"));
+    }
+    Ok((text, seconds))
+}
+
+/// The largest error of the balance of energy that an example has printed.
+fn balance(text: &str) -> f64 {
+    let errors =
+        text.lines().filter_map(|line| line.strip_prefix("balance of energy: ")?.split(' ').next()?.parse().ok());
+    errors.fold(f64::NAN, f64::max)
 }
 
 #[test]
-fn a_ball_bounces_to_rest_in_mujoco() {
-    example("mujoco_ball", &["mujoco"]);
+fn every_example_judges_itself_and_draws_its_pictures() {
+    let mut table = String::from("| example | balance of energy | seconds |\n|---|---|---|\n");
+    let mut wrong = Vec::new();
+    for example in &EXAMPLES {
+        let name = example.name;
+        if !have(example.packages, name) {
+            table += &format!("| {name} | not run | |\n");
+            continue;
+        }
+        match run(example) {
+            Ok((text, seconds)) => {
+                println!("{name}:\n{text}");
+                table += &format!("| {name} | {:.1e} | {seconds:.0} |\n", balance(&text));
+                wrong
+                    .extend((balance(&text).is_nan() || balance(&text) > 1e-6).then(|| format!("{name}: the balance")));
+            }
+            Err(reason) => wrong.push(reason),
+        }
+    }
+    tell(&table);
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// What is counted, and what isn't, is told in own_lines.py.
 #[test]
-fn an_arm_hits_a_stop_in_mujoco() {
-    example("mujoco_arm", &["mujoco"]);
+fn an_example_is_at_most_forty_lines_of_the_users_own_code() {
+    let paths = EXAMPLES.map(|example| root().join("examples").join(example.name).with_extension("py"));
+    let output = interpreter().arg(root().join("tests/python/own_lines.py")).args(paths).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    let counts = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(counts.lines().count(), EXAMPLES.len(), "{counts}");
+    for line in counts.lines() {
+        let count: u32 = line.split_whitespace().next().and_then(|word| word.parse().ok()).expect("a number");
+        assert!((10..=40).contains(&count), "{line}");
+    }
+    tell(&format!("lines of the user's own code:\n{counts}"));
 }
 
 #[test]
@@ -131,6 +202,54 @@ fn copy(from: &Path, to: &Path) {
             std::fs::copy(&path, to.join(name)).expect("a file that can be read");
         }
     }
+}
+
+/// The first block of `page` in this language.
+fn block<'a>(page: &'a str, language: &str) -> &'a str {
+    let start = format!("```{language}\n");
+    let rest = page.split(&start).nth(1).unwrap_or_else(|| panic!("the page has no block of {language}"));
+    rest.split("```").next().unwrap_or_default()
+}
+
+/// What docs/notes/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
+fn page(name: &str, packages: &[&str]) {
+    if !have(packages, &format!("the page {name}")) {
+        return;
+    }
+    let read = |name: &str| std::fs::read_to_string(root().join("docs/notes").join(name)).expect("the page is there");
+    let (page, scene) = (read(&format!("{name}.md")), read("mujoco.md"));
+    let folder = tempfile::tempdir().expect("a folder for what the page writes");
+    std::fs::write(folder.path().join("ball.toml"), block(&scene, "toml")).unwrap();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    program.env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"));
+    let exported = program.args(["export", "ball.toml"]).current_dir(folder.path()).output().unwrap();
+    assert!(exported.status.success(), "{}", text(&exported));
+    let output = interpreter().args(["-c", block(&page, "python")]).current_dir(folder.path()).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    // an engine may print more than the script does
+    let shown: Vec<_> = printed.lines().filter(|line| line.contains(" s: ") || line.starts_with("potential")).collect();
+    assert_eq!(shown, block(&page, "text").lines().collect::<Vec<_>>(), "{printed}");
+}
+
+#[test]
+fn the_page_on_mujoco_prints_what_it_shows() {
+    page("mujoco", &["mujoco"]);
+}
+
+#[test]
+fn the_page_on_exudyn_prints_what_it_shows() {
+    page("exudyn", &["exudyn"]);
+}
+
+#[test]
+fn the_page_on_drake_prints_what_it_shows() {
+    page("drake", &["pydrake.all"]);
+}
+
+#[test]
+fn the_page_on_fmpy_prints_what_it_shows() {
+    page("fmpy", &[]);
 }
 
 #[test]

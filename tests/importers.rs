@@ -2,7 +2,8 @@
 //!
 //! Every tool runs the same history of rates, whose forces are those of the C interface, and, if it is a master, a ball that
 //! meets the block, whose restitution is the predicted one. At the end there is one table, also of what didn't run and why.
-//! `BRINELL_IMPORTERS=all` adds the tools that are large (two gigabytes), `BRINELL_WRITE=1` writes the table to docs/importers.md.
+//! `BRINELL_IMPORTERS=all` adds the tools that are large (two gigabytes), `BRINELL_IMPORTER_PYTHON` names an interpreter that has
+//! tools which can't be installed from a registry, `BRINELL_WRITE=1` writes the table to docs/importers.md.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -30,30 +31,56 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// A driver with the file that its environment is made from, and whether that is large.
-struct Driver {
-    name: &'static str,
-    requirements: &'static str,
-    large: bool,
+/// Where the interpreter of a driver comes from.
+enum Interpreter {
+    /// From a virtual environment, made from this file of requirements.
+    Made { requirements: &'static str, large: bool },
+    /// From whoever has this Python package, since no registry has one that can be installed: `BRINELL_IMPORTER_PYTHON`.
+    Given { package: &'static str, since: &'static str },
 }
 
-const DRIVERS: [Driver; 7] = [
-    Driver { name: "fmpy", requirements: "light", large: false },
-    Driver { name: "libcosim", requirements: "light", large: false },
-    Driver { name: "ecos", requirements: "light", large: false },
-    Driver { name: "container", requirements: "light", large: false },
-    Driver { name: "pathsim", requirements: "light", large: false },
-    Driver { name: "cofmupy", requirements: "cofmupy", large: true },
-    Driver { name: "gemseo", requirements: "gemseo", large: true },
+use Interpreter::{Given, Made};
+
+struct Driver {
+    name: &'static str,
+    interpreter: Interpreter,
+}
+
+const LIGHT: Interpreter = Made { requirements: "light", large: false };
+
+const DRIVERS: [Driver; 10] = [
+    Driver { name: "fmpy", interpreter: LIGHT },
+    Driver { name: "libcosim", interpreter: LIGHT },
+    Driver { name: "ecos", interpreter: LIGHT },
+    Driver { name: "container", interpreter: LIGHT },
+    Driver { name: "pathsim", interpreter: LIGHT },
+    Driver { name: "cofmupy", interpreter: Made { requirements: "cofmupy", large: true } },
+    Driver { name: "gemseo", interpreter: Made { requirements: "gemseo", large: true } },
+    Driver {
+        name: "fmipp",
+        interpreter: Given {
+            package: "fmipp",
+            since: "PyPI has its source only, which needs SWIG, Boost and SUNDIALS 3.1.2 (Debian 12 has 6.4.1)",
+        },
+    },
+    Driver {
+        name: "pyfmi",
+        interpreter: Given {
+            package: "pyfmi",
+            since: "PyPI has the source of version 2.5 only, which needs FMI Library and Assimulo; the current one is on conda-forge",
+        },
+    },
+    Driver {
+        name: "omsimulator",
+        interpreter: Given {
+            package: "OMSimulator",
+            since: "its package on PyPI has no binary and downloads one from build.openmodelica.org when it is installed",
+        },
+    },
 ];
 
 /// Tools without a driver.
-const NOT_RUN: [(&str, &str); 4] = [
-    ("OMSimulator", "its package on PyPI has no binary and downloads one from another server when it is installed"),
-    ("FMI++ (fmipp)", "no wheel for Python 3.11; its source needs SWIG and Boost"),
-    ("PyFMI", "no wheel for Python 3.11; its source package wants numpy before any is installed"),
-    ("fmi-sim", "not tried: it is the program of the `fmi` crate, which is run"),
-];
+const NOT_RUN: [(&str, &str); 1] = [("fmi-sim", "not tried: it is the program of the `fmi` crate, which is run")];
 
 /// Time that no driver needs: one that has taken it hangs.
 const HANGS: Duration = Duration::from_secs(300);
@@ -125,12 +152,27 @@ fn reference() -> Vec<f64> {
     forces
 }
 
+/// The interpreter that has the tool.
+fn python_of(driver: &Driver) -> Result<PathBuf, String> {
+    match driver.interpreter {
+        Made { requirements: name, .. } => {
+            let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/importers/requirements-{name}.txt"));
+            python::environment_of(&format!("importers-{name}"), &file)
+                .map_err(|reason| format!("can't be installed: {}", last_line(&reason)))
+        }
+        Given { package, since } => {
+            let python = PathBuf::from(env::var_os("BRINELL_IMPORTER_PYTHON").unwrap_or_default());
+            let imports = Command::new(&python).args(["-c", &format!("import {package}")]).output();
+            let has = imports.is_ok_and(|output| output.status.success());
+            has.then_some(python).ok_or_else(|| format!("can't be installed: {since}"))
+        }
+    }
+}
+
 /// Runs a driver to its end; its result is in `result` as far as it came.
 fn run(driver: &Driver, folder: &Path) -> Result<Value, String> {
     let importers = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers");
-    let requirements = importers.join(format!("requirements-{}.txt", driver.requirements));
-    let python = python::environment_of(&format!("importers-{}", driver.requirements), &requirements)
-        .map_err(|reason| format!("can't be installed: {}", last_line(&reason)))?;
+    let python = python_of(driver)?;
     let [result, log] = ["json", "log"].map(|ending| folder.join(driver.name).with_extension(ending));
     let written = File::create(&log).unwrap();
     let mut process = Command::new(python)
@@ -198,7 +240,7 @@ fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitutio
     table.rows.push(fmi_crate(&folder, &forces));
     let all = env::var("BRINELL_IMPORTERS").is_ok_and(|value| value == "all");
     for driver in &DRIVERS {
-        if driver.large && !all {
+        if matches!(driver.interpreter, Made { large: true, .. }) && !all {
             table.not_run.push((driver.name.into(), "large; with BRINELL_IMPORTERS=all".into()));
             continue;
         }

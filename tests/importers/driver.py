@@ -58,14 +58,14 @@ def answer(make, steps):
     return {"value": value, "steps_per_second": steps / watch.seconds if watch.seconds else None}
 
 
-def run(package, ways):
+def run(package, ways, version=None):
     """Goes all `ways`: a list of (name, order, history, ball), where order is "serial", "parallel" or "-".
 
     `history(watch)` gives the force after each step of the history, `ball(contact, step, watch)` the rate of the ball in the end.
     A tool that can't do one of the two has None there.
     """
     os.chdir(tempfile.mkdtemp(prefix="brinell-"))
-    result = {"version": importlib.metadata.version(package), "ways": []}
+    result = {"version": version or importlib.metadata.version(package), "ways": []}
     for name, order, history, ball in ways:
         way = {"name": name, "order": order}
         if history:
