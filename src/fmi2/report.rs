@@ -17,17 +17,12 @@ fn phase_name(phase: Phase) -> &'static str {
     }
 }
 
-/// Names a contact, if there are several.
+/// Names a contact.
 fn contact_name<S: Scene>(text: &mut Text, contact: usize) -> &mut Text {
-    if S::CONTACTS == 1 {
-        return text;
-    }
-    let group = S::group(contact);
-    let (name, counted) = S::group_name(group);
+    let (name, number) = S::contact_name(contact);
     text.string(name);
-    if counted {
-        let first = group.checked_sub(1).map_or(0, S::end);
-        text.string("[").integer((contact + 1 - first) as u32).string("]");
+    if number != 0 {
+        text.string("[").integer(number as u32).string("]");
     }
     text.string(": ")
 }
@@ -67,6 +62,11 @@ impl Message {
         }
         fill(text, self.template, self.words, self.numbers);
     }
+}
+
+/// What is said of `contact`: nothing if there is but one.
+fn among<S: Scene>(contact: usize) -> Option<usize> {
+    (S::CONTACTS > 1).then_some(contact)
 }
 
 /// Writes why a call is refused.
@@ -112,7 +112,8 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
     match fault {
         Fault::NotSettable => "an output can't be set",
         Fault::FixedParameter { index } => {
-            words[0] = S::settable().get(index).map_or("", |settable| settable.name);
+            let Some((settable, owner)) = S::settable_at(index) else { return "" };
+            (words[0], *of) = (settable.name, owner);
             "the parameter @ can't be set after initialization"
         }
         Fault::NotFinite { name, value } => {
@@ -128,8 +129,9 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             "indentation_rate = ~ is too fast: the force would not be finite"
         }
         Fault::OutOfRange { index, value } => {
-            let Some(settable) = S::settable().get(index) else { return "" };
+            let Some((settable, owner)) = S::settable_at(index) else { return "" };
             let Settable { name, unit, minimum, maximum } = *settable;
+            *of = owner;
             (*words, *numbers) = ([name, unit], [value, minimum, maximum]);
             if unit.is_empty() {
                 "@ = ~ is out of range: allowed is ~ to ~"
@@ -143,7 +145,8 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             *numbers = [mass, *MASSES.start(), *MASSES.end()];
             "effective_mass = ~ is out of range: allowed is ~ to ~ kg"
         }
-        Fault::NoPointContact { impactor, target } => {
+        Fault::NoPointContact { contact, impactor, target } => {
+            *of = among::<S>(contact);
             (numbers[0], numbers[1]) = (impactor, target);
             "impactor.radius = ~ m does not fit target.radius = ~ m: a socket (negative) must be wider than the impactor, \
              and no radius is below 1e-12 m"
@@ -170,11 +173,11 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             "the step would end at ~ s: allowed are times up to ~ s"
         }
         Fault::TooDeep { contact, indentation } => {
-            (*of, numbers[0]) = (Some(contact), indentation);
+            (*of, numbers[0]) = (among::<S>(contact), indentation);
             "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
         }
-        Fault::TooLong { step } => {
-            numbers[0] = step;
+        Fault::TooLong { contact, step } => {
+            (*of, numbers[0]) = (among::<S>(contact), step);
             "the bodies rebound too often to be followed within communicationStepSize = ~ s"
         }
         Fault::DerivativeOrder { order, largest } => {
@@ -204,12 +207,12 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
     let guard = S::GUARD.map_or("", |guard| guard.words);
     message.template = match *warning {
         Warning::Deep { contact, indentation, allowed } => {
-            message.contact = Some(contact);
+            message.contact = among::<S>(contact);
             (message.numbers[0], message.numbers[1]) = (indentation, allowed);
             "at an indentation of ~ m the contact radius is above 0.3 effective radii: the law is valid up to ~ m"
         }
         Warning::Fast { contact, rate, allowed } => {
-            message.contact = Some(contact);
+            message.contact = among::<S>(contact);
             (message.numbers[0], message.numbers[1]) = (rate, allowed);
             "indentation_rate = ~ m/s is above 0.01 of the wave speed: the law is valid up to ~ m/s"
         }
@@ -218,16 +221,16 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
         }
         // what a scene hasn't got is not in its library
-        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired(&mut message, *warning, guard),
+        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired::<S>(&mut message, *warning, guard),
         _ => guard,
     };
     message.write::<S>(text);
 }
 
 /// The template for a master of the other order of execution, or else for the passivity `guard`.
-fn miswired(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
+fn miswired<S: Scene>(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
     let Warning::Miswired { contact, rate, expected, parallel } = warning else { return guard };
-    message.contact = Some(contact);
+    message.contact = among::<S>(contact);
     (message.numbers[0], message.numbers[1]) = (rate, expected);
     if parallel {
         "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force over the same step already; leave out \
