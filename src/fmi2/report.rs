@@ -17,8 +17,11 @@ fn phase_name(phase: Phase) -> &'static str {
     }
 }
 
-/// Names a contact.
+/// Names a contact, if there are several.
 fn contact_name<S: Scene>(text: &mut Text, contact: usize) -> &mut Text {
+    if S::CONTACTS == 1 {
+        return text;
+    }
     let (name, number) = S::contact_name(contact);
     text.string(name);
     if number != 0 {
@@ -64,16 +67,27 @@ impl Message {
     }
 }
 
-/// What is said of `contact`: nothing if there is but one.
-fn among<S: Scene>(contact: usize) -> Option<usize> {
-    (S::CONTACTS > 1).then_some(contact)
+/// The contact that a fault is one of; none if it is one of all.
+fn contact_of<S: Scene>(fault: Fault) -> Option<usize> {
+    match fault {
+        Fault::NoPointContact { contact, .. } | Fault::TooDeep { contact, .. } | Fault::TooLong { contact, .. } => {
+            Some(contact)
+        }
+        Fault::FixedParameter { index } | Fault::OutOfRange { index, .. } => S::settable_at(index)?.1,
+        _ => None,
+    }
 }
 
 /// Writes why a call is refused.
 pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
     let mut message = Message::BLANK;
     message.template = match *complaint {
-        Complaint::Instance(fault) => describe_fault::<S>(&mut message, fault),
+        Complaint::Instance(fault) => {
+            if S::CONTACTS > 1 {
+                message.contact = contact_of::<S>(fault);
+            }
+            describe_fault::<S>(&mut message, fault)
+        }
         Complaint::BadInstance { reason } => reason,
         Complaint::OutOfOrder { phase } => {
             message.words[0] = phase_name(phase);
@@ -108,12 +122,11 @@ pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
 /// The template for `fault`, whose words and numbers are put into `message`.
 #[inline]
 fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str {
-    let Message { words, numbers, contact: of, .. } = message;
+    let Message { words, numbers, .. } = message;
     match fault {
         Fault::NotSettable => "an output can't be set",
         Fault::FixedParameter { index } => {
-            let Some((settable, owner)) = S::settable_at(index) else { return "" };
-            (words[0], *of) = (settable.name, owner);
+            words[0] = S::settable_at(index).map_or("", |(settable, _)| settable.name);
             "the parameter @ can't be set after initialization"
         }
         Fault::NotFinite { name, value } => {
@@ -129,9 +142,8 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             "indentation_rate = ~ is too fast: the force would not be finite"
         }
         Fault::OutOfRange { index, value } => {
-            let Some((settable, owner)) = S::settable_at(index) else { return "" };
+            let Some((settable, _)) = S::settable_at(index) else { return "" };
             let Settable { name, unit, minimum, maximum } = *settable;
-            *of = owner;
             (*words, *numbers) = ([name, unit], [value, minimum, maximum]);
             if unit.is_empty() {
                 "@ = ~ is out of range: allowed is ~ to ~"
@@ -145,8 +157,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             *numbers = [mass, *MASSES.start(), *MASSES.end()];
             "effective_mass = ~ is out of range: allowed is ~ to ~ kg"
         }
-        Fault::NoPointContact { contact, impactor, target } => {
-            *of = among::<S>(contact);
+        Fault::NoPointContact { impactor, target, .. } => {
             (numbers[0], numbers[1]) = (impactor, target);
             "impactor.radius = ~ m does not fit target.radius = ~ m: a socket (negative) must be wider than the impactor, \
              and no radius is below 1e-12 m"
@@ -172,12 +183,12 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             (numbers[0], numbers[1]) = (end, LATEST);
             "the step would end at ~ s: allowed are times up to ~ s"
         }
-        Fault::TooDeep { contact, indentation } => {
-            (*of, numbers[0]) = (among::<S>(contact), indentation);
+        Fault::TooDeep { indentation, .. } => {
+            numbers[0] = indentation;
             "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
         }
-        Fault::TooLong { contact, step } => {
-            (*of, numbers[0]) = (among::<S>(contact), step);
+        Fault::TooLong { step, .. } => {
+            numbers[0] = step;
             "the bodies rebound too often to be followed within communicationStepSize = ~ s"
         }
         Fault::DerivativeOrder { order, largest } => {
@@ -207,12 +218,12 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
     let guard = S::GUARD.map_or("", |guard| guard.words);
     message.template = match *warning {
         Warning::Deep { contact, indentation, allowed } => {
-            message.contact = among::<S>(contact);
+            message.contact = Some(contact);
             (message.numbers[0], message.numbers[1]) = (indentation, allowed);
             "at an indentation of ~ m the contact radius is above 0.3 effective radii: the law is valid up to ~ m"
         }
         Warning::Fast { contact, rate, allowed } => {
-            message.contact = among::<S>(contact);
+            message.contact = Some(contact);
             (message.numbers[0], message.numbers[1]) = (rate, allowed);
             "indentation_rate = ~ m/s is above 0.01 of the wave speed: the law is valid up to ~ m/s"
         }
@@ -221,16 +232,16 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
         }
         // what a scene hasn't got is not in its library
-        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired::<S>(&mut message, *warning, guard),
+        _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired(&mut message, *warning, guard),
         _ => guard,
     };
     message.write::<S>(text);
 }
 
 /// The template for a master of the other order of execution, or else for the passivity `guard`.
-fn miswired<S: Scene>(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
+fn miswired(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
     let Warning::Miswired { contact, rate, expected, parallel } = warning else { return guard };
-    message.contact = among::<S>(contact);
+    message.contact = Some(contact);
     (message.numbers[0], message.numbers[1]) = (rate, expected);
     if parallel {
         "indentation_rate = ~ m/s, expected ~ m/s: the master applies mean_force over the same step already; leave out \
