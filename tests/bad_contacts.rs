@@ -49,7 +49,16 @@ fn the_scene_that_the_tests_alter_is_good() {
 
 #[test]
 fn an_unknown_key_of_a_contact_is_refused_with_those_there_are() {
-    let keys = ["`colour`", "`name`", "`count`", "`impactor`", "`target`", "`initial_gap`"];
+    let keys = [
+        "`colour`",
+        "`name`",
+        "`count`",
+        "`impactor`",
+        "`target`",
+        "`initial_gap`",
+        "`effective_mass`",
+        "`parameters_per_contact`",
+    ];
     refused_in_left("§colour = 1", &keys);
     refused_in_left("impactor = { §mass = 1 }", &["`mass`", "`radius`", "`youngs_modulus`", "`poissons_ratio`"]);
     refused_in_left("target = { §hardness = 1 }", &["`hardness`", "`material`", "`yield_strength`", "`surface`"]);
@@ -216,4 +225,32 @@ fn a_parameter_that_every_contact_replaces_cannot_be_settable() {
     let scene = scene.replacen("count = 3", "initial_gap = 0.0", 1);
     let marked = format!("{scene}[fmu]\nparameters = [§\"initial_gap\"]\n");
     refused_text(&marked, &["unknown parameter `initial_gap`", "`left.initial_gap`", "`right.initial_gap`"]);
+}
+
+#[test]
+fn parameters_per_contact_are_parameters_of_the_contact() {
+    let known = ["contact `left`", "`impactor.radius`", "`target.yield_strength`", "`initial_gap`"];
+    for name in ["hardness", "target.density", "impactor.youngs_modulus", "restitution", "effective_mass", "left"] {
+        let unknown = format!("unknown parameter `{name}`");
+        refused_in_left(
+            &format!("parameters_per_contact = [§\"{name}\"]"),
+            &[&[unknown.as_str()], &known[..]].concat(),
+        );
+    }
+    refused_in_left("parameters_per_contact = §\"initial_gap\"", &["parameters_per_contact"]);
+    let input = "\n[coupling]\neffective_mass = 4e-3\ninputs = [\"effective_mass\"]\n\n[[contact]]\nname = \"left\"\n\
+                 parameters_per_contact = [§\"effective_mass\"]\n";
+    refused("\n[[contact]]\nname = \"left\"\n", input, &["contact `left`", "effective_mass is an input"]);
+    let names = "[\"initial_gap\", §\"target.yield_strength\"]";
+    refused("count = 3", &format!("count = 5001\nparameters_per_contact = {names}"), &["10002", "allowed are 10000"]);
+}
+
+#[test]
+fn a_mass_of_a_contact_is_refused_where_the_unit_does_not_know_it() {
+    refused_in_left("effective_mass = §2e-3", &["contact `left`", "effective_mass", "[coupling]"]);
+    for mass in ["0.0", "-1.0", "1e31", "nan"] {
+        let coupling = "\n[coupling]\neffective_mass = 4e-3\n\n[[contact]]\nname = \"left\"\n";
+        let scene = format!("{coupling}effective_mass = §{mass}\n");
+        refused("\n[[contact]]\nname = \"left\"\n", &scene, &["left.effective_mass"]);
+    }
 }

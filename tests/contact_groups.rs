@@ -33,8 +33,8 @@ fn every_group_is_told_with_what_it_has_of_its_own() {
     assert_eq!(
         export["contacts"],
         json!([
-            { "name": "bead", "count": 1000, "own": {}, "passivity_guard": null },
-            { "name": "edge", "count": null, "own": edge, "passivity_guard": null },
+            { "name": "bead", "count": 1000, "own": {}, "parameters_per_contact": [], "passivity_guard": null },
+            { "name": "edge", "count": null, "own": edge, "parameters_per_contact": [], "passivity_guard": null },
         ])
     );
     let variables = ["bead[1..1000].indentation_rate", "edge.indentation_rate", "bead[1..1000].force", "edge.force"];
@@ -147,4 +147,29 @@ fn contacts_whose_bodies_the_unit_moves_come_with_a_word_on_shared_bodies() {
         assert_eq!(printed.contains("a body that two contacts share"), told, "{printed}");
         assert_eq!(page["shared_bodies"].is_string(), told, "{page}");
     }
+}
+
+#[test]
+fn what_each_contact_has_for_itself_is_told_and_checked() {
+    let folder = empty_folder();
+    let scene = format!(
+        "{STEEL}[fmu]\nparameters = []\n[coupling]\neffective_mass = 4e-3\n[[contact]]\nname = \"bead\"\ncount = 12\n\
+         parameters_per_contact = [\"effective_mass\", \"initial_gap\"]\n\
+         [[contact]]\nname = \"light\"\neffective_mass = 1e-3\n{IMPACT}"
+    );
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let (export, check) = exported(&folder.path().join("scene.toml"));
+    assert_eq!(export["contacts"][0]["parameters_per_contact"], json!(["effective_mass", "initial_gap"]));
+    assert_eq!(export["contacts"][0]["own"], json!({ "effective_mass": 4e-3, "initial_gap": 0.0 }));
+    let variables = export["variables"].as_array().unwrap();
+    for name in ["bead[1..12].effective_mass", "bead[1..12].initial_gap"] {
+        assert!(variables.contains(&json!(name)), "no {name} in {variables:?}");
+    }
+    assert_eq!(export["variable_count"], 3 * 13 + 2 * 12);
+    // the impact on the light one is that of its mass
+    assert_eq!(check["passed"], true, "{check}");
+    let forces = [0, 1].map(|index| check["contacts"][index]["rows"][0]["predicted"].as_f64().unwrap());
+    assert!(forces[1] < 0.7 * forces[0], "{check}");
+    let told = run(folder.path(), ["export", "scene.toml"]).with_status(0).out;
+    assert!(told.contains("effective_mass = 0.004 for each") && told.lines().count() < 30, "{told}");
 }

@@ -30,6 +30,13 @@ fn scenes() -> Vec<PathBuf> {
         with("two", &format!("[fmu]\noutputs = {OUTPUTS}\n[coupling]\neffective_mass = 4e-3\n{two}")),
         with("row", "[fmu]\noutputs = [\"indentation\", \"regime\"]\n[[contact]]\nname = \"bead\"\ncount = 3"),
         with(
+            "each",
+            &format!(
+                "[fmu]\noutputs = {OUTPUTS}\n[coupling]\neffective_mass = 4e-3\n[[contact]]\nname = \"bead\"\ncount = 20\n\
+                 parameters_per_contact = [\"target.yield_strength\", \"effective_mass\", \"initial_gap\"]"
+            ),
+        ),
+        with(
             "nothing_settable",
             &format!("[fmu]\noutputs = {OUTPUTS}\nparameters = []\n[coupling]\neffective_mass = 4e-3"),
         ),

@@ -88,6 +88,23 @@ fn the_same_unit_as_a_peer_gives_the_same_numbers_to_the_last_bit() {
     assert!(rows(&data, "precision", "mass_known", "leap-frog").is_empty());
 }
 
+/// Its mean force belongs to the next step.
+#[test]
+fn a_peer_for_masters_that_step_all_units_at_once_is_stepped_so() {
+    let text = fs::read_to_string(scene("mass_known")).unwrap().replacen("mass_known", "at_once", 1);
+    let text = text.replacen("[coupling]", "[coupling]\nmaster = \"parallel\"", 1);
+    let peer = unit::export(&unit::write_scene("at_once", &text));
+    let named = peer.with_file_name("at_once.fmu");
+    fs::copy(&peer, &named).unwrap();
+    let (run, _folder, data) = report("steel_ball", &[&named]);
+    run.with_status(0);
+    assert!(rows(&data, "precision", "at_once", "mass known").is_empty());
+    let rows = rows(&data, "precision", "at_once", "mass known, parallel");
+    assert_eq!(rows.len(), 8, "2 to 256 steps per contact");
+    let errors = numbers(&rows, "error_of_restitution");
+    assert!(errors.iter().all(|error| error.abs() < 1e-9), "{errors:?}");
+}
+
 #[test]
 fn a_unit_of_another_maker_is_run_with_what_it_has() {
     let folder = empty_folder();

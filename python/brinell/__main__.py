@@ -5,11 +5,16 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ContactError, ProgramError
 from .studies.study import study
+
+TOLD = 10
+"""How many failed runs the command names."""
 
 
 def _pair(text: str) -> tuple[str, str]:
@@ -101,7 +106,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print(f"{name} from {values.min():.6g} to {values.max():.6g}")
     for path in given.output:
         print(path)
+    _tell(table, np.flatnonzero(failed), [name for name, _ in given.vary])
     return 0
+
+
+def _tell(table: dict[str, Any], failed: NDArray[np.int_], names: Sequence[str]) -> None:
+    """Which runs have failed, and why: the first of them; the table has all."""
+    for index in failed[:TOLD]:
+        run = ", ".join(f"{name} = {table[name][index]:g}" for name in names)
+        print(f"failed: {run}: {table['error'][index]}", file=sys.stderr)
+    if len(failed) > TOLD:
+        print(f"and {len(failed) - TOLD} more: see the column error", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 import warnings
-from collections.abc import Mapping
 from ctypes import byref, c_char, c_double, c_int, c_size_t, c_void_p
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +15,7 @@ import numpy as np
 from .errors import ContactError, ContactWarning
 from .library import WARNING, Instance, Library
 from .stepping import Force, Stepping
-from .variables import Gaps, Numbers, Variables, number
+from .variables import Gaps, Numbers, Parameters, Variables, number
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,8 @@ class Contact:
     `fmu` is the path of a unit; `initial_gap` [m] the distance of the bodies at the start
     (negative: pressed in), for several contacts one for each or a mapping by name. All other
     parameters are keywords with underscores for dots, in SI units (`target_yield_strength=400e6`),
-    or stand in `parameters` under their own names (`{"target.yield_strength": 400e6}`).
+    or stand in `parameters` under their own names (`{"target.yield_strength": 400e6}`). A parameter
+    that each contact has for itself takes one number for all, or a sequence with one for each.
 
     `force` says what `step` gives:
 
@@ -58,9 +58,9 @@ class Contact:
         *,
         initial_gap: Gaps | None = None,
         force: Force = "auto",
-        parameters: Mapping[str, float] | None = None,
+        parameters: Parameters | None = None,
         name: str = "contact",
-        **keywords: float,
+        **keywords: Numbers,
     ) -> None:
         self._lock = threading.RLock()
         library = Library.of(fmu)
@@ -115,8 +115,10 @@ class Contact:
         call = self._instance.call
         call("SetupExperiment", False, 0.0, 0.0, False, 0.0)
         call("EnterInitializationMode")
-        for name, value in self._given.items():
-            call("SetReal", self._variables.references([name]), 1, (c_double * 1)(value))
+        if self._given:
+            count, references = len(self._given), self._variables.references(list(self._given))
+            # all at once: each call moves every contact to its new start
+            call("SetReal", references, count, (c_double * count)(*self._given.values()))
         call("ExitInitializationMode")
         self._time = 0.0
         self._tell()
@@ -125,8 +127,8 @@ class Contact:
         self,
         *,
         initial_gap: Gaps | None = None,
-        parameters: Mapping[str, float] | None = None,
-        **keywords: float,
+        parameters: Parameters | None = None,
+        **keywords: Numbers,
     ) -> None:
         """Back to the start, at time 0. Parameters that are given replace those of before; the
         others stay."""

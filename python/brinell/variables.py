@@ -17,6 +17,8 @@ Numbers = float | Sequence[float] | NDArray[np.float64]
 """One number, or one for each contact of the unit."""
 Gaps = Numbers | Mapping[str, float]
 """As `Numbers`, or by the names of contacts."""
+Parameters = Mapping[str, Numbers]
+"""By name; of a parameter that each contact has for itself one number for all, or one for each."""
 
 
 class Variables:
@@ -37,7 +39,8 @@ class Variables:
         self.knows_mass = any("moves the bodies" in text for text in texts)
         mean = [self._all[name].description or "" for name in self.owners("mean_force")]
         self.is_for_next_step = any("over the next step" in text for text in mean)
-        self.masses = self.owners("effective_mass")
+        # in the order of the contacts, if each has one
+        self.masses = self.every("effective_mass") or self.owners("effective_mass")
         self.mass_is_settable = bool(self.masses) and all(
             self._all[name].causality == "input" or self._all[name].variability == "tunable"
             for name in self.masses
@@ -78,21 +81,44 @@ class Variables:
     def given(
         self,
         gap: Gaps | None,
-        parameters: Mapping[str, float] | None,
-        keywords: Mapping[str, float],
+        parameters: Parameters | None,
+        keywords: Parameters,
     ) -> dict[str, float]:
         """The parameters that a caller gives in three ways, under their own names."""
-        given = dict(parameters or {})
-        known = {_plain(name): name for name in self.parameters}
-        for keyword, value in keywords.items():
-            given[known.get(keyword, keyword)] = value
+        given: dict[str, Numbers] = dict(parameters or {})
+        if keywords:
+            known = {_plain(name): name for name in self.parameters}
+            # one that each contact has for itself is known by what comes behind the contact
+            for contact in self.contacts[:1]:
+                behind = contact + "."
+                own = [name for name in self.parameters if name.startswith(behind)]
+                known = {_plain(name[len(behind) :]): name[len(behind) :] for name in own} | known
+            for keyword, value in keywords.items():
+                given[known.get(keyword, keyword)] = value
         if gap is not None:
             given |= self._gaps(gap)
+        all_of_them: dict[str, float] = {}
+        known_names = set(self.parameters)
         for name, value in given.items():
-            if name not in self.parameters:
+            if name in known_names:
+                all_of_them[name] = number(name, value)
+                continue
+            own = self.every(name)
+            if not own or not known_names.issuperset(own):
                 raise self.unknown("parameter", name, self.parameters)
-            given[name] = number(name, value)
-        return given
+            all_of_them |= zip(own, self._each(name, value), strict=True)
+        return all_of_them
+
+    def _each(self, name: str, value: Numbers) -> list[float]:
+        """A number for each contact."""
+        count = len(self.contacts)
+        if isinstance(value, str | bytes) or np.ndim(value) == 0:
+            return [number(name, value)] * count
+        if np.shape(value) != (count,):
+            raise ContactError(
+                f"{name} = {value!r}: it takes one number, or {count}, one for each contact"
+            )
+        return [number(name, one) for one in np.asarray(value).tolist()]
 
     def _gaps(self, gap: Gaps) -> dict[str, float]:
         names = self.owners("initial_gap")

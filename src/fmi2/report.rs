@@ -22,12 +22,10 @@ fn contact_name<S: Scene>(text: &mut Text, contact: usize) -> &mut Text {
     if S::CONTACTS == 1 {
         return text;
     }
-    let group = S::group(contact);
-    let (name, counted) = S::group_name(group);
+    let (name, number) = S::contact_name(contact);
     text.string(name);
-    if counted {
-        let first = group.checked_sub(1).map_or(0, S::end);
-        text.string("[").integer((contact + 1 - first) as u32).string("]");
+    if number != 0 {
+        text.string("[").integer(number as u32).string("]");
     }
     text.string(": ")
 }
@@ -69,11 +67,27 @@ impl Message {
     }
 }
 
+/// The contact that a fault is one of; none if it is one of all.
+fn contact_of<S: Scene>(fault: Fault) -> Option<usize> {
+    match fault {
+        Fault::NoPointContact { contact, .. } | Fault::TooDeep { contact, .. } | Fault::TooLong { contact, .. } => {
+            Some(contact)
+        }
+        Fault::FixedParameter { index } | Fault::OutOfRange { index, .. } => S::settable_at(index)?.1,
+        _ => None,
+    }
+}
+
 /// Writes why a call is refused.
 pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
     let mut message = Message::BLANK;
     message.template = match *complaint {
-        Complaint::Instance(fault) => describe_fault::<S>(&mut message, fault),
+        Complaint::Instance(fault) => {
+            if S::CONTACTS > 1 {
+                message.contact = contact_of::<S>(fault);
+            }
+            describe_fault::<S>(&mut message, fault)
+        }
         Complaint::BadInstance { reason } => reason,
         Complaint::OutOfOrder { phase } => {
             message.words[0] = phase_name(phase);
@@ -108,11 +122,11 @@ pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
 /// The template for `fault`, whose words and numbers are put into `message`.
 #[inline]
 fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str {
-    let Message { words, numbers, contact: of, .. } = message;
+    let Message { words, numbers, .. } = message;
     match fault {
         Fault::NotSettable => "an output can't be set",
         Fault::FixedParameter { index } => {
-            words[0] = S::settable().get(index).map_or("", |settable| settable.name);
+            words[0] = S::settable_at(index).map_or("", |(settable, _)| settable.name);
             "the parameter @ can't be set after initialization"
         }
         Fault::NotFinite { name, value } => {
@@ -128,7 +142,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             "indentation_rate = ~ is too fast: the force would not be finite"
         }
         Fault::OutOfRange { index, value } => {
-            let Some(settable) = S::settable().get(index) else { return "" };
+            let Some((settable, _)) = S::settable_at(index) else { return "" };
             let Settable { name, unit, minimum, maximum } = *settable;
             (*words, *numbers) = ([name, unit], [value, minimum, maximum]);
             if unit.is_empty() {
@@ -143,7 +157,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             *numbers = [mass, *MASSES.start(), *MASSES.end()];
             "effective_mass = ~ is out of range: allowed is ~ to ~ kg"
         }
-        Fault::NoPointContact { impactor, target } => {
+        Fault::NoPointContact { impactor, target, .. } => {
             (numbers[0], numbers[1]) = (impactor, target);
             "impactor.radius = ~ m does not fit target.radius = ~ m: a socket (negative) must be wider than the impactor, \
              and no radius is below 1e-12 m"
@@ -169,11 +183,11 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             (numbers[0], numbers[1]) = (end, LATEST);
             "the step would end at ~ s: allowed are times up to ~ s"
         }
-        Fault::TooDeep { contact, indentation } => {
-            (*of, numbers[0]) = (Some(contact), indentation);
+        Fault::TooDeep { indentation, .. } => {
+            numbers[0] = indentation;
             "the indentation would become ~ m, for which the law can't be evaluated; is indentation_rate in m/s?"
         }
-        Fault::TooLong { step } => {
+        Fault::TooLong { step, .. } => {
             numbers[0] = step;
             "the bodies rebound too often to be followed within communicationStepSize = ~ s"
         }

@@ -41,6 +41,8 @@ pub enum Fault {
     },
     /// The impactor doesn't fit into the socket.
     NoPointContact {
+        /// Which contact, counted from 0.
+        contact: usize,
         /// Radius of the impactor \[m\].
         impactor: f64,
         /// Radius of the target \[m\], negative.
@@ -88,6 +90,8 @@ pub enum Fault {
     },
     /// A step in which the bodies meet more often than can be followed.
     TooLong {
+        /// Which contact, counted from 0.
+        contact: usize,
         /// The step \[s\].
         step: f64,
     },

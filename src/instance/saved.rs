@@ -106,7 +106,8 @@ impl<S: Scene> Instance<S> {
         let [time, stop, last_step] = load_numbers(&mut words)?;
         let clock = Clock::of(time, stop, phase, flags & 1 != 0)?;
         let mut values = S::start_values();
-        for (value, settable) in values.as_mut().iter_mut().zip(S::settable()) {
+        for (index, value) in values.as_mut().iter_mut().enumerate() {
+            let (settable, _) = S::settable_at(index)?;
             [*value] = load_numbers(&mut words)?;
             if !allows(settable, *value) {
                 return None;

@@ -30,6 +30,12 @@ impl<K> Bodies<K> {
 /// 2^64 over the golden ratio, odd: what hashes are mixed with.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
+/// The first contact of a group.
+fn first_of<S: Scene>(group: usize) -> usize {
+    // where there is but one group nothing is looked for
+    group.checked_sub(1).filter(|_| S::GROUPS > 1).map_or(0, S::end)
+}
+
 /// The pair of bodies of `group` that `values` describe.
 pub(super) fn pair_of<S: Scene>(group: usize, values: &S::Values) -> Result<Pair, Fault> {
     let value = |parameter| S::parameter(parameter, group, values);
@@ -43,8 +49,9 @@ pub(super) fn pair_of<S: Scene>(group: usize, values: &S::Values) -> Result<Pair
         youngs_modulus: value(Parameter::TargetYoungsModulus),
         poissons_ratio: value(Parameter::TargetPoissonsRatio),
     };
-    Pair::new(&impactor, &target, value(Parameter::TargetYieldStrength))
-        .ok_or(Fault::NoPointContact { impactor: impactor.radius, target: target.radius })
+    let pair = Pair::new(&impactor, &target, value(Parameter::TargetYieldStrength));
+    let (impactor, target) = (impactor.radius, target.radius);
+    pair.ok_or(Fault::NoPointContact { contact: first_of::<S>(group), impactor, target })
 }
 
 /// What is in contact in `group`, whose `bodies` are those of `values`.
@@ -66,8 +73,7 @@ fn start_of<S: Scene>(group: usize, values: &S::Values) -> Result<(Pair, S::Cont
     let pair = pair_of::<S>(group, values)?;
     let model = S::model(pair, group, values);
     let history = S::Contact::start(&model, S::parameter(Parameter::InitialGap, group, values));
-    let first = group.checked_sub(1).map_or(0, S::end);
-    Ok((pair, history.map_err(|deep| too_deep(first, deep))?))
+    Ok((pair, history.map_err(|deep| too_deep(first_of::<S>(group), deep))?))
 }
 
 impl<S: Scene> Instance<S> {

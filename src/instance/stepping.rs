@@ -264,7 +264,7 @@ impl<S: Scene> Instance<S> {
             let speed = rate - self.owed(contact);
             let outcome = follow(&mut history, &model, &drive, speed, step).map_err(|reason| match reason {
                 NoMotion::TooDeep(deep) => failed(deep),
-                NoMotion::TooLong => Fault::TooLong { step },
+                NoMotion::TooLong => Fault::TooLong { contact, step },
             })?;
             let mean_force = mass * outcome.taken / step;
             // as if the rate had gone there in a straight line

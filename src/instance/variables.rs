@@ -21,7 +21,7 @@ impl<S: Scene> Instance<S> {
     }
 
     fn check_parameter(&self, index: usize, value: f64) -> Result<(), Fault> {
-        let Some(settable) = S::settable().get(index) else { return Err(Fault::NotSettable) };
+        let Some((settable, _)) = S::settable_at(index) else { return Err(Fault::NotSettable) };
         if !matches!(self.phase(), Phase::Instantiated | Phase::Initialization) && !S::is_tunable(index) {
             return Err(Fault::FixedParameter { index });
         }

@@ -73,8 +73,8 @@ impl Scene for Exported {
         CONTACTS
     }
 
-    fn group_name(_group: usize) -> (&'static str, bool) {
-        ("", false)
+    fn contact_name(_contact: usize) -> (&'static str, usize) {
+        ("", 0)
     }
 
     fn settable() -> &'static [Settable] {

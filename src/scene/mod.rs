@@ -72,13 +72,18 @@ pub trait Scene: Sized {
     /// The contact behind the last one of a group.
     fn end(group: usize) -> usize;
 
-    /// The name of a group, and whether its contacts are counted.
-    fn group_name(group: usize) -> (&'static str, bool);
+    /// The name of a contact, and its number from 1 on if contacts of that name are counted, or else 0.
+    fn contact_name(contact: usize) -> (&'static str, usize);
 
     /// The parameters that can be set, with their limits.
     fn settable() -> &'static [Settable];
 
-    /// Whether the one with this `index` may be set between steps, too.
+    /// The parameter whose value has this `index`, and its contact if each contact has a value of its own.
+    fn settable_at(index: usize) -> Option<(&'static Settable, Option<usize>)> {
+        Self::settable().get(index).map(|settable| (settable, None))
+    }
+
+    /// Whether the value with this `index` may be set between steps, too.
     fn is_tunable(_index: usize) -> bool {
         false
     }

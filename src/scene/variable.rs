@@ -38,23 +38,65 @@ pub struct Settable {
     pub maximum: f64,
 }
 
+/// Values of one settable parameter, which follow each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// The index behind the last one.
+    pub end: usize,
+    /// The contact of the first one, if each contact has a value of its own. Otherwise there is one value.
+    pub first_contact: Option<usize>,
+}
+
+/// Which of the `runs` the value with this `index` belongs to, and its contact if each contact has a value of its own.
+pub fn run_of(runs: &[Run], index: usize) -> Option<(usize, Option<usize>)> {
+    let place = runs.partition_point(|run| run.end <= index);
+    let begin = place.checked_sub(1).and_then(|before| runs.get(before)).map_or(0, |run| run.end);
+    let first = runs.get(place)?.first_contact;
+    Some((place, first.map(|first| first + (index - begin))))
+}
+
+/// The values of all `runs`, each of which begins with the value at its place in `starts`.
+pub fn spread<const VALUES: usize>(runs: &[Run], starts: &[f64]) -> [f64; VALUES] {
+    let mut values = [0.0; VALUES];
+    let mut slots = values.iter_mut();
+    let mut begin = 0;
+    for (run, &start) in runs.iter().zip(starts) {
+        slots.by_ref().take(run.end - begin).for_each(|value| *value = start);
+        begin = run.end;
+    }
+    values
+}
+
+/// The name of a contact and its number, as [`Scene::contact_name`](super::Scene::contact_name) has them: its group has the place
+/// `group` among these names, which say whether contacts are counted, and among the `ends`.
+pub fn name_in(names: &[(&'static str, bool)], ends: &[usize], group: usize, contact: usize) -> (&'static str, usize) {
+    let (name, counted) = names.get(group).copied().unwrap_or(("", false));
+    let first = group.checked_sub(1).and_then(|before| ends.get(before)).copied().unwrap_or(0);
+    (name, if counted { contact + 1 - first } else { 0 })
+}
+
 /// Where a parameter has its value from, if groups of contacts differ.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// From the parameter with this index in [`Scene::settable`](super::Scene::settable).
+    /// From the value of a settable parameter with this index.
     Settable(usize),
+    /// From the values of a settable parameter that each contact has for itself: that of contact 0 would have this index.
+    PerContact(usize),
     /// From the scene.
     Constant(f64),
 }
 
 impl Source {
-    /// The value that a parameter has from `source`; NaN without one.
-    pub fn value(source: Option<&Source>, settable: &[f64]) -> f64 {
-        match source {
-            Some(Source::Constant(value)) => *value,
-            Some(Source::Settable(index)) => settable.get(*index).copied().unwrap_or(f64::NAN),
-            None => f64::NAN,
-        }
+    /// The value that a parameter of `contact` has from `source`; NaN without one.
+    pub fn value(source: Option<&Source>, contact: usize, settable: &[f64]) -> f64 {
+        let index = match source {
+            Some(Source::Constant(value)) => return *value,
+            Some(Source::Settable(index)) => *index,
+            // the first contact of a group that has such values may be a later one than its first value
+            Some(Source::PerContact(index)) => index.wrapping_add(contact),
+            None => return f64::NAN,
+        };
+        settable.get(index).copied().unwrap_or(f64::NAN)
     }
 }
 

@@ -82,3 +82,65 @@ def test_each_contact_follows_its_own_gap():
         assert made["left.indentation"] == pytest.approx(-1.5e-3, rel=1e-14)
         with pytest.raises(TypeError, match="gap"):
             made.step(1e-3, [0.0, 0.0], gap=1.0)
+
+
+# parameters that each contact has for itself
+
+COUNT = 20
+STRENGTHS = np.geomspace(2e8, 9e8, COUNT)
+MASSES = np.geomspace(1e-4, 1e-1, COUNT)
+SPEEDS = np.geomspace(0.1, 10.0, COUNT)[::-1].copy()
+
+
+def alone(index):
+    given = {"target.yield_strength": STRENGTHS[index], "effective_mass": MASSES[index]}
+    with contact("mass_known", parameters=given) as one:
+        force = one.step(1.0, SPEEDS[index])
+        return force, one["residual_indentation"]
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"target_yield_strength": STRENGTHS, "effective_mass": MASSES},
+        {"parameters": {"target.yield_strength": list(STRENGTHS), "effective_mass": MASSES}},
+        {
+            "parameters": {f"bead[{i + 1}].target.yield_strength": STRENGTHS[i] for i in range(20)},
+            "effective_mass": tuple(MASSES),
+        },
+    ],
+)
+def test_one_step_of_many_contacts_is_one_step_of_each_alone(given):
+    with contact("each", **given) as row:
+        forces = row.step(1.0, SPEEDS)
+        dents = row["residual_indentation"]
+        assert bits(row["target.yield_strength"]) == bits(STRENGTHS)
+    expected = [alone(index) for index in range(COUNT)]
+    assert bits(forces) == bits([force for force, _ in expected])
+    assert bits(dents) == bits([dent for _, dent in expected])
+
+
+def test_one_number_is_one_for_all_and_a_reset_keeps_what_is_not_given():
+    with contact("each", target_yield_strength=STRENGTHS) as row:
+        row.reset(effective_mass=2e-3)
+        assert bits(row["effective_mass"]) == bits([2e-3] * COUNT)
+        assert bits(row["target.yield_strength"]) == bits(STRENGTHS)
+        row.step(1e-6, SPEEDS, mass=MASSES)
+        assert bits(row["effective_mass"]) == bits(MASSES)
+        row.step(1e-6, SPEEDS, mass=1e-3)
+        assert bits(row["effective_mass"]) == bits([1e-3] * COUNT)
+
+
+def test_parameters_of_each_contact_that_are_refused():
+    with pytest.raises(ContactError, match=r"it takes one number, or 20"):
+        contact("each", target_yield_strength=[1e8, 2e8])
+    with pytest.raises(TypeError, match="a number is needed"):
+        contact("each", target_yield_strength="soft")
+    with pytest.raises(UnknownName, match="hardness"):
+        contact("each", hardness=[1.0] * COUNT)
+    wrong = STRENGTHS.copy()
+    wrong[6] = -1.0
+    with pytest.raises(ContactError, match=r"bead\[7\]: target.yield_strength = -1"):
+        contact("each", target_yield_strength=wrong)
+    with pytest.raises(TypeError, match="a number is needed, not list"):
+        contact("mass_known", target_yield_strength=[1e8])

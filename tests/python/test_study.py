@@ -270,6 +270,25 @@ def test_a_study_that_was_stopped_goes_on_where_it_was(unit, tmp_path, monkeypat
     assert [path.name for path in tmp_path.iterdir()] == ["x.parquet"]
 
 
+def test_a_study_goes_on_with_other_workers_and_chunks(unit, tmp_path, monkeypatch):
+    vary, output = {"speed": "0.1:10:50log"}, tmp_path / "x.csv"
+    expected, calls = quick(unit, vary), []
+
+    def stopped(unit, names, rows):
+        calls.append(len(rows))
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return ORIGINAL(unit, names, rows)
+
+    monkeypatch.setattr(impacts, "run", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        quick(unit, vary, output=output)
+    monkeypatch.setattr(impacts, "run", ORIGINAL)
+    table = quick(unit, vary, output=output, workers=2, chunk=4)
+    assert calls == [10, 10, 10]
+    assert all(np.array_equal(table[name], expected[name]) for name in expected)
+
+
 def test_progress_is_counted_in_runs(unit, capsys):
     quick(unit, {"speed": "1:2:7"}, progress=True)
     assert "7/7" in capsys.readouterr().err
@@ -307,6 +326,16 @@ def test_the_command_line(tmp_path):
     assert set(table["impactor.radius"]) == {4e-3} and len(table["speed"]) == 20
     done = command("study", SCENE, "--vary", "speed=1:2", "--sample", "sobol:8", "--quiet")
     assert done.returncode == 0 and done.stderr == "" and done.stdout.startswith("8 runs")
+
+
+def test_the_command_names_failed_runs_with_their_parameters():
+    strengths = ["target.yield_strength=3e8,-1,-2,4e8", "speed=1,2,3,4,5,6"]
+    vary = [word for name in strengths for word in ("--vary", name)]
+    done = command("study", SCENE, *vary, "--quiet", "--workers", "1")
+    assert done.returncode == 0 and done.stdout.startswith("24 runs, 12 failed")
+    lines = done.stderr.splitlines()
+    assert lines[0].startswith("failed: target.yield_strength = -1, speed = 1: ")
+    assert "allowed is" in lines[0] and len(lines) == 11 and "2 more" in lines[-1]
 
 
 @pytest.mark.parametrize(

@@ -115,9 +115,19 @@ impl Unit {
 impl Instance<'_> {
     /// Calls a function that takes nothing but the component.
     fn call(&self, name: &str) {
+        assert_eq!(self.try_call(name), OK, "{name}: {}", self.message());
+    }
+
+    /// The status of such a function.
+    pub fn try_call(&self, name: &str) -> c_int {
         let function = self.unit.function::<unsafe extern "C" fn(*mut c_void) -> c_int>(name);
         // SAFETY: the component lives
-        assert_eq!(unsafe { function(self.component) }, OK, "{name}: {}", self.message());
+        unsafe { function(self.component) }
+    }
+
+    /// The value reference of a variable.
+    pub fn real_of(&self, name: &str) -> u32 {
+        self.unit.references[name]
     }
 
     pub fn initialize(&mut self) {

@@ -189,8 +189,8 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
         group + 1
     }
 
-    fn group_name(_group: usize) -> (&'static str, bool) {
-        ("contact", true)
+    fn contact_name(contact: usize) -> (&'static str, usize) {
+        ("contact", contact + 1)
     }
 
     fn settable() -> &'static [Settable] {

@@ -22,18 +22,25 @@ class Parts:
     They belong to one plan; those of another are refused, since nobody knows what they cost.
     """
 
-    def __init__(self, output: Path, plan: bytes) -> None:
+    def __init__(self, output: Path, plan: bytes, size: int) -> None:
+        """`size` is how many runs a chunk gets, if the study begins anew."""
         self.folder = output.with_name(output.name + ".parts")
         key, note = hashlib.sha256(plan).hexdigest(), self.folder / "plan.json"
+        self.size = size
+        """How many runs a chunk of these parts has."""
         if note.is_file():
-            if json.loads(note.read_text())["plan"] != key:
+            known = json.loads(note.read_text())
+            if known["plan"] != key:
                 raise ValueError(
                     f"{self.folder} has parts of another study: finish that one, "
                     "or delete the folder"
                 )
+            self.size = known["chunk"]
         else:
             self.folder.mkdir(parents=True, exist_ok=True)
-            note.write_text(json.dumps({"plan": key}))
+            draft = note.with_suffix(".draft")
+            draft.write_text(json.dumps({"plan": key, "chunk": size}))
+            draft.replace(note)
 
     def load(self, chunk: int) -> Table | None:
         """A chunk that is done."""
@@ -44,7 +51,7 @@ class Parts:
         """A part is there whole, or not at all."""
         path = self.folder / f"{chunk:06}.parquet"
         draft = path.with_suffix(".draft")
-        parquet.write_table(pyarrow.table(_plain(table)), draft)
+        parquet.write_table(pyarrow.table(table), draft)
         draft.replace(path)
 
     def remove(self) -> None:
@@ -54,7 +61,7 @@ class Parts:
 
 def write(path: Path, table: Table) -> None:
     """A table as its ending says: .parquet or .csv."""
-    arrow = pyarrow.table(_plain(table))
+    arrow = pyarrow.table(table)
     if path.suffix == ".parquet":
         parquet.write_table(arrow, path)
     else:
@@ -63,18 +70,10 @@ def write(path: Path, table: Table) -> None:
 
 def read(path: Path) -> Table:
     """The table of a .parquet file."""
-    columns = parquet.read_table(path).to_pydict()
-    texts = ("error", "warning")
-    return {
-        name: np.array(values, dtype=object if name in texts else float)
-        for name, values in columns.items()
-    }
+    columns = parquet.read_table(path)
+    return {name: columns[name].to_numpy() for name in columns.column_names}
 
 
 def joined(tables: Sequence[Table]) -> Table:
     """Chunks in their order, as one table."""
     return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
-
-
-def _plain(table: Table) -> dict[str, list[float | str]]:
-    return {name: column.tolist() for name, column in table.items()}

@@ -20,6 +20,9 @@ from ..variables import Variables
 from . import impacts, plan, scene
 from .impacts import Table
 
+# A chunk of ten runs takes as long as ten times what a scheduler needs for it; one of a thousand
+# loses little when its process ends.
+FEWEST, MOST, CHUNKS = 10, 1000, 200
 ENDINGS = (".parquet", ".csv", ".svg", ".png")
 Rows = NDArray[np.float64]
 Chunks = dict[int, Rows]
@@ -65,9 +68,8 @@ def study(
         _check(unit, columns)
         names, rows = list(columns), np.column_stack(list(columns.values()))
         workers = workers or os.cpu_count() or 1
-        size = chunk or max(1, min(1000, -(-len(rows) // (4 * workers))))
-        chunks = {at: rows[at : at + size] for at in range(0, len(rows), size)}
-        table = _run(unit, names, chunks, outputs, workers, scheduler, progress)
+        size = chunk or max(FEWEST, min(MOST, len(rows) // CHUNKS))
+        table = _run(unit, names, rows, size, outputs, workers, scheduler, progress)
     for path in outputs:
         if path.suffix in (".svg", ".png"):
             from .picture import draw
@@ -116,7 +118,8 @@ def _check(unit: Path, columns: Mapping[str, Rows]) -> None:
 def _run(
     unit: Path,
     names: list[str],
-    chunks: Chunks,
+    rows: Rows,
+    size: int,
     outputs: Sequence[Path],
     workers: int,
     scheduler: str | None,
@@ -127,10 +130,11 @@ def _run(
     from . import store
 
     tables = [path for path in outputs if path.suffix in (".parquet", ".csv")]
-    rows = np.concatenate(list(chunks.values()))
-    key = repr((names, [len(chunk) for chunk in chunks.values()])).encode() + rows.tobytes()
+    key = repr(names).encode() + rows.tobytes()
     key += Library.of(unit).description.guid.encode()
-    parts = store.Parts(tables[0], key) if tables else None
+    parts = store.Parts(tables[0], key, size) if tables else None
+    size = parts.size if parts else size
+    chunks = {at: rows[at : at + size] for at in range(0, len(rows), size)}
     done = {at: part for at in chunks if parts and (part := parts.load(at)) is not None}
     before = sum(len(chunks[at]) for at in done)
     with tqdm(total=len(rows), initial=before, unit="run", disable=not progress) as bar:

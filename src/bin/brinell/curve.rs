@@ -24,7 +24,7 @@ pub fn run(arguments: &CurveArguments) -> Result<(), Box<dyn Error>> {
     let largest = predict::positive("to", arguments.to.unwrap_or(scene.predictions[0].max_indentation))?;
     let output = arguments.output.as_deref();
     let picture = ending(output, &["csv", "svg"])? == "svg";
-    let impact = &scene.impact;
+    let impact = &scene.impact_of(0);
     let drawn = match picture {
         true => svg(&choices, largest, impact, arguments.truth),
         false => csv(&choices, largest, impact),

@@ -9,7 +9,7 @@ use crate::numbers::digits;
 use crate::parameters::{self, Constant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
-use crate::scene::Scene;
+use crate::scene::{Parameter, Scene};
 use crate::table::{self, Causality};
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -102,7 +102,9 @@ fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
         let (impactor, target) = bodies::words(scene, index);
         let unit =
             |name: &str| table::variable(name).unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
-        let own = group.own.iter().map(|own| format!("{} = {}{}", own.name, digits(own.value), unit(own.name)));
+        let each = |own: &Parameter| if own.per_contact { " for each" } else { "" };
+        let own =
+            group.own.iter().map(|own| format!("{} = {}{}{}", own.name, digits(own.value), unit(own.name), each(own)));
         let own = own.collect::<Vec<_>>().join(", ");
         writeln!(
             page,
@@ -162,7 +164,7 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(
         page,
         "<p>{} kg at {} m/s{assumed}{}; {}:</p>\n<table>",
-        scene.impact.mass,
+        scene.impact_of(0).mass,
         scene.impact.speed,
         bodies::first_contact(scene).map(|contact| format!(" on {contact}")).unwrap_or_default(),
         scene.any_model().method()
@@ -176,7 +178,7 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
         ("Coefficient of restitution", prediction.restitution, ""),
         ("Contact time", prediction.contact_time(), "s"),
         ("Step that suits it", experiment.step, "s"),
-        ("Largest stable step, 2 sqrt(m/K)", 2.0 * (scene.impact.mass / stiffness).sqrt(), "s"),
+        ("Largest stable step, 2 sqrt(m/K)", 2.0 * (scene.impact_of(0).mass / stiffness).sqrt(), "s"),
     ];
     for (quantity, value, unit) in rows {
         writeln!(page, "<tr><td>{quantity}</td><td class=\"n\">{}</td><td>{unit}</td></tr>", digits(value))?;
@@ -270,7 +272,7 @@ fn curve(plan: &Plan) -> String {
     let scene = plan.scene;
     let micrometres = |points: Vec<(f64, f64)>| points.into_iter().map(|(d, force)| (1e6 * d, force)).collect();
     let branches =
-        scene.any_model().branches(&scene.impact, plan.prediction()).expect("a checked scene has a prediction");
+        scene.any_model().branches(&scene.impact_of(0), plan.prediction()).expect("a checked scene has a prediction");
     let named = branches.into_iter().zip(["loading", "unloading"]);
     let series = named.map(|(points, label)| Series { label: label.into(), points: micrometres(points), dots: false });
     let picture = Picture {

@@ -19,10 +19,12 @@ pub struct Entry<'a> {
     pub reference: usize,
     /// How many they are.
     pub count: usize,
+    /// Whether each belongs to a contact of the group, and not to all of them.
+    pub per_contact: bool,
     /// For the input and the parameters.
     pub start: Option<f64>,
-    /// References of the parameters that the values before the first step follow.
-    pub dependencies: Vec<usize>,
+    /// The parameters that the values before the first step follow.
+    pub dependencies: Vec<Dependency>,
     /// Reference of the input that the first one follows at the same instant, the second one the next, and so on.
     pub follows: Option<usize>,
     /// The same before the first step.
@@ -30,13 +32,28 @@ pub struct Entry<'a> {
     pub nominal: Option<f64>,
 }
 
+/// A parameter that an output of a contact follows.
+pub struct Dependency {
+    /// Value reference, or that of the first contact of the group.
+    reference: usize,
+    /// Each contact of the group has its own.
+    per_contact: bool,
+}
+
+impl Dependency {
+    /// The value reference of the parameter that the contact with this `index` in its group follows.
+    pub fn of(&self, index: usize) -> usize {
+        if self.per_contact { self.reference + index } else { self.reference }
+    }
+}
+
 impl Entry<'_> {
     /// The name of the variable with this `index` among them.
     pub fn name(&self, index: usize) -> String {
         let name = &self.variable.name;
         match self.group {
-            Some(group) if self.variable.causality == Causality::Parameter => group.variable(name),
-            Some(group) => format!("{}{name}", group.prefix(index)),
+            Some(group) if self.per_contact => format!("{}{name}", group.prefix(index)),
+            Some(group) => group.variable(name),
             None => name.clone(),
         }
     }
@@ -83,7 +100,8 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
                 group: Some(group),
                 reference,
                 count: group.len(),
-                start: (variable.causality == Causality::Input).then(|| start(variable, scene)),
+                per_contact: true,
+                start: (variable.causality == Causality::Input).then(|| start(variable, scene, index)),
                 dependencies: parameters.of_group(index, depends),
                 follows: follows.then_some(first),
                 follows_at_start: follows_at_start.then_some(first),
@@ -99,7 +117,8 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
         minimum: table::variable(settable.parameter.name).minimum,
         group: settable.group.map(|group| &scene.contacts[group]),
         reference: settable.reference,
-        count: 1,
+        count: settable.count,
+        per_contact: settable.parameter.per_contact,
         start: Some(settable.parameter.value),
         dependencies: Vec::new(),
         follows: None,
@@ -114,10 +133,10 @@ pub fn is_tunable(scene: &Scene, name: &str) -> bool {
     name == "effective_mass" && scene.coupling.is_some()
 }
 
-/// What the input `variable` is before anyone sets it.
-fn start(variable: &Variable, scene: &Scene) -> f64 {
+/// What the input `variable` of the contacts of `group` is before anyone sets it.
+fn start(variable: &Variable, scene: &Scene, group: usize) -> f64 {
     // of the inputs the mass alone is something that the scene knows
-    scene.value(&variable.name).unwrap_or(0.0)
+    scene.group_value(group, &variable.name).unwrap_or(0.0)
 }
 
 /// Whether `variable` follows the rate at the same instant.
@@ -147,7 +166,9 @@ struct SettableParameter<'a> {
     parameter: &'a Parameter,
     /// None if it belongs to all contacts.
     group: Option<usize>,
+    /// Value reference of the first.
     reference: usize,
+    count: usize,
 }
 
 /// The parameters that can be set: first those of all contacts, then group by group.
@@ -158,17 +179,18 @@ impl<'a> Parameters<'a> {
         let shared = scene.parameters.iter().map(|parameter| (None, parameter));
         let groups = scene.contacts.iter().enumerate();
         let own = groups.flat_map(|(index, group)| group.own.iter().map(move |parameter| (Some(index), parameter)));
-        let settable = shared.chain(own).filter(|(_, parameter)| parameter.settable).enumerate();
-        let settable = settable.map(|(index, (group, parameter))| SettableParameter {
-            parameter,
-            group,
-            reference: first + index,
+        let settable = shared.chain(own).filter(|(_, parameter)| parameter.settable);
+        let mut end = first;
+        let settable = settable.map(|(group, parameter)| {
+            let count = group.map_or(1, |group| scene.contacts[group].variables_of(parameter));
+            end += count;
+            SettableParameter { parameter, group, reference: end - count, count }
         });
         Parameters(settable.collect())
     }
 
-    /// References of those that hold for `group` and that `wanted` names.
-    fn of_group(&self, group: usize, wanted: impl Fn(&str) -> bool) -> Vec<usize> {
+    /// Those that hold for `group` and that `wanted` names.
+    fn of_group(&self, group: usize, wanted: impl Fn(&str) -> bool) -> Vec<Dependency> {
         let shared = self.0.iter().take_while(|settable| settable.group.is_none());
         let begin = self.0.partition_point(|settable| settable.group < Some(group));
         let own = || self.0[begin..].iter().take_while(|settable| settable.group == Some(group));
@@ -177,6 +199,10 @@ impl<'a> Parameters<'a> {
         // in the order of the table, as in a unit of one contact
         let mut all: Vec<_> = shared.chain(own()).filter(|settable| wanted(settable.parameter.name)).collect();
         all.sort_by_key(|settable| settable.reference);
-        all.into_iter().map(|settable| settable.reference).collect()
+        let dependency = |settable: &SettableParameter| Dependency {
+            reference: settable.reference,
+            per_contact: settable.parameter.per_contact,
+        };
+        all.into_iter().map(dependency).collect()
     }
 }

@@ -115,8 +115,8 @@ fn choose_damped(scene: &Scene, name: &str, law: AnyDamped, damping: Option<&str
         (None, None) => law,
     };
     let given = scene.value("restitution");
-    let restitution = given.or_else(|| scene.any_model().restitution(&scene.impact)).filter(|e| *e > 0.0);
+    let restitution = given.or_else(|| scene.any_model().restitution(&scene.impact_of(0))).filter(|e| *e > 0.0);
     let restitution = restitution.map_or(1.0, |e| e.min(1.0));
-    let model = damped::Model { pair: scene.model().pair, law, restitution, mass: scene.impact.mass };
+    let model = damped::Model { pair: scene.model().pair, law, restitution, mass: scene.impact_of(0).mass };
     Ok(Choice { name: name.into(), model: AnyModel::Damped(model) })
 }

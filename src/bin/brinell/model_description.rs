@@ -202,14 +202,16 @@ fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
     xml.create_element("ModelStructure").write_inner_content(|xml| {
         xml.create_element("Outputs").write_inner_content(|xml| {
             for (entry, index) in outputs() {
-                unknown(xml, entry.reference + index, entry.follows.map(|first| first + index), &[])?;
+                unknown(xml, entry.reference + index, entry.follows.map(|first| first + index).as_slice())?;
             }
             Ok(())
         })?;
         xml.create_element("InitialUnknowns").write_inner_content(|xml| {
             for (entry, index) in outputs() {
                 let input = entry.follows_at_start.map(|first| first + index);
-                unknown(xml, entry.reference + index, input, &entry.dependencies)?;
+                let parameters = entry.dependencies.iter().map(|dependency| dependency.of(index));
+                let places: Vec<_> = input.into_iter().chain(parameters).collect();
+                unknown(xml, entry.reference + index, &places)?;
             }
             Ok(())
         })?;
@@ -219,9 +221,9 @@ fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
 }
 
 /// The places of an unknown, and of the input and the parameters that it depends on; the XML counts from 1.
-fn unknown(xml: &mut Xml, place: usize, input: Option<usize>, parameters: &[usize]) -> io::Result<()> {
+fn unknown(xml: &mut Xml, place: usize, dependencies: &[usize]) -> io::Result<()> {
     let index = (place + 1).to_string();
-    let dependencies = input.iter().chain(parameters).map(|place| (place + 1).to_string());
+    let dependencies = dependencies.iter().map(|place| (place + 1).to_string());
     let dependencies = dependencies.collect::<Vec<_>>().join(" ");
     let element = xml.create_element("Unknown");
     element.with_attributes([("index", index.as_str()), ("dependencies", &dependencies)]).write_empty()?;

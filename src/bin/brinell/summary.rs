@@ -50,7 +50,7 @@ impl Summary<'_> {
         let mut names: Vec<String> = Vec::new();
         for entry in &self.plan.variables {
             let name = match entry.variable.causality {
-                Causality::Parameter => entry.name(0),
+                Causality::Parameter => entry.label(),
                 _ if named => format!("*.{}", entry.variable.name),
                 _ => entry.variable.name.clone(),
             };
@@ -93,9 +93,12 @@ impl Summary<'_> {
     fn group_json(&self, group: usize) -> Value {
         let Plan { scene, guard, .. } = self.plan;
         let Group { name, count, own, .. } = &scene.contacts[group];
+        let per_contact = own.iter().filter(|own| own.per_contact).map(|own| own.name).collect::<Vec<_>>();
         let own: Value = own.iter().map(|parameter| (parameter.name.to_string(), json!(parameter.value))).collect();
         let ranges = guard.as_ref().map(|guard| &guard.by_group[group]);
-        json!({ "name": name, "count": count, "own": own, "passivity_guard": ranges })
+        json!({
+            "name": name, "count": count, "own": own, "parameters_per_contact": per_contact, "passivity_guard": ranges
+        })
     }
 
     /// For people.
@@ -187,7 +190,9 @@ fn shows(plan: &Plan, name: &str) -> bool {
 
 /// One line about a group: what differs in it.
 fn group_line(group: &Group) -> String {
-    let own = group.own.iter().map(|Parameter { name, value, .. }| format!("{name} = {value:?}"));
+    let own = group.own.iter().map(|Parameter { name, value, per_contact, .. }| {
+        format!("{name} = {value:?}{}", if *per_contact { " for each" } else { "" })
+    });
     let own = own.collect::<Vec<_>>().join(", ");
     let own = if own.is_empty() { "as the scene".into() } else { own };
     format!("{:<20} {:>6}  {own}", group.label(), group.len())

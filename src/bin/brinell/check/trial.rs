@@ -78,7 +78,7 @@ impl Trial {
         let mean_force = if scene.coupling.is_some() { Some(description.real(&mean_force)?) } else { None };
         let parallel = scene.coupling.is_some_and(|coupling| coupling.parallel);
         let mut master = Master { instance: &mut *instance, rate, force, time: 0.0, follows, mean_force, parallel };
-        let simulated = master.impact(&scene.impact, gap, step)?;
+        let simulated = master.impact(&scene.impact_of(group), gap, step)?;
         trial.rows = compare(prediction, &simulated);
         if follows {
             // nothing remains, and where the force ends says nothing
@@ -97,7 +97,7 @@ fn gap(scene: &Scene, group: usize) -> (Option<String>, f64) {
     let given = &scene.contacts[group];
     let is_gap = |parameter: &&Parameter| parameter.name == "initial_gap";
     let name = match given.own.iter().find(is_gap) {
-        Some(own) => own.settable.then(|| given.variable("initial_gap")),
+        Some(own) => own.settable.then(|| given.own_variable(own, 0)),
         None => scene.settable().find(is_gap).map(|shared| shared.name.to_string()),
     };
     (name, scene.group_value(group, "initial_gap").unwrap_or(0.0))

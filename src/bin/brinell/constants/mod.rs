@@ -82,6 +82,7 @@ impl File {
             ),
             None => String::new(),
         };
+        let values = value_count(&self.items);
         let Self { items, methods, model, contact } = self;
         let implementation = format!(
             "impl Scene for Exported {{
@@ -90,7 +91,7 @@ impl File {
 
     type Contacts<T: Copy> = [T; CONTACTS];
     type Groups<T: Copy> = [T; GROUPS];
-    type Values = [f64; SETTABLE.len()];
+    type Values = [f64; {values}];
 
     type Forces = {forces};
     type Momentum = {momentum};
@@ -108,6 +109,11 @@ impl File {
     }
 }
 
+/// How many values can be set, as an expression.
+fn value_count(items: &str) -> &'static str {
+    if items.contains("const VALUES:") { "VALUES" } else { "SETTABLE.len()" }
+}
+
 /// What the file uses.
 fn uses(text: &str) -> String {
     let named = |names: &[&'static str]| -> Vec<&'static str> {
@@ -122,10 +128,16 @@ fn uses(text: &str) -> String {
     if !text.contains("contact::") {
         contact.remove(0);
     }
-    let source = if text.contains("Source::") { "Source, " } else { "" };
-    let variable = match source {
-        "" => "use crate::scene::variable::kind_and_contact;\n".to_string(),
-        source => format!("use crate::scene::variable::{{{source}kind_and_contact}};\n"),
+    let variable = named(&["Run {", "Source::", "name_in(", "run_of(", "spread("]);
+    let variable = match variable.as_slice() {
+        [] => "use crate::scene::variable::kind_and_contact;\n".to_string(),
+        names => {
+            // as rustfmt orders them
+            let mut names: Vec<_> = names.iter().map(|name| name.trim_end_matches([' ', '{', ':', '('])).collect();
+            let place = names.iter().take_while(|name| **name < "kind_and_contact").count();
+            names.insert(place, "kind_and_contact");
+            format!("use crate::scene::variable::{{{}}};\n", names.join(", "))
+        }
     };
     format!(
         "use crate::contact::{{{}}};\n{follow}{variable}use crate::scene::{{{}}};\n",

@@ -1,5 +1,6 @@
 //! The parameters as constants: those that can be set, and where every one has its value from.
 
+use super::groups::table_of;
 use super::{File, list, literal};
 use crate::interface::{Entry, is_tunable};
 use crate::scene::{Group, Parameter, Scene};
@@ -28,21 +29,75 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
         write!(
             table,
             "\n    Settable {{ name: {:?}, unit: {unit:?}, minimum: {minimum}, maximum: {maximum} }},",
-            entry.name(0)
+            // of many the contact is said before
+            if entry.count == 1 { entry.name(0) } else { variable.name.clone() }
         )
         .expect("a String takes everything");
     }
     table.push_str(if settable.is_empty() { "];\n" } else { "\n];\n" });
     file.add_item(&table);
     file.add_method("settable() -> &'static [Settable]", "&SETTABLE");
-    let tunable = settable.iter().position(|entry| is_tunable(scene, &entry.variable.name));
-    if let Some(place) = tunable {
-        file.add_method("is_tunable(index: usize) -> bool", &format!("index == {place}"));
-    }
     let starts: Vec<_> = settable.iter().map(|entry| number(entry.start)).collect();
+    let per_contact = settable.iter().any(|entry| entry.count > 1);
+    if per_contact {
+        add_runs(file, scene, &settable);
+        file.add_item(&format!(
+            "/// What the values of each begin with.\n{}",
+            list("STARTS", "f64", "SETTABLE.len()", &starts)
+        ));
+    }
+    add_tunable(file, scene, &settable);
     let line = format!("[{}]", starts.join(", "));
-    let starts = if line.len() < 90 { line } else { format!("[\n    {},\n]", starts.join(",\n    ")) };
+    let starts = match line.len() {
+        _ if per_contact => "spread(&RUNS, &STARTS)".into(),
+        ..90 => line,
+        _ => format!("[\n    {},\n]", starts.join(",\n    ")),
+    };
     file.add_method("start_values() -> Self::Values", &starts);
+}
+
+/// How many values each of the `settable` parameters has, and of which contacts.
+fn add_runs(file: &mut File, scene: &Scene, settable: &[&Entry]) {
+    let mut end = 0;
+    let runs = settable.iter().map(|entry| {
+        end += entry.count;
+        let first = entry.group.filter(|_| entry.count > 1).map(|group| first_contact(scene, group));
+        format!("Run {{ end: {end}, first_contact: {first:?} }}")
+    });
+    let runs = list("RUNS", "Run", "SETTABLE.len()", &runs.collect::<Vec<_>>());
+    file.add_item(&format!("/// The values of each of them.\n{runs}"));
+    file.add_item(&format!("/// How many values can be set.\nconst VALUES: usize = {end};\n"));
+    file.add_method(
+        "settable_at(index: usize) -> Option<(&'static Settable, Option<usize>)>",
+        "let (place, contact) = run_of(&RUNS, index)?;\nSome((SETTABLE.get(place)?, contact))",
+    );
+}
+
+/// The first contact of `group`.
+fn first_contact(scene: &Scene, group: &Group) -> usize {
+    scene.contacts.iter().take_while(|other| other.name != group.name).map(Group::len).sum()
+}
+
+/// Which of the `settable` parameters can be set between steps.
+fn add_tunable(file: &mut File, scene: &Scene, settable: &[&Entry]) {
+    let mut begin = 0;
+    let places = settable.iter().filter_map(|entry| {
+        begin += entry.count;
+        is_tunable(scene, &entry.variable.name).then(|| (begin - entry.count)..begin)
+    });
+    let places: Vec<_> = places.collect();
+    let test = match places.as_slice() {
+        [] => return,
+        [only] if only.len() == 1 => format!("index == {}", only.start),
+        [only] => format!("({only:?}).contains(&index)"),
+        _ => {
+            let ranges: Vec<_> = places.iter().map(|range| format!("({}, {})", range.start, range.end)).collect();
+            let ranges = list("TUNABLE", "(usize, usize)", &ranges.len().to_string(), &ranges);
+            file.add_item(&format!("/// Where the values that can be set between steps begin and end.\n{ranges}"));
+            "TUNABLE.iter().any(|&(begin, end)| (begin..end).contains(&index))".into()
+        }
+    };
+    file.add_method("is_tunable(index: usize) -> bool", &test);
 }
 
 /// The variables that a scene can have as parameters.
@@ -58,56 +113,38 @@ pub fn differing(scene: &Scene) -> impl Iterator<Item = &'static Variable> {
 }
 
 pub fn add_parameters(file: &mut File, scene: &Scene) {
-    // where each group has its own parameters among those that can be set
-    let mut first = scene.settable().count();
-    let firsts = scene.contacts.iter().map(|group| {
-        let own = group.own.iter().filter(|own| own.settable).count();
-        first += own;
-        first - own
-    });
-    let firsts: Vec<usize> = firsts.collect();
-    let place = |list: &[Parameter], name: &str| {
-        let parameter = list.iter().find(|parameter| parameter.name == name)?;
-        let place = list.iter().filter(|other| other.settable).position(|other| other.name == name);
-        Some((parameter.value, place))
-    };
-    let source = |group: usize, name: &str| match place(&scene.contacts[group].own, name) {
-        Some((_, Some(place))) => Value::Settable(firsts[group] + place),
-        Some((value, None)) => Value::Constant(value),
-        None => match place(&scene.parameters, name) {
-            Some((_, Some(place))) => Value::Settable(place),
-            Some((value, None)) => Value::Constant(value),
-            None => {
-                let absent = ABSENT.iter().find(|(absent, _)| *absent == name);
-                Value::Constant(absent.map_or(f64::NAN, |(_, value)| *value))
-            }
-        },
-    };
+    let sources = Sources::of(scene);
     let differing: Vec<_> = differing(scene).map(|variable| variable.rust.as_str()).collect();
     let mut arms = String::new();
-    let mut uses_settable = !differing.is_empty();
+    let (mut uses_settable, mut uses_group) = (!differing.is_empty(), !differing.is_empty());
     for variable in parameters() {
         let value = if differing.contains(&variable.rust.as_str()) {
             let constant = variable.name.replace('.', "_").to_uppercase();
-            let sources = (0..scene.contacts.len()).map(|group| match source(group, &variable.name) {
+            let sources = (0..scene.contacts.len()).map(|group| match sources.get(group, &variable.name) {
                 Value::Settable(place) => format!("Source::Settable({place})"),
+                // of a contact before these there would be an index below zero
+                Value::PerContact(place) => format!("Source::PerContact({}_usize.wrapping_sub({}))", place.0, place.1),
                 Value::Constant(value) => format!("Source::Constant({})", literal(value)),
             });
-            let sources = list(&constant, "Source", "GROUPS", &sources.collect::<Vec<_>>());
-            file.add_item(&format!("/// `{}` by group.\n{sources}", variable.name));
-            format!("Source::value({constant}.get(group), values)")
+            let sources = list(&constant, "Source", &scene.contacts.len().to_string(), &sources.collect::<Vec<_>>());
+            file.add_item(&format!("/// `{}` by table.\n{sources}", variable.name));
+            format!("Source::value({constant}.get({}), group, values)", table_of(scene))
         } else {
-            match source(0, &variable.name) {
+            match sources.get(0, &variable.name) {
                 Value::Settable(place) => {
                     uses_settable = true;
                     format!("values[{place}]")
+                }
+                Value::PerContact((place, _)) => {
+                    (uses_settable, uses_group) = (true, true);
+                    format!("values.get(group + {place}).copied().unwrap_or(f64::NAN)")
                 }
                 Value::Constant(value) => literal(value),
             }
         };
         writeln!(arms, "    Parameter::{} => {value},", variable.rust).expect("a String takes everything");
     }
-    let group = if differing.is_empty() { "_group" } else { "group" };
+    let group = if uses_group { "group" } else { "_group" };
     let values = if uses_settable { "values" } else { "_values" };
     file.add_method(
         &format!("parameter(parameter: Parameter, {group}: usize, {values}: &Self::Values) -> f64"),
@@ -115,9 +152,58 @@ pub fn add_parameters(file: &mut File, scene: &Scene) {
     );
 }
 
+/// Where each parameter has its value from.
+struct Sources<'a> {
+    scene: &'a Scene,
+    /// Where each group has its own values among those that can be set, and its first contact.
+    firsts: Vec<(usize, usize)>,
+}
+
+impl Sources<'_> {
+    fn of(scene: &Scene) -> Sources<'_> {
+        let (mut value, mut contact) = (scene.settable().count(), 0);
+        let firsts = scene.contacts.iter().map(|group| {
+            let first = (value, contact);
+            value += group.own.iter().filter(|own| own.settable).map(|own| group.variables_of(own)).sum::<usize>();
+            contact += group.len();
+            first
+        });
+        Sources { scene, firsts: firsts.collect() }
+    }
+
+    /// That of the parameter `name` for the contacts of `group`.
+    fn get(&self, group: usize, name: &str) -> Value {
+        let ((first, contact), group) = (self.firsts[group], &self.scene.contacts[group]);
+        if let Some((parameter, place)) = find(&group.own, name, |own| group.variables_of(own)) {
+            return match parameter.settable {
+                true if group.variables_of(parameter) > 1 => Value::PerContact((first + place, contact)),
+                true => Value::Settable(first + place),
+                false => Value::Constant(parameter.value),
+            };
+        }
+        match find(&self.scene.parameters, name, |_| 1) {
+            Some((parameter, place)) if parameter.settable => Value::Settable(place),
+            Some((parameter, _)) => Value::Constant(parameter.value),
+            None => {
+                let absent = ABSENT.iter().find(|(absent, _)| *absent == name);
+                Value::Constant(absent.map_or(f64::NAN, |(_, value)| *value))
+            }
+        }
+    }
+}
+
+/// The parameter `name` of a list, and how many values that can be set come before it: each has as many as `values` says.
+fn find<'a>(list: &'a [Parameter], name: &str, values: impl Fn(&Parameter) -> usize) -> Option<(&'a Parameter, usize)> {
+    let place = list.iter().position(|parameter| parameter.name == name)?;
+    let before = list[..place].iter().filter(|other| other.settable).map(values).sum();
+    Some((&list[place], before))
+}
+
 /// Where a parameter has its value from.
 enum Value {
-    /// Place among those that can be set.
+    /// Place among the values that can be set.
     Settable(usize),
+    /// Place of the first of those, and its contact: each has its own.
+    PerContact((usize, usize)),
     Constant(f64),
 }

@@ -31,12 +31,15 @@ pub fn add_reals(file: &mut File, entries: &[Entry]) {
             "/// How many variables a contact has, beside the parameters.\nconst KINDS: u32 = {kinds};\n"
         ));
     }
-    let parameter = "    KINDS.. => {
+    let parameter = format!(
+        "    KINDS.. => {{
         let index = (kind - KINDS) as usize * CONTACTS + contact;
-        return (index < SETTABLE.len()).then_some((Real::Parameter(index), 0));
-    }
-";
-    let parameter = if settable { parameter } else { "" };
+        return (index < {}).then_some((Real::Parameter(index), 0));
+    }}
+",
+        super::value_count(&file.items)
+    );
+    let parameter = if settable { parameter.as_str() } else { "" };
     // if all kinds are Real and whatever comes behind them is a parameter nothing is left
     let nothing = if settable && arms.lines().count() == kinds { "" } else { "    _ => return None,\n" };
     file.methods.push_str("\n    #[inline]");

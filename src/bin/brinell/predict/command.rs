@@ -42,7 +42,7 @@ pub fn run(arguments: &PredictArguments, as_json: bool) -> Result<(), Box<dyn Er
 
 /// The scene's impact, with what the arguments say instead.
 fn impact(scene: &Scene, arguments: &PredictArguments) -> Result<Impact, PredictError> {
-    let mass = super::positive("mass", arguments.mass.unwrap_or(scene.impact.mass))?;
+    let mass = super::positive("mass", arguments.mass.unwrap_or(scene.impact_of(0).mass))?;
     let speed = match (arguments.speed, arguments.energy, arguments.drop_height) {
         (Some(speed), ..) => super::positive("speed", speed)?,
         (_, Some(energy), _) => super::speed_of_energy(mass, super::positive("energy", energy)?),

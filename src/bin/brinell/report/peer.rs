@@ -1,7 +1,7 @@
 //! Other units with the same variables, run in the same picture.
 
 use super::precision::{Line, Plan};
-use super::ways::{Needs, WAYS, Way};
+use super::ways::{Needs, PARALLEL, WAYS, Way};
 use super::{ReportError, unit::Contact};
 use crate::importer::{Archive, ImportError, Unit};
 use crate::scene::Scene;
@@ -17,6 +17,8 @@ pub struct Peer {
     name: String,
     archive: Archive,
     unit: Unit,
+    /// It is made for masters that step all units at once.
+    parallel: bool,
 }
 
 impl Peer {
@@ -41,7 +43,9 @@ impl Peer {
         }
         let unit = archive.load().map_err(|error| wrong(error.to_string()))?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Peer { path: path.into(), name, archive, unit })
+        let scene = archive.scene.as_ref().and_then(|text| Scene::parse(text.clone(), path).ok());
+        let parallel = scene.and_then(|scene| scene.coupling).is_some_and(|coupling| coupling.parallel);
+        Ok(Peer { path: path.into(), name, archive, unit, parallel })
     }
 
     /// Runs it by every way that it offers, with the bodies of `scene`.
@@ -80,6 +84,9 @@ impl Peer {
         let derivatives = description.interpolates_inputs && description.output_derivatives > 0;
         // a unit that moves the mass itself does nothing else
         let knows_mass = has("effective_mass");
+        if self.parallel {
+            return vec![&PARALLEL];
+        }
         let offered = |way: &&Way| match way.needs {
             Needs::Mass => knows_mass && has("mean_force"),
             _ if knows_mass => false,

@@ -4,14 +4,13 @@ use super::ways::Needs;
 use crate::importer::{Archive, Description, ImportError, Instance, Unit};
 use crate::scene::{Coupling, Group, Parameter, Scene};
 use crate::table::VARIABLES;
-use brinell::contact::impact::Impact;
 
 /// Outputs that a report asks for, whatever the scene shows and whatever the coupling needs.
 const OUTPUTS: [&str; 3] = ["indentation", "residual_indentation", "dissipated_energy"];
 
 /// The first contact of `scene` alone, with every parameter settable, for a kind of coupling.
 pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
-    let mass = (needs == Needs::Mass).then_some(scene.impact.mass);
+    let mass = (needs == Needs::Mass).then_some(scene.impact_of(0).mass);
     let more = match needs {
         Needs::Force => None,
         Needs::PredictedForce => Some("predicted_force"),
@@ -22,12 +21,12 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
     for name in VARIABLES.iter().map(|variable| variable.name.as_str()) {
         let shared = scene.parameters.iter().find(|parameter| parameter.name == name);
         let Some(found) = scene.contacts[0].own.iter().find(|own| own.name == name).or(shared) else { continue };
-        parameters.push(Parameter { settable: true, ..found.clone() });
+        parameters.push(Parameter::shared(found.name, found.value, true));
     }
-    if let (Some(value), None) = (mass, scene.value("effective_mass")) {
+    if let (Some(value), None) = (mass, scene.group_value(0, "effective_mass")) {
         // it stands before the gap, which every contact has
         let gap = parameters.iter().position(|parameter| parameter.name == "initial_gap").unwrap_or(parameters.len());
-        parameters.insert(gap, Parameter { name: "effective_mass", value, settable: true });
+        parameters.insert(gap, Parameter::shared("effective_mass", value, true));
     }
     Scene {
         name: scene.name.clone(),
@@ -41,7 +40,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         passivity_guard: scene.passivity_guard,
         yield_strength: scene.yield_strength,
         coupling: mass.map(|_| Coupling::default()),
-        impact: Impact { ..scene.impact },
+        impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],
         watches: false,
         structured_names: false,

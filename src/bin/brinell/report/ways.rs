@@ -24,6 +24,8 @@ pub struct Body {
     pub force: f64,
     /// How fast that changes [N/s]; known to the way that needs it.
     slope: f64,
+    /// What of its speed a master that steps all units at once has yet to take off [m/s].
+    owed: f64,
 }
 
 /// Makes one step [s] of contact and body.
@@ -105,6 +107,15 @@ pub const MASS_KNOWN: Way = Way {
     stable: f64::INFINITY,
 };
 
+/// The same for a unit that is made for masters which step all units at once.
+pub static PARALLEL: Way = Way {
+    name: "mass known, parallel",
+    what: "all units at once, with the mean_force of the last step; the unit keeps an account of it",
+    advance: parallel,
+    needs: Needs::Mass,
+    stable: f64::INFINITY,
+};
+
 /// All ways that a report runs.
 pub static WAYS: [Way; 5] = [LATE, PREDICTED, LEAP_FROG, DERIVATIVES, MASS_KNOWN];
 
@@ -120,12 +131,12 @@ pub fn gaps(speed: f64, step: f64, places: u32) -> impl Iterator<Item = f64> {
 impl Body {
     /// A body that flies at `speed` [m/s].
     pub fn flying(mass: f64, speed: f64) -> Body {
-        Body { mass, load: 0.0, speed, force: 0.0, slope: 0.0 }
+        Body { mass, load: 0.0, speed, force: 0.0, slope: 0.0, owed: 0.0 }
     }
 
     /// A body at rest, pressed into the surface by as much as that resists [N].
     pub fn pressed(mass: f64, load: f64) -> Body {
-        Body { mass, load, speed: 0.0, force: load, slope: 0.0 }
+        Body { mass, load, speed: 0.0, force: load, slope: 0.0, owed: 0.0 }
     }
 
     /// Acceleration towards the surface while the contact resists with `force` [N].
@@ -201,6 +212,18 @@ fn mass_known(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), I
     }
     contact.step(step)?;
     body.feel(contact.mean_force()?, step);
+    body.force = contact.force()?;
+    Ok(())
+}
+
+/// The unit moves the mass itself, and the body has the mean force one step later. `speed` has all of it at once: what the body
+/// ends with is the same.
+fn parallel(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+    contact.set_rate(body.speed + body.owed)?;
+    contact.step(step)?;
+    let force = contact.mean_force()?;
+    body.feel(force, step);
+    body.owed = step * force / body.mass;
     body.force = contact.force()?;
     Ok(())
 }

@@ -42,16 +42,21 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), known_mass.as_ref(), &contacts)?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     predict::check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
-    let (mut parameters, groups) = contacts.parameters();
+    let (mut parameters, mut groups) = contacts.parameters();
     let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
     let span = file.impact.as_ref().map(|table| table.get_ref().mass.span());
     let mass = known_mass.or(mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass)));
+    contacts.check_masses(mass.is_some())?;
+    let is_input = |name: &str| name == "effective_mass" && coupling.is_some_and(|coupling| coupling.mass_input);
     for (name, value) in [("restitution", file.law.restitution.clone()), ("effective_mass", mass)] {
         let Some(value) = value else { continue };
         check_limits(name, "", &value)?;
-        let is_input = name == "effective_mass" && coupling.is_some_and(|coupling| coupling.mass_input);
-        parameters.push(Parameter { name, value: *value.get_ref(), settable: !is_input });
+        parameters.push(Parameter::shared(name, *value.get_ref(), !is_input(name)));
     }
+    groups.iter_mut().flat_map(|group| &mut group.own).for_each(|own| own.settable = !is_input(own.name));
+    contacts.divide(&parameters, &mut groups, is_input)?;
+    // what every contact has for itself is nobody's
+    parameters.retain(|shared| !groups.iter().all(|group| group.own.iter().any(|own| own.name == shared.name)));
     parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
     let mut outputs = check_outputs(&file.fmu.outputs, coupling.is_some())?;
     // of no use without it
@@ -87,8 +92,9 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
         laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
     }
-    let no_prediction = |group| Mistake(impact_span.clone(), contacts.said(group, &too_hard(&scene)));
-    let predictions = scene.by_bodies(|group| scene.any_model_of(group).predict(&scene.impact)).into_iter().enumerate();
+    let no_prediction = |group| Mistake(impact_span.clone(), contacts.said(group, &too_hard(&scene, group)));
+    let predict = |group| scene.any_model_of(group).predict(&scene.impact_of(group));
+    let predictions = scene.by_bodies(predict).into_iter().enumerate();
     let predictions = predictions.map(|(group, prediction)| prediction.ok_or_else(|| no_prediction(group)));
     scene.predictions = predictions.collect::<Result<_, _>>()?;
     Ok(scene)
@@ -164,8 +170,8 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
 }
 
 /// What is said of an impact beyond what the law can be evaluated for.
-fn too_hard(scene: &Scene) -> String {
-    let Impact { mass, speed } = scene.impact;
+fn too_hard(scene: &Scene, group: usize) -> String {
+    let Impact { mass, speed } = scene.impact_of(group);
     let what = match scene.damped {
         None => "drives the bodies deeper than the law can be evaluated",
         Some(_) => "drives the bodies deeper than the law can be evaluated, or is damped so much that it has no end",
@@ -219,7 +225,8 @@ fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Res
         if mass_is_input && parameter.name == "effective_mass" {
             return;
         }
-        parameter.settable = names.contains(name.as_str());
+        // a parameter that each contact has for itself is there to be set
+        parameter.settable = parameter.per_contact || names.contains(name.as_str());
         known.push(name);
     };
     for parameter in &mut scene.parameters {

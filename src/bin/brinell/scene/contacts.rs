@@ -12,8 +12,11 @@ use toml::Spanned;
 /// Most contacts of a unit: the model description then has some hundred megabytes.
 const MOST_CONTACTS: i64 = 100_000;
 
+/// Most values of parameters that each contact has for itself: restoring a state from bytes has them on the stack.
+const MOST_VALUES: usize = 10_000;
+
 /// What the contacts of a scene may give themselves, in the order of the table.
-const PROPERTIES: [&str; 9] = [
+const PROPERTIES: [&str; 10] = [
     "impactor.radius",
     "impactor.youngs_modulus",
     "impactor.poissons_ratio",
@@ -22,8 +25,12 @@ const PROPERTIES: [&str; 9] = [
     "target.poissons_ratio",
     "target.yield_strength",
     DENSITY,
+    MASS,
     "initial_gap",
 ];
+
+/// What the scene gives for all contacts elsewhere.
+const MASS: &str = "effective_mass";
 
 /// What is no variable of the unit.
 const DENSITY: &str = "target.density";
@@ -36,7 +43,12 @@ struct Numbers(Vec<(&'static str, Spanned<f64>)>);
 
 impl Numbers {
     /// A number stands before the one of a material.
-    fn of(impactor: &Impactor, target: &Target, initial_gap: Option<&Spanned<f64>>) -> Result<Numbers, Mistake> {
+    fn of(
+        impactor: &Impactor,
+        target: &Target,
+        mass: Option<&Spanned<f64>>,
+        initial_gap: Option<&Spanned<f64>>,
+    ) -> Result<Numbers, Mistake> {
         let material = match &target.material {
             Some(name) => Some((find_material(name)?, name.span())),
             None => None,
@@ -54,6 +66,7 @@ impl Numbers {
             target.poissons_ratio.clone().or_else(|| of_material(|material| material.poissons_ratio)),
             target.yield_strength.clone().or_else(|| of_material(|material| material.yield_strength)),
             target.density.clone().or_else(|| of_material(|material| material.density)),
+            mass.cloned(),
             initial_gap.cloned(),
         ];
         let numbers = PROPERTIES.into_iter().zip(given);
@@ -71,7 +84,7 @@ impl Numbers {
     /// As parameters that can be set, where `wanted` says so.
     fn parameters(&self, wanted: impl Fn(&str) -> bool) -> Vec<Parameter> {
         let wanted = self.0.iter().filter(|(name, _)| *name != DENSITY && wanted(name));
-        wanted.map(|(name, value)| Parameter { name, value: *value.get_ref(), settable: true }).collect()
+        wanted.map(|(name, value)| Parameter::shared(name, *value.get_ref(), true)).collect()
     }
 }
 
@@ -81,6 +94,8 @@ struct Given {
     count: Option<usize>,
     surface: Surface,
     own: Numbers,
+    /// What each contact of the group has for itself.
+    per_contact: Vec<Spanned<String>>,
     /// Where a mistake in it is shown, if nothing smaller can be shown.
     span: Range<usize>,
 }
@@ -99,7 +114,7 @@ impl Contacts {
         let standard = (Impactor::default(), Target::default());
         let no_gap = Spanned::new(0..0, 0.0);
         let gap = file.fmu.initial_gap.as_ref().unwrap_or(&no_gap);
-        let shared = Numbers::of(impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1), Some(gap))?;
+        let shared = Numbers::of(impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1), None, Some(gap))?;
         check_numbers(&shared, "")?;
         let surface = target.and_then(|target| target.surface);
         let contacts = Contacts { shared, given: given(file, surface)? };
@@ -144,15 +159,62 @@ impl Contacts {
         }
     }
 
-    /// The parameters of all contacts, those that no contact takes left out, and the groups with their own.
+    /// Refuses a mass that a contact has for itself where the unit doesn't know it.
+    pub fn check_masses(&self, known: bool) -> Result<(), Mistake> {
+        let given = self.given.iter().enumerate().find_map(|(index, given)| Some((index, given.own.get(MASS)?)));
+        match given {
+            Some((index, mass)) if !known => {
+                let message =
+                    "effective_mass is that of bodies which the unit moves: it needs [coupling] effective_mass for all";
+                Err(Mistake(mass.span(), self.said(index, message)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Gives each contact a value of its own of what its group names, which may be a parameter of the group or one of all contacts,
+    /// `shared`; `is_input` says what can't be a parameter, since it is an input.
+    pub fn divide(
+        &self,
+        shared: &[Parameter],
+        groups: &mut [Group],
+        is_input: impl Fn(&str) -> bool,
+    ) -> Result<(), Mistake> {
+        let mut total = 0;
+        for (index, (given, group)) in self.given.iter().zip(groups).enumerate() {
+            for name in &given.per_contact {
+                let text = name.get_ref().as_str();
+                let wrong = |message: &str| Mistake(name.span(), self.said(index, message));
+                if is_input(text) {
+                    return Err(wrong(&format!("{text} is an input of each contact already")));
+                }
+                let has = |parameter: &&Parameter| parameter.name == text;
+                let Some(mut parameter) = group.own.iter().chain(shared).find(has).cloned() else {
+                    let names = group.own.iter().chain(shared).map(|parameter| parameter.name);
+                    return Err(wrong(&unknown("parameter", text, names)));
+                };
+                total += group.len();
+                if total > MOST_VALUES {
+                    let message = format!("{text} makes {total} values per contact: allowed are {MOST_VALUES} in all");
+                    return Err(wrong(&message));
+                }
+                parameter.per_contact = true;
+                group.own.retain(|own| own.name != text);
+                group.own.push(parameter);
+            }
+            group.own.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
+        }
+        Ok(())
+    }
+
+    /// The parameters of all contacts, and the groups with their own.
     pub fn parameters(&self) -> (Vec<Parameter>, Vec<Group>) {
-        let taken = |name: &str| self.given.iter().any(|given| given.own.get(name).is_none());
         let group = |(index, given): (usize, &Given)| {
             let own = given.own.parameters(|_| true);
             let density = self.number(index, DENSITY).map(|density| *density.get_ref());
             Group { name: given.name.clone(), count: given.count, own, surface: given.surface, density }
         };
-        (self.shared.parameters(taken), self.given.iter().enumerate().map(group).collect())
+        (self.shared.parameters(|_| true), self.given.iter().enumerate().map(group).collect())
     }
 
     /// Refuses a contact that has not all that a contact needs.
@@ -221,7 +283,7 @@ fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistak
     let surface_of = |own: Option<SurfaceName>| own.or(surface).map_or(Surface::Dented, Surface::from);
     let Some(contacts) = &file.contact else {
         let (own, surface) = (Numbers(Vec::new()), surface_of(None));
-        return Ok(vec![Given { name: None, count: None, surface, own, span: 0..0 }]);
+        return Ok(vec![Given { name: None, count: None, surface, own, per_contact: Vec::new(), span: 0..0 }]);
     };
     if contacts.get_ref().is_empty() {
         let message = "the list of contacts is empty: leave it out for one contact with plain variable names";
@@ -231,7 +293,8 @@ fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistak
     let mut all = Vec::new();
     for contact in contacts.get_ref() {
         let span = contact.span();
-        let Contact { name, count, impactor, target, initial_gap } = contact.get_ref();
+        let Contact { name, count, impactor, target, initial_gap, effective_mass, parameters_per_contact } =
+            contact.get_ref();
         let text = check_contact_name(name)?;
         if !names.insert(text.clone()) {
             return Err(Mistake(name.span(), format!("name = {text:?} is taken by another contact")));
@@ -243,10 +306,11 @@ fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistak
                 format!("with contact `{text}` there are {total} contacts in all: allowed are {MOST_CONTACTS}");
             return Err(Mistake(span, message));
         }
-        let own = Numbers::of(impactor, target, initial_gap.as_ref())?;
+        let own = Numbers::of(impactor, target, effective_mass.as_ref(), initial_gap.as_ref())?;
         check_numbers(&own, &format!("{text}."))?;
         let surface = surface_of(target.surface);
-        all.push(Given { name: Some(text), count: count.map(|count| count as usize), surface, own, span });
+        let (count, per_contact) = (count.map(|count| count as usize), parameters_per_contact.clone());
+        all.push(Given { name: Some(text), count, surface, own, per_contact, span });
     }
     Ok(all)
 }

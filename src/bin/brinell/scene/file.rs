@@ -129,6 +129,9 @@ pub struct Contact {
     #[serde(default)]
     pub target: Target,
     pub initial_gap: Option<Spanned<f64>>,
+    pub effective_mass: Option<Spanned<f64>>,
+    #[serde(default)]
+    pub parameters_per_contact: Vec<Spanned<String>>,
 }
 
 impl File {

@@ -75,6 +75,15 @@ pub struct Parameter {
     pub value: f64,
     /// Whether it stays settable; otherwise it is a constant of the unit.
     pub settable: bool,
+    /// Whether each contact of a group has a value of its own.
+    pub per_contact: bool,
+}
+
+impl Parameter {
+    /// One that contacts have in common.
+    pub fn shared(name: &'static str, value: f64, settable: bool) -> Parameter {
+        Parameter { name, value, settable, per_contact: false }
+    }
 }
 
 /// One contact, or several equal ones: a table `[[contact]]`, or all that a scene without such a table has.
@@ -149,6 +158,16 @@ impl Scene {
         own.map(|parameter| parameter.value).or_else(|| self.value(name))
     }
 
+    /// The impact on the contacts of `group`: a unit that knows their mass runs it with that.
+    pub fn impact_of(&self, group: usize) -> Impact {
+        Impact { mass: self.group_value(group, "effective_mass").unwrap_or(self.impact.mass), ..self.impact }
+    }
+
+    /// Whether contacts of a group may differ, so that each is kept as a group of its own.
+    pub fn contacts_differ(&self) -> bool {
+        self.contacts.iter().any(|group| group.len() > 1 && group.own.iter().any(|own| own.per_contact))
+    }
+
     /// Whether the input `name` stands beside the rate.
     pub fn has_input(&self, name: &str) -> bool {
         self.coupling.is_some_and(|coupling| match name {
@@ -179,8 +198,8 @@ impl Scene {
         AnyModel::Damped(damped::Model {
             pair: self.pair_of(group).expect("a checked scene has bodies that fit"),
             law,
-            restitution: self.value("restitution").unwrap_or(1.0),
-            mass: self.value("effective_mass").unwrap_or(f64::INFINITY),
+            restitution: self.group_value(group, "restitution").unwrap_or(1.0),
+            mass: self.group_value(group, "effective_mass").unwrap_or(f64::INFINITY),
         })
     }
 
@@ -222,8 +241,21 @@ impl Group {
         }
     }
 
-    /// What the group's own parameter `name` is called in the unit.
+    /// What the parameter `name` is called in the unit that all contacts of the group have in common.
     pub fn variable(&self, name: &str) -> String {
         self.name.as_ref().map_or(name.into(), |own| format!("{own}.{name}"))
+    }
+
+    /// What the group's own `parameter` is called in the unit, for the contact with this `index`.
+    pub fn own_variable(&self, parameter: &Parameter, index: usize) -> String {
+        match parameter.per_contact {
+            true => self.prefix(index) + parameter.name,
+            false => self.variable(parameter.name),
+        }
+    }
+
+    /// How many variables the group's own `parameter` is.
+    pub fn variables_of(&self, parameter: &Parameter) -> usize {
+        if parameter.per_contact { self.len() } else { 1 }
     }
 }

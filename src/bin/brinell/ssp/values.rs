@@ -16,9 +16,10 @@ pub fn write(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
     let parameters: Vec<_> = of_kind(plan, Causality::Parameter).collect();
     xml.create_element("ssv:ParameterSet").with_attributes(attributes).write_inner_content(|xml| {
         xml.create_element("ssv:Parameters").write_inner_content(|xml| {
-            for entry in &parameters {
+            let all = parameters.iter().flat_map(|entry| (0..entry.count).map(move |index| (entry, index)));
+            for (entry, index) in all {
                 let variable = entry.variable;
-                let name = format!("{COMPONENT}.{}", entry.name(0));
+                let name = format!("{COMPONENT}.{}", entry.name(index));
                 let parameter = [("name", name.as_str()), ("description", entry.description)];
                 xml.create_element("ssv:Parameter").with_attributes(parameter).write_inner_content(|xml| {
                     let value = entry.start.map(number).unwrap_or_default();

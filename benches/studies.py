@@ -1,0 +1,202 @@
+"""How fast studies are, and where their time goes.
+
+    python benches/studies.py [--runs 4000] [--repeat 5] [--skip-dask]
+
+It takes the package `brinell` with what its studies need, the exporter, and Rust. Times are the best of some repetitions:
+another process on the machine makes single ones longer, never shorter. Beside wall time stands the time of the processor
+(user and system) of a run, its children included, which other processes change less.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import pickle
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import brinell
+import numpy as np
+from brinell.studies import impacts, scene, store
+
+SCENES = Path(__file__).resolve().parents[1] / "scenes"
+CONTACTS = 1000
+ROW = """
+[[contact]]
+name = "bead"
+count = {count}
+parameters_per_contact = ["target.yield_strength", "effective_mass"]
+"""
+
+
+def processor() -> float:
+    """Time of the processor that this process and those that it waited for have taken [s]."""
+    both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(usage.ru_utime + usage.ru_stime for usage in both)
+
+
+def best(repeat: int, work) -> tuple[float, float]:
+    """Wall time and processor time of `work`, each the best [s]."""
+    times = []
+    for _ in range(repeat):
+        began, used = time.perf_counter(), processor()
+        work()
+        times.append((time.perf_counter() - began, processor() - used))
+    return min(wall for wall, _ in times), min(used for _, used in times)
+
+
+def runs(count: int) -> np.ndarray:
+    """Speed [m/s], mass [kg] and yield strength [Pa] of so many impacts, evenly spread."""
+    part = np.modf(np.outer(np.arange(1, count + 1), [0.7548776662, 0.5698402910]))[0]
+    return np.column_stack(
+        [10.0 ** (2.0 * part[:, 0] - 1.0), np.full(count, 4e-3), 200e6 + 700e6 * part[:, 1]]
+    )
+
+
+NAMES = ("speed", "mass", "target.yield_strength")
+
+
+def one_process(unit: Path, rows: np.ndarray, repeat: int) -> None:
+    """A chunk in this process: what a run costs without anything around it."""
+    impacts.run(unit, NAMES, rows[:10])
+    wall, used = best(repeat, lambda: impacts.run(unit, NAMES, rows))
+    tell("a run, in one process", wall / len(rows), used / len(rows), 1.0 / used * len(rows))
+    wall, used = best(repeat, lambda: impacts.run(unit, NAMES, rows[:1]))
+    tell("a chunk of one run: an instance and a run", wall, used)
+
+
+def loading(unit: Path, repeat: int) -> None:
+    """What a process pays once: reading, unpacking and loading the unit."""
+    code = (
+        "import sys, time; import brinell; from brinell.library import Library; began = time.perf_counter(); "
+        "library = Library.of(sys.argv[1]); print(time.perf_counter() - began)"
+    )
+    call = [sys.executable, "-c", code, str(unit)]
+    times = [float(subprocess.run(call, capture_output=True, check=True).stdout) for _ in range(repeat)]
+    tell("unpacking and loading the unit, once a process", min(times))
+    wall, used = best(repeat, lambda: subprocess.run(call, capture_output=True, check=True))
+    tell("a new interpreter that does so", wall, used)
+
+
+def sizes(unit: Path, rows: np.ndarray, folder: Path, repeat: int) -> None:
+    """What goes from process to process and to the disk."""
+    table = impacts.run(unit, NAMES, rows)
+    data = pickle.dumps(table)
+    print(f"{'result of a run, pickled':<58}{len(data) / len(rows):>12.1f} bytes")
+    path = folder / "x.parquet"
+    store.write(path, table)
+    print(f"{'result of a run, Parquet':<58}{path.stat().st_size / len(rows):>12.1f} bytes")
+    print(f"{'the unit':<58}{unit.stat().st_size:>12} bytes")
+    hundred = {name: column[:100] for name, column in table.items()}
+    parts = store.Parts(folder / "y.parquet", b"plan", 100)
+    wall, used = best(repeat, lambda: parts.save(0, hundred))
+    tell("saving a part of a hundred runs", wall, used)
+
+    def collect():
+        parts.save(0, pickle.loads(data))
+        store.write(path, store.joined([pickle.loads(data)]))
+
+    wall, used = best(repeat, collect)
+    tell(f"a run in a chunk of {len(rows)}, collected and written twice", wall / len(rows), used / len(rows))
+
+
+def studies(unit: Path, rows: np.ndarray, repeat: int, schedulers: list[str | None]) -> None:
+    """Whole studies over one and two workers."""
+    vary = {"speed": rows[:, 0].tolist(), "target.yield_strength": [300e6]}
+    for scheduler in schedulers:
+        for workers in (1, 2):
+            def work(workers=workers, scheduler=scheduler):
+                brinell.study(
+                    unit, vary, mass=4e-3, workers=workers, scheduler=scheduler, progress=False
+                )
+
+            wall, used = best(repeat, work)
+            kind = "processes" if scheduler is None else "Dask"
+            name = f"a study of {len(rows)} runs, {kind}, {workers} worker{'s' if workers > 1 else ''}"
+            tell(name, wall / len(rows), used / len(rows), len(rows) / wall)
+
+
+def tasks(repeat: int, count: int = 2000) -> None:
+    """What Dask needs for a task that does nothing."""
+    from dask.distributed import Client
+
+    with Client(n_workers=1, threads_per_worker=1, dashboard_address=None) as client:
+        def work():
+            client.gather(client.map(abs, range(count), pure=False))
+
+        wall, _ = best(repeat, work)
+    tell("a task of Dask that does nothing", wall / count)
+
+
+def vectorised(folder: Path, repeat: int) -> None:
+    """The same impacts by one unit with a thousand contacts, each with its own strength and mass."""
+    text = (SCENES / "mass_known.toml").read_text(encoding="utf-8") + ROW.format(count=CONTACTS)
+    path = folder / "row.toml"
+    path.write_text(text, encoding="utf-8")
+    began = time.perf_counter()
+    unit = brinell.export(path, folder / "row.fmu")
+    tell(f"exporting a unit of {CONTACTS} contacts", time.perf_counter() - began)
+    print(f"{'the unit':<58}{unit.stat().st_size:>12} bytes")
+    rows = runs(CONTACTS)
+    speed, mass, strength = rows.T
+    with brinell.Contact(unit) as row:
+        def work():
+            row.reset(target_yield_strength=strength, effective_mass=mass)
+            force = row.step(1.0, speed)
+            return -(speed - force / mass) / speed, row["residual_indentation"]
+
+        wall, used = best(4 * repeat, work)
+        tell("a run among a thousand, with reset and parameters", wall / CONTACTS, used / CONTACTS, CONTACTS / used)
+        restitution, dent = work()
+
+        row.reset()
+        state = row.save()
+
+        def step():
+            row.restore(state)
+            row.step(1.0, speed)
+
+        wall, used = best(4 * repeat, step)
+        tell("the step alone", wall / CONTACTS, used / CONTACTS, CONTACTS / used)
+    single = scene.unit(SCENES / "mass_known.toml", folder, None)[0]
+    table = impacts.run(single, NAMES, rows)
+    assert np.array_equal(table["restitution"], restitution), "the two don't agree"
+    assert np.array_equal(table["dent"], dent), "the two don't agree"
+
+
+def tell(name: str, wall: float, used: float = float("nan"), rate: float = float("nan")) -> None:
+    """A line of the table: microseconds, and runs per second."""
+    def cell(value: float, factor: float = 1e6) -> str:
+        return f"{factor * value:>12.1f}" if value == value else " " * 12
+
+    print(f"{name:<58}{cell(wall)}{cell(used)}{cell(rate, 1.0)}", flush=True)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--runs", type=int, default=4000)
+    parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--skip-dask", action="store_true")
+    given = parser.parse_args()
+    print(json.dumps({"cores": os.cpu_count(), "python": sys.version.split()[0]}))
+    print(f"{'':<58}{'wall [us]':>12}{'used [us]':>12}{'runs/s':>12}")
+    rows = runs(given.runs)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        unit = scene.unit(SCENES / "mass_known.toml", folder, None)[0]
+        one_process(unit, rows, given.repeat)
+        loading(unit, given.repeat)
+        sizes(unit, rows, folder, given.repeat)
+        vectorised(folder, given.repeat)
+        studies(unit, rows, given.repeat, [None] if given.skip_dask else [None, "local"])
+        if not given.skip_dask:
+            tasks(given.repeat)
+
+
+if __name__ == "__main__":
+    main()
