@@ -1,14 +1,17 @@
-"""`python -m brinell study`."""
+"""`python -m brinell study`, and every command of the exporter: where the folder of scripts isn't on
+PATH, `python -m brinell export scene.toml` does what `brinell export scene.toml` does."""
 
 from __future__ import annotations
 
 import argparse
+import subprocess
 import sys
 from collections.abc import Sequence
 
 import numpy as np
 
 from .errors import ContactError, ProgramError
+from .program import program
 from .studies.study import study
 
 
@@ -20,7 +23,10 @@ def _pair(text: str) -> tuple[str, str]:
 
 
 def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m brinell")
+    parser = argparse.ArgumentParser(
+        prog="python -m brinell",
+        epilog="All other arguments go to the exporter: `python -m brinell help` lists its commands.",
+    )
     commands = parser.add_subparsers(dest="command", required=True)
     text = "thousands of impacts of a scene's first contact, one step each"
     it = commands.add_parser("study", help=text, description=text)
@@ -63,6 +69,9 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command line; gives the exit status."""
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments and arguments[0] not in ("study", "-h", "--help"):
+        return _exporter(arguments)
     given = _arguments(arguments)
     try:
         table = study(
@@ -102,6 +111,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for path in given.output:
         print(path)
     return 0
+
+
+def _exporter(arguments: Sequence[str]) -> int:
+    """Runs the exporter; gives its exit status."""
+    try:
+        return subprocess.run([program(), *arguments], check=False).returncode
+    except (ProgramError, OSError) as error:
+        print(f"brinell: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
 
 
 if __name__ == "__main__":
