@@ -2,8 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::files::FileError;
-use crate::prebuilt_folder::{self, PrebuiltFolder};
-use crate::{package, platform};
+use crate::{package, platform, prebuilt_folder};
 use clap::CommandFactory;
 use clap_complete::Shell;
 use serde_json::json;
@@ -20,9 +19,9 @@ pub fn version(as_json: bool) {
     let prebuilt = prebuilt_folder::find();
     if as_json {
         let platform = platform.map(|(folder, target)| json!({ "folder": folder, "target": target }));
-        let libraries = prebuilt.as_ref().map_or(0, PrebuiltFolder::library_count);
-        let prebuilt = prebuilt.map(|it| json!({ "folder": it.path, "libraries": libraries }));
-        println!("{}", json!({ "version": VERSION, "library": library, "platform": platform, "prebuilt": prebuilt }));
+        let prebuilt = prebuilt.map(|it| json!({ "platforms": it.platforms(), "folder": it.path }));
+        let all = json!({ "version": VERSION, "library": library, "platform": platform, "prebuilt": prebuilt });
+        println!("{all}");
         return;
     }
     println!("brinell {VERSION}");
@@ -32,7 +31,9 @@ pub fn version(as_json: bool) {
         None => println!("platform: {} {}, without FMUs", std::env::consts::OS, std::env::consts::ARCH),
     }
     match prebuilt {
-        Some(folder) => println!("prebuilt libraries: {} in {}", folder.library_count(), folder.path.display()),
+        Some(folder) => {
+            println!("prebuilt libraries: {} in {}", folder.platforms().join(", "), folder.path.display());
+        }
         None => println!("prebuilt libraries: none"),
     }
 }

@@ -15,7 +15,7 @@ pub struct Arguments {
     /// Results as JSON
     #[arg(long, global = true)]
     pub json: bool,
-    /// Says the versions of program and library, the platform, and how many prebuilt libraries there are
+    /// Says the versions of program and library, the platform, and which prebuilt libraries there are
     #[arg(short = 'V', long)]
     pub version: bool,
 }

@@ -13,8 +13,8 @@ const INSTALLED: &str = "share/brinell/prebuilt";
 /// programs of one user into `Python311\Scripts`; `share` is beside `bin`, `Scripts` or `Python311`.
 const LEVELS: usize = 3;
 
-/// The endings of libraries.
-const ENDINGS: [&str; 3] = ["so", "dll", "dylib"];
+/// For each platform there is a list of its libraries with this ending.
+const LIST: &str = "json";
 
 /// A folder with prebuilt libraries.
 #[derive(Debug, PartialEq)]
@@ -25,7 +25,7 @@ pub struct PrebuiltFolder {
 /// The folder that the variable `BRINELL_PREBUILT` names, or else the one that was installed with the program; none if there is
 /// no such folder.
 pub fn find() -> Option<PrebuiltFolder> {
-    if let Some(named) = env::var_os(VARIABLE) {
+    if let Some(named) = env::var_os(VARIABLE).filter(|named| !named.is_empty()) {
         let path = PathBuf::from(named);
         return path.is_dir().then_some(PrebuiltFolder { path });
     }
@@ -40,18 +40,14 @@ fn installed(program: &Path) -> Option<PrebuiltFolder> {
 }
 
 impl PrebuiltFolder {
-    /// How many libraries there are, for all platforms together.
-    pub fn library_count(&self) -> usize {
-        count(&self.path)
+    /// The platforms that there are libraries for, as FMI calls them.
+    pub fn platforms(&self) -> Vec<String> {
+        let files = fs::read_dir(&self.path).into_iter().flatten().flatten().map(|entry| entry.path());
+        let lists = files.filter(|path| path.extension().is_some_and(|ending| ending == LIST));
+        let mut names: Vec<_> = lists.filter_map(|path| Some(path.file_stem()?.to_str()?.to_string())).collect();
+        names.sort();
+        names
     }
-}
-
-/// The libraries in `folder` and below.
-fn count(folder: &Path) -> usize {
-    let Ok(entries) = fs::read_dir(folder) else { return 0 };
-    let paths = entries.flatten().map(|entry| entry.path());
-    let is_library = |path: &Path| path.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending == *known));
-    paths.map(|path| if path.is_dir() { count(&path) } else { usize::from(is_library(&path)) }).sum()
 }
 
 #[cfg(test)]
@@ -72,13 +68,11 @@ mod tests {
     }
 
     #[test]
-    fn the_libraries_of_all_platforms_are_counted_and_nothing_else() {
+    fn each_platform_has_a_list() {
         let root = tempfile::tempdir().unwrap();
-        for file in ["list.json", "linux64/hertz.so", "win64/hertz.dll", "win64/brinell.dll", "darwin64/a.dylib"] {
-            let path = root.path().join(file);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, "").unwrap();
+        for file in ["win64.json", "win64.br", "linux64.json", "linux64.br", "README"] {
+            fs::write(root.path().join(file), "").unwrap();
         }
-        assert_eq!(PrebuiltFolder { path: root.path().into() }.library_count(), 4);
+        assert_eq!(PrebuiltFolder { path: root.path().into() }.platforms(), ["linux64", "win64"]);
     }
 }
