@@ -110,6 +110,7 @@ def environment(it: Platform, tools: Tools, scratch: Path) -> dict[str, str]:
                 _wrapper(programs / (_MINGW + name), tools.mingw, _MINGW + debian_name)
     if it.oldest_macos is not None:
         variables["MACOSX_DEPLOYMENT_TARGET"] = it.oldest_macos
+        variables["CARGO_PROFILE_RELEASE_STRIP"] = "none"
     return variables
 
 

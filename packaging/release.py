@@ -121,14 +121,15 @@ def _maturins_wheel(name: str, tools: Tools, scratch: Path) -> tuple[str, Files]
     it = PLATFORMS[name]
     more = ["requirements-zig.txt"] if it.zig else []
     command = [_maturin(scratch, "requirements.txt", *more), "build", "--release", "--locked"]
-    command += ["--strip", "--target", it.target]
+    # the linker signs a program for macOS: nothing may strip it afterwards
+    command += ["--strip", "false" if it.oldest_macos else "true", "--target", it.target]
     if it.zig:
         command.append("--zig")
     if not has_standard_library(it):
         command += ["-Z", "build-std=std,panic_unwind"]
     with tempfile.TemporaryDirectory() as folder:
         variables = environment(it, tools, scratch)
-        command += ["--out", folder]
+        command += ["--out", folder, *(["--", "-Clink-arg=-s"] if it.oldest_macos else [])]
         subprocess.run(command, cwd=ROOT / "python", env=variables, check=True)
         (wheel,) = Path(folder).glob("*.whl")
         return wheel.stem.split("-")[-1], archives.read_zip(wheel)
