@@ -116,6 +116,14 @@ fn a_name_that_is_no_identifier_is_refused() {
     }
 }
 
+/// `nul.dll` can't be unpacked on Windows.
+#[test]
+fn a_name_that_windows_keeps_for_a_device_is_refused() {
+    for name in ["con", "NUL", "Aux", "prn", "com1", "LPT9", "com0"] {
+        refused("\"ball\"", &format!("§{name:?}"), &["name = ", name, "device on Windows"]);
+    }
+}
+
 /// The unit was exported and checked, and no reader of XML could read it.
 #[test]
 fn a_character_that_xml_cannot_have_is_refused_by_its_key() {

@@ -166,44 +166,6 @@ fn a_ball_flies_through_a_box() {
     example("ball_in_box", &[]);
 }
 
-#[test]
-fn the_module_installs_by_pip() {
-    if !have(&["setuptools"], "the installation of the module") {
-        return;
-    }
-    let folder = tempfile::tempdir().expect("a folder for the installation");
-    let [source, site] = ["source", "site"].map(|name| folder.path().join(name));
-    // a build leaves its traces in the folder that it builds
-    copy(&root().join("python"), &source);
-    let output = interpreter()
-        .args(["-m", "pip", "install", "--quiet", "--no-deps", "--no-build-isolation", "--target"])
-        .args([&site, &source])
-        .output()
-        .expect("the environment has an interpreter");
-    assert!(output.status.success(), "{}", text(&output));
-    let output = interpreter()
-        .env("PYTHONPATH", &site)
-        .current_dir(folder.path())
-        .args(["-c", "import brinell, brinell.studies.study; print(brinell.__file__)"])
-        .output()
-        .expect("the environment has an interpreter");
-    assert!(output.status.success(), "{}", text(&output));
-    assert!(text(&output).contains("site"), "the installed module is used: {}", text(&output));
-    assert!(site.join("brinell/py.typed").is_file(), "the module says that it is typed");
-}
-
-fn copy(from: &Path, to: &Path) {
-    std::fs::create_dir_all(to).expect("a folder that can be written to");
-    for entry in std::fs::read_dir(from).expect("a readable folder") {
-        let (path, name) = entry.map(|entry| (entry.path(), entry.file_name())).expect("a readable folder");
-        if path.is_dir() {
-            copy(&path, &to.join(name));
-        } else {
-            std::fs::copy(&path, to.join(name)).expect("a file that can be read");
-        }
-    }
-}
-
 /// The first block of `page` in this language.
 fn block<'a>(page: &'a str, language: &str) -> &'a str {
     let start = format!("```{language}\n");

@@ -1,8 +1,10 @@
-"""`python -m brinell study`."""
+"""`python -m brinell study`, and every command of the exporter: where the folder of scripts isn't on
+PATH, `python -m brinell export scene.toml` does what `brinell export scene.toml` does."""
 
 from __future__ import annotations
 
 import argparse
+import subprocess
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -11,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import ContactError, ProgramError
+from .program import program
 from .studies.study import study
 
 TOLD = 10
@@ -25,7 +28,10 @@ def _pair(text: str) -> tuple[str, str]:
 
 
 def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m brinell")
+    parser = argparse.ArgumentParser(
+        prog="python -m brinell",
+        epilog="All other arguments go to the exporter: `python -m brinell help` lists its commands.",
+    )
     commands = parser.add_subparsers(dest="command", required=True)
     text = "thousands of impacts of a scene's first contact, one step each"
     it = commands.add_parser("study", help=text, description=text)
@@ -68,6 +74,9 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command line; gives the exit status."""
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments and arguments[0] not in ("study", "-h", "--help"):
+        return _exporter(arguments)
     given = _arguments(arguments)
     try:
         table = study(
@@ -117,6 +126,17 @@ def _tell(table: dict[str, Any], failed: NDArray[np.int_], names: Sequence[str])
         print(f"failed: {run}: {table['error'][index]}", file=sys.stderr)
     if len(failed) > TOLD:
         print(f"and {len(failed) - TOLD} more: see the column error", file=sys.stderr)
+
+
+def _exporter(arguments: Sequence[str]) -> int:
+    """Runs the exporter; gives its exit status."""
+    try:
+        return subprocess.run([program(), *arguments], check=False).returncode
+    except (ProgramError, OSError) as error:
+        print(f"brinell: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
 
 
 if __name__ == "__main__":

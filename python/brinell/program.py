@@ -11,6 +11,7 @@ import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
+from importlib import metadata
 from pathlib import Path
 from typing import Any, overload
 
@@ -58,25 +59,44 @@ class Prediction:
 
 
 def program() -> Path:
-    """Where the exporter is: what the variable BRINELL names, on PATH, or in `target/release` of
-    the repository."""
+    """Where the exporter is: what the variable BRINELL names, what the wheel of this module has
+    installed, on PATH, or in `target/release` of the repository."""
     named = os.environ.get("BRINELL")
     if named:
         found = shutil.which(named)
         if found is None:
             raise ProgramError(f"BRINELL = {named}: there is no such program")
         return Path(found)
-    on_path = shutil.which("brinell")
-    if on_path is not None:
-        return Path(on_path)
-    name = "brinell.exe" if os.name == "nt" else "brinell"
-    built = Path(__file__).resolve().parents[2] / "target" / "release" / name
-    if built.is_file():
-        return built
+    module = Path(__file__).resolve().parent
+    built = module.parents[1] / "target" / "release" / _NAME
+    for path in (_of_the_wheel(module), shutil.which("brinell"), built):
+        if path is not None and Path(path).is_file():
+            return Path(path)
     raise ProgramError(
-        "the exporter brinell isn't there: build it in the repository (cargo build --release), "
-        "put it on PATH (cargo install --path .), or set the variable BRINELL to where it is"
+        "the exporter brinell isn't there: install the wheel (pip install brinell), build it in "
+        "the repository (cargo build --release), put it on PATH (cargo install --path .), or set "
+        "the variable BRINELL to where it is"
     )
+
+
+_NAME = "brinell.exe" if os.name == "nt" else "brinell"
+_SCRIPTS = ("bin", "Scripts")
+
+
+def _of_the_wheel(module: Path) -> Path | None:
+    """The program that was installed together with the module in the folder `module`, also where
+    the environment isn't activated; None if the module is used from the repository."""
+    try:
+        distribution = metadata.distribution("brinell")
+    except metadata.PackageNotFoundError:
+        return None
+    if Path(str(distribution.locate_file("brinell"))).resolve() != module:
+        return None
+    listed = [Path(str(file.locate())) for file in distribution.files or ()]
+    # `pip install --target` lists the program where it was before the files were moved
+    moved = [module.parent / folder / _NAME for folder in _SCRIPTS]
+    programs = [path for path in listed if path.name == _NAME and path.parent.name in _SCRIPTS]
+    return next((path.resolve() for path in programs + moved if path.is_file()), None)
 
 
 def _run(*arguments: str | Path) -> str:
@@ -96,7 +116,7 @@ def _run(*arguments: str | Path) -> str:
 
 def export(scene: str | Path, output: str | Path | None = None) -> Path:
     """Builds the unit of a scene file; gives its path, by default `NAME.fmu` in the current folder.
-    It takes Rust."""
+    What the prebuilt libraries of the installed program don't have takes Rust."""
     more: list[str | Path] = [] if output is None else ["--output", output]
     return Path(json.loads(_run("export", scene, *more))["fmu"])
 

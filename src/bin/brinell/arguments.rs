@@ -2,19 +2,23 @@
 
 use crate::platform::{self, Platform};
 use clap::{Parser, Subcommand};
+use clap_complete::Shell;
 use std::path::PathBuf;
 
 /// Exports FMI 2.0 co-simulation units of elastoplastic contact.
 ///
 /// Without a command: exports the default scene into the current folder and checks the result.
 #[derive(Parser)]
-#[command(version, max_term_width = 100)]
+#[command(version, disable_version_flag = true, max_term_width = 100)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
     /// Results as JSON
     #[arg(long, global = true)]
     pub json: bool,
+    /// Says the versions of program and library, the platform, and which prebuilt libraries there are
+    #[arg(short = 'V', long)]
+    pub version: bool,
 }
 
 #[derive(Subcommand)]
@@ -62,6 +66,17 @@ pub enum Command {
     },
     /// Lists the built-in materials
     Materials,
+    /// Prints the script that completes the arguments of this program in a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+    /// Writes the manual pages of this program and its commands
+    Man {
+        /// The folder that they go to
+        #[arg(short, long, value_name = "DIR")]
+        output: PathBuf,
+    },
     /// Prints the Rust constants of a scene, as they are compiled into its unit
     #[command(hide = true)]
     Constants { scene: PathBuf },

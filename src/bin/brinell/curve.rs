@@ -165,7 +165,7 @@ pub fn svg(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) -> Res
 pub fn over_hertz(choices: &[Choice]) -> String {
     const POINTS: u32 = 300;
     // from well inside the elastic range to the end of the truth
-    let depth = |point: u32| 0.3 * (1000.0f64 / 0.3).powf(f64::from(point) / f64::from(POINTS));
+    let depth = |point: u32| 0.3 * libm::pow(1000.0 / 0.3, f64::from(point) / f64::from(POINTS));
     let mut series: Vec<_> = choices
         .iter()
         .map(|choice| {

@@ -167,7 +167,7 @@ pub fn bodies(pair: &Pair, poissons_ratio: (f64, f64), modulus_ratio: (f64, f64)
     steps(poissons_ratio).flat_map(move |first| {
         let ratio = poissons_ratio.0 + (poissons_ratio.1 - poissons_ratio.0) * part(first);
         steps(modulus_ratio).map(move |second| {
-            let modulus_ratio = modulus_ratio.0 * (modulus_ratio.1 / modulus_ratio.0).powf(part(second));
+            let modulus_ratio = modulus_ratio.0 * libm::pow(modulus_ratio.1 / modulus_ratio.0, part(second));
             Pair {
                 yield_strength: pair.modulus / modulus_ratio,
                 youngs_modulus: pair.modulus * (1.0 - ratio * ratio),
@@ -227,10 +227,10 @@ pub fn balance(model: &Model<AnyLoading, AnyUnloading>) -> Balance {
 /// Rising depths [m]: over the decades around yield, and close to the corners of the law, on both sides.
 fn depths(model: &Model<AnyLoading, AnyUnloading>) -> Vec<f64> {
     let unit = model.pair.yield_point(UNIT_PRESSURE_FACTOR).indentation;
-    let mut depths: Vec<f64> = (0..=420).map(|step| unit * 10f64.powf(f64::from(step) / 60.0 - 2.0)).collect();
+    let mut depths: Vec<f64> = (0..=420).map(|step| unit * libm::pow(10.0, f64::from(step) / 60.0 - 2.0)).collect();
     let mut corner = model.loading.next_corner(&model.pair, 0.0);
     while corner < LARGEST_INDENTATION {
-        let near = (0..24).map(|step| 10f64.powf(f64::from(step) / 3.0 - 8.5));
+        let near = (0..24).map(|step| libm::pow(10.0, f64::from(step) / 3.0 - 8.5));
         depths.extend(near.flat_map(|part| [corner * (1.0 - part), corner * (1.0 + part)]).chain([corner]));
         corner = model.loading.next_corner(&model.pair, corner);
     }

@@ -1,8 +1,8 @@
 //! Files that the program writes for its user.
 
+use std::io;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 use tempfile::TempDir;
 
 /// A file that can't be read or written.
@@ -34,9 +34,10 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     file.write_all(bytes).map_err(&file_error)?;
     #[cfg(unix)]
     {
+        use std::fs::{Permissions, set_permissions};
         use std::os::unix::fs::PermissionsExt;
-        let readable = fs::Permissions::from_mode(0o644);
-        fs::set_permissions(file.path(), readable).map_err(&file_error)?;
+        let readable = Permissions::from_mode(0o644);
+        set_permissions(file.path(), readable).map_err(&file_error)?;
     }
     file.persist(path).map_err(|error| file_error(error.error))?;
     Ok(())

@@ -3,8 +3,9 @@
 use crate::scene::Scene;
 use brinell::contact::Loading;
 
-/// Largest indentation that is looked at, in yield indentations.
+/// Largest indentation that is looked at, in yield indentations: ten to the power of `DECADES`.
 const DEEPEST: f64 = 1e6;
+const DECADES: u32 = 6;
 
 /// Depths that are looked at in each decade.
 const DEPTHS_PER_DECADE: u32 = 200;
@@ -70,8 +71,8 @@ fn ranges_of(scene: &Scene, group: usize) -> Ranges {
         }
         inside
     };
-    let steps = DEPTHS_PER_DECADE * DEEPEST.log10() as u32;
-    let depth = |step| DEEPEST.powf(f64::from(step) / f64::from(steps));
+    let steps = DEPTHS_PER_DECADE * DECADES;
+    let depth = |step| libm::pow(DEEPEST, f64::from(step) / f64::from(steps));
     let mut ranges = Ranges::new();
     let mut before = (1.0, false);
     for step in 0..=steps {

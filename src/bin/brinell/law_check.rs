@@ -114,7 +114,7 @@ pub fn check_unloading(model: &AnyModel) -> Result<(), String> {
         let force = |indentation: f64| model.unloading_segment(largest, indentation).force(indentation);
         let peak = model.peak(largest).force;
         // Hertz's curve, lowered, is the difference of two forces; on a stiff path the indentation itself is rounded
-        let size = peak.max(model.pair.hertz_stiffness() * largest.powf(1.5));
+        let size = peak.max(model.pair.hertz_stiffness() * libm::pow(largest, 1.5));
         let rounding = ROUNDING * size + 8.0 * f64::EPSILON * peak * largest / (largest - dent);
         let mut before = force(largest);
         let continues = (before - peak).abs() <= rounding;
@@ -135,5 +135,5 @@ pub fn check_unloading(model: &AnyModel) -> Result<(), String> {
 /// Depths over the looked-at range [m], evenly spread over its decades.
 fn depths(unit: f64) -> impl Iterator<Item = f64> {
     let (low, high) = RANGE;
-    (0..=DEPTHS).map(move |step| unit * low * (high / low).powf(f64::from(step) / f64::from(DEPTHS)))
+    (0..=DEPTHS).map(move |step| unit * low * libm::pow(high / low, f64::from(step) / f64::from(DEPTHS)))
 }

@@ -1,6 +1,7 @@
 //! `brinell`: exports FMI 2.0 co-simulation units of elastoplastic contact, and checks them.
 #![deny(unsafe_code)]
 
+mod about;
 mod arguments;
 mod bodies;
 mod check;
@@ -29,6 +30,7 @@ mod parameters;
 mod plan;
 mod platform;
 mod plot;
+mod prebuilt_folder;
 mod predict;
 mod report;
 mod scene;
@@ -61,12 +63,15 @@ fn main() -> ExitCode {
     }
 }
 
+/// How the error of a pipe that its reader has closed ends: `EPIPE` on Unix, `ERROR_BROKEN_PIPE` and `ERROR_NO_DATA` on Windows.
+const CLOSED_PIPE: &[&str] = if cfg!(windows) { &["(os error 109)", "(os error 232)"] } else { &["(os error 32)"] };
+
 /// A reader like `head` may close the pipe before all is printed: that is the end of the job, and no fault of the program.
 fn leave_quietly_when_nobody_reads() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         let message = panic.payload().downcast_ref::<String>().map_or("", String::as_str);
-        if message.starts_with("failed printing to stdout") && message.contains("Broken pipe") {
+        if message.starts_with("failed printing to stdout") && CLOSED_PIPE.iter().any(|code| message.ends_with(code)) {
             std::process::exit(0);
         }
         usual(panic);
@@ -76,6 +81,10 @@ fn leave_quietly_when_nobody_reads() {
 /// Does what is asked for; false if the job is done and its result is bad.
 fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     let json = arguments.json;
+    if arguments.version {
+        about::version(json);
+        return Ok(true);
+    }
     match &arguments.command {
         None => {
             let platforms = PlatformArguments::default().chosen()?;
@@ -93,6 +102,8 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Curve(arguments)) => curve::run(arguments)?,
         Some(Command::Laws { output }) => law_list::run(output.as_deref(), json)?,
         Some(Command::Materials) => materials::run(json),
+        Some(Command::Completions { shell }) => about::completions(*shell)?,
+        Some(Command::Man { output }) => about::manual(output)?,
         Some(Command::Constants { scene }) => {
             print!("{}", constants::write(&Plan::of(&Scene::read(scene)?), "unpacked"));
         }

@@ -45,8 +45,8 @@ impl Nominal {
 
 /// `value` > 0 with one significant digit, its mantissa rounded by `round`.
 fn one_digit(value: f64, round: fn(f64) -> f64) -> f64 {
-    let exponent = value.log10().floor() as i32;
-    let mantissa = round(value / 10f64.powi(exponent));
+    let exponent = libm::log10(value).floor() as i32;
+    let mantissa = round(value / libm::pow(10.0, f64::from(exponent)));
     // through text, so that the result is the number that a person would write
     format!("{mantissa}e{exponent}").parse().expect("a number and an exponent")
 }

@@ -105,8 +105,8 @@ fn rebound(x: f64) -> Option<Rebound> {
     let pair = known.windows(2).find(|pair| (pair[0].largest.x..=pair[1].largest.x).contains(&x))?;
     let (one, other) = (pair[0].rebound.as_ref()?, pair[1].rebound.as_ref()?);
     let (from, to) = (pair[0].largest.x, pair[1].largest.x);
-    let part = (x / from).ln() / (to / from).ln();
-    let between = |one: f64, other: f64| one * (other / one).powf(part);
+    let part = libm::log(x / from) / libm::log(to / from);
+    let between = |one: f64, other: f64| one * libm::pow(other / one, part);
     let recovery = between(from - one.dent, to - other.dent);
     Some(Rebound { restitution: between(one.restitution, other.restitution), dent: x - recovery })
 }

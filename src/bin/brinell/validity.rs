@@ -9,7 +9,7 @@ use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave
 ///
 /// Reference: as for [`LARGEST_SPEED_RATIO`].
 fn wave_energy(speed_ratio: f64) -> f64 {
-    1.04 * speed_ratio.powf(0.6)
+    1.04 * libm::pow(speed_ratio, 0.6)
 }
 
 /// A limit of validity that is left.

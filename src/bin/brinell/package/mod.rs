@@ -118,13 +118,24 @@ impl Identified {
     fn of(plan: &Plan) -> Identified {
         let description = model_description::write(plan, GUID_TO_COME);
         let constants = constants::write(plan, GUID_TO_COME);
-        let sources = LIBRARY_SOURCE.iter().chain(LIBM_SOURCE).flat_map(|(name, text)| [*name, *text]);
-        let guid = hash([description.as_str(), &constants].into_iter().chain(sources));
+        let guid = hash([description.as_str(), &constants].into_iter().chain(sources()));
         let quoted = |text: &str| format!("\"{text}\"");
         let identified = |text: String| text.replacen(&quoted(GUID_TO_COME), &quoted(&guid), 1);
         let (description, constants) = (identified(description), identified(constants));
         Identified { guid, description, constants }
     }
+}
+
+/// What the library is recognised by: 16 digits of a hash of its source and that of `libm`.
+pub fn library_identity() -> String {
+    let mut identity = hash(sources());
+    identity.truncate(16);
+    identity
+}
+
+/// Names and texts of the source files of the library and of `libm`.
+fn sources<'a>() -> impl Iterator<Item = &'a str> {
+    LIBRARY_SOURCE.iter().chain(LIBM_SOURCE).flat_map(|(name, text)| -> [&'a str; 2] { [name, text] })
 }
 
 /// The hash of `texts`: 32 digits.

@@ -90,8 +90,8 @@ fn explain_by(choice: &Choice, impact: &Impact, goal: f64) -> Rebound {
 /// Every place in `range` where the function `of`, which may be undefined in places, has the value `goal`.
 fn search(range: (f64, f64), goal: f64, of: impl Fn(f64) -> Option<f64>) -> Search {
     let (low, high) = range;
-    let steps = (POINTS_PER_DECADE * (high / low).log10()).ceil() as u32;
-    let argument = |step| low * (high / low).powf(f64::from(step) / f64::from(steps));
+    let steps = (POINTS_PER_DECADE * libm::log10(high / low)).ceil() as u32;
+    let argument = |step| low * libm::pow(high / low, f64::from(step) / f64::from(steps));
     // zero where it is the goal to rounding
     let over = |argument: f64| {
         let over = of(argument)? - goal;

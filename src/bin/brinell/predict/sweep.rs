@@ -36,7 +36,7 @@ pub fn parse(words: &[String]) -> Result<(f64, f64), PredictError> {
 
 /// Speeds evenly spread over their decades; both ends are among them as they are.
 fn speeds((from, to): (f64, f64)) -> impl Iterator<Item = f64> {
-    let within = (1..STEPS).map(move |index| from * (to / from).powf(f64::from(index) / f64::from(STEPS)));
+    let within = (1..STEPS).map(move |index| from * libm::pow(to / from, f64::from(index) / f64::from(STEPS)));
     std::iter::once(from).chain(within).chain([to])
 }
 

@@ -21,7 +21,7 @@ use toml::Spanned;
 /// # Errors
 /// The first mistake.
 pub fn check(file: File) -> Result<Scene, Mistake> {
-    let name = check_identifier(&file.name)?;
+    let name = check_name(&file.name)?;
     let description = check_description(file.description.as_ref())?;
     let mut contacts = Contacts::of(&file)?;
     let damped = laws::find_damped(&file.law)?;
@@ -98,6 +98,22 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     let predictions = predictions.map(|(group, prediction)| prediction.ok_or_else(|| no_prediction(group)));
     scene.predictions = predictions.collect::<Result<_, _>>()?;
     Ok(scene)
+}
+
+/// The name of an FMU: a C identifier that every operating system takes for that of a file.
+///
+/// Reference: "Naming Files, Paths, and Namespaces" in the documentation of Windows.
+fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
+    let text = check_identifier(name)?;
+    let lower = text.to_ascii_lowercase();
+    let port = lower.strip_prefix("com").or(lower.strip_prefix("lpt"));
+    let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|digit| digit.is_ascii_digit()));
+    if is_port || ["con", "prn", "aux", "nul"].contains(&lower.as_str()) {
+        let message =
+            format!("name = {text:?} is that of a device on Windows, where no library can have it: call it otherwise");
+        return Err(Mistake(name.span(), message));
+    }
+    Ok(text)
 }
 
 /// Text that is a C identifier.

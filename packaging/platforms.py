@@ -1,0 +1,132 @@
+"""The platforms that wheels and archives are made for, and what the program is built with for each."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@dataclass(frozen=True)
+class Platform:
+    """A platform that the exporter runs on."""
+
+    machine_names: tuple[str, str]
+    """What Python calls operating system and processor."""
+    target: str
+    """What rustc calls it."""
+    magic: bytes
+    """How a program begins."""
+    machine: tuple[int, bytes]
+    """Where in the header the processor is, and how it is written; on Windows behind `PE`."""
+    zig: bool = True
+    """Whether zig links, with headers and libraries of its own."""
+    oldest_macos: str | None = None
+
+
+_ELF = b"\x7fELF\x02\x01"
+_MACH_O = b"\xcf\xfa\xed\xfe"
+
+PLATFORMS = {
+    "linux-x86_64": Platform(
+        ("Linux", "x86_64"), "x86_64-unknown-linux-gnu", _ELF, (18, b"\x3e\0")
+    ),
+    "linux-aarch64": Platform(
+        ("Linux", "aarch64"), "aarch64-unknown-linux-gnu", _ELF, (18, b"\xb7\0")
+    ),
+    "windows-x86_64": Platform(
+        ("Windows", "AMD64"), "x86_64-pc-windows-gnu", b"MZ", (4, b"\x64\x86"), zig=False
+    ),
+    "macos-x86_64": Platform(
+        ("Darwin", "x86_64"),
+        "x86_64-apple-darwin",
+        _MACH_O,
+        (4, b"\x07\0\0\x01"),
+        oldest_macos="10.12",
+    ),
+    "macos-arm64": Platform(
+        ("Darwin", "arm64"),
+        "aarch64-apple-darwin",
+        _MACH_O,
+        (4, b"\x0c\0\0\x01"),
+        oldest_macos="11.0",
+    ),
+}
+
+
+def here() -> str:
+    """The platform of this machine."""
+    names = (platform.system(), platform.machine())
+    for name, it in PLATFORMS.items():
+        if it.machine_names == names:
+            return name
+    raise SystemExit(f"there are no wheels for {' '.join(names)}: {', '.join(PLATFORMS)}")
+
+
+@dataclass(frozen=True)
+class Tools:
+    """Folders of unpacked Debian packages; None where the installed programs are used."""
+
+    toolchain: Path | None
+    """rustc-web with the source of the standard library."""
+    mingw: Path | None
+    """gcc-mingw-w64-x86-64-win32 and what it needs."""
+
+
+# The programs of mingw-w64 that rustc calls, and what Debian's packages call them.
+_MINGW = "x86_64-w64-mingw32-"
+_MINGW_PROGRAMS = {"gcc": "gcc-win32", "dlltool": "dlltool"}
+
+
+def environment(it: Platform, tools: Tools, scratch: Path) -> dict[str, str]:
+    """The variables that maturin and cargo build with for a platform."""
+    programs = scratch / "bin"
+    programs.mkdir(parents=True, exist_ok=True)
+    path = [str(programs), str(scratch / "venv" / "bin"), os.environ["PATH"]]
+    cargo = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo"))
+    # the program has the paths of sources in its messages, and they would be those of this machine
+    remapped = {cargo / "registry" / "src": "registry", ROOT: "brinell"}
+    if tools.toolchain is not None:
+        remapped[tools.toolchain.resolve()] = "toolchain"
+    variables = {
+        **os.environ,
+        "PATH": os.pathsep.join(path),
+        "CARGO_TARGET_DIR": str(scratch / "target"),
+        "RUSTFLAGS": " ".join(f"--remap-path-prefix={old}={new}" for old, new in remapped.items()),
+    }
+    if not has_standard_library(it):
+        if tools.toolchain is not None:
+            compiler = _wrapper(programs / "rustc-web", tools.toolchain, "rustc")
+            variables["RUSTC"] = str(compiler)
+        variables["RUSTC_BOOTSTRAP"] = "1"
+    if it.target.endswith("-windows-gnu"):
+        variables["CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER"] = _MINGW + "gcc"
+        if tools.mingw is not None:
+            for name, debian_name in _MINGW_PROGRAMS.items():
+                _wrapper(programs / (_MINGW + name), tools.mingw, _MINGW + debian_name)
+    if it.oldest_macos is not None:
+        variables["MACOSX_DEPLOYMENT_TARGET"] = it.oldest_macos
+        variables["CARGO_PROFILE_RELEASE_STRIP"] = "none"
+    return variables
+
+
+def has_standard_library(it: Platform) -> bool:
+    """Whether the installed Rust has the standard library of a platform (`rustup target add`)."""
+    command = ["rustc", "--print", "target-libdir", "--target", it.target]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    return result.returncode == 0 and any(Path(result.stdout.strip()).glob("libstd-*.rlib"))
+
+
+def _wrapper(script: Path, folder: Path, program: str) -> Path:
+    """A script that calls `program` of the packages in `folder` with their libraries."""
+    root = folder.resolve() / "usr"
+    script.write_text(
+        f'#!/bin/sh\nexport PATH="{root}/bin:$PATH"\n'
+        f'LD_LIBRARY_PATH="{root}/lib/x86_64-linux-gnu" exec "{root}/bin/{program}" "$@"\n'
+    )
+    script.chmod(0o755)
+    return script

@@ -1,0 +1,59 @@
+//! What the program says about itself: versions, completions for shells, manual pages.
+
+use crate::arguments::Arguments;
+use crate::files::FileError;
+use crate::{package, platform, prebuilt_folder};
+use clap::CommandFactory;
+use clap_complete::Shell;
+use serde_json::json;
+use std::path::Path;
+use std::{fs, io};
+
+/// The version of the program, which is that of the package.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// `brinell --version`: program, library, platform, and the prebuilt libraries that an export would use.
+pub fn version(as_json: bool) {
+    let library = package::library_identity();
+    let platform = platform::here().ok().map(|platform| (platform.folder, platform.target));
+    let prebuilt = prebuilt_folder::find();
+    if as_json {
+        let platform = platform.map(|(folder, target)| json!({ "folder": folder, "target": target }));
+        let prebuilt = prebuilt.map(|it| json!({ "platforms": it.platforms(), "folder": it.path }));
+        let all = json!({ "version": VERSION, "library": library, "platform": platform, "prebuilt": prebuilt });
+        println!("{all}");
+        return;
+    }
+    println!("brinell {VERSION}");
+    println!("FMU library: sources {library}");
+    match platform {
+        Some((folder, target)) => println!("platform: {folder} ({target})"),
+        None => println!("platform: {} {}, without FMUs", std::env::consts::OS, std::env::consts::ARCH),
+    }
+    match prebuilt {
+        Some(folder) => {
+            println!("prebuilt libraries: {} in {}", folder.platforms().join(", "), folder.path.display());
+        }
+        None => println!("prebuilt libraries: none"),
+    }
+}
+
+/// `brinell completions`: the script that completes the program's arguments in `shell`, on standard output.
+///
+/// # Errors
+/// An output that can't be written to.
+pub fn completions(shell: Shell) -> io::Result<()> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "brinell", &mut script);
+    io::Write::write_all(&mut io::stdout(), &script)
+}
+
+/// `brinell man`: the manual pages of the program and of each command, `brinell.1`, `brinell-export.1` and so on, in `folder`.
+///
+/// # Errors
+/// [`FileError`]
+pub fn manual(folder: &Path) -> Result<(), FileError> {
+    let error = FileError::at(folder);
+    fs::create_dir_all(folder).map_err(&error)?;
+    clap_mangen::generate_to(Arguments::command(), folder).map_err(&error)
+}

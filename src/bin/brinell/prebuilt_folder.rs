@@ -1,0 +1,78 @@
+//! Where the prebuilt FMU libraries are.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+/// Names the folder instead of the installed one.
+const VARIABLE: &str = "BRINELL_PREBUILT";
+
+/// Below the folder that the program was installed to.
+const INSTALLED: &str = "share/brinell/prebuilt";
+
+/// How many folders above the program are searched. A wheel puts programs into `bin` or `Scripts`, and on Windows the
+/// programs of one user into `Python311\Scripts`; `share` is beside `bin`, `Scripts` or `Python311`.
+const LEVELS: usize = 3;
+
+/// For each platform there is a list of its libraries with this ending.
+const LIST: &str = "json";
+
+/// A folder with prebuilt libraries.
+#[derive(Debug, PartialEq)]
+pub struct PrebuiltFolder {
+    pub path: PathBuf,
+}
+
+/// The folder that the variable `BRINELL_PREBUILT` names, or else the one that was installed with the program; none if there is
+/// no such folder.
+pub fn find() -> Option<PrebuiltFolder> {
+    if let Some(named) = env::var_os(VARIABLE).filter(|named| !named.is_empty()) {
+        let path = PathBuf::from(named);
+        return path.is_dir().then_some(PrebuiltFolder { path });
+    }
+    // a link to the program, as pipx makes one, has nothing beside it
+    installed(&env::current_exe().and_then(fs::canonicalize).ok()?)
+}
+
+/// The folder that was installed with the program at `program`.
+fn installed(program: &Path) -> Option<PrebuiltFolder> {
+    let above = program.ancestors().skip(1).take(LEVELS);
+    above.map(|folder| folder.join(INSTALLED)).find(|path| path.is_dir()).map(|path| PrebuiltFolder { path })
+}
+
+impl PrebuiltFolder {
+    /// The platforms that there are libraries for, as FMI calls them.
+    pub fn platforms(&self) -> Vec<String> {
+        let files = fs::read_dir(&self.path).into_iter().flatten().flatten().map(|entry| entry.path());
+        let lists = files.filter(|path| path.extension().is_some_and(|ending| ending == LIST));
+        let mut names: Vec<_> = lists.filter_map(|path| Some(path.file_stem()?.to_str()?.to_string())).collect();
+        names.sort();
+        names
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{INSTALLED, PrebuiltFolder, installed};
+    use std::fs;
+
+    #[test]
+    fn the_folder_is_beside_the_program_or_beside_one_of_two_folders_above() {
+        let root = tempfile::tempdir().unwrap();
+        let there = root.path().join(INSTALLED);
+        fs::create_dir_all(there.join("linux64")).unwrap();
+        for program in ["brinell", "bin/brinell", "Python311/Scripts/brinell.exe"] {
+            let found = installed(&root.path().join(program)).unwrap_or_else(|| panic!("nothing for {program}"));
+            assert_eq!(found, PrebuiltFolder { path: there.clone() });
+        }
+        assert_eq!(installed(&root.path().join("usr/lib/other/brinell")), None, "nothing of another installation");
+    }
+
+    #[test]
+    fn each_platform_has_a_list() {
+        let root = tempfile::tempdir().unwrap();
+        for file in ["win64.json", "win64.br", "linux64.json", "linux64.br", "README"] {
+            fs::write(root.path().join(file), "").unwrap();
+        }
+        assert_eq!(PrebuiltFolder { path: root.path().into() }.platforms(), ["linux64", "win64"]);
+    }
+}

@@ -1,0 +1,210 @@
+//! The wheel and the archive that packaging/release.py makes, of the program that the tests have: installed, and used where
+//! there is neither cargo nor rustc.
+
+#[path = "support/command.rs"]
+mod command;
+#[path = "support/python.rs"]
+mod python;
+
+use command::{Run, contents, empty_folder, output, run, scene};
+use std::ffi::OsStr;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Makes wheel and archive in `folder`.
+fn release(folder: &Path) {
+    let mut command = Command::new("python3");
+    command.arg(root().join("packaging/release.py")).args(["--program", env!("CARGO_BIN_EXE_brinell")]);
+    command.arg("--scratch").arg(python::target_folder().join("packaging")).arg("-o").arg(folder);
+    command.args(PREBUILT.iter().flat_map(|folder| [Path::new("--prebuilt"), folder]));
+    // nothing is left behind in the source tree
+    output(command.env("PYTHONDONTWRITEBYTECODE", "1")).with_status(0);
+}
+
+/// The one file in `folder` whose name ends so.
+fn file(folder: &Path, ending: &str) -> PathBuf {
+    let names = contents(folder);
+    let found: Vec<_> = names.iter().filter(|name| name.ends_with(ending)).collect();
+    assert!(found.len() == 1, "not one file with the ending {ending} in {names:?}");
+    folder.join(found[0])
+}
+
+/// Where a virtual environment has its programs.
+const PROGRAMS: &str = if cfg!(windows) { "Scripts" } else { "bin" };
+
+/// What was made and installed once for all tests.
+struct Installed {
+    folder: PathBuf,
+    /// Of the virtual environment.
+    programs: PathBuf,
+}
+
+impl Installed {
+    /// A call of `program` of the environment that finds nothing on PATH, and has no cache that a unit could be built in.
+    fn command(&self, program: &str) -> Command {
+        let mut command = Command::new(self.programs.join(program));
+        command.env("PATH", &self.folder).current_dir(&self.folder);
+        for variable in
+            ["CARGO", "BRINELL", "BRINELL_PREBUILT", "BRINELL_CACHE", "HOME", "XDG_CACHE_HOME", "PYTHONPATH"]
+        {
+            command.env_remove(variable);
+        }
+        command
+    }
+
+    /// What a line of Python prints.
+    fn python(&self, line: &str) -> String {
+        output(self.command("python").args(["-c", line])).with_status(0).out.trim().into()
+    }
+}
+
+/// The scene that is exported without a compiler, its law, and the kind of prebuilt library that it takes.
+const SCENE: (&str, &str, &str) = ("mass_known", "big-alabo", "serial");
+
+/// A folder with the prebuilt library of [`SCENE`] for this machine; none from a program that can't make it.
+static PREBUILT: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel-prebuilt");
+    let _ = fs::remove_dir_all(&folder);
+    let here = run(root(), ["--help"]).with_status(0).out;
+    if !here.contains("\n  prebuild ") {
+        return None;
+    }
+    let arguments = ["prebuild", "--laws", SCENE.1, "--kinds", SCENE.2, "--output"].map(OsStr::new);
+    run(root(), arguments.into_iter().chain([folder.as_os_str()])).with_status(0);
+    Some(folder)
+});
+
+/// The wheel, installed with what it needs into an empty environment.
+static INSTALLED: LazyLock<Installed> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    release(&folder);
+    let environment = folder.join("environment");
+    output(Command::new("python3").args(["-m", "venv"]).arg(&environment)).with_status(0);
+    let programs = environment.join(PROGRAMS);
+    let mut pip = Command::new(programs.join("python"));
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--constraint"]);
+    output(pip.arg(root().join("tests/requirements.txt")).arg(file(&folder, ".whl"))).with_status(0);
+    Installed { folder, programs }
+});
+
+#[test]
+fn the_installed_program_answers_as_the_one_it_was_made_of() {
+    let answers = |mut command: Command| output(command.arg("predict").arg(scene("mass_known"))).with_status(0).out;
+    let built = answers(Command::new(env!("CARGO_BIN_EXE_brinell")));
+    assert!(built.contains("restitution"), "{built}");
+    assert_eq!(answers(INSTALLED.command("brinell")), built);
+    // where the folder of programs isn't on PATH
+    let mut module = INSTALLED.command("python");
+    module.args(["-m", "brinell"]);
+    assert_eq!(answers(module), built);
+}
+
+#[test]
+fn the_module_hands_on_the_status_of_the_program() {
+    let mut module = INSTALLED.command("python");
+    let Run { err, .. } = output(module.args(["-m", "brinell", "predict", "nowhere.toml"])).with_status(1);
+    assert!(err.contains("nowhere.toml"), "{err}");
+}
+
+#[test]
+fn the_module_finds_the_program_of_its_wheel_without_activation() {
+    let found = INSTALLED.python("import brinell; print(brinell.program())");
+    let program = format!("brinell{}", std::env::consts::EXE_SUFFIX);
+    assert_eq!(Path::new(&found), fs::canonicalize(INSTALLED.programs.join(program)).unwrap());
+    let scene = scene("mass_known");
+    let law = INSTALLED.python(&format!("import brinell; print(brinell.predict({scene:?}).law)"));
+    assert_eq!(law, "big-alabo");
+}
+
+/// Such an environment has another layout, and its list of files names the program where it isn't.
+#[test]
+fn the_module_finds_the_program_of_a_wheel_in_a_folder_of_its_own() {
+    let folder = empty_folder();
+    let mut pip = Command::new(INSTALLED.programs.join("python"));
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--target"]);
+    output(pip.arg(folder.path()).arg(file(&INSTALLED.folder, ".whl"))).with_status(0);
+    let mut python = INSTALLED.command("python");
+    python.env("PYTHONPATH", folder.path()).args(["-c", "import brinell; print(brinell.program())"]);
+    let found = output(&mut python).with_status(0).out;
+    assert!(Path::new(found.trim()).starts_with(fs::canonicalize(folder.path()).unwrap()), "{found}");
+    assert!(folder.path().join("brinell/py.typed").is_file(), "the module says that it is typed");
+}
+
+#[test]
+fn the_versions_of_program_module_and_wheel_are_one() {
+    let version = output(INSTALLED.command("brinell").args(["--version", "--json"])).with_status(0).json();
+    assert_eq!(version["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(version["library"].as_str().map(str::len), Some(16), "{version}");
+    let wheel = INSTALLED.python("import importlib.metadata as m; print(m.version('brinell'))");
+    assert_eq!(wheel, env!("CARGO_PKG_VERSION"));
+    assert_eq!(version["prebuilt"].is_null(), PREBUILT.is_none(), "{version}");
+}
+
+#[test]
+fn manual_and_completions_are_installed_and_name_every_command() {
+    let share = INSTALLED.programs.parent().unwrap().join("share");
+    for command in ["export", "check", "predict", "curve", "laws", "report", "ssp"] {
+        let page = fs::read_to_string(share.join(format!("man/man1/brinell-{command}.1"))).expect("a manual page");
+        assert!(page.starts_with(".ie") && page.contains(".SH SYNOPSIS"), "{page}");
+        for script in ["bash-completion/completions/brinell", "zsh/site-functions/_brinell", "brinell/brinell.ps1"] {
+            let script = fs::read_to_string(share.join(script)).expect("a script");
+            assert!(script.contains(command), "no {command} in\n{script}");
+        }
+    }
+}
+
+#[test]
+fn the_same_program_makes_the_same_wheel_and_archive() {
+    let again = empty_folder();
+    release(again.path());
+    for name in contents(again.path()) {
+        let [one, other] = [&INSTALLED.folder, again.path()].map(|folder| fs::read(folder.join(&name)).unwrap());
+        assert!(one == other, "{name} is another file each time");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn the_archive_is_a_program_with_what_belongs_to_it() {
+    let folder = empty_folder();
+    let mut tar = Command::new("tar");
+    output(tar.arg("-xzf").arg(file(&INSTALLED.folder, ".tar.gz")).arg("-C").arg(folder.path())).with_status(0);
+    let top = folder.path().join(&contents(folder.path())[0]);
+    assert_eq!(contents(&top), ["LICENSE", "bin", "share"]);
+    let version = output(Command::new(top.join("bin/brinell")).arg("--version")).with_status(0).out;
+    assert!(version.starts_with(concat!("brinell ", env!("CARGO_PKG_VERSION"), "\n")), "{version}");
+}
+
+#[test]
+fn a_first_export_takes_no_compiler_and_fmpy_runs_the_unit() {
+    if PREBUILT.is_none() {
+        // past the harness, which keeps what a test prints unless it fails
+        let _ = writeln!(std::io::stderr(), "NOT RUN: an export without a compiler; the program has no `prebuild`");
+        return;
+    }
+    output(INSTALLED.command("brinell").arg("export").arg(scene(SCENE.0))).with_status(0);
+    let run = "import fmpy; print(len(fmpy.simulate_fmu('mass_known.fmu', stop_time=1e-3, output_interval=1e-5)))";
+    assert_eq!(INSTALLED.python(run), "101");
+}
+
+/// It compiles the program once more.
+#[test]
+#[ignore = "takes minutes: cargo test --release --test wheel -- --ignored"]
+fn cargo_installs_the_program() {
+    let folder = empty_folder();
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["install", "--quiet", "--locked", "--path"]).arg(root()).arg("--root").arg(folder.path());
+    output(cargo.env("CARGO_TARGET_DIR", python::target_folder())).with_status(0);
+    let mut program = Command::new(folder.path().join("bin/brinell"));
+    let version = output(program.arg("--version")).with_status(0).out;
+    assert!(version.starts_with(concat!("brinell ", env!("CARGO_PKG_VERSION"), "\n")), "{version}");
+}
