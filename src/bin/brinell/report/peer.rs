@@ -82,6 +82,8 @@ impl Peer {
         let knows_mass = has("effective_mass");
         let offered = |way: &&Way| match way.needs {
             Needs::Mass => knows_mass && has("mean_force"),
+            // nothing in a description says which kind of master an FMU is for
+            Needs::LateMass => false,
             _ if knows_mass => false,
             Needs::Force => true,
             Needs::PredictedForce => has("predicted_force"),
