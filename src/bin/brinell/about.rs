@@ -15,7 +15,7 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// `brinell --version`: program, library, platform, and the prebuilt libraries that an export would use.
 pub fn version(as_json: bool) {
     let library = package::library_identity();
-    let platform = platform::here().ok().map(|platform| (platform.folder, platform.target));
+    let platform = platform::here().ok().map(|platform| (platform.folder, platform.targets[0].triple));
     let prebuilt = prebuilt_folder::find();
     if as_json {
         let platform = platform.map(|(folder, target)| json!({ "folder": folder, "target": target }));

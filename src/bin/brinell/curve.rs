@@ -26,7 +26,7 @@ pub fn run(arguments: &CurveArguments) -> Result<(), Box<dyn Error>> {
     let picture = ending(output, &["csv", "svg"])? == "svg";
     let impact = &scene.impact_of(0);
     let drawn = match picture {
-        true => svg(&choices, largest, impact, arguments.truth),
+        true => self::picture(&choices, largest, impact, arguments.truth).map(|picture| picture.svg(860, 480)),
         false => csv(&choices, largest, impact),
     };
     let too_deep = |_: TooDeep| format!("to = {largest:e} m is too deep for the law");
@@ -140,7 +140,7 @@ fn csv(choices: &[Choice], largest: f64, impact: &Impact) -> Result<String, TooD
 ///
 /// # Errors
 /// As for [`csv`].
-pub fn svg(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) -> Result<String, TooDeep> {
+pub fn picture(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) -> Result<Picture, TooDeep> {
     let mut series = Vec::new();
     for choice in choices {
         let points = rows(choice, largest, impact)?.iter().map(|row| (1e6 * row.indentation, row.force)).collect();
@@ -157,8 +157,7 @@ pub fn svg(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) -> Res
         series.push(Series { label: "finite elements".into(), points, dots: true });
     }
     let titles = ("indentation [um]", "force [N]");
-    let picture = Picture { x_title: titles.0.into(), y_title: titles.1.into(), logarithmic: (false, false), series };
-    Ok(picture.svg(860, 480))
+    Ok(Picture { x_title: titles.0.into(), y_title: titles.1.into(), logarithmic: (false, false), series })
 }
 
 /// The loading curve of every law over Hertz's force, with the finite-element truth as dots.

@@ -11,6 +11,7 @@ use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
 use crate::scene::{Parameter, Scene};
 use crate::table::{self, Causality};
+use brinell::contact::impact::Prediction;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -269,17 +270,20 @@ fn constants(page: &mut String, constants: &[plan::Constant]) -> std::fmt::Resul
 
 /// Force against indentation over the scene's impact.
 fn curve(plan: &Plan) -> String {
-    let scene = plan.scene;
+    force_over_indentation(plan.scene, plan.prediction()).svg(640, 400)
+}
+
+/// The picture of force over indentation in the impact of `scene`, with this `prediction`.
+pub fn force_over_indentation(scene: &Scene, prediction: &Prediction) -> Picture {
     let micrometres = |points: Vec<(f64, f64)>| points.into_iter().map(|(d, force)| (1e6 * d, force)).collect();
     let branches =
-        scene.any_model().branches(&scene.impact_of(0), plan.prediction()).expect("a checked scene has a prediction");
+        scene.any_model().branches(&scene.impact_of(0), prediction).expect("a checked scene has a prediction");
     let named = branches.into_iter().zip(["loading", "unloading"]);
     let series = named.map(|(points, label)| Series { label: label.into(), points: micrometres(points), dots: false });
-    let picture = Picture {
+    Picture {
         x_title: "indentation [um]".into(),
         y_title: "force [N]".into(),
         logarithmic: (false, false),
         series: series.collect(),
-    };
-    picture.svg(640, 400)
+    }
 }

@@ -58,6 +58,7 @@ impl Map {
             write(root, &self.bar_legend, (LEFT + 12, bottom + 66), HPos::Left);
             draw_bar(root, LEFT + 4, (bottom + 58, bottom + 74));
             self.draw_classes(root, bottom + 96);
+            String::new()
         })
     }
 

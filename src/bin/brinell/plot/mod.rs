@@ -1,13 +1,21 @@
 //! Pictures: lines and dots over two axes, and maps, as SVG.
 
+mod clip;
+mod colours;
+mod lines;
 mod map;
 
+pub use colours::css_lines;
 pub use map::{Class, Map, Row};
+
+use colours::{black, grey, strokes};
+use lines::{Frame, Line, Place};
 
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::iter;
 use std::ops::Range;
 
 /// A line, or dots.
@@ -27,55 +35,84 @@ pub struct Picture {
     pub series: Vec<Series>,
 }
 
+/// How a picture of a report is drawn: the names of the lines at their ends, and what matters strong.
+#[derive(Default)]
+pub struct View {
+    /// The range of the values. A line that leaves it ends at its edge; one that is below it altogether runs along its lower edge.
+    pub values: Option<Range<f64>>,
+    /// Values with a line across the picture, and what they are called.
+    pub marks: Vec<(f64, &'static str)>,
+    /// The names of the series that stand out, where the others are grey. None: all do.
+    pub strong: Option<Vec<String>>,
+    pub name_at: NameAt,
+}
+
+/// Where a line has its name.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+pub enum NameAt {
+    #[default]
+    End,
+    /// At its highest point.
+    Top,
+    Nowhere,
+}
+
+impl View {
+    /// All lines, and no names.
+    fn unnamed() -> View {
+        View { name_at: NameAt::Nowhere, ..View::default() }
+    }
+
+    /// Whether the series of this name stands out.
+    fn shows(&self, name: &str) -> bool {
+        self.strong.as_ref().is_none_or(|strong| strong.iter().any(|other| other == name))
+    }
+}
+
 /// plotters puts everything on whole pixels: pictures are drawn large and shown small, so that curves are smooth.
 const SCALE: u32 = 8;
 
-/// Colours that can be told apart, also by most of the colour-blind (P. Green-Armytage; M. Okabe, K. Ito).
-const COLOURS: [RGBColor; 12] = [
-    RGBColor(0, 90, 160),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 140, 100),
-    RGBColor(180, 80, 140),
-    RGBColor(150, 110, 0),
-    RGBColor(86, 160, 220),
-    RGBColor(120, 60, 20),
-    RGBColor(110, 110, 110),
-    RGBColor(220, 50, 60),
-    RGBColor(90, 60, 170),
-    RGBColor(60, 150, 30),
-    RGBColor(230, 150, 0),
-];
-
 impl Picture {
-    /// The picture as SVG of `width` by `height` pixels.
+    /// The picture as SVG of `width` by `height` pixels, with a legend.
     pub fn svg(&self, width: u32, height: u32) -> String {
         // beside the curves, where no legend hides any
         let beside = self.series.len() > 2;
         svg(width, height, |root| {
-            self.draw_into(root, if beside { LEGEND } else { 0 });
+            let curves = self.draw_into(root, SCALE * if beside { LEGEND } else { 0 }, &View::unnamed());
             self.draw_legend(root, if beside { width - LEGEND } else { 100 });
+            curves
         })
     }
 
     /// The picture without the names of its series.
     pub fn svg_without_legend(&self, width: u32, height: u32) -> String {
-        svg(width, height, |root| self.draw_into(root, 0))
+        svg(width, height, |root| self.draw_into(root, 0, &View::unnamed()))
     }
 
-    /// Axes and curves, with `room` [pixels] to the right of them.
-    fn draw_into(&self, root: &Area, room: u32) {
+    /// The picture with the name of each line at its end.
+    pub fn labelled(&self, width: u32, height: u32, view: &View) -> String {
+        let names = self.series.iter().map(|series| series.label.as_str()).filter(|name| view.shows(name));
+        let room = if view.name_at == NameAt::Nowhere { 0 } else { lines::room(names) };
+        svg(width, height, |root| self.draw_into(root, room, view))
+    }
+
+    /// Axes, with `room` [1/8 pixel] to the right of them; gives the lines.
+    fn draw_into(&self, root: &Area, room: u32, view: &View) -> String {
         let mut builder = ChartBuilder::on(root);
         builder
             .margin(12 * SCALE)
-            .margin_right((12 + room) * SCALE)
+            .margin_right(12 * SCALE + room)
             .x_label_area_size(44 * SCALE)
             .y_label_area_size(68 * SCALE);
-        let (x, y) = (self.range(|point| point.0, self.logarithmic.0), self.range(|point| point.1, self.logarithmic.1));
+        let x = self.range(|point| point.0, self.logarithmic.0);
+        let y = view.values.clone().unwrap_or_else(|| self.range(|point| point.1, self.logarithmic.1));
+        let width = root.get_pixel_range().0.end;
+        let drawing = Drawing { picture: self, view, range: y.clone(), width };
         match self.logarithmic {
-            (false, false) => self.draw(builder.build_cartesian_2d(linear(x), linear(y))),
-            (true, false) => self.draw(builder.build_cartesian_2d(x.log_scale(), linear(y))),
-            (false, true) => self.draw(builder.build_cartesian_2d(linear(x), y.log_scale())),
-            (true, true) => self.draw(builder.build_cartesian_2d(x.log_scale(), y.log_scale())),
+            (false, false) => drawing.draw(builder.build_cartesian_2d(linear(x), linear(y))),
+            (true, false) => drawing.draw(builder.build_cartesian_2d(x.log_scale(), linear(y))),
+            (false, true) => drawing.draw(builder.build_cartesian_2d(linear(x), y.log_scale())),
+            (true, true) => drawing.draw(builder.build_cartesian_2d(x.log_scale(), y.log_scale())),
         }
     }
 
@@ -106,48 +143,21 @@ impl Picture {
         }
     }
 
-    fn draw<'a, X, Y>(
-        &self,
-        chart: Result<ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>, DrawingAreaErrorKind<std::io::Error>>,
-    ) where
-        X: Ranged<ValueType = f64> + ValueFormatter<f64>,
-        Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
-    {
-        let mut chart = chart.expect(IN_MEMORY);
-        let font = |size: u32| ("sans-serif", SCALE * size);
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(RGBColor(221, 221, 221).stroke_width(SCALE))
-            .axis_style(BLACK.stroke_width(SCALE))
-            .set_all_tick_mark_size(5 * SCALE)
-            .x_label_formatter(&label)
-            .y_label_formatter(&label)
-            .x_desc(&self.x_title)
-            .y_desc(&self.y_title)
-            .axis_desc_style(font(15))
-            .label_style(font(13))
-            .draw()
-            .expect(IN_MEMORY);
-        for (index, series) in self.series.iter().enumerate() {
-            if series.dots {
-                chart.draw_series(self.pieces(series).flatten().map(|&point| dot(point))).expect(IN_MEMORY);
-                continue;
-            }
-            for piece in self.pieces(series) {
-                chart.draw_series(LineSeries::new(piece.iter().copied(), self.stroke(index))).expect(IN_MEMORY);
-            }
+    /// How the lines look.
+    fn strokes(&self) -> Vec<colours::Stroke> {
+        let mut strokes = strokes(self.series.iter().map(|series| series.label.as_str()));
+        for (index, stroke) in strokes.iter_mut().enumerate() {
+            stroke.width *= self.width(index);
         }
+        strokes
     }
 
-    /// The line of the series at `index`: wider where another one will cover it, so that both can be seen.
-    fn stroke(&self, index: usize) -> ShapeStyle {
-        let style = stroke(index);
+    /// How much wider than others the line at `index` is: twice where another one will cover it, so that both can be seen.
+    fn width(&self, index: usize) -> u32 {
         let points = &self.series[index].points;
         let covers =
             |other: &Series| !other.dots && other.points.len() == points.len() && coincide(&other.points, points);
-        let wider = if self.series[index + 1..].iter().any(covers) { 2 } else { 1 };
-        ShapeStyle { stroke_width: wider * style.stroke_width, ..style }
+        if self.series[index + 1..].iter().any(covers) { 2 } else { 1 }
     }
 
     /// The names of the series, each behind a piece of its line: beside the curves, or above them if there are few.
@@ -163,12 +173,87 @@ impl Picture {
         let (x, y) = ((SCALE * left) as i32, (SCALE * middle) as i32);
         let length = 18 * SCALE as i32;
         let series = &self.series[index];
+        let stroke = &self.strokes()[index];
+        let line = RGBColor(stroke.rgb.0, stroke.rgb.1, stroke.rgb.2).stroke_width(stroke.width);
+        let pieces: &[(i32, i32)] = if stroke.dashed { &[(0, 7), (11, 18)] } else { &[(0, 18)] };
         let drawn = match series.dots {
-            true => root.draw(&dot((x + length / 2, y))),
-            false => root.draw(&PathElement::new([(x, y), (x + length, y)], self.stroke(index))),
+            true => root.draw(&Circle::new((x + length / 2, y), 5 * SCALE / 2, BLACK.filled())),
+            false => pieces.iter().try_for_each(|(from, to)| {
+                let ends = [from, to].map(|pixels| (x + pixels * SCALE as i32, y));
+                root.draw(&PathElement::new(ends, line))
+            }),
         };
         drawn.expect(IN_MEMORY);
         root.draw(&Text::new(series.label.clone(), (x + length + 6 * SCALE as i32, y), style)).expect(IN_MEMORY);
+    }
+}
+
+/// A picture over its two axes.
+struct Drawing<'a> {
+    picture: &'a Picture,
+    view: &'a View,
+    /// Of the values.
+    range: Range<f64>,
+    /// Of the drawing [1/8 pixel].
+    width: i32,
+}
+
+impl Drawing<'_> {
+    /// Draws the axes; gives the lines.
+    fn draw<'a, X, Y>(
+        &self,
+        chart: Result<ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>, DrawingAreaErrorKind<std::io::Error>>,
+    ) -> String
+    where
+        X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+        Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    {
+        let mut chart = chart.expect(IN_MEMORY);
+        let font = |size: u32| ("sans-serif", SCALE * size);
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(RGBColor(221, 221, 221).stroke_width(SCALE))
+            .axis_style(BLACK.stroke_width(SCALE))
+            .set_all_tick_mark_size(5 * SCALE)
+            .x_label_formatter(&label)
+            .y_label_formatter(&label)
+            .x_desc(&self.picture.x_title)
+            .y_desc(&self.picture.y_title)
+            .axis_desc_style(font(15))
+            .label_style(font(13))
+            .draw()
+            .expect(IN_MEMORY);
+        let (x, y) = chart.plotting_area().get_pixel_range();
+        let frame = Frame { left: x.start, right: x.end, bottom: y.end, width: self.width };
+        let start = chart.x_range().start;
+        let marks = self.view.marks.iter().map(|(value, name)| (chart.backend_coord(&(start, *value)).1, *name));
+        let lines = self.lines(&|point| chart.backend_coord(point));
+        lines::write(&lines, &marks.collect::<Vec<_>>(), frame, self.view.name_at)
+    }
+
+    /// The series as lines, which `place` puts where they belong.
+    fn lines(&self, place: &dyn Fn(&(f64, f64)) -> (i32, i32)) -> Vec<Line> {
+        let Drawing { picture, view, range, .. } = self;
+        let placed = |(at, value): clip::Shown| {
+            let (x, y) = place(&at);
+            Place { x, y, value }
+        };
+        let line = |(series, stroke): (&Series, colours::Stroke)| {
+            let strong = view.shows(&series.label);
+            let stroke = if series.dots {
+                black()
+            } else if strong {
+                stroke
+            } else {
+                grey()
+            };
+            let pieces = picture.pieces(series).flat_map(|piece| clip::inside(picture, piece, range));
+            let pieces: Vec<Vec<Place>> = pieces.map(|piece| piece.into_iter().map(placed).collect()).collect();
+            let below = picture.pieces(series).all(|piece| clip::is_below(piece, range)) && !pieces.is_empty();
+            Line { name: series.label.clone(), stroke, pieces, dots: series.dots, strong, below }
+        };
+        iter::zip(&picture.series, picture.strokes()).map(line).collect()
     }
 }
 
@@ -184,13 +269,14 @@ pub fn side_by_side(pictures: &[Picture], width: u32, height: u32) -> String {
     let rows = (first.series.len() as u32).div_ceil(columns);
     svg(width, height + rows * LINE + MARGIN, |root| {
         let (upper, lower) = root.split_vertically(SCALE * height);
-        for (picture, area) in pictures.iter().zip(upper.split_evenly((1, pictures.len()))) {
-            picture.draw_into(&area, 0);
-        }
+        let areas = upper.split_evenly((1, pictures.len()));
+        let drawn = iter::zip(pictures, &areas).map(|(picture, area)| picture.draw_into(area, 0, &View::unnamed()));
+        let curves = drawn.collect();
         for index in 0..first.series.len() {
             let (row, place) = (index as u32 / columns, index as u32 % columns);
             first.draw_name(&lower, index, (MARGIN + place * column, MARGIN / 2 + row * LINE));
         }
+        curves
     })
 }
 
@@ -200,34 +286,18 @@ fn coincide(one: &[(f64, f64)], other: &[(f64, f64)]) -> bool {
     one.iter().zip(other).all(|(one, other)| near(one.0, other.0) && near(one.1, other.1))
 }
 
-/// What `draw` draws, as SVG of `width` by `height` pixels.
-fn svg(width: u32, height: u32, draw: impl FnOnce(&Area)) -> String {
+/// What `draw` draws, and above it the elements that it gives, as SVG of `width` by `height` pixels.
+fn svg(width: u32, height: u32, draw: impl FnOnce(&Area) -> String) -> String {
     let mut svg = String::new();
-    {
+    let lines = {
         let root = SVGBackend::with_string(&mut svg, (SCALE * width, SCALE * height)).into_drawing_area();
-        draw(&root);
+        let lines = draw(&root);
         root.present().expect(IN_MEMORY);
-    }
+        lines
+    };
     let drawn = format!("width=\"{}\" height=\"{}\"", SCALE * width, SCALE * height);
-    svg.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1)
-}
-
-/// The line of the series at `index`, as CSS has it.
-pub fn css_line(index: usize) -> String {
-    let ShapeStyle { stroke_width, .. } = stroke(index);
-    let RGBColor(red, green, blue) = COLOURS[index % COLOURS.len()];
-    format!("{}px solid rgb({red} {green} {blue})", stroke_width / SCALE)
-}
-
-/// A dot of data.
-fn dot<C>(at: C) -> Circle<C, u32> {
-    Circle::new(at, 5 * SCALE / 2, BLACK.filled())
-}
-
-/// The line of the series at `index`; the second round of colours is thinner.
-fn stroke(index: usize) -> ShapeStyle {
-    let width = if index < COLOURS.len() { 2 * SCALE } else { SCALE };
-    COLOURS[index % COLOURS.len()].stroke_width(width)
+    let svg = svg.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1);
+    svg.replacen("</svg>", &format!("{lines}</svg>"), 1)
 }
 
 /// Room for a legend beside the curves.

@@ -6,7 +6,7 @@ use crate::bodies;
 use crate::html::{PICTURE_STYLE, begin, escape};
 use crate::laws::Choice;
 use crate::numbers::digits;
-use crate::plot::css_line;
+use crate::plot::css_lines;
 use crate::scene::Scene;
 use std::fmt::Write;
 
@@ -78,8 +78,9 @@ fn capitalized(words: &str) -> String {
 
 fn legend(page: &mut String, sweep: &Sweep) -> std::fmt::Result {
     writeln!(page, "<h2>Restitution, largest force and dent</h2>\n<ul class=\"legend\">")?;
-    for (index, (law, _)) in sweep.laws.iter().enumerate() {
-        writeln!(page, "<li><i style=\"border-top: {}\"></i>{}</li>", css_line(index), escape(law))?;
+    let names = || sweep.laws.iter().map(|(law, _)| law.as_str());
+    for (law, line) in names().zip(css_lines(names())) {
+        writeln!(page, "<li><i style=\"border-top: {line}\"></i>{}</li>", escape(law))?;
     }
     writeln!(page, "</ul>")
 }

@@ -1,5 +1,7 @@
 //! `brinell report`: what step and what coupling a scene needs, measured by stepping its exported unit through the C interface.
 
+mod card;
+mod choice;
 mod data;
 mod extremes;
 mod page;
@@ -8,7 +10,6 @@ mod precision;
 mod progress;
 mod spread;
 mod stability;
-mod summary;
 mod unit;
 mod units;
 mod ways;
@@ -16,14 +17,15 @@ mod ways;
 use crate::files::{FileError, write_whole};
 use crate::importer::ImportError;
 use crate::package::ExportError;
-use crate::plot::Picture;
 use crate::scene::Scene;
-use crate::validity;
+use card::Card;
+use choice::Choice;
 use data::Table;
 use peer::Peer;
 use precision::Plan;
 use progress::{Progress, Work};
 use serde_json::{Value, json};
+use spread::Laws;
 use std::path::{Path, PathBuf};
 use units::Units;
 use ways::Needs;
@@ -55,37 +57,71 @@ pub fn run(
     if as_json {
         println!("{}", report.json());
     } else {
-        println!("{}\n{}", report.summary.join("\n"), page.display());
+        println!(
+            "{}\n{}",
+            report.lines().iter().map(|line| textwrap::fill(line, WIDTH)).collect::<Vec<_>>().join("\n"),
+            page.display()
+        );
     }
     Ok(report.all_right)
 }
+
+/// Columns of a terminal that are used.
+const WIDTH: usize = 100;
 
 /// All that was measured.
 pub struct Report {
     /// The name of the scene.
     pub name: String,
-    /// What to do, and what to expect, in sentences.
-    pub summary: Vec<String>,
+    pub card: Card,
+    /// Which coupling to use, in sentences.
+    pub advice: Vec<String>,
+    /// The same as a table.
+    pub choice: String,
     recommendations: Value,
     parts: Vec<Part>,
     /// No case has failed.
     all_right: bool,
 }
 
-/// A heading with what stands below it.
+/// A heading with what belongs to it.
 pub struct Part {
     pub title: &'static str,
+    /// What one sees.
     pub words: String,
-    /// Pictures by the names of their files.
-    pub pictures: Vec<(&'static str, String)>,
+    pub figures: Vec<Figure>,
+    /// Series of the figures that can be switched on, with their lines as CSS has them.
+    pub switches: Vec<(String, String)>,
+    /// How it was measured.
+    pub method: String,
     pub tables: Vec<Table>,
 }
 
+/// A picture.
+pub struct Figure {
+    /// Of its file.
+    pub name: &'static str,
+    pub caption: String,
+    pub svg: String,
+    /// Whether it is shown only when asked for.
+    pub folded: bool,
+}
+
+impl Figure {
+    /// The figure as HTML.
+    fn html(&self) -> String {
+        let Figure { name, caption, svg, .. } = self;
+        format!(
+            "<figure>\n{svg}<figcaption>{caption} <a class=\"csv\" href=\"{name}.svg\">{name}.svg</a></figcaption></figure>\n"
+        )
+    }
+}
+
 impl Report {
-    /// Measures the first contact of `scene`, with the other units at `peers` beside it.
+    /// Measures the first contact of `scene`, with the other FMUs at `peers` beside it.
     ///
     /// # Errors
-    /// [`ReportError`] if a unit can't be built or loaded, or refuses an ordinary impact.
+    /// [`ReportError`] if an FMU can't be built or loaded, or refuses an ordinary impact.
     pub fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<Report, ReportError> {
         let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
         let alone = unit::first_contact(scene, Needs::Force);
@@ -113,23 +149,34 @@ impl Report {
         progress.say("stiff and extreme cases");
         let cases = extremes::measure(contacts.plain(), &alone, quick, progress);
         progress.say("laws side by side");
-        let (laws, spread) = spread::part(&alone);
-        let failed = cases.iter().filter(|case| case.has_failed()).count();
-        let judged = cases.iter().filter(|case| case.is_judged()).count();
-        let (mut summary, recommendations) = summary::summarize(&lines, &stability, &prediction, (judged, failed));
-        summary.extend(spread);
-        let warnings = validity::warnings(&model.pair(), alone.contacts[0].density, &prediction, impact.speed);
-        summary.extend(warnings.into_iter().map(|warning| format!("Beware: {warning}.")));
-        if scene.contact_count() > 1 {
-            summary.push("The scene has several contacts: all this is of its first contact.".into());
+        let laws = Laws::of(&alone);
+        let card = card::of(&alone, contacts.plain(), &laws)?;
+        let choice = Choice::of(&lines, &stability);
+        let mut advice = choice.sentences();
+        advice.extend(stability.sentence());
+        advice.extend(not_for_several(scene));
+        let mut recommendations = json!({ "ways": choice.json(), "impact": card.json });
+        if let (Value::Object(all), Value::Object(stable)) = (&mut recommendations, stability.json()) {
+            all.extend(stable);
         }
-        let parts = vec![precision::part(&scene.name, &lines), stability.part(), extremes::part(&cases), laws];
-        Ok(Report { name: scene.name.clone(), summary, recommendations, parts, all_right: failed == 0 })
+        let parts = vec![precision::part(&scene.name, &lines), stability.part(), laws.part(), extremes::part(&cases)];
+        let all_right = !cases.iter().any(extremes::Case::has_failed);
+        Ok(Report { name: scene.name.clone(), choice: choice.html(), card, advice, recommendations, parts, all_right })
+    }
+
+    /// What happens and what to use, for a terminal.
+    fn lines(&self) -> Vec<String> {
+        let outcome = self.card.outcome.iter().map(|(name, value)| format!("{name:<26} {value}"));
+        let warnings = self.card.warnings.iter().map(|warning| format!("Outside the law's validity: {warning}."));
+        let sentences = self.card.trust.iter().chain(&self.advice).cloned();
+        let cases = self.parts.last().map(|part| part.words.clone());
+        outcome.chain([String::new()]).chain(sentences).chain(warnings).chain(cases).collect()
     }
 
     /// All tables as one document.
     pub fn json(&self) -> Value {
-        let mut document = json!({ "scene": self.name, "summary": self.summary, "use": self.recommendations });
+        let sentences: Vec<_> = self.card.trust.iter().chain(&self.card.warnings).chain(&self.advice).collect();
+        let mut document = json!({ "scene": self.name, "summary": sentences, "use": self.recommendations });
         for table in self.parts.iter().flat_map(|part| &part.tables) {
             document[table.name] = table.json();
         }
@@ -145,7 +192,8 @@ impl Report {
         for table in self.parts.iter().flat_map(|part| &part.tables) {
             write_whole(&folder.join(table.name).with_extension("csv"), table.csv().as_bytes())?;
         }
-        for (name, svg) in self.parts.iter().flat_map(|part| &part.pictures) {
+        for Figure { name, svg, .. } in self.card.figures.iter().chain(self.parts.iter().flat_map(|part| &part.figures))
+        {
             write_whole(&folder.join(name).with_extension("svg"), svg.as_bytes())?;
         }
         write_whole(&folder.join("report.json"), format!("{:#}\n", self.json()).as_bytes())?;
@@ -153,6 +201,15 @@ impl Report {
         write_whole(&page, page::write(self).as_bytes())?;
         Ok(page)
     }
+}
+
+/// What doesn't hold for a scene with several contacts.
+fn not_for_several(scene: &Scene) -> Option<String> {
+    (scene.contact_count() > 1).then(|| {
+        "The scene has several contacts: this page measures the first contact. If contacts share a body, an FMU that knows the \
+         mass moves each contact's bodies alone, and is exact only while one of them is closed."
+            .into()
+    })
 }
 
 /// All that a report has to do.
@@ -164,9 +221,4 @@ fn work(scene: &Scene, plan: &Plan, peers: &[Peer], quick: bool) -> Vec<Work> {
     all.extend((0..ways).map(|_| Work::Way));
     all.extend((0..extremes::count(scene, quick)).map(|_| Work::Case));
     all
-}
-
-/// The pictures, drawn, by the names of their files.
-fn drawn<const COUNT: usize>(names: [&'static str; COUNT], pictures: [Picture; COUNT]) -> Vec<(&'static str, String)> {
-    names.into_iter().zip(pictures.map(|picture| picture.svg(520, 360))).collect()
 }

@@ -1,8 +1,11 @@
 //! The report as a page that needs nothing else.
 
-use super::Report;
+use super::{Figure, Part, Report};
 use crate::html::{PICTURE_STYLE, begin, escape};
 use std::fmt::Write;
+
+/// What the page has beside the style of every page with pictures.
+const STYLE: &str = include_str!("report.css");
 
 /// The page of `report`.
 pub fn write(report: &Report) -> String {
@@ -13,30 +16,49 @@ pub fn write(report: &Report) -> String {
 
 fn body(page: &mut String, report: &Report) -> std::fmt::Result {
     let name = escape(&report.name);
-    begin(page, &format!("{name}: report"), PICTURE_STYLE)?;
-    writeln!(page, "<h1>{name}: step, coupling and law</h1>")?;
-    let (lead, others) = report.summary.split_first().expect("there is something to say");
-    writeln!(page, "<p class=\"lead\"><strong>{}</strong></p>\n<ul>", escape(lead))?;
-    for sentence in others {
+    begin(page, &format!("{name}: report"), &format!("{PICTURE_STYLE}\n{STYLE}"))?;
+    writeln!(page, "<h1>{name}</h1>\n{}<h2>Which coupling</h2>\n<ul class=\"advice\">", report.card.html())?;
+    for sentence in &report.advice {
         writeln!(page, "<li>{}</li>", escape(sentence))?;
     }
-    writeln!(page, "</ul>\n<p>Numbers of this page for programs: <a href=\"report.json\">report.json</a></p>")?;
+    writeln!(page, "</ul>\n{}", report.choice)?;
     for part in &report.parts {
-        writeln!(page, "<h2>{}</h2>\n<p>{}</p>", part.title, part.words)?;
-        if !part.pictures.is_empty() {
-            writeln!(page, "<div class=\"panels wide\">")?;
-            for (name, svg) in &part.pictures {
-                let link = format!("<a href=\"{name}.svg\">{name}.svg</a>");
-                writeln!(page, "<figure>\n{svg}<figcaption class=\"csv\">{link}</figcaption></figure>")?;
-            }
-            writeln!(page, "</div>")?;
-        }
-        for table in &part.tables {
-            let file = format!("{}.csv", table.name);
-            let rows = if table.on_page { table.html() } else { String::new() };
-            writeln!(page, "{rows}<p class=\"csv\"><a href=\"{file}\">{file}</a>, with all digits</p>")?;
-        }
+        write_part(page, part)?;
     }
-    writeln!(page, "<p>Brinell {}</p>", env!("CARGO_PKG_VERSION"))?;
-    writeln!(page, "<script>\n{}</script>\n</body>\n</html>", include_str!("tables.js"))
+    let version = env!("CARGO_PKG_VERSION");
+    writeln!(page, "<p>Brinell {version}. All numbers for programs: <a href=\"report.json\">report.json</a></p>")?;
+    writeln!(page, "<script>\n{}{}</script>\n</body>\n</html>", include_str!("tables.js"), include_str!("series.js"))
+}
+
+fn write_part(page: &mut String, part: &Part) -> std::fmt::Result {
+    writeln!(page, "<section>\n<h2>{}</h2>\n<p>{}</p>", part.title, part.words)?;
+    if !part.switches.is_empty() {
+        writeln!(page, "<details class=\"switches\"><summary>Show other laws</summary>\n<ul class=\"legend\">")?;
+        for (series, line) in &part.switches {
+            let series = escape(series);
+            writeln!(
+                page,
+                "<li><label><input type=\"checkbox\" data-switch=\"{series}\" data-line=\"{line}\"><i style=\"border-top: {line}\"></i>\
+                 {series}</label></li>"
+            )?;
+        }
+        writeln!(page, "</ul></details>")?;
+    }
+    let panels = |figures: Vec<&Figure>| {
+        format!("<div class=\"panels wide\">\n{}</div>\n", figures.into_iter().map(Figure::html).collect::<String>())
+    };
+    let (folded, shown): (Vec<_>, Vec<_>) = part.figures.iter().partition(|figure| figure.folded);
+    if !shown.is_empty() {
+        write!(page, "{}", panels(shown))?;
+    }
+    writeln!(page, "<details><summary>How it was measured, and all numbers</summary>\n<p>{}</p>", part.method)?;
+    if !folded.is_empty() {
+        write!(page, "{}", panels(folded))?;
+    }
+    for table in &part.tables {
+        let file = format!("{}.csv", table.name);
+        let rows = if table.on_page { table.html() } else { String::new() };
+        writeln!(page, "{rows}<p class=\"csv\"><a href=\"{file}\">{file}</a>, with all digits</p>")?;
+    }
+    writeln!(page, "</details>\n</section>")
 }

@@ -1,7 +1,7 @@
 //! Other units with the same variables, run in the same picture.
 
 use super::precision::{Line, Plan};
-use super::ways::{Needs, PARALLEL, WAYS, Way};
+use super::ways::{Needs, WAYS, Way};
 use super::{ReportError, unit::Contact};
 use crate::importer::{Archive, ImportError, Unit};
 use crate::scene::Scene;
@@ -84,11 +84,9 @@ impl Peer {
         let derivatives = description.interpolates_inputs && description.output_derivatives > 0;
         // a unit that moves the mass itself does nothing else
         let knows_mass = has("effective_mass");
-        if self.parallel {
-            return vec![&PARALLEL];
-        }
         let offered = |way: &&Way| match way.needs {
-            Needs::Mass => knows_mass && has("mean_force"),
+            Needs::Mass => knows_mass && has("mean_force") && !self.parallel,
+            Needs::LateMass => self.parallel,
             _ if knows_mass => false,
             Needs::Force => true,
             Needs::PredictedForce => has("predicted_force"),

@@ -41,5 +41,7 @@ for (const table of document.querySelectorAll(".table table")) {
   button.className = "copy";
   button.textContent = "copy";
   button.addEventListener("click", () => copy(table, button));
-  table.parentElement.nextElementSibling.append(" ", button);
+  const below = table.parentElement.nextElementSibling;
+  if (below?.classList.contains("csv")) below.append(" ", button);
+  else table.parentElement.after(button);
 }

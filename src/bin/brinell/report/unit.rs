@@ -10,11 +10,12 @@ const OUTPUTS: [&str; 3] = ["indentation", "residual_indentation", "dissipated_e
 
 /// The first contact of `scene` alone, with every parameter settable, for a kind of coupling.
 pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
-    let mass = (needs == Needs::Mass).then_some(scene.impact_of(0).mass);
-    let more = match needs {
-        Needs::Force => None,
-        Needs::PredictedForce => Some("predicted_force"),
-        Needs::MeanForce | Needs::Mass => Some("mean_force"),
+    let mass = matches!(needs, Needs::Mass | Needs::LateMass).then_some(scene.impact_of(0).mass);
+    let more: &[&str] = match needs {
+        Needs::Force => &[],
+        Needs::PredictedForce => &["predicted_force"],
+        Needs::MeanForce | Needs::Mass => &["mean_force"],
+        Needs::LateMass => &["mean_force", "closing_speed"],
     };
     let mut parameters: Vec<Parameter> = Vec::new();
     // in the order of the table, as the parameters of every scene
@@ -33,13 +34,13 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         description: scene.description.clone(),
         parameters,
         contacts: vec![Group { name: None, count: None, own: Vec::new(), ..scene.contacts[0].clone() }],
-        outputs: OUTPUTS.into_iter().chain(more).map(String::from).collect(),
+        outputs: OUTPUTS.iter().chain(more).map(|name| (*name).to_string()).collect(),
         loading: scene.loading,
         unloading: scene.unloading,
         damped: scene.damped,
         passivity_guard: scene.passivity_guard,
         yield_strength: scene.yield_strength,
-        coupling: mass.map(|_| Coupling::default()),
+        coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],
         watches: false,

@@ -24,10 +24,11 @@ struct Loaded {
 /// What there is to build for `scene`: a unit whose force follows the rate has no input derivatives and can't know the mass.
 fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
     let all = [
-        (Needs::Force, "the unit"),
-        (Needs::PredictedForce, "the unit with predicted_force"),
-        (Needs::MeanForce, "the unit with mean_force"),
-        (Needs::Mass, "the unit that knows the mass"),
+        (Needs::Force, "the FMU"),
+        (Needs::PredictedForce, "the FMU with predicted_force"),
+        (Needs::MeanForce, "the FMU with mean_force"),
+        (Needs::Mass, "the FMU that knows the mass"),
+        (Needs::LateMass, "the FMU that knows the mass, for a parallel master"),
     ];
     let damped = scene.damped.is_some();
     all.into_iter().filter(move |(needs, _)| !damped || matches!(needs, Needs::Force | Needs::PredictedForce))

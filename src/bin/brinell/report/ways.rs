@@ -24,8 +24,8 @@ pub struct Body {
     pub force: f64,
     /// How fast that changes [N/s]; known to the way that needs it.
     slope: f64,
-    /// What of its speed a master that steps all units at once has yet to take off [m/s].
-    owed: f64,
+    /// What the contact asks for over the next step [N]; known to the way that applies it a step late.
+    pub owed: f64,
 }
 
 /// Makes one step [s] of contact and body.
@@ -42,6 +42,27 @@ pub enum Needs {
     MeanForce,
     /// To know the mass.
     Mass,
+    /// To know the mass, and that its force is applied a step late.
+    LateMass,
+}
+
+/// Kinds of master.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Master {
+    /// Steps the contact first and applies its force over the same step: a loop of one's own, Gauss-Seidel.
+    Serial,
+    /// Steps all FMUs at once and exchanges values between steps: Jacobi.
+    Parallel,
+}
+
+impl Master {
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Master::Serial => "serial (Gauss-Seidel)",
+            Master::Parallel => "parallel (Jacobi)",
+        }
+    }
 }
 
 /// A way to couple.
@@ -51,6 +72,7 @@ pub struct Way {
     pub what: &'static str,
     pub advance: Advance,
     pub needs: Needs,
+    pub master: Master,
     /// The largest stable step for a linear spring, as `h sqrt(K/m)`: 0 for a way that is stable at no step, infinity for
     /// one that is at every step. Below, `z = h^2 K/m`, `x` is the indentation and `u = h v`.
     pub stable: f64,
@@ -59,18 +81,20 @@ pub struct Way {
 /// `x' = x + u`, `u' = u - z x`: both eigenvalues have the modulus `sqrt(1 + z)`.
 pub const LATE: Way = Way {
     name: "late force",
-    what: "all units at once, with the force of the last step",
+    what: "apply the force of the previous step",
     advance: late,
     needs: Needs::Force,
+    master: Master::Parallel,
     stable: 0.0,
 };
 
 /// For a spring the same as leap-frog.
 pub const PREDICTED: Way = Way {
     name: "predicted_force",
-    what: "all units at once, with the force that the contact expects",
+    what: "apply predicted_force, read before the step",
     advance: predicted,
     needs: Needs::PredictedForce,
+    master: Master::Parallel,
     stable: 2.0,
 };
 
@@ -79,9 +103,10 @@ pub const PREDICTED: Way = Way {
 /// Reference: E. Hairer, C. Lubich, G. Wanner, *Acta Numerica* 12 (2003) 399-450, section 1.
 pub const LEAP_FROG: Way = Way {
     name: "leap-frog",
-    what: "the contact first, then the bodies with its new force",
+    what: "step the contact, then the bodies with its new force",
     advance: leap_frog,
     needs: Needs::Force,
+    master: Master::Serial,
     stable: 2.0,
 };
 
@@ -92,32 +117,35 @@ pub const LEAP_FROG: Way = Way {
 /// `(576 - 432 z + 48 z^2 - z^3) / 144`: at the square root of the smallest root of `z^3 - 48 z^2 + 432 z - 576`.
 pub const DERIVATIVES: Way = Way {
     name: "input derivatives",
-    what: "acceleration and jerk set with the rate, mean_force applied",
+    what: "set acceleration and jerk with the rate, apply mean_force",
     advance: derivatives,
     needs: Needs::MeanForce,
+    master: Master::Serial,
     stable: 1.269_862_885_454_414,
 };
 
 /// Exact.
 pub const MASS_KNOWN: Way = Way {
     name: "mass known",
-    what: "the unit moves the mass within the step, mean_force applied",
+    what: "the FMU moves the mass within the step; apply mean_force",
     advance: mass_known,
     needs: Needs::Mass,
+    master: Master::Serial,
     stable: f64::INFINITY,
 };
 
-/// The same for a unit that is made for masters which step all units at once.
-pub static PARALLEL: Way = Way {
+/// Exact: the FMU keeps an account of the momentum that is on its way.
+pub const MASS_KNOWN_PARALLEL: Way = Way {
     name: "mass known, parallel",
-    what: "all units at once, with the mean_force of the last step; the unit keeps an account of it",
-    advance: parallel,
-    needs: Needs::Mass,
+    what: "the FMU moves the mass; apply the mean_force of the previous step",
+    advance: late_mass,
+    needs: Needs::LateMass,
+    master: Master::Parallel,
     stable: f64::INFINITY,
 };
 
 /// All ways that a report runs.
-pub static WAYS: [Way; 5] = [LATE, PREDICTED, LEAP_FROG, DERIVATIVES, MASS_KNOWN];
+pub static WAYS: [Way; 6] = [LATE, PREDICTED, LEAP_FROG, DERIVATIVES, MASS_KNOWN, MASS_KNOWN_PARALLEL];
 
 /// Steps after which an impact is given up: the longest that a report asks for has sixteen million.
 const LONGEST: u64 = 20_000_000;
@@ -156,7 +184,7 @@ impl Way {
         let mut body = Body::flying(mass, speed);
         let mut max_force = 0.0;
         for _ in 0..LONGEST {
-            if body.force <= 0.0 && body.speed <= 0.0 {
+            if body.force <= 0.0 && body.owed == 0.0 && body.speed <= 0.0 {
                 return Ok(Rebound { speed: -body.speed, max_force });
             }
             (self.advance)(contact, &mut body, step)?;
@@ -216,14 +244,14 @@ fn mass_known(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), I
     Ok(())
 }
 
-/// The unit moves the mass itself, and the body has the mean force one step later. `speed` has all of it at once: what the body
-/// ends with is the same.
-fn parallel(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
-    contact.set_rate(body.speed + body.owed)?;
+/// The same with the mean force of each step applied over the next one.
+fn late_mass(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+    contact.set_rate(body.speed)?;
+    if body.load != 0.0 {
+        contact.set_derivatives(&[body.load / body.mass])?;
+    }
     contact.step(step)?;
-    let force = contact.mean_force()?;
-    body.feel(force, step);
-    body.owed = step * force / body.mass;
-    body.force = contact.force()?;
+    body.feel(body.owed, step);
+    (body.owed, body.force) = (contact.mean_force()?, contact.force()?);
     Ok(())
 }

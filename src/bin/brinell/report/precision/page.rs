@@ -1,12 +1,10 @@
 //! Error against run time as words, pictures and tables.
 
 use super::{Line, Point};
-use crate::plot::{Picture, Series};
-use crate::report::Part;
+use crate::plot::{Picture, Series, View};
 use crate::report::data::{Table, number, text};
-
-/// What errors of the unit alone are drawn at that are smaller, zero among them: half a unit in the last place.
-const LAST_PLACE: f64 = 0.5 * f64::EPSILON;
+use crate::report::{Figure, Part};
+use std::ops::Range;
 
 impl Line {
     /// What it is called in pictures.
@@ -66,23 +64,38 @@ fn orders(scene: &str, lines: &[Line]) -> Table {
     table
 }
 
-/// Error of restitution against run time and against the number of calls, and of the other quantities against steps.
-fn pictures(lines: &[Line]) -> [Picture; 5] {
+/// The decades of errors that matter to somebody, and the error that most people can bear.
+const SHOWN: Range<f64> = 1e-6..2.0;
+const BEARABLE: (f64, &str) = (0.01, "1 %");
+
+/// Names of the pictures' files, with what they show.
+const PICTURES: [(&str, &str); 6] = [
+    ("error-against-steps", "Error of restitution over steps per contact"),
+    ("error-against-time", "Error of restitution over run time"),
+    ("error-against-calls", "Error of restitution over calls"),
+    ("force-against-steps", "Error of the largest force over steps per contact"),
+    ("dent-against-steps", "Error of the dent over steps per contact"),
+    ("contact-time-against-steps", "Error of the contact time over steps per contact"),
+];
+
+/// Error of restitution against steps, run time and the number of calls, and of the other quantities against steps.
+fn pictures(lines: &[Line]) -> [Picture; 6] {
     let series = |line: &Line, at: &dyn Fn(&Point) -> (f64, f64)| {
-        let least = if line.way.is_none() { LAST_PLACE } else { 0.0 };
-        // max would make a number of NaN
-        let drawn = |(x, y): (f64, f64)| (x, if y < least { least } else { y });
+        // an error that is zero is below all decades, too
+        let drawn = |(x, y): (f64, f64)| (x, if y == 0.0 { f64::MIN_POSITIVE } else { y });
         let points = line.points.iter().map(|point| drawn(at(point))).collect();
         Series { label: line.label(), points, dots: false }
     };
+    let coupled = || lines.iter().filter(|line| line.way.is_some());
     let picture = |x: &str, y: &str, at: &dyn Fn(&Point) -> (f64, f64)| Picture {
         x_title: x.into(),
         y_title: y.into(),
         logarithmic: (true, true),
-        series: lines.iter().map(|line| series(line, at)).collect(),
+        series: coupled().map(|line| series(line, at)).collect(),
     };
     let steps = |point: &Point| f64::from(point.steps);
     [
+        picture("steps per contact", "error of restitution", &|p| (steps(p), p.restitution)),
         picture("time per impact [us]", "error of restitution", &|p| (1e6 * p.run_time, p.restitution)),
         picture("calls per impact", "error of restitution", &|p| (p.calls, p.restitution)),
         picture("steps per contact", "error of largest force", &|p| (steps(p), p.max_force)),
@@ -91,40 +104,47 @@ fn pictures(lines: &[Line]) -> [Picture; 5] {
     ]
 }
 
-/// Error against run time.
-pub fn part(scene: &str, lines: &[Line]) -> Part {
-    let names = [
-        "error-against-time",
-        "error-against-calls",
-        "force-against-steps",
-        "dent-against-steps",
-        "contact-time-against-steps",
-    ];
-    let mut words = String::from(
-        "Errors are relative to the energy balance, root mean squares over the places within a step where the bodies \
-         meet. The largest force is that at the ends of steps, and the time per impact that of this machine. Where two \
-         lines coincide the lower one is wider.",
-    );
-    if lines.iter().any(|line| line.way.is_none()) {
-        words.push_str(
-            " Unit alone: a given way in and out, split into steps of unequal length, beside the same in one step each; \
-             what differs is rounding, drawn at 1.1e-16 where it is less.",
-        );
-    }
-    if lines.iter().any(|line| line.peer.is_some()) {
-        words.push_str(
-            " Other units were given the bodies of the scene, as far as they have such parameters; their errors are relative \
-             to the law of the scene too.",
-        );
-    }
+/// The figures, the first two shown at once.
+fn figures(lines: &[Line]) -> Vec<Figure> {
     // nothing to draw of what no line has
     let drawable =
         |picture: &Picture| picture.series.iter().flat_map(|series| &series.points).any(|point| point.1 > 0.0);
-    let pictures = names.into_iter().zip(pictures(lines)).filter(|(_, picture)| drawable(picture));
+    let figure = |(index, ((name, caption), picture)): (usize, ((&'static str, &str), Picture))| {
+        let view = View { values: Some(SHOWN), marks: vec![BEARABLE], ..View::default() };
+        let svg = picture.labelled(480, 350, &view);
+        Figure { name, caption: caption.into(), svg, folded: index > 1 }
+    };
+    let all = PICTURES.into_iter().zip(pictures(lines)).enumerate();
+    all.filter(|(_, (_, picture))| drawable(picture)).map(figure).collect()
+}
+
+/// Error against run time.
+pub fn part(scene: &str, lines: &[Line]) -> Part {
+    let mut method = String::from(
+        "Errors are relative to the energy balance. Each is the root mean square over several places within a step where \
+         the bodies meet. The largest force is the largest at the ends of steps. The time per impact is that of this \
+         machine, without the cost of the simulation tool.",
+    );
+    if lines.iter().any(|line| line.way.is_none()) {
+        method.push_str(
+            " Unit alone: a prescribed motion in and out, cut into steps of unequal length, compared with the same motion in \
+             one step each way. The difference is rounding.",
+        );
+    }
+    if lines.iter().any(|line| line.peer.is_some()) {
+        method.push_str(
+            " Other FMUs got the bodies of the scene, as far as they have such parameters. Their errors are also relative to \
+             the law of the scene.",
+        );
+    }
     Part {
         title: "Error against run time",
-        words,
-        pictures: pictures.map(|(name, picture)| (name, picture.svg(520, 360))).collect(),
+        words:
+            "Lines that end at the lower edge go on below it. A line along the lower edge is exact but for rounding."
+                .into(),
+        figures: figures(lines),
+        switches: Vec::new(),
+        method,
         tables: vec![orders(scene, lines), table(scene, lines)],
     }
 }

@@ -47,7 +47,7 @@ fn stays(contact: &mut Contact, way: &Way, setting: &Setting, relative: f64) -> 
     let step = relative / frequency;
     let elastic = prediction.max_indentation - prediction.residual_indentation;
     // a unit that moves the mass itself is taken where it must be before any force can change that
-    let moment = if way.needs == Needs::Mass { 1e-6 / frequency } else { step };
+    let moment = if matches!(way.needs, Needs::Mass | Needs::LateMass) { 1e-6 / frequency } else { step };
     contact.start(&[("initial_gap", 0.0)])?;
     contact.set_rate(prediction.max_indentation / moment)?;
     contact.step(moment)?;
@@ -56,12 +56,17 @@ fn stays(contact: &mut Contact, way: &Way, setting: &Setting, relative: f64) -> 
     contact.step(moment)?;
     contact.set_rate(0.0)?;
     let mut body = Body::pressed(impact.mass, contact.force()?);
+    if way.needs == Needs::LateMass {
+        body.owed = contact.mean_force()?;
+    }
     let disturbance = 1e-6 * elastic * frequency;
-    body.speed = disturbance;
+    body.speed += disturbance;
     let steps = STEPS.max(2.0 * TIME / (relative * relative).ln_1p()) as u64;
     for _ in 0..steps {
         (way.advance)(contact, &mut body, step)?;
-        if body.speed.is_nan() || body.speed.abs() > GROWTH * disturbance {
+        // the speed of a body whose force is on its way isn't that of the motion
+        let speed = if way.needs == Needs::LateMass { contact.output("closing_speed")? } else { body.speed };
+        if speed.is_nan() || speed.abs() > GROWTH * disturbance {
             return Ok(false);
         }
     }

@@ -9,10 +9,10 @@ use super::progress::{Progress, Work};
 use super::unit::Contact;
 use super::units::Contacts;
 use super::ways::{Way, gaps};
-use super::{Part, drawn};
+use super::{Figure, Part};
 use crate::importer::ImportError;
-use crate::numbers::digits;
-use crate::plot::{Picture, Series};
+use crate::numbers::quantity;
+use crate::plot::{Picture, Series, View};
 use brinell::contact::impact::{Impact, Prediction};
 use limit::Limit;
 
@@ -117,7 +117,7 @@ impl Energy {
     }
 
     fn verdict(&self) -> &'static str {
-        if makes_energy(self.highest) { "makes energy" } else { "makes none" }
+        if makes_energy(self.highest) { "gains energy" } else { "gains none" }
     }
 }
 
@@ -158,7 +158,7 @@ impl Stability {
             ("largest stable h sqrt(K/m)", ""),
             ("elastic theory", ""),
             ("largest stable step", "s"),
-            ("makes energy from h sqrt(K/m)", ""),
+            ("gains energy from h sqrt(K/m)", ""),
         ];
         let mut table = Table::new("limits", columns);
         for line in &self.lines {
@@ -182,28 +182,43 @@ impl Stability {
             points: line.energies.iter().map(|energy| (energy.relative, energy.worst(self.predicted))).collect(),
             dots: false,
         };
-        let mut series: Vec<_> = self.lines.iter().map(line).collect();
-        let (label, points) = ("makes energy above".into(), vec![(RANGE.0, 1.0), (RANGE.1, 1.0)]);
-        series.push(Series { label, points, dots: false });
+        let series = self.lines.iter().map(line).collect();
         let y_title = "rebound over incoming energy".into();
         Picture { x_title: "h sqrt(K/m)".into(), y_title, logarithmic: (true, true), series }
     }
 
     /// Stability.
     pub fn part(&self) -> Part {
-        let mut pictures = vec![("stability", map::of(self).svg())];
-        pictures.extend(drawn(["stability-curves"], [self.curves()]));
+        let map = Figure {
+            name: "stability",
+            caption: "Rebound energy over the incoming energy, for each step".into(),
+            svg: map::of(self).svg(),
+            folded: false,
+        };
+        let curves = Figure {
+            name: "stability-curves",
+            caption: "The same as curves".into(),
+            svg: self.curves().labelled(
+                480,
+                350,
+                &View { marks: vec![(1.0, "above: gains energy")], ..View::default() },
+            ),
+            folded: false,
+        };
         Part {
             title: "Stability",
             words: format!(
-                "h is the step, m the mass, and K = {} N/m the largest stiffness of the impact, on the way back from the largest \
-                 indentation. The map shows the rebound energy over the incoming one, of the places within a step where the \
-                 bodies meet the worst: that which makes energy, or else that farthest from the prediction. Crosses on red: \
-                 the coupling makes energy. The largest stable step is that at which a small motion about the deepest \
-                 indentation, under a constant load, doesn't grow; elastic theory is that of a linear spring without damping.",
-                digits(self.stiffness)
+                "h is the step, m the mass, and K = {} the largest stiffness of the impact. Red cells with a cross: the rebound \
+                 has more energy than the impact. Bars: the largest step at which a body at rest in the contact stays at rest.",
+                quantity(self.stiffness, "N/m")
             ),
-            pictures,
+            figures: vec![map, curves],
+            switches: Vec::new(),
+            method: "K is the stiffness at the beginning of unloading from the largest indentation. Of the places within a step \
+                     where the bodies meet, the map shows the worst: the one that gains energy, or else the one that is farthest \
+                     from the prediction. The largest stable step is the one at which a small motion about the deepest \
+                     indentation under a constant load doesn't grow. Elastic theory is that of a linear spring without damping."
+                .into(),
             tables: vec![self.limits(), self.table()],
         }
     }

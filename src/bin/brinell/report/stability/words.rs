@@ -1,9 +1,9 @@
 //! Stability in words, and for programs.
 
 use super::limit::Limit;
-use super::{Line, MATTERS, RANGE, Stability};
-use crate::numbers::{digits, significant};
-use crate::report::ways::{LATE, LEAP_FROG, MASS_KNOWN};
+use super::{MATTERS, RANGE, Stability};
+use crate::numbers::quantity;
+use crate::report::ways::{LATE, LEAP_FROG, Way};
 use serde_json::{Value, json};
 
 impl Limit {
@@ -28,54 +28,26 @@ impl Stability {
         self.lines.iter().find(|line| line.way.name == way).map(|line| line.limit)
     }
 
-    /// Up to which step each way is stable, and what to change to go further.
-    pub fn sentences(&self) -> Vec<String> {
-        let told = |relative: f64| format!("{} s (h sqrt(K/m) = {relative:.3})", digits(relative / self.frequency));
-        let sentence = |line: &Line| {
-            let begin = format!("With {}, a pressed body stays at rest", line.way.name);
-            match line.limit {
-                Limit::Upto(limit) => format!("{begin} up to a step of {}.", told(limit)),
-                Limit::Every => format!("{begin} at every step that was tried, the largest {}.", told(RANGE.1)),
-                Limit::None => {
-                    let smallest = told(RANGE.0);
-                    format!("{begin} at no step that was tried, the smallest {smallest}{}.", self.instead())
-                }
-            }
-        };
-        let mut sentences: Vec<String> = self.lines.iter().map(sentence).collect();
-        if self.lines.iter().any(|line| matches!(line.limit, Limit::Upto(_))) {
-            let knows = matches!(self.limit(MASS_KNOWN.name), Some(Limit::Every));
-            let unit = if knows { "a unit that knows the mass, " } else { "" };
-            sentences.push(format!(
-                "For bigger stable steps choose {unit}a larger mass or a softer contact: the limits grow as sqrt(m/K)."
-            ));
-        }
-        sentences.push(self.energy());
-        sentences
-    }
-
-    /// What to use where a way is stable at no step.
-    fn instead(&self) -> String {
-        let others = self.lines.iter().filter(|line| !matches!(line.limit, Limit::None));
-        match others.map(|line| line.way.name).collect::<Vec<_>>().as_slice() {
-            [] => String::new(),
-            others => format!(": use {} instead", others.join(" or ")),
+    /// The largest stable step of a way, in words.
+    pub fn largest_step(&self, way: &Way) -> String {
+        match self.limit(way.name) {
+            Some(Limit::Upto(limit)) => quantity(limit / self.frequency, "s"),
+            Some(Limit::Every) => "any".into(),
+            Some(Limit::None) | None => "none".into(),
         }
     }
 
-    /// From which steps on rebounds make energy that matters.
-    fn energy(&self) -> String {
-        let makes = self.lines.iter().filter_map(|line| {
+    /// From which steps on rebounds gain energy that matters.
+    pub fn sentence(&self) -> Option<String> {
+        let gains = self.lines.iter().filter_map(|line| {
             let first = line.energies.iter().find(|energy| energy.highest > MATTERS)?;
-            let step = first.relative / self.frequency;
-            Some(format!("with {} from a step of {} s on", line.way.name, significant(step, 2)))
+            Some(format!("{} from {}", line.way.name, quantity(first.relative / self.frequency, "s")))
         });
-        let makes: Vec<_> = makes.collect();
-        let energy = format!("over {:.0} % more energy than came in", 100.0 * (MATTERS - 1.0));
-        if makes.is_empty() {
-            return format!("At no step that was tried does a rebound have {energy}.");
-        }
-        format!("A rebound can have {energy} {}.", makes.join(", "))
+        let gains: Vec<_> = gains.collect();
+        let percent = 100.0 * (MATTERS - 1.0);
+        (!gains.is_empty()).then(|| {
+            format!("Rebounds can gain more than {percent:.0} % of energy at large steps: {}.", gains.join(", "))
+        })
     }
 
     /// For programs; the two ways that have keys of their own have them beside the list of all.

@@ -1,15 +1,11 @@
 //! The laws side by side for one impact: the spread is what a user can't know without a measurement.
 
-use super::Part;
+mod page;
+
 use super::data::{Cell, Table, number, text};
-use crate::curve;
-use crate::html::escape;
 use crate::laws::{Choice, UnknownLaw, choose};
 use crate::model::AnyModel;
-use crate::numbers::digits;
-use crate::plot::Series;
 use crate::predict;
-use crate::predict::sweep::Sweep;
 use crate::scene::Scene;
 use crate::truth;
 use brinell::contact::impact::Prediction;
@@ -47,12 +43,6 @@ const QUANTITIES: [Quantity; 4] = [
     Quantity { name: "contact time", unit: "s", of: Prediction::contact_time, truth: |_, _| None },
 ];
 
-/// The speeds at which restitution is shown, over the scene's.
-const SPEEDS: (f64, f64) = (0.01, 10.0);
-
-/// Every how manyth speed of the picture the table has.
-const EVERY: usize = 5;
-
 /// A law with its prediction.
 struct Law {
     choice: Choice,
@@ -60,7 +50,7 @@ struct Law {
 }
 
 /// All laws, and the truth.
-struct Laws<'a> {
+pub struct Laws<'a> {
     scene: &'a Scene,
     /// The scene's first.
     laws: Vec<Law>,
@@ -78,7 +68,7 @@ fn yield_point(scene: &Scene) -> Option<YieldPoint> {
 
 impl Laws<'_> {
     /// The impact of `scene` by every law that its bodies can have.
-    fn of(scene: &Scene) -> Laws<'_> {
+    pub fn of(scene: &Scene) -> Laws<'_> {
         let mut choices: Vec<Choice> = choose(scene, &[]).unwrap_or_default();
         let (mut left_out, mut without_strength) = (Vec::new(), 0);
         let own = choices.first().map(|choice| choice.name.clone()).unwrap_or_default();
@@ -179,120 +169,4 @@ impl Laws<'_> {
             .collect();
         table
     }
-
-    /// Restitution over speed, as picture and as table.
-    fn restitution(&self) -> (String, Table) {
-        let speed = self.scene.impact.speed;
-        let range = (SPEEDS.0 * speed, SPEEDS.1 * speed);
-        let choices: Vec<_> = self.laws.iter().map(|law| law.choice.clone()).collect();
-        let sweep = Sweep::where_possible(&choices, self.scene.impact.mass, range);
-        let mut table = Table::new("restitution", [("law", ""), ("speed", "m/s"), ("restitution", "")]);
-        // hundreds of rows, which the picture shows
-        table.on_page = false;
-        let row = |law: &str, speed: f64, restitution: f64| vec![text(law), number(speed), number(restitution)];
-        for (law, points) in &sweep.laws {
-            let some = points.iter().step_by(EVERY);
-            table.rows.extend(some.map(|(speed, prediction)| row(law, *speed, prediction.restitution)));
-        }
-        let dots = self.dots(range);
-        table.rows.extend(dots.iter().map(|(speed, restitution)| row("finite elements", *speed, *restitution)));
-        let [mut picture, ..] = sweep.panels();
-        if !dots.is_empty() {
-            picture.series.push(Series { label: "finite elements".into(), points: dots, dots: true });
-        }
-        (picture.svg(700, 440), table)
-    }
-
-    /// Speeds in `range` [m/s] whose restitution is known from finite elements.
-    fn dots(&self, range: (f64, f64)) -> Vec<(f64, f64)> {
-        let Some(unit) = yield_point(self.scene) else { return Vec::new() };
-        let dot = |impact: truth::Impact| {
-            let energy = impact.energy * unit.force * unit.indentation;
-            Some((predict::speed_of_energy(self.scene.impact.mass, energy), impact.rebound?.restitution))
-        };
-        truth::impacts().into_iter().filter_map(dot).filter(|dot| (range.0..=range.1).contains(&dot.0)).collect()
-    }
-
-    /// How far restitution differs.
-    fn sentence(&self) -> Option<String> {
-        let [quantity, ..] = &QUANTITIES;
-        let [(lowest_by, lowest), (highest_by, highest)] = self.spread(quantity)?;
-        let truth = self.truth_of(quantity).map(|value| format!("; finite elements say {value:.3}"));
-        (self.laws.len() > 1).then(|| {
-            format!(
-                "No step makes up for the choice of the law: by {} laws this impact has a {} from {lowest:.3} ({lowest_by}) to \
-                 {highest:.3} ({highest_by}){}.",
-                self.laws.len(),
-                quantity.name,
-                truth.unwrap_or_default()
-            )
-        })
-    }
-
-    /// What there is to say.
-    fn words(&self) -> String {
-        let spreads = QUANTITIES.iter().filter_map(|quantity| {
-            let [(lowest_by, lowest), (highest_by, highest)] = self.spread(quantity)?;
-            let (name, unit) = (quantity.name, quantity.unit);
-            let words = format!("{name} from {} ({lowest_by}) to {} {unit}", digits(lowest), digits(highest));
-            (lowest_by != highest_by).then(|| format!("{} ({highest_by})", words.trim_end()))
-        });
-        let mut words = match (self.laws.as_slice(), spreads.collect::<Vec<_>>().join("; ")) {
-            ([law], _) => format!("The impact by the law {}.", law.choice.name),
-            (laws, spreads) => format!(
-                "The same impact by {} laws, the scene's first: {spreads}. Hertz's law for a target that yields isn't counted.",
-                laws.len()
-            ),
-        };
-        words.push_str(
-            " The curves of force go to the largest indentation of the scene's law, those of restitution from a hundredth of \
-             the scene's speed to ten times it.",
-        );
-        if let Some((impact, unit)) = &self.truth {
-            words.push_str(&format!(
-                " Dots and the last row are finite elements of a rigid sphere on a perfectly plastic half-space of \
-                 Poisson's ratio 0.3, in small strain. By them this impact goes to {} yield indentations of {} m",
-                digits(impact.largest.x),
-                digits(unit.indentation)
-            ));
-            words.push_str(&match impact.rebound {
-                Some(_) => ".".into(),
-                None => format!("; the rebound is known {}.", known()),
-            });
-        }
-        for reason in &self.left_out {
-            words.push_str(&format!(" Left out: {}.", escape(reason)));
-        }
-        words
-    }
-}
-
-/// From where to where finite elements know the rebound.
-fn known() -> String {
-    let end = |impact: &truth::Impact| {
-        let restitution = impact.rebound.as_ref().map_or(f64::NAN, |rebound| rebound.restitution);
-        format!("{} (restitution {restitution:.3})", impact.largest.x)
-    };
-    let impacts = truth::impacts();
-    let ends: Vec<_> = [impacts.first(), impacts.last()].into_iter().flatten().map(end).collect();
-    format!("from {}", ends.join(" to "))
-}
-
-/// The laws side by side, and in a sentence how far they differ, if there are several.
-pub fn part(scene: &Scene) -> (Part, Option<String>) {
-    let laws = Laws::of(scene);
-    let mut words = laws.words();
-    let choices: Vec<_> = laws.laws.iter().map(|law| law.choice.clone()).collect();
-    let deepest = laws.laws.first().map_or(0.0, |law| law.prediction.max_indentation);
-    let mut pictures = Vec::new();
-    match curve::svg(&choices, deepest, &scene.impact, true) {
-        Ok(svg) => pictures.push(("laws", svg)),
-        Err(brinell::contact::TooDeep { .. }) => {
-            words.push_str(" There is no picture of the forces: a law can't be evaluated as deep as that.");
-        }
-    }
-    let (picture, restitution) = laws.restitution();
-    pictures.push(("restitution", picture));
-    let tables = vec![laws.spread_table(), laws.table(), restitution];
-    (Part { title: "Laws side by side", words, pictures, tables }, laws.sentence())
 }

@@ -1,0 +1,82 @@
+//! How lines look. A law has the same colour in every picture.
+
+use super::SCALE;
+use brinell::contact::damped::AnyDamped;
+use brinell::contact::loading::AnyLoading;
+
+/// Colours that can be told apart, also by most of the colour-blind (P. Green-Armytage; M. Okabe, K. Ito).
+const COLOURS: [(u8, u8, u8); 12] = [
+    (0, 90, 160),
+    (213, 94, 0),
+    (0, 140, 100),
+    (180, 80, 140),
+    (150, 110, 0),
+    (86, 160, 220),
+    (120, 60, 20),
+    (110, 110, 110),
+    (220, 50, 60),
+    (90, 60, 170),
+    (60, 150, 30),
+    (230, 150, 0),
+];
+
+/// How a line is drawn.
+#[derive(Clone, Copy)]
+pub struct Stroke {
+    /// Red, green and blue.
+    pub rgb: (u8, u8, u8),
+    /// [1/8 pixel]
+    pub width: u32,
+    /// The second dozen of colours is dashed.
+    pub dashed: bool,
+}
+
+impl Stroke {
+    /// The colour, as CSS has it.
+    pub fn css(self) -> String {
+        let (red, green, blue) = self.rgb;
+        format!("#{red:02x}{green:02x}{blue:02x}")
+    }
+}
+
+/// The strokes of series with these names, in their order.
+pub fn strokes<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Stroke> {
+    let mut taken: Vec<usize> = Vec::new();
+    for name in names {
+        let own = place(name).filter(|place| !taken.contains(place));
+        let free = || (0..).find(|place| !taken.contains(place));
+        taken.push(own.or_else(free).unwrap_or(0));
+    }
+    taken.into_iter().map(stroke).collect()
+}
+
+/// The place of a law in the list of all; `LOADING/UNLOADING` has that of its loading law. The first and the second law of the
+/// list are the most used ones and have the colours that differ most.
+fn place(name: &str) -> Option<usize> {
+    let law = name.split('/').next().unwrap_or(name);
+    let laws = AnyLoading::ALL.iter().map(|(name, _)| *name).chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
+    laws.into_iter().position(|known| known == law)
+}
+
+fn stroke(place: usize) -> Stroke {
+    Stroke { rgb: COLOURS[place % COLOURS.len()], width: 2 * SCALE, dashed: place >= COLOURS.len() }
+}
+
+/// What stands back behind the lines that matter.
+pub fn grey() -> Stroke {
+    Stroke { rgb: (181, 181, 181), width: SCALE, dashed: false }
+}
+
+/// What data are drawn in.
+pub fn black() -> Stroke {
+    Stroke { rgb: (0, 0, 0), width: SCALE, dashed: false }
+}
+
+/// Lines of these names, as CSS has them.
+pub fn css_lines<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let css = |stroke: Stroke| {
+        let kind = if stroke.dashed { "dashed" } else { "solid" };
+        format!("{}px {kind} {}", stroke.width / SCALE, stroke.css())
+    };
+    strokes(names).into_iter().map(css).collect()
+}

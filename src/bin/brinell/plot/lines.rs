@@ -1,0 +1,216 @@
+//! The lines of a picture as SVG: each a group of its own, named after its series, with its values to be read by a pointer.
+
+use super::colours::Stroke;
+use super::{NameAt, SCALE, label};
+use crate::html::escape;
+use std::fmt::Write;
+
+/// A point of a line: where it is drawn [1/8 pixel], and what it means.
+#[derive(Clone, Copy)]
+pub struct Place {
+    pub x: i32,
+    pub y: i32,
+    pub value: (f64, f64),
+}
+
+/// A series as it is drawn.
+pub struct Line {
+    pub name: String,
+    pub stroke: Stroke,
+    /// Its pieces between points that can't be shown.
+    pub pieces: Vec<Vec<Place>>,
+    /// Points of data instead of a line.
+    pub dots: bool,
+    /// Whether it stands out; the others are grey.
+    pub strong: bool,
+    /// Whether all of it is below the picture, and drawn along its lower edge.
+    pub below: bool,
+}
+
+/// The part of a picture that the axes enclose [1/8 pixel].
+#[derive(Clone, Copy)]
+pub struct Frame {
+    pub left: i32,
+    pub right: i32,
+    pub bottom: i32,
+    /// Of the whole picture.
+    pub width: i32,
+}
+
+/// Height of a line of text, and width of a letter, on average [1/8 pixel].
+const TEXT: i32 = 15 * SCALE as i32;
+const LETTER: i32 = 54;
+
+/// Most points of a line that show their values; of longer lines some do.
+const POINTERS: usize = 40;
+
+/// All lines, the grey ones first, with the names of the strong ones where `name_at` says; below them the `marks`: the height
+/// and the name of each.
+pub fn write(lines: &[Line], marks: &[(i32, &str)], frame: Frame, name_at: NameAt) -> String {
+    let mut text = String::new();
+    for (y, name) in marks {
+        write_mark(&mut text, *y, name, frame).expect("a String takes everything");
+    }
+    for line in lines.iter().filter(|line| !line.strong).chain(lines.iter().filter(|line| line.strong)) {
+        write_line(&mut text, line).expect("a String takes everything");
+    }
+    if name_at != NameAt::Nowhere {
+        write_names(&mut text, lines, frame, name_at).expect("a String takes everything");
+    }
+    text
+}
+
+/// A dashed line across the picture with its name above.
+fn write_mark(text: &mut String, y: i32, name: &str, Frame { left, right, .. }: Frame) -> std::fmt::Result {
+    writeln!(
+        text,
+        "<path d=\"M{left} {y}H{right}\" stroke=\"#555\" stroke-width=\"{SCALE}\" stroke-dasharray=\"48 32\"/><text x=\"{}\" \
+         y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" fill=\"#555\">{}</text>",
+        left + 6 * SCALE as i32,
+        y - 4 * SCALE as i32,
+        12 * SCALE,
+        escape(name)
+    )
+}
+
+fn write_line(text: &mut String, line: &Line) -> std::fmt::Result {
+    let weak = if line.strong { "" } else { " weak" };
+    let Stroke { width, dashed, .. } = line.stroke;
+    let colour = line.stroke.css();
+    let dashes = if dashed { " stroke-dasharray=\"56 32\"" } else { "" };
+    let name = escape(&line.name).replace('"', "&quot;");
+    write!(
+        text,
+        "<g class=\"series{weak}\" data-series=\"{name}\" stroke=\"{colour}\" fill=\"{colour}\" stroke-width=\"{width}\">"
+    )?;
+    let (shown, has_markers) = (line.pieces.iter().map(Vec::len).sum::<usize>(), line.dots || is_short(line));
+    if !line.dots {
+        for piece in &line.pieces {
+            let points = thinned(piece).map(|place| format!("{},{}", place.x, place.y)).collect::<Vec<_>>().join(" ");
+            write!(text, "<polyline fill=\"none\" stroke-linejoin=\"round\"{dashes} points=\"{points}\"/>")?;
+        }
+    }
+    let every = shown.div_ceil(if line.strong { POINTERS } else { POINTERS / 4 }).max(1);
+    for place in line.pieces.iter().flatten().step_by(if line.dots { 1 } else { every }) {
+        // a point without a marker can be pointed at all the same
+        let (radius, seen) = if has_markers { (22, "") } else { (48, " fill-opacity=\"0\"") };
+        let (x, y) = (label(&place.value.0), label(&place.value.1));
+        write!(
+            text,
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{radius}\" stroke=\"none\"{seen}><title>{name}: {x}, {y}</title></circle>",
+            place.x, place.y
+        )?;
+    }
+    writeln!(text, "</g>")
+}
+
+/// The points of a line without those that nobody would miss: closer than a pixel and a half to the one before, and neither an end
+/// nor a turning point.
+fn thinned(piece: &[Place]) -> impl Iterator<Item = &Place> {
+    const NEAR: i32 = 12;
+    let mut last: Option<&Place> = None;
+    piece.iter().enumerate().filter_map(move |(index, place)| {
+        let turns = |before: &Place, after: &Place| {
+            (before.x - place.x).signum() == (after.x - place.x).signum()
+                || (before.y - place.y).signum() == (after.y - place.y).signum()
+        };
+        let inner = index > 0 && index + 1 < piece.len() && !turns(&piece[index - 1], &piece[index + 1]);
+        let near = last.is_some_and(|last| (last.x - place.x).abs().max((last.y - place.y).abs()) < NEAR);
+        if inner && near {
+            return None;
+        }
+        last = Some(place);
+        last
+    })
+}
+
+/// Whether a line has so few points that each is drawn.
+fn is_short(line: &Line) -> bool {
+    line.strong && line.pieces.iter().map(Vec::len).sum::<usize>() <= 16
+}
+
+/// A rectangle [1/8 pixel].
+#[derive(Clone, Copy)]
+struct Rectangle {
+    left: i32,
+    top: i32,
+    right: i32,
+    bottom: i32,
+}
+
+impl Rectangle {
+    fn overlaps(&self, other: &Rectangle) -> bool {
+        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+}
+
+/// The names of the strong lines, each beside its place on its line, where no other name is.
+fn write_names(text: &mut String, lines: &[Line], frame: Frame, name_at: NameAt) -> std::fmt::Result {
+    let mut taken: Vec<Rectangle> = Vec::new();
+    let (below, others): (Vec<_>, Vec<_>) = lines.iter().filter(|line| line.strong).partition(|line| line.below);
+    for line in below.into_iter().chain(others) {
+        let places = || line.pieces.iter().flatten();
+        let end = match name_at {
+            NameAt::Top => places().min_by_key(|place| place.y),
+            // where other lines rarely end
+            _ if line.below => places().min_by_key(|place| place.x),
+            _ => places().last(),
+        };
+        let Some(end) = end else { continue };
+        let words = format!("{}{}", line.name, if line.below { ": below" } else { "" });
+        let width = LETTER * words.chars().count() as i32;
+        let (place, rectangle) = free_place(end, width, frame, &taken);
+        taken.push(rectangle);
+        let middle = (rectangle.top + rectangle.bottom) / 2;
+        if (middle - end.y).abs() > TEXT {
+            let (x, colour) = (if place.1 == "start" { rectangle.left } else { rectangle.right }, line.stroke.css());
+            write!(text, "<path d=\"M{} {}L{x} {middle}\" stroke=\"{colour}\" stroke-width=\"6\"/>", end.x, end.y)?;
+        }
+        writeln!(
+            text,
+            "<text class=\"name\" x=\"{}\" y=\"{}\" text-anchor=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" \
+             fill=\"{}\">{}</text>",
+            place.0,
+            middle + 4 * SCALE as i32,
+            place.1,
+            13 * SCALE,
+            line.stroke.css(),
+            escape(&words)
+        )?;
+    }
+    Ok(())
+}
+
+/// Where a name of this `width` goes that belongs to a line with this `end`: its anchor, and the rectangle that it takes. To the
+/// right of the end if there is room, and else to the left, or as little above or below as it must be.
+fn free_place(end: &Place, width: i32, frame: Frame, taken: &[Rectangle]) -> ((i32, &'static str), Rectangle) {
+    let gap = 7 * SCALE as i32;
+    let candidate = |side: usize, shift: i32| {
+        let top = end.y + shift - TEXT / 2;
+        let (anchor, left) = match side {
+            0 => ((end.x + gap, "start"), end.x + gap),
+            _ => ((end.x - gap, "end"), end.x - gap - width),
+        };
+        (anchor, Rectangle { left, top, right: left + width, bottom: top + TEXT })
+    };
+    let fits = |rectangle: &Rectangle| {
+        rectangle.left > frame.left
+            && rectangle.right <= frame.width
+            && rectangle.top >= 0
+            && rectangle.bottom <= frame.bottom - SCALE as i32
+            && !taken.iter().any(|other| other.overlaps(rectangle))
+    };
+    // to the left of its end a name would lie on its own line: there it goes above or below
+    let tries = (0..40).flat_map(|step: i32| {
+        let shift = TEXT / 2 * step;
+        [(0, shift), (0, -shift), (1, shift + TEXT), (1, -shift - TEXT)]
+    });
+    let mut places = tries.map(|(side, shift)| candidate(side, shift));
+    places.find(|(_, rectangle)| fits(rectangle)).unwrap_or_else(|| candidate(0, 0))
+}
+
+/// The room that the names of the `lines` need behind them [1/8 pixel].
+pub fn room<'a>(names: impl Iterator<Item = &'a str>) -> u32 {
+    let longest = names.map(|name| name.chars().count()).max().unwrap_or(0) as u32;
+    LETTER as u32 * longest + 4 * SCALE
+}
