@@ -66,3 +66,8 @@ pub mod contact;
 pub mod fmi2;
 pub mod instance;
 pub mod scene;
+
+/// The Rust code of the guide, as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/guide/rust.md")]
+mod guide {}
