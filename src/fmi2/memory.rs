@@ -1,4 +1,4 @@
-//! Memory from the process itself: from the C library, or from kernel32 where a library has no C library to rely on.
+//! Memory from the process itself: from the C library, or from kernel32 where there is no C library to rely on.
 //!
 //! FMI 2.0.2 advises against the importer's memory functions; the model description says that they are not used.
 

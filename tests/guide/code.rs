@@ -114,7 +114,6 @@ impl Run {
                 return tell(&format!("NOT RUN: {}, since {engine} can't be installed here", self.page.display()));
             }
         }
-        // a block goes on where the one before it ended
         let mut command = Command::new(interpreter);
         command.args(["-c", text]);
         self.call(command);

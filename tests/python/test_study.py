@@ -316,7 +316,7 @@ def test_the_command_line(tmp_path):
         ([], 2, "command"),
         (["study", SCENE], 2, "--vary"),
         (["study", SCENE, "--vary", "speed"], 2, "NAME=VALUE"),
-        (["study", SCENE, "--vary", "speed=x"], 1, "is no range"),
+        (["study", SCENE, "--vary", "speed=x"], 1, "is not a range"),
         (["study", "nowhere.toml", "--vary", "speed=1:2"], 1, "nowhere.toml"),
         (
             ["study", SCENE, "--vary", "speed=1:2", "--set", "hardness=1"],
