@@ -77,7 +77,8 @@ impl Run {
         if let Some(file) = &block.file {
             fs::write(self.folder.path().join(file), &text).expect("room for a scene");
         } else {
-            let missing = |key: &str, text: &str| toml::from_str::<toml::Table>(text).is_ok_and(|it| !it.contains_key(key));
+            let missing =
+                |key: &str, text: &str| toml::from_str::<toml::Table>(text).is_ok_and(|it| !it.contains_key(key));
             if missing("name", &text) {
                 text = format!("name = \"part\"\n{text}");
             }

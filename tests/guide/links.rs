@@ -63,8 +63,18 @@ fn wrong_links_are_found() {
 
 /// Folders whose files are named in the text.
 const FOLDERS: [&str; 12] = [
-    "benches/", "build/", "docs/", "examples/", "experiment/", "fit/", "modelDescription/", "python/", "scenes/", "src/",
-    "tests/", "truth/",
+    "benches/",
+    "build/",
+    "docs/",
+    "examples/",
+    "experiment/",
+    "fit/",
+    "modelDescription/",
+    "python/",
+    "scenes/",
+    "src/",
+    "tests/",
+    "truth/",
 ];
 
 #[test]

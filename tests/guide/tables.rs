@@ -46,7 +46,8 @@ fn heading(cells: &[&str]) -> String {
 
 fn variables(causality: &str) -> String {
     let is_output = causality == "output";
-    let mut table = heading(if is_output { &["name", "unit", "meaning"] } else { &["name", "unit", "allowed", "meaning"] });
+    let mut table =
+        heading(if is_output { &["name", "unit", "meaning"] } else { &["name", "unit", "allowed", "meaning"] });
     for variable in entries("variables.toml", "variable") {
         if text(&variable, "causality") != causality {
             continue;
@@ -54,6 +55,28 @@ fn variables(causality: &str) -> String {
         let (name, unit) = (format!("`{}`", text(&variable, "name")), text(&variable, "unit"));
         let (allowed, meaning) = (allowed(&variable), text(&variable, "description"));
         table += &if is_output { row(&[&name, unit, meaning]) } else { row(&[&name, unit, &allowed, meaning]) };
+    }
+    table
+}
+
+/// The descriptions that are different in FMUs of other kinds.
+fn kinds() -> String {
+    let mut table = heading(&["name", "in an FMU", "meaning"]);
+    for variable in entries("variables.toml", "variable") {
+        let name = format!("`{}`", text(&variable, "name"));
+        for instead in variable.get("instead").and_then(Value::as_array).into_iter().flatten() {
+            let instead = instead.as_table().expect("a description of another kind is a table");
+            let kind = match text(instead, "of") {
+                "rate-dependent" => "with a rate-dependent law",
+                "parallel" => "that knows the mass, for parallel importers",
+                "acceleration-input" => "that knows the mass, with `external_acceleration`",
+                "mass-known" => "that knows the mass",
+                "makes-energy" => "whose laws make energy",
+                "loses-less" => "whose laws lose less in a deeper dent",
+                other => panic!("what is the kind {other}?"),
+            };
+            table += &row(&[&name, kind, text(instead, "description")]);
+        }
     }
     table
 }
@@ -89,7 +112,8 @@ fn laws(kind: &str) -> String {
             page += &format!("- `{}`\n", formula.as_str().expect("a formula is text"));
         }
         page += &format!("\n{}\n\n", text(&law, "notes"));
-        let more = [("validity", "Validity"), ("unloading", "Published with the unloading law"), ("reference", "Reference")];
+        let more =
+            [("validity", "Validity"), ("unloading", "Published with the unloading law"), ("reference", "Reference")];
         for (key, label) in more {
             let value = text(&law, key);
             match key {
@@ -120,7 +144,10 @@ fn shows(page: &str, name: &str, table: &str) {
     if is_writing() {
         fs::write(root().join(&path), format!("{before}{begin}{table}{end}{after}")).expect("the page can be written");
     } else {
-        assert!(shown == table, "{page}: the table of {name} isn't that of modelDescription/; BRINELL_WRITE=1 writes it");
+        assert!(
+            shown == table,
+            "{page}: the table of {name} isn't that of modelDescription/; BRINELL_WRITE=1 writes it"
+        );
     }
 }
 
@@ -128,6 +155,7 @@ fn shows(page: &str, name: &str, table: &str) {
 fn tables_are_those_of_the_model_description() {
     shows("variables.md", "inputs", &variables("input"));
     shows("variables.md", "outputs", &variables("output"));
+    shows("variables.md", "other kinds", &kinds());
     shows("variables.md", "regimes", &regimes());
     shows("variables.md", "parameters", &variables("parameter"));
     shows("scenes.md", "materials", &materials());
@@ -139,7 +167,8 @@ fn tables_are_those_of_the_model_description() {
 /// The keys of a table of a scene file: the public fields of this struct of the exporter.
 fn fields(structure: &str) -> Vec<String> {
     let source = read(Path::new("src/bin/brinell/scene/file.rs"));
-    let (_, rest) = source.split_once(&format!("pub struct {structure} {{")).unwrap_or_else(|| panic!("no {structure}"));
+    let (_, rest) =
+        source.split_once(&format!("pub struct {structure} {{")).unwrap_or_else(|| panic!("no {structure}"));
     let fields = rest.split("\n}").next().unwrap().lines().filter_map(|line| line.trim().strip_prefix("pub "));
     fields.map(|field| field.split(':').next().unwrap().to_string()).collect()
 }
@@ -168,6 +197,9 @@ fn every_key_of_a_scene_is_explained_and_no_other() {
     for key in fields("File") {
         let shown = Page::parse(&page).code;
         let names = [key.clone(), format!("[{key}]"), format!("[[{key}]]")];
-        assert!(key == "description" || names.iter().any(|name| shown.contains(name)), "scenes.md says nothing of {key}");
+        assert!(
+            key == "description" || names.iter().any(|name| shown.contains(name)),
+            "scenes.md says nothing of {key}"
+        );
     }
 }
