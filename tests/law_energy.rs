@@ -162,7 +162,7 @@ fn a_unit_says_whether_its_law_may_make_energy_with_any_value_of_its_parameters(
         (
             "loading = \"stronge\"\npassivity_guard = true",
             "[]",
-            "With the guard no contact gives back more than it took",
+            "With the guard, no contact returns more energy than it took",
         ),
         // steel has 0.3; a unit whose Poisson's ratio can be set is another matter
         ("loading = \"jackson-green\"\nunloading = \"jackson\"", "[\"target.yield_strength\"]", none),

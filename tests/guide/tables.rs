@@ -2,8 +2,10 @@
 
 use crate::markdown::Page;
 use crate::{is_writing, read, root};
+use serde_json::Value as Json;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 use toml::{Table, Value};
 
 /// The entries of `kind` in a table of `modelDescription/`.
@@ -103,34 +105,47 @@ fn materials() -> String {
     table
 }
 
-/// Each law of `kind` with all that the table says of it to people.
+/// Each law of `kind`, with the texts and constants that `brinell laws` shows.
 fn laws(kind: &str) -> String {
-    let mut page = String::new();
-    for law in entries("laws.toml", kind) {
-        page += &format!("### `{}`\n\n{}.\n\n", text(&law, "name"), text(&law, "title"));
+    let output = Command::new(env!("CARGO_BIN_EXE_brinell")).args(["laws", "--json"]).output();
+    let output = output.expect("cargo has built the program");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let list: Json = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    let (mut page, mut shown) = (String::new(), Vec::new());
+    for law in list[kind].as_array().expect("a list of laws") {
+        let text = |key: &str| law[key].as_str().unwrap_or_default();
+        // a law with several damping factors is listed once for each
+        let name = text("name").split('/').next().unwrap_or_default();
+        if shown.contains(&name) {
+            continue;
+        }
+        shown.push(name);
+        page += &format!("### `{name}`\n\n{}.\n\n", text("title"));
         for formula in law["formulas"].as_array().expect("a law has formulas") {
             page += &format!("- `{}`\n", formula.as_str().expect("a formula is text"));
         }
-        page += &format!("\n{}\n\n", text(&law, "notes"));
-        let more =
-            [("validity", "Validity"), ("unloading", "Published with the unloading law"), ("reference", "Reference")];
-        for (key, label) in more {
-            let value = text(&law, key);
-            match key {
-                _ if value.is_empty() => {}
-                "unloading" => page += &format!("{label}: `{value}`.\n\n"),
-                _ => page += &format!("{label}: {}.\n\n", value.trim_end_matches('.')),
+        page += &format!("\n{}\n\n", text("notes"));
+        for (key, label) in [("validity", "Validity"), ("reference", "Reference")] {
+            if !text(key).is_empty() {
+                page += &format!("{label}: {}.\n\n", text(key).trim_end_matches('.'));
             }
         }
-        let Some(constants) = law.get("parameters").and_then(Value::as_array) else { continue };
-        page += &heading(&["constant", "unit", "allowed", "meaning"]);
-        for constant in constants.iter().map(|constant| constant.as_table().expect("a constant is a table")) {
-            let name = format!("`{}`", text(constant, "name"));
-            page += &row(&[&name, text(constant, "unit"), &allowed(constant), text(constant, "description")]);
-        }
-        page += "\n";
+        page += &constants(&law["parameters"]);
     }
     page
+}
+
+/// The table of the constants of a law; nothing if it has none.
+fn constants(constants: &Json) -> String {
+    let mut table = String::new();
+    for constant in constants.as_array().expect("a list of constants") {
+        let text = |key: &str| constant[key].as_str().expect("a text of the constant");
+        let number = |key: &str| short(constant[key].as_f64().expect("a number of the constant"));
+        let (name, allowed) =
+            (format!("`{}`", text("name")), format!("{} to {}", number("minimum"), number("maximum")));
+        table += &row(&[&name, &number("value"), text("unit"), &allowed, text("description")]);
+    }
+    if table.is_empty() { table } else { heading(&["constant", "value", "unit", "allowed", "meaning"]) + &table + "\n" }
 }
 
 /// Compares what is between the comments of the table `name` in `page` with `table`, or writes it.

@@ -312,7 +312,7 @@ def test_a_gap_is_a_number(gap):
 
 
 def test_files_that_are_no_units(tmp_path):
-    with pytest.raises(FileNotFoundError, match="no unit .*nowhere.fmu"):
+    with pytest.raises(FileNotFoundError, match="no FMU .*nowhere.fmu"):
         Contact(tmp_path / "nowhere.fmu")
     with pytest.raises(FileNotFoundError):
         Contact(tmp_path)
