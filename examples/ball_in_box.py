@@ -1,4 +1,4 @@
-"""A ball flies through a box and loses its energy at four walls, one unit with four contacts, in
+"""A ball flies through a box and loses its energy at four walls, one FMU with four contacts, in
 steps of a millisecond.
 
     pip install matplotlib ./python
@@ -12,7 +12,7 @@ import judge
 import numpy as np
 
 MASS, GRAVITY, STEP, END = 4e-3, np.array([0.0, -9.81]), 1e-3, 1.5  # kg, m/s^2, s, s
-SIZE = np.array([0.1, 0.06])  # m, where the centre of the ball can be
+SIZE = np.array([0.1, 0.06])  # m, the range of the ball's centre
 INTO = np.array([[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]])  # left, right, floor, ceiling
 START, SPEED = np.array([0.03, 0.03]), np.array([1.3, 0.7])  # m, m/s
 
@@ -49,7 +49,7 @@ def fly(path, h):
 if __name__ == "__main__":
     path = judge.unit("box")
     rows, fine = fly(path, STEP), fly(path, STEP / 10)
-    # nothing but the steps differs, and the walls don't depend on them
+    # only the steps differ, and the walls do not depend on them
     judge.agree("speed, steps of 1 ms against 0.1 ms [m/s]", rows[3:], fine[3:, ::10], 1e-9)
     judge.agree("place, steps of 1 ms against 0.1 ms [m]", rows[1:3], fine[1:3, ::10], 1e-9)
     judge.picture(

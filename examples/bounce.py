@@ -1,4 +1,4 @@
-"""The ball of steel_ball.fmu flies against the block: an explicit master that moves the mass (pip install fmpy)."""
+"""The ball of steel_ball.fmu hits the block: an explicit importer that moves the mass (pip install fmpy)."""
 import sys
 
 from fmpy import extract, read_model_description
@@ -17,7 +17,7 @@ unit.exitInitializationMode()
 mass, speed, time, step = 4.11e-3, 1.0, 0.0, 1e-7  # kg, m/s, s, s
 force, largest = 0.0, 0.0
 while force > 0.0 or speed > 0.0:
-    # the speed in the middle of the step and the force at its ends: the leap-frog method, of second order
+    # the speed at the middle of the step and the force at its ends: the leap-frog method, of second order
     unit.setReal([reference["indentation_rate"]], [speed])
     unit.doStep(time, step)
     time += step

@@ -1,4 +1,4 @@
-"""Ways to couple a contact with a mass that the master moves: the error of each against the steps per contact.
+"""Ways to couple a contact with a mass that the importer moves: the error of each over the steps per contact.
 
     pip install fmpy numpy
     brinell export scenes/coupled.toml
@@ -6,8 +6,8 @@
     brinell predict scenes/coupled.toml --json > impact.json
     python examples/coupling.py coupled.fmu mass_known.fmu impact.json
 
-One impact of a sphere, by every way. The error of the restitution against the energy balance depends on where in a step the
-bodies meet; it is the root mean square over several such places, all in the second step: a prediction needs a step before.
+One impact of a sphere, in every way. The error of the restitution against the energy balance depends on where in a step the
+bodies meet. It is the root mean square over several such positions, all in the second step: a prediction needs a step before.
 """
 import json
 import math
@@ -27,7 +27,7 @@ PLACES = 8
 
 @dataclass
 class Impact:
-    """What is predicted by energy balance; `brinell predict SCENE --json` prints it."""
+    """The prediction of the energy balance; `brinell predict SCENE --json` prints it."""
 
     mass: float  # kg
     speed: float  # m/s
@@ -44,7 +44,7 @@ class Impact:
 
 
 class Unit:
-    """One instance, with the calls counted."""
+    """One instance, with a counter of calls."""
 
     def __init__(self, path):
         description = read_model_description(path)
@@ -54,7 +54,7 @@ class Unit:
                                modelIdentifier=description.coSimulation.modelIdentifier)
         self.slave.instantiate()
         self.calls, self.time = 0, 0.0
-        # arrays are made once: nothing of them is left in the time of a call
+        # arrays are created once, so that they do not count in the time of a call
         self._vr = {name: (fmi2ValueReference * 1)(reference) for name, reference in self.reference.items()}
         self._rates = (fmi2ValueReference * 2)(*[self.reference["indentation_rate"]] * 2)
         self._forces = (fmi2ValueReference * 2)(*[self.reference["force"]] * 2)
@@ -62,7 +62,7 @@ class Unit:
         self._value, self._values = (c_double * 1)(), (c_double * 2)()
 
     def start(self, **parameters):
-        """Back to the start, with these parameters."""
+        """Return to the start, with these parameters."""
         self.slave.reset()
         self.slave.setupExperiment(startTime=0.0)
         self.slave.enterInitializationMode()
@@ -104,11 +104,11 @@ class Unit:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
-# Each way takes a unit whose sphere is a bit before the surface, and gives the speed of the rebound [m/s]. `speed` is the
-# closing speed; at the end it is negative and the force zero.
+# Each way takes an FMU whose sphere is just above the surface, and returns the speed of the rebound [m/s]. `speed` is the
+# closing speed; at the end it is negative, and the force is zero.
 
 def parallel(unit, mass, speed, step):
-    """All units step at once: the force that the bodies feel is that of the beginning of the step."""
+    """All FMUs step at once: the force that acts on the bodies is that of the beginning of the step."""
     force = 0.0
     while force > 0.0 or speed > 0.0:
         unit.set_rate(speed)
@@ -119,7 +119,7 @@ def parallel(unit, mass, speed, step):
 
 
 def predicted(unit, mass, speed, step):
-    """All units step at once, with the force that the contact expects at the end of the step, now that it has its rate."""
+    """All FMUs step at once, with the force that the contact predicts for the end of the step, read after its rate is set."""
     force = 0.0
     while force > 0.0 or speed > 0.0:
         unit.set_rate(speed)
@@ -131,7 +131,7 @@ def predicted(unit, mass, speed, step):
 
 
 def predicted_early(unit, mass, speed, step):
-    """The same by a master that reads all outputs before it sets any input: the prediction is made with the old rate."""
+    """The same by an importer that reads all outputs before it sets any input: the prediction uses the old rate."""
     force = expected = 0.0
     while force > 0.0 or speed > 0.0:
         unit.set_rate(speed)
@@ -153,7 +153,7 @@ def serial(unit, mass, speed, step):
 
 
 def verlet(unit, mass, speed, step):
-    """Velocity Verlet: the speed in the middle of the step in, half of each force before and after."""
+    """Velocity Verlet: the speed at the middle of the step goes in; half of each force acts before and after."""
     force = 0.0
     while force > 0.0 or speed > 0.0:
         middle = speed - 0.5 * step * force / mass
@@ -165,7 +165,7 @@ def verlet(unit, mass, speed, step):
 
 
 def derivatives(unit, mass, speed, step):
-    """The acceleration and the jerk as input derivatives, the mean force over the step out."""
+    """Acceleration and jerk go in as input derivatives; the mean force over the step comes out."""
     force = slope = 0.0
     while force > 0.0 or speed > 0.0:
         unit.set_rate(speed, -force / mass, -slope / mass)
@@ -177,8 +177,8 @@ def derivatives(unit, mass, speed, step):
 
 
 def derivatives_of_both(unit, mass, speed, step):
-    """As before; the second derivative of the force has its place in the jerk, so that the step ends where the speed's
-    polynomial of one degree more would."""
+    """As before, with the second derivative of the force included in the jerk: the step ends where a polynomial of one
+    degree more would."""
     force = slope = curvature = 0.0
     while force > 0.0 or speed > 0.0:
         unit.set_rate(speed, -force / mass, -(slope + 0.25 * step * curvature) / mass)
@@ -190,7 +190,7 @@ def derivatives_of_both(unit, mass, speed, step):
 
 
 def rollback(unit, mass, speed, step):
-    """With the acceleration and a jerk, but the step is made again until the course of the speed ends with the speed that the force makes."""
+    """With acceleration and jerk, but the step is repeated until the polynomial of the speed ends at the speed that the force gives."""
     force = slope = 0.0
     state = unit.slave.getFMUstate()
     while force > 0.0 or speed > 0.0:
@@ -217,7 +217,7 @@ def rollback(unit, mass, speed, step):
 
 
 def mass_known(unit, mass, speed, step):
-    """The unit moves the mass itself within the step."""
+    """The FMU moves the mass itself within the step."""
     force = 0.0
     while force > 0.0 or speed > 0.0:
         unit.set_rate(speed)
@@ -241,8 +241,8 @@ WAYS = {
 
 
 def contact_time(unit, impact, step, place):
-    """How long the bodies touch [s], by the input derivatives: the times at which the polynomials that the master has given
-    pass the surface and the dent."""
+    """The duration of the contact [s] by input derivatives: the times at which the polynomials of the importer pass the
+    surface and the dent."""
     unit.start(initial_gap=place * impact.speed * step)
     speed, began = impact.speed, None
     force = slope = curvature = 0.0
@@ -268,7 +268,7 @@ def contact_time(unit, impact, step, place):
 
 
 def error(way, unit, impact, steps_per_contact, places=PLACES):
-    """Relative error of the restitution (root mean square over the places of the first contact within a step), and calls
+    """Relative error of the restitution (root mean square over the positions of first contact within a step), and calls
     and time [s] of one impact."""
     step = impact.contact_time / steps_per_contact
     errors, calls, began = [], 0, time.perf_counter()
@@ -282,14 +282,14 @@ def error(way, unit, impact, steps_per_contact, places=PLACES):
 
 
 def error_of_contact_time(unit, impact, steps_per_contact, places=PLACES):
-    """Relative, as the error of the restitution."""
+    """Relative, like the error of the restitution."""
     step = impact.contact_time / steps_per_contact
     found = [contact_time(unit, impact, step, (place + 0.5) / places) for place in range(places)]
     return math.sqrt(sum((time / impact.contact_time - 1.0) ** 2 for time in found) / places)
 
 
 def order(errors, first=16, last=512):
-    """Slope of the error over the step, fitted where neither big steps nor rounding speak."""
+    """Slope of the error over the step, fitted where neither large steps nor rounding dominate."""
     counts = [count for count in errors if first <= count <= last and errors[count] > 1e-11]
     if len(counts) < 3:
         return math.nan

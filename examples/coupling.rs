@@ -1,5 +1,5 @@
-//! Four ways to couple a contact with a mass, by the functions of the unit's library alone: error of the restitution at some
-//! steps per contact.
+//! Four ways to couple a contact with a mass, using only the functions of the FMU's library: error of the restitution for
+//! some numbers of steps per contact.
 //!
 //! ```sh
 //! brinell export scenes/coupled.toml && brinell export scenes/mass_known.toml
@@ -17,11 +17,11 @@ type Component = *mut c_void;
 type Values = unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> c_int;
 type Derivatives = unsafe extern "C" fn(Component, *const u32, usize, *const c_int, *mut f64) -> c_int;
 
-/// The struct `fmi2CallbackFunctions`: this master has nothing to offer.
+/// The struct `fmi2CallbackFunctions`: this importer provides no callbacks.
 #[repr(C)]
 struct Callbacks([*mut c_void; 5]);
 
-/// A unit, unpacked and instantiated.
+/// An FMU, unpacked and instantiated.
 struct Unit {
     library: Library,
     component: Component,
@@ -38,7 +38,7 @@ impl Unit {
         let xml = fs::read_to_string(folder.path().join("modelDescription.xml"))?;
         let platform = fs::read_dir(folder.path().join("binaries"))?.next().ok_or("no binaries")??;
         let library = fs::read_dir(platform.path())?.next().ok_or("no library")??;
-        // SAFETY: a unit of FMI, which has no initializers that could harm.
+        // SAFETY: the library of an FMU, which has no initializers that could harm.
         let library = unsafe { Library::new(library.path()) }?;
         let guid = CString::new(attribute(&xml, "guid").ok_or("no guid")?)?;
         // SAFETY: the signature of the standard; the strings outlive the call, and the callbacks are never called.
@@ -68,7 +68,7 @@ impl Unit {
         Ok(reference.ok_or(format!("no variable {name}"))?.parse()?)
     }
 
-    /// A function that takes the component alone.
+    /// A function that takes only the component.
     fn call(&self, function: &str) -> Outcome<()> {
         // SAFETY: the signature of the standard.
         done(function, unsafe {
@@ -76,7 +76,7 @@ impl Unit {
         })
     }
 
-    /// Back to the start, with the bodies this far apart [m].
+    /// Return to the start, with the bodies this far apart [m].
     fn start(&mut self, gap: f64) -> Outcome<()> {
         type Setup = unsafe extern "C" fn(Component, c_int, f64, f64, c_int, f64) -> c_int;
         self.call("fmi2Reset")?;
@@ -127,7 +127,7 @@ impl Unit {
 
 impl Drop for Unit {
     fn drop(&mut self) {
-        // SAFETY: the signature of the standard; nobody uses the component afterwards.
+        // SAFETY: the signature of the standard; the component is not used afterwards.
         if let Ok(free) = unsafe { self.library.get::<unsafe extern "C" fn(Component)>("fmi2FreeInstance") } {
             unsafe { free(self.component) };
         }
@@ -158,7 +158,7 @@ fn rebound(way: Way, unit: &mut Unit, mass: f64, mut speed: f64, step: f64) -> O
     while force > 0.0 || speed > 0.0 {
         unit.set("indentation_rate", speed)?;
         if let Way::InputDerivatives = way {
-            // the second derivative of the force has its place in the jerk
+            // the second derivative of the force is part of the jerk
             let jerk = -(derivatives[0] + 0.25 * step * derivatives[1]) / mass;
             unit.derivatives("fmi2SetRealInputDerivatives", "indentation_rate", [-force / mass, jerk])?;
         }
@@ -195,7 +195,7 @@ fn main() -> Outcome<()> {
             const PLACES: u32 = 8;
             let (step, mut squares) = (contact_time / steps, 0.0);
             for place in 0..PLACES {
-                // where in the second step the bodies meet
+                // the position within the second step where the bodies meet
                 unit.start((1.0 + (f64::from(place) + 0.5) / f64::from(PLACES)) * speed * step)?;
                 let error = rebound(way, &mut unit, mass, speed, step)? / speed / expected - 1.0;
                 squares += error * error / f64::from(PLACES);

@@ -21,7 +21,7 @@ MODEL = """<mujoco><option timestep="1e-3" gravity="0 0 -9.81"/><worldbody>
 
 
 def fall(path):
-    """Height and speed in the engine, with the unit as the plate."""
+    """Height and speed in the engine, with the FMU as the plate."""
     model = mujoco.MjModel.from_xml_string(MODEL.format(soft=0))
     data = mujoco.MjData(model)
     data.qpos[0] = HEIGHT
@@ -36,7 +36,7 @@ def fall(path):
             balance.step(STEP, MASS, force, closing, -data.qvel[0], gravity)
             mujoco.mj_step(model, data)
             if force > 0.0:
-                # the engine can't know when within the step the ball has turned
+                # the engine cannot know when within the step the ball turned
                 data.qpos[0] = -contact["indentation"]
             rows.append((data.time, data.qpos[0], data.qvel[0]))
     balance.told()
@@ -44,7 +44,7 @@ def fall(path):
 
 
 def soft():
-    """Height by the engine's own contact, as it is without a setting."""
+    """Height by the engine's own contact, with its default settings."""
     model = mujoco.MjModel.from_xml_string(MODEL.format(soft=1))
     data = mujoco.MjData(model)
     data.qpos[0] = HEIGHT

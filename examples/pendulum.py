@@ -19,7 +19,7 @@ START, STEP, END = (
     -30.0 * pi / 180.0,
     1e-3,
     4.0,
-)  # the anvil stands where the pendulum hangs straight down
+)  # the anvil is where the pendulum hangs straight down
 MASS = HEAD + ROD / 3.0  # effective, at the head [kg]
 STRENGTHS = (200e6, 300e6, 900e6)  # of the anvil [Pa]
 
@@ -73,7 +73,7 @@ if __name__ == "__main__":
         print(f"{strength / 1e6:.0f} MPa: {before[blow]:.4f} m/s, restitution {restitution:.6f}")
         judge.agree("speed of the first blow against the fall [m/s]", before[blow], fall**0.5, 1e-4)
         with brinell.Contact(path, effective_mass=MASS, target_yield_strength=strength) as alone:
-            # the same blow by the unit alone, in one step
+            # the same blow by the FMU alone, in one step
             speed = before[blow]
             expected = 1e-3 * alone.step(1e-3, speed) / MASS / speed - 1.0
         judge.agree("restitution against the unit alone", restitution, expected, 1e-4)

@@ -1,4 +1,4 @@
-//! Elastoplastic contact of a sphere and a half-space: the physics, and the library of an FMI 2.0 co-simulation unit.
+//! Elastoplastic contact of a sphere and a half-space: the physics, and the library of an FMU (FMI 2.0 co-simulation).
 //!
 //! # Model
 //! A sphere of effective radius `R` is pressed into a half-space of effective modulus `E*` and yield strength `S`. The
@@ -6,19 +6,19 @@
 //!
 //! - *loading* follows the curve of a [loading law](contact::loading): Hertz's until the mean pressure reaches 1.1 S, then
 //!   the elastoplastic and the fully plastic branches of the law;
-//! - *unloading* follows the path of an [unloading law](contact::unloading) down to the dent that remains, and reloading
-//!   follows it back up, and on along the loading curve.
+//! - *unloading* follows the curve of an [unloading law](contact::unloading) down to the dent that remains; reloading
+//!   follows it back up, and continues along the loading curve.
 //!
-//! Work, elastic and dissipated energy are functions of the state; nothing is accumulated. With the rate held over a step
-//! the result doesn't depend on how time is cut.
+//! Work, elastic and dissipated energy are functions of the state; nothing is accumulated. With the rate held over a step,
+//! the result does not depend on how time is divided.
 //!
 //! # Validity
-//! Quasi-static, frictionless normal contact of a paraboloid: `a/R` up to about 0.3, contact long against the travel of
-//! waves, no hardening, no dependence on the rate of strain. [`contact::validity`] has the borders in numbers; a unit tells when it
-//! leaves them.
+//! Quasi-static, frictionless normal contact of a paraboloid: `a/R` up to about 0.3, contact long compared with the travel
+//! of elastic waves, no hardening, no strain-rate effects. [`contact::validity`] has the limits in numbers; an FMU logs a
+//! warning when it leaves them.
 //!
 //! # Units
-//! SI throughout: m, kg, s, N, Pa, J. Each public item says its unit.
+//! SI throughout: m, kg, s, N, Pa, J. The documentation of each public item states its unit.
 //!
 //! # Example
 //! ```
@@ -41,13 +41,13 @@
 //! # Modules
 //! | module | what it has |
 //! |---|---|
-//! | [`contact`] | the physics: not one word of FMI |
-//! | [`scene`] | which contacts there are, by which laws, and which variables: a trait, and the scene of an exported FMU |
+//! | [`contact`] | the physics, independent of FMI |
+//! | [`scene`] | which contacts, laws and variables there are: a trait, and the scene of an exported FMU |
 //! | [`instance`] | co-simulation as safe Rust: phase, time, variables, step, reset |
 //! | `fmi2` (feature `c-interface`) | the C interface, and the only `unsafe` of the library |
 //!
-//! Each uses the ones above it only. For the physics alone depend on this crate with `default-features = false`: it then
-//! brings `libm` and nothing else.
+//! Each uses only the ones above it. For the physics alone, depend on this crate with `default-features = false`; its only
+//! dependency is then `libm`.
 //!
 //! The library needs neither `std` nor `alloc`, and cannot panic.
 //!
@@ -66,3 +66,8 @@ pub mod contact;
 pub mod fmi2;
 pub mod instance;
 pub mod scene;
+
+/// The Rust code of the guide, as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/guide/rust.md")]
+mod guide {}

@@ -215,26 +215,6 @@ fn the_page_on_fmpy_prints_what_it_shows() {
 }
 
 #[test]
-fn the_python_of_the_modules_readme_runs() {
-    let readme = std::fs::read_to_string(root().join("python/README.md")).expect("the module has a README");
-    let blocks = readme.split("```python\n").skip(1).map(|rest| rest.split("```").next().unwrap_or_default());
-    let folder = tempfile::tempdir().expect("a folder for what the blocks write");
-    std::fs::create_dir(folder.path().join("scenes")).unwrap();
-    std::fs::copy(root().join("scenes/mass_known.toml"), folder.path().join("scenes/mass_known.toml")).unwrap();
-    let mut results = Vec::new();
-    // the second block uses the unit that the first one makes
-    for block in blocks {
-        if block.contains("import mujoco") && !have(&["mujoco"], "the block of MuJoCo") {
-            continue;
-        }
-        let output = interpreter().args(["-c", block]).current_dir(folder.path()).output().unwrap();
-        assert!(output.status.success(), "{block}\n{}", text(&output));
-        results.push(text(&output));
-    }
-    assert!(!results.is_empty() && results.iter().all(|result| result.contains(" m/s, ")), "{results:?}");
-}
-
-#[test]
 fn studies_are_run_whole_and_resumed() {
     if !have(&["scipy", "pyarrow", "tqdm", "matplotlib"], "studies") {
         return;

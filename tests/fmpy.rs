@@ -308,8 +308,3 @@ fn simulate_fmu_runs_with_its_defaults() {
 fn systems_are_valid_and_run_as_their_unit_does() {
     pytest("test_ssp.py", &scenes());
 }
-
-#[test]
-fn the_python_of_the_readme_runs() {
-    pytest("test_readme.py", &steel_ball());
-}

@@ -162,7 +162,7 @@ fn a_unit_says_whether_its_law_may_make_energy_with_any_value_of_its_parameters(
         (
             "loading = \"stronge\"\npassivity_guard = true",
             "[]",
-            "With the guard no contact gives back more than it took",
+            "With the guard, no contact returns more energy than it took",
         ),
         // steel has 0.3; a unit whose Poisson's ratio can be set is another matter
         ("loading = \"jackson-green\"\nunloading = \"jackson\"", "[\"target.yield_strength\"]", none),
@@ -209,7 +209,7 @@ fn laws_are_listed_with_what_was_measured_of_them() {
     assert_eq!(list["loading"].as_array().unwrap().len(), entries("loading").count());
 }
 
-/// A row of the README's table, as `brinell laws` measures it.
+/// A row of the guide's table, as `brinell laws` measures it.
 fn row(law: &serde_json::Value) -> String {
     let number = |key: &str| law[key].as_f64().unwrap();
     let word = |key: &str| law[key].as_str().unwrap();
@@ -229,11 +229,11 @@ fn row(law: &serde_json::Value) -> String {
 }
 
 #[test]
-fn the_rows_of_the_readme_are_those_that_are_measured() {
-    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+fn the_rows_of_the_guide_are_those_that_are_measured() {
+    let chapter = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/laws.md")).unwrap();
     let list = run(empty_folder().path(), ["laws", "--json"]).with_status(0).json();
     let rows: Vec<String> = list["loading"].as_array().unwrap().iter().map(row).collect();
-    let table = readme.lines().skip_while(|line| !line.starts_with("| law | worst error"));
+    let table = chapter.lines().skip_while(|line| !line.starts_with("| law | worst error"));
     let shown: Vec<&str> = table.skip(2).take_while(|line| line.starts_with('|')).collect();
     assert!(shown.len() >= 19, "{shown:?}");
     for line in shown {

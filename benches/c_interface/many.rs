@@ -156,7 +156,7 @@ pub fn print(trio: &Trio) {
     let [brinell, c] = times(&mut many, &rates);
     let alone = Fleet::of(&trio.units[0], 1);
     let [one_contact] = interleaved(ROUNDS[1], |_, _| time_of_exchange(&alone, &rates, STEP));
-    let name = format!("one unit with {} contacts, per contact", number(CONTACTS as f64, 0));
+    let name = format!("one FMU with {} contacts, per contact", number(CONTACTS as f64, 0));
     let goal = Goal::Value(one_contact, 0.25 * one_contact);
     Row { name: &name, unit: "ns", decimals: 2, goal }.print([Some(brinell), Some(c), None]);
 }

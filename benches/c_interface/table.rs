@@ -1,4 +1,4 @@
-//! Tables in Markdown, as they stand in the README.
+//! Tables in Markdown, as in the chapter on figures of the guide.
 
 /// The head of a table with `columns`.
 pub fn head(columns: &[&str]) {

@@ -1,6 +1,6 @@
-"""Elastoplastic contact for simulations in Python: units of Brinell, without a word of FMI.
+"""Elastoplastic contact for simulations in Python: FMUs of Brinell, with FMI hidden.
 
-`Contact` is a unit in use. `export`, `predict`, `sweep` and `curve` call the exporter; `study` runs
+`Contact` is an FMU in use. `export`, `predict`, `sweep` and `curve` call the exporter; `study` runs
 thousands of impacts.
 """
 

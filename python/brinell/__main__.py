@@ -23,7 +23,7 @@ TOLD = 10
 def _pair(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not (name and equals and value):
-        raise argparse.ArgumentTypeError(f"{text!r} isn't NAME=VALUE")
+        raise argparse.ArgumentTypeError(f"{text!r} is not of the form NAME=VALUE")
     return name, value
 
 
@@ -33,47 +33,47 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         epilog="All other arguments go to the exporter: `python -m brinell help` lists its commands.",
     )
     commands = parser.add_subparsers(dest="command", required=True)
-    text = "thousands of impacts of a scene's first contact, one step each"
+    text = "run thousands of impacts of a scene's first contact, one step each"
     it = commands.add_parser("study", help=text, description=text)
     add = it.add_argument
-    add("scene", help="the scene file (TOML), or a unit that knows the mass")
+    add("scene", help="the scene file (TOML), or an FMU that knows the mass")
     add(
         "--vary",
         type=_pair,
         action="append",
         required=True,
         metavar="NAME=FROM:TO:COUNT[log]",
-        help="speed, mass or a parameter of the unit, in SI units; or NAME=VALUE,VALUE,...",
+        help="speed, mass or a parameter of the FMU, in SI units; or NAME=VALUE,VALUE,...",
     )
     add("--sample", default="grid", help="grid, sobol:COUNT or lhs:COUNT [default: grid]")
-    add("--seed", type=int, default=0, help="of the samples [default: 0]")
+    add("--seed", type=int, default=0, help="seed of the samples [default: 0]")
     add(
         "--set",
         type=_pair,
         action="append",
         default=[],
         metavar="NAME=VALUE",
-        help="a parameter of all runs",
+        help="a parameter for all runs",
     )
-    add("--mass", type=float, help="effective mass [kg] instead of the scene's")
-    add("--speed", type=float, help="closing speed [m/s] instead of the scene's")
+    add("--mass", type=float, help="effective mass [kg], instead of the scene's")
+    add("--speed", type=float, help="closing speed [m/s], instead of the scene's")
     add(
         "-o",
         "--output",
         action="append",
         default=[],
         metavar="FILE",
-        help=".parquet, .csv, .svg or .png; may be given several times",
+        help=".parquet, .csv, .svg or .png; can be repeated",
     )
     add("--workers", type=int, help="processes [default: all cores]")
-    add("--chunk", type=int, help="runs that a process gets at a time")
-    add("--scheduler", metavar="local|ADDRESS", help="by Dask, here or at tcp://HOST:PORT")
-    add("--quiet", action="store_true", help="without the progress bar")
+    add("--chunk", type=int, help="runs per task of a process")
+    add("--scheduler", metavar="local|ADDRESS", help="use Dask, here or at tcp://HOST:PORT")
+    add("--quiet", action="store_true", help="show no progress bar")
     return parser.parse_args(arguments)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command line; gives the exit status."""
+    """Run the command line; return the exit status."""
     arguments = sys.argv[1:] if arguments is None else arguments
     if arguments and arguments[0] not in ("study", "-h", "--help"):
         return _exporter(arguments)
@@ -99,7 +99,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     except KeyboardInterrupt:
         print(
-            "brinell: stopped; with a table among its outputs the same call goes on from here",
+            "brinell: stopped; if a table is among the outputs, the same call continues from here",
             file=sys.stderr,
         )
         return 130

@@ -1,4 +1,4 @@
-"""A contact as a simulation uses it: closing speed in, force out."""
+"""A contact in a simulation: closing speed in, force out."""
 
 from __future__ import annotations
 
@@ -20,36 +20,37 @@ from .variables import Gaps, Numbers, Parameters, Variables, number
 
 @dataclass(frozen=True)
 class State:
-    """All that a contact is at one time: to be pickled, or restored in another contact of the same
-    unit."""
+    """The complete state of a contact at one time: it can be pickled, and restored in another
+    contact of the same FMU."""
 
     time: float
     """Time [s] since the start."""
     data: bytes
-    """What the unit has written; only a unit with the same GUID reads it."""
+    """The serialized state; only an FMU with the same GUID can read it."""
 
 
 class Contact:
-    """One instance of a unit, with one contact or several.
+    """One instance of an FMU, with one contact or several.
 
-    `fmu` is the path of a unit; `initial_gap` [m] the distance of the bodies at the start
-    (negative: pressed in), for several contacts one for each or a mapping by name. All other
-    parameters are keywords with underscores for dots, in SI units (`target_yield_strength=400e6`),
-    or stand in `parameters` under their own names (`{"target.yield_strength": 400e6}`). A parameter
-    that each contact has for itself takes one number for all, or a sequence with one for each.
+    `fmu` is the path of an FMU. `initial_gap` [m] is the distance of the bodies at the start
+    (negative: pressed in); for several contacts, one number for each, or a mapping by name. All
+    other parameters are keywords with underscores for dots, in SI units
+    (`target_yield_strength=400e6`), or entries of `parameters` under their own names
+    (`{"target.yield_strength": 400e6}`). A parameter that each contact has for itself takes one
+    number for all, or a sequence with one number for each.
 
-    `force` says what `step` gives:
+    `force` selects what `step` returns:
 
-    - `"mean"`: the unit's `mean_force`, the impulse of the step over its length. A master that
-      applies it to the bodies over the same step gets the momentum right.
-    - `"end"`: the unit's `force` at the end of the step. Applied over the same step it is the
+    - `"mean"`: the FMU's `mean_force`, the impulse of the step divided by its length. If you apply
+      it to the bodies over the same step, the momentum is right.
+    - `"end"`: the FMU's `force` at the end of the step. Applied over the same step, it makes the
       leap-frog method.
-    - `"auto"` (default): `"mean"` if the unit knows the mass. Otherwise `"mean"` in a step with an
-      acceleration, if the unit has `mean_force`, and `"end"` in a step without: each is then of the
-      higher order, since over a rate that is held the mean force makes energy.
+    - `"auto"` (default): `"mean"` if the FMU knows the mass. Otherwise `"mean"` in a step with an
+      acceleration, if the FMU has `mean_force`, and `"end"` in a step without. Each is then of the
+      higher order: with a rate that is held, the mean force would add energy.
 
-    A contact may go from thread to thread; calls of several threads wait for each other. It is
-    freed by `close`, at the end of a `with` block, or with the last reference to it.
+    A contact can be used from several threads; their calls wait for each other. It is freed by
+    `close`, at the end of a `with` block, or with the last reference to it.
     """
 
     def __init__(
@@ -77,11 +78,11 @@ class Contact:
             self.close()
             raise
 
-    # what the unit has
+    # what the FMU has
 
     @property
     def contacts(self) -> tuple[str, ...]:
-        """Name of each contact; `("",)` if there is but one, without a name."""
+        """Name of each contact; `("",)` if there is only one, without a name."""
         return self._variables.contacts
 
     @property
@@ -96,7 +97,7 @@ class Contact:
 
     @property
     def knows_mass(self) -> bool:
-        """Whether the unit moves the bodies itself within a step."""
+        """Whether the FMU moves the bodies itself within a step."""
         return self._variables.knows_mass
 
     @property
@@ -130,8 +131,8 @@ class Contact:
         parameters: Parameters | None = None,
         **keywords: Numbers,
     ) -> None:
-        """Back to the start, at time 0. Parameters that are given replace those of before; the
-        others stay."""
+        """Return to the start, at time 0. Parameters that are given replace the previous ones; the
+        others keep their values."""
         with self._lock:
             self._alive()
             given = self._variables.given(initial_gap, parameters, keywords)
@@ -140,12 +141,12 @@ class Contact:
             try:
                 self._start()
             except ContactError:
-                # what was refused isn't tried again
+                # rejected parameters are not tried again
                 self._given = before
                 raise
 
     def close(self) -> None:
-        """Frees the instance. What was closed can't be used any more; a second call does
+        """Free the instance. A closed contact cannot be used any more; a second call does
         nothing."""
         with self._lock:
             self._instance.close()
@@ -168,7 +169,7 @@ class Contact:
         self.close()
 
     def __reduce__(self) -> Any:
-        raise TypeError("a contact can't be pickled or copied; save() gives a state that can")
+        raise TypeError("a contact cannot be pickled or copied; save() returns a state that can")
 
     def __repr__(self) -> str:
         state = "closed" if self.closed else f"t = {self._time:.9g} s"
@@ -183,7 +184,7 @@ class Contact:
 
     def _tell(self) -> None:
         for text in self._instance.warnings():
-            # at the line of the user, below step() and this
+            # at the line of the user: two frames above this one
             warnings.warn(text, ContactWarning, stacklevel=3)
 
     def step(
@@ -196,23 +197,23 @@ class Contact:
         mass: Numbers | None = None,
         gap: Numbers | None = None,
     ) -> Any:
-        """One step of `h` [s]; gives the force [N] to apply to the bodies over this step, positive
-        when it pushes them apart.
+        """Make a step of `h` [s]; return the force [N] to apply to the bodies over this step,
+        positive when it pushes them apart.
 
         `rate` [m/s] is the closing speed of the bodies at the start of the step, positive when they
-        approach. `acceleration` [m/s^2] and `jerk` [m/s^3] are its derivatives by time, for this
-        step: if the unit knows the mass, the acceleration by all forces but the contact's (gravity,
-        say); otherwise by all forces. `mass` [kg] sets the effective mass from this step on, if the
-        unit has one that can be set between steps.
+        approach. `acceleration` [m/s^2] and `jerk` [m/s^3] are its time derivatives, for this step:
+        if the FMU knows the mass, the acceleration by all forces except that of the contact
+        (gravity, for example); otherwise by all forces. `mass` [kg] sets the effective mass from
+        this step on, if the FMU has one that can be set between steps.
 
-        `gap` [m] is the distance of the bodies at the start of the step, as the simulation has it.
-        A unit adds up its rates, and drifts away from the simulation by what the two integrate
+        `gap` [m] is the distance of the bodies at the start of the step in the simulation. An FMU
+        integrates its rates. It drifts away from the simulation by what the two integrate
         differently, and by the rest of a step in which another contact has changed the speed. With
-        `gap`, a contact that can't touch within the step ends it where the bodies of the simulation
-        do; near the surface, and while it pushes, it goes its own way.
+        `gap`, a contact that cannot touch within the step ends it where the bodies of the
+        simulation do. Near the surface, and while it pushes, it keeps its own distance.
 
-        A unit with several contacts takes a sequence of one number for each (the mass may be one
-        for all), and gives an array of forces. Which force it is: see `Contact`.
+        An FMU with several contacts takes a sequence of one number for each contact (the mass may
+        be one number for all), and returns an array of forces. Which force: see `Contact`.
         """
         with self._lock:
             self._alive()
@@ -227,8 +228,8 @@ class Contact:
     # values
 
     def __getitem__(self, name: str) -> Any:
-        """Any variable by its name, in SI units; of a unit with several contacts also an output by
-        its plain name, as an array over the contacts."""
+        """Read any variable by its name, in SI units. With several contacts, the plain name of an
+        output gives an array over the contacts."""
         with self._lock:
             component, variables = self._alive(), self._variables
             names = [name] if name in variables else variables.every(name)
@@ -246,8 +247,8 @@ class Contact:
             return values[0] if len(names) == 1 else np.array(values)
 
     def derivative(self, name: str = "force", order: int = 1) -> Any:
-        """The derivative by time of an output at the end of the last step: per second, or per
-        second squared."""
+        """Read the time derivative of an output at the end of the last step: per second (order 1),
+        or per second squared (order 2)."""
         with self._lock:
             self._alive()
             variables = self._variables
@@ -263,7 +264,7 @@ class Contact:
     # states
 
     def save(self) -> State:
-        """The state, to be given to `restore` later, here or in another contact or process."""
+        """Save the state, for `restore`: here, in another contact, or in another process."""
         with self._lock:
             self._alive()
             call, pointer, size = self._instance.call, c_void_p(), c_size_t()
@@ -277,9 +278,9 @@ class Contact:
             return State(self._time, data.raw)
 
     def restore(self, state: State) -> None:
-        """Back to `state`: what comes after has the same bits as after `save`."""
+        """Return to `state`. The simulation then continues with the same bits as after `save`."""
         if not isinstance(state, State):
-            raise TypeError(f"restore takes what save() gave, not {type(state).__name__}")
+            raise TypeError(f"restore takes the result of save(), not {type(state).__name__}")
         with self._lock:
             self._alive()
             call, pointer, size = self._instance.call, c_void_p(), len(state.data)

@@ -1,21 +1,21 @@
-"""What can go wrong."""
+"""Errors and warnings."""
 
 
 class ContactError(RuntimeError):
-    """A unit has refused something; the text has what the unit itself says."""
+    """An FMU has rejected a call; the text is that of the FMU."""
 
 
 class UnknownName(ContactError, KeyError):
-    """There is no such variable; the text lists those that there are."""
+    """There is no such variable; the text lists the variables that exist."""
 
     # KeyError would show the text in quotation marks
     __str__ = RuntimeError.__str__
 
 
 class ProgramError(RuntimeError):
-    """The exporter isn't there, or has refused something; the text has what it says."""
+    """The exporter is missing, or has rejected something; the text is that of the exporter."""
 
 
 class ContactWarning(UserWarning):
-    """A unit tells that its law isn't valid where the contact is, or that its passivity guard
-    acts."""
+    """An FMU warns: its law is not valid where the contact is, its passivity guard acts, or it is
+    coupled wrongly."""

@@ -1,4 +1,4 @@
-"""An unpacked unit: its functions and its variables, shared by all contacts that are made of it."""
+"""An unpacked FMU: its functions and variables, shared by all contacts that use it."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ _opening = threading.Lock()
 
 
 class Library:
-    """The library of a unit, in memory. `Library.of` gives the one that is there already, if there
-    is one."""
+    """The library of an FMU, in memory. `Library.of` returns the one that is already loaded, if
+    there is one."""
 
     def __init__(self, path: Path) -> None:
         try:
             description = fmpy.read_model_description(str(path), validate=False)
         except Exception as error:
-            raise ContactError(f"{path} isn't a unit: {error}") from error
+            raise ContactError(f"{path} is not an FMU: {error}") from error
         if description.fmiVersion != "2.0" or description.coSimulation is None:
-            raise ContactError(f"{path} isn't a unit of FMI 2.0 for co-simulation")
+            raise ContactError(f"{path} is not an FMU for FMI 2.0 co-simulation")
         self.path = path
         self.description = description
         self.variables = {variable.name: variable for variable in description.modelVariables}
@@ -45,26 +45,26 @@ class Library:
             )
         except Exception as error:
             shutil.rmtree(folder, ignore_errors=True)
-            raise ContactError(f"{path} can't be loaded on {fmpy.platform}: {error}") from error
-        # not through fmpy's own methods: their exceptions don't have the unit's text
+            raise ContactError(f"{path} cannot be loaded on {fmpy.platform}: {error}") from error
+        # not through fmpy's own methods: their exceptions lack the text of the FMU
         self.functions = slave._functions
         if os.name == "posix":
-            # what is loaded needs no file; processes that end without a word would leave theirs
+            # a loaded library needs no file; processes that are killed would leave theirs behind
             shutil.rmtree(folder, ignore_errors=True)
         weakref.finalize(self, _close, slave.dll._handle, folder)
 
     @staticmethod
     def of(path: str | Path | Library) -> Library:
-        """The library of the unit at `path`: unpacked and loaded once, as long as somebody uses
-        it."""
+        """The library of the FMU at `path`: unpacked and loaded once, for as long as it is in
+        use."""
         if isinstance(path, Library):
             return path
         path = Path(path)
         if not path.is_file():
-            raise FileNotFoundError(f"there is no unit {path}")
+            raise FileNotFoundError(f"there is no FMU {path}")
         path = path.resolve()
         status = path.stat()
-        # a unit that is exported again is another one
+        # an FMU that is exported again is a different one
         key = (path, status.st_mtime_ns, status.st_size, status.st_ino)
         with _opening:
             library = _open.get(key)
@@ -78,9 +78,9 @@ def _close(handle: int, folder: str) -> None:
     shutil.rmtree(folder, ignore_errors=True)
 
 
-# The log. One function serves all instances and is told apart by a number, since fmpy's own proxy
-# keeps a single logger for the whole process. It needs no printf: a unit sends whole texts, in
-# which the signs that printf and importers take for commands are doubled.
+# The log. One function serves all instances and tells them apart by a number, since fmpy's own
+# proxy keeps a single logger for the whole process. It needs no printf: an FMU sends complete
+# texts, in which the characters that printf and importers interpret are doubled.
 
 _numbers = itertools.count(1)
 _logs: dict[int, list[tuple[int, str]]] = {}
@@ -97,7 +97,7 @@ _LOGGER = fmi2.fmi2CallbackLoggerTYPE(_logger)
 
 
 class Instance:
-    """One instance of a unit: its calls by name, with the unit's own text where one is refused."""
+    """One instance of an FMU: its calls by name, with the text of the FMU if one is rejected."""
 
     def __init__(self, library: Library, name: str) -> None:
         self.library = library
@@ -122,34 +122,34 @@ class Instance:
         self.component: c_void_p | None = component
         if component is None:
             del _logs[number]
-            raise ContactError(f"{library.path}: the unit makes no instance: {self.text()}")
-        # the library, too, stays until the instance is gone
+            raise ContactError(f"{library.path}: the FMU creates no instance: {self.text()}")
+        # the library stays loaded until the instance is freed
         self._finalizer = weakref.finalize(self, _free, library, component, number)
 
     def call(self, function: str, *arguments: Any) -> None:
-        """Calls `fmi2<function>`; raises `ContactError` with the unit's text if it is refused."""
+        """Call `fmi2<function>`; raise `ContactError` with the FMU's text if it is rejected."""
         status = self.functions["fmi2" + function](self.component, *arguments)
         if status > WARNING:
             raise self.refusal(function)
 
     def refusal(self, function: str) -> ContactError:
-        """The error of a call that was refused just now."""
-        return ContactError(self.text() or f"fmi2{function} is refused without a word")
+        """The error for a call that was just rejected."""
+        return ContactError(self.text() or f"fmi2{function} was rejected without a message")
 
     def text(self) -> str:
-        """What the unit has said that is an error, once."""
+        """The error messages since the last call of this function."""
         text = "; ".join(text for status, text in self.log if status > WARNING)
         self.log[:] = [entry for entry in self.log if entry[0] <= WARNING]
         return text
 
     def warnings(self) -> list[str]:
-        """What the unit has said that is no error, once."""
+        """The other messages since the last call of this function."""
         texts = [text for status, text in self.log if status <= WARNING]
         self.log.clear()
         return texts
 
     def close(self) -> None:
-        """Frees the instance; a second time does nothing."""
+        """Free the instance; a second call does nothing."""
         self.component = None
         self._finalizer()
 

@@ -1,4 +1,4 @@
-"""The exporter `brinell`, called as a program: units, predictions and curves of a scene."""
+"""The exporter `brinell`, called as a program: FMUs, predictions and curves of a scene."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Columns = dict[str, NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class Prediction:
-    """What an impact will do, by the balance of energies."""
+    """The outcome of an impact, from the energy balance."""
 
     law: str
     mass: float
@@ -49,18 +49,18 @@ class Prediction:
     unloading_time: float
     """From there to separation [s]."""
     dent: float
-    """Depth that remains [m]; none of a law that depends on the rate."""
+    """Depth that remains [m]; rate-dependent laws leave none."""
     regime: int
-    """The regime at the largest indentation, as the output `regime`."""
+    """The regime at the largest indentation, numbered like the output `regime`."""
     onsets: tuple[tuple[int, float], ...] = ()
-    """Each regime, and the speed [m/s] at which it begins."""
+    """Pairs: a regime, and the speed [m/s] at which it begins."""
     warnings: tuple[str, ...] = ()
-    """Where this impact leaves the validity of the law."""
+    """In which respects this impact leaves the validity of the law."""
 
 
 def program() -> Path:
-    """Where the exporter is: what the variable BRINELL names, what the wheel of this module has
-    installed, on PATH, or in `target/release` of the repository."""
+    """The path of the exporter: the environment variable BRINELL, the program of this wheel, on PATH,
+    or in `target/release` of the repository."""
     named = os.environ.get("BRINELL")
     if named:
         found = shutil.which(named)
@@ -73,9 +73,9 @@ def program() -> Path:
         if path is not None and Path(path).is_file():
             return Path(path)
     raise ProgramError(
-        "the exporter brinell isn't there: install the wheel (pip install brinell), build it in "
+        "the exporter brinell was not found: install the wheel (pip install brinell), build it in "
         "the repository (cargo build --release), put it on PATH (cargo install --path .), or set "
-        "the variable BRINELL to where it is"
+        "the variable BRINELL to its path"
     )
 
 
@@ -100,23 +100,24 @@ def _of_the_wheel(module: Path) -> Path | None:
 
 
 def _run(*arguments: str | Path) -> str:
-    """What the exporter writes, told to write for programs."""
+    """The JSON output of the exporter."""
     command = [str(program()), *map(str, arguments), "--json"]
     try:
         result = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
     except OSError as error:
-        raise ProgramError(f"{command[0]} can't be run: {error}") from error
+        raise ProgramError(f"{command[0]} cannot be run: {error}") from error
     if result.returncode != 0:
         text = result.stderr.strip().removeprefix("brinell: ")
-        # progress stands before the error
+        # progress messages come before the error
         text = re.sub(r"^building .* \.\.\.\n(brinell: )?", "", text)
         raise ProgramError(text or f"{' '.join(command)} ended with status {result.returncode}")
     return result.stdout
 
 
 def export(scene: str | Path, output: str | Path | None = None) -> Path:
-    """Builds the unit of a scene file; gives its path, by default `NAME.fmu` in the current folder.
-    What the prebuilt libraries of the installed program don't have takes Rust."""
+    """Export the FMU of a scene file; return its path, by default `NAME.fmu` in the current folder.
+
+    A scene for which the installed program has no prebuilt library needs Rust."""
     more: list[str | Path] = [] if output is None else ["--output", output]
     return Path(json.loads(_run("export", scene, *more))["fmu"])
 
@@ -154,11 +155,11 @@ def predict(
     energy: float | None = None,
     drop_height: float | None = None,
 ) -> Prediction | list[Prediction]:
-    """What an impact on the first contact of a scene file will do.
+    """Predict an impact on the first contact of a scene file.
 
-    `mass` [kg] and one of `speed` [m/s], `energy` [J] and `drop_height` [m] stand for those of the
-    scene. With `laws` ("LOADING", "LOADING/UNLOADING" or "all") there is a list with a prediction
-    for each.
+    `mass` [kg] and one of `speed` [m/s], `energy` [J] and `drop_height` [m] replace those of the
+    scene. With `laws` (names "LOADING" or "LOADING/UNLOADING", or "all"), the result is a list with
+    a prediction for each law.
     """
     given = {"mass": mass, "speed": speed, "energy": energy, "drop-height": drop_height}
     options = _options(given, laws)
@@ -194,7 +195,7 @@ def sweep(
     mass: float | None = None,
 ) -> Columns | dict[str, Columns]:
     """Predictions over closing speeds from `first` to `last` [m/s], as columns: `speed`,
-    `restitution`, `dent` ...; with `laws` those of each law by its name."""
+    `restitution`, `dent` ...; with `laws`, a mapping from the name of each law to its columns."""
     options = _options({"mass": mass}, laws)
     text = _run("predict", scene, *options, "--sweep", "speed", f"{first!r}:{last!r}")
     tables = _tables(text)
@@ -236,7 +237,7 @@ def _options(values: Mapping[str, float | None], laws: Sequence[str] | None) -> 
 
 
 def _tables(text: str) -> dict[str, Columns]:
-    """A table of the exporter, cut by its first column `law`; the names lose their units."""
+    """A table of the exporter, split by its first column `law`; names lose their units."""
     rows: dict[str, list[dict[str, str]]] = {}
     for row in csv.DictReader(io.StringIO(text)):
         rows.setdefault(row.pop("law"), []).append(row)
@@ -246,7 +247,7 @@ def _tables(text: str) -> dict[str, Columns]:
 
 
 def _column(table: list[dict[str, Any]], name: str) -> NDArray[np.float64]:
-    # what a law hasn't got is an empty field
+    # a field that a law does not have is empty
     return np.array([float(row[name] or "nan") for row in table])
 
 

@@ -1,4 +1,4 @@
-"""A step of an instance: what goes in, which force comes out. Arrays for C are made once."""
+"""A step of an instance: its inputs, and the force that it returns. Arrays for C are made once."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Force = Literal["auto", "mean", "end"]
 
 
 class Stepping:
-    """The inputs of a unit and the force that it gives, for each of its contacts."""
+    """The inputs of an FMU and the force that it returns, for each of its contacts."""
 
     def __init__(self, variables: Variables, force: Force, path: str) -> None:
         self._variables, self._path = variables, path
@@ -27,7 +27,7 @@ class Stepping:
         self._twice = variables.references(variables.rates * 2)
         self._orders = (c_int * (2 * count))(*[1] * count, *[2] * count)
         self._derivatives = (c_double * (2 * count))()
-        # whether the derivatives aren't zero
+        # whether any derivative is not zero
         self._set = False
         self._values = (c_double * count)()
         self._choose(force)
@@ -44,7 +44,7 @@ class Stepping:
             )
         if force == "auto" and variables.is_for_next_step:
             raise ContactError(
-                f"{self._path} is made for masters that step all units at once: its mean_force "
+                f"{self._path} is made for importers that step all FMUs at once: its mean_force "
                 'belongs to the next step. Write master = "serial" under [coupling] of its scene, '
                 'or choose force="mean" and apply it over the next step'
             )
@@ -64,9 +64,9 @@ class Stepping:
         mass: Numbers | None,
         gap: Numbers | None,
     ) -> Any:
-        """The step from `time` to `time + h` [s]; gives the force [N] of each contact."""
+        """Make the step from `time` to `time + h` [s]; return the force [N] of each contact."""
         functions, component, count = instance.functions, instance.component, self._count
-        # all is looked at before anything is set
+        # everything is checked before anything is set
         self._fill(self._rates, 0, "rate", rate)
         orders = self._take_derivatives(acceleration, jerk)
         if gap is not None:
@@ -97,12 +97,12 @@ class Stepping:
             contacts = self._variables.contacts
             shown = ", ".join(contacts[:8]) + (", ..." if self._count > 8 else "")
             raise TypeError(
-                f"{name} = {values!r}: it takes {self._count} numbers, one for each of {shown}"
+                f"{name} = {values!r}: {self._count} numbers are needed, one for each of {shown}"
             )
         array[first : first + self._count] = [number(name, value) for value in values]
 
     def _take_derivatives(self, acceleration: Numbers | None, jerk: Numbers | None) -> int:
-        """Gives how many orders there are."""
+        """Return the number of orders."""
         count, orders = self._count, 0
         if self._set:
             self._derivatives[:] = [0.0] * (2 * count)
@@ -121,8 +121,8 @@ class Stepping:
         return orders
 
     def _follow(self, instance: Instance, h: float, gap: Numbers) -> None:
-        """Contacts that can't touch within the step end it where the engine's do: their rate takes
-        them there, straight."""
+        """Contacts that cannot touch within the step end it where those of the engine do: a
+        constant rate takes them there."""
         count, variables = self._count, self._variables
         gaps, now = (c_double * count)(), {}
         self._fill(gaps, 0, "gap", gap)
@@ -148,16 +148,16 @@ class Stepping:
         if not names:
             raise ContactError(
                 f"mass = {mass} kg: {path} has no effective_mass; "
-                "it comes with [coupling] in its scene"
+                "[coupling] in its scene adds one"
             )
         if not self._variables.mass_is_settable:
             raise ContactError(
                 f"mass = {mass} kg: effective_mass of {path} is fixed once a simulation "
-                "has begun; reset(effective_mass=...) sets it at the start"
+                "has started; reset(effective_mass=...) sets it at the start"
             )
         values = [mass] * len(names) if np.ndim(mass) == 0 else list(mass)  # type: ignore[arg-type]
         if len(values) != len(names):
             shown = ", ".join(names)
-            raise TypeError(f"mass = {mass!r}: it takes one number, or {len(names)}, for {shown}")
+            raise TypeError(f"mass = {mass!r}: one number is needed, or {len(names)}, for {shown}")
         array = (c_double * len(names))(*[number("mass", value) for value in values])
         instance.call("SetReal", self._variables.references(names), len(names), array)

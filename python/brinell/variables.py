@@ -1,4 +1,4 @@
-"""The variables of a unit: which contacts it has, and which of its parameters a caller means."""
+"""The variables of an FMU: its contacts, and the parameters that a caller refers to."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from .library import Library
 
 RATE = "indentation_rate"
 Numbers = float | Sequence[float] | NDArray[np.float64]
-"""One number, or one for each contact of the unit."""
+"""One number, or one for each contact of the FMU."""
 Gaps = Numbers | Mapping[str, float]
-"""As `Numbers`, or by the names of contacts."""
+"""Like `Numbers`, or a mapping from the names of contacts."""
 Parameters = Mapping[str, Numbers]
-"""By name; of a parameter that each contact has for itself one number for all, or one for each."""
+"""By name. A parameter that each contact has for itself takes one number for all, or one for each."""
 
 
 class Variables:
-    """What a unit has, found once from its description."""
+    """The variables of an FMU, read once from its description."""
 
     def __init__(self, library: Library) -> None:
         self._all = library.variables
         self._path = library.path
         rates = self.owners(RATE, "input")
         if not rates:
-            raise ContactError(f"{self._path} has no input {RATE}: it isn't a unit of Brinell")
+            raise ContactError(f"{self._path} has no input {RATE}: it is not an FMU of Brinell")
         self.rates = rates
         self.contacts = tuple(name[: -len(RATE)].rstrip(".") for name in rates)
         self.outputs = tuple(n for n, it in self._all.items() if it.causality == "output")
         self.parameters = tuple(n for n, it in self._all.items() if it.causality == "parameter")
-        # the description alone says so: effective_mass may be a constant, and damping has one, too
+        # only the description tells: effective_mass may be a constant, and damping has one, too
         texts = [self._all[name].description or "" for name in rates]
         self.knows_mass = any("moves the bodies" in text for text in texts)
         mean = [self._all[name].description or "" for name in self.owners("mean_force")]
@@ -50,16 +50,16 @@ class Variables:
         return name in self._all
 
     def is_real(self, name: str) -> bool:
-        """Whether fmi2GetReal reads it; everything else of a unit are integers."""
+        """Whether fmi2GetReal reads it; all other variables are integers."""
         return bool(self._all[name].type == "Real")
 
     def every(self, name: str) -> list[str]:
-        """The variable `name` of each contact; empty if one has none."""
+        """The variable `name` of each contact; empty if a contact lacks it."""
         names = [f"{contact}.{name}" if contact else name for contact in self.contacts]
         return names if all(name in self._all for name in names) else []
 
     def owners(self, name: str, causality: str | None = None) -> list[str]:
-        """All variables that are called so, with or without a contact or group before it."""
+        """All variables with this name, with or without the name of a contact or group in front."""
         return [
             it
             for it, variable in self._all.items()
@@ -67,11 +67,11 @@ class Variables:
         ]
 
     def references(self, names: Sequence[str]) -> Any:
-        """Value references as C takes them."""
+        """Value references as a C array."""
         return (c_uint * len(names))(*[self._all[name].valueReference for name in names])
 
     def unknown(self, kind: str, name: object, names: Sequence[str] | None = None) -> UnknownName:
-        """The error about a name that isn't there."""
+        """The error for an unknown name."""
         names = tuple(self._all) if names is None else names
         shown = ", ".join(names[:40]) + (", ..." if len(names) > 40 else "")
         return UnknownName(
@@ -84,7 +84,7 @@ class Variables:
         parameters: Parameters | None,
         keywords: Parameters,
     ) -> dict[str, float]:
-        """The parameters that a caller gives in three ways, under their own names."""
+        """The parameters that a caller passes in three ways, under their own names."""
         given: dict[str, Numbers] = dict(parameters or {})
         if keywords:
             known = {_plain(name): name for name in self.parameters}
@@ -131,14 +131,14 @@ class Variables:
         own = self.every("initial_gap")
         if np.shape(gap) != (len(self.contacts),) or not own:
             raise ContactError(
-                f"initial_gap = {gap}: the unit has {len(self.contacts)} contacts, "
+                f"initial_gap = {gap}: the FMU has {len(self.contacts)} contacts, "
                 f"and the parameters {', '.join(names)}"
             )
         return dict(zip(own, np.asarray(gap, dtype=float).tolist(), strict=True))
 
 
 def number(name: str, value: Any) -> float:
-    """`value` as a float; a text, for one, is none."""
+    """`value` as a float; strings, for example, are rejected."""
     if type(value) is float:
         return value
     try:

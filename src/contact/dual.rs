@@ -1,4 +1,4 @@
-//! A number with its derivative: the slope of a long formula without a second formula.
+//! A number with its derivative: it gives the slope of a long formula without a second formula.
 
 use core::ops::{Add, Mul, Sub};
 use libm::{cos, cosh, exp, expm1, pow, sin, sinh};

@@ -1,4 +1,4 @@
-//! What an impact will do, from the energy balance: no time stepping.
+//! Prediction of an impact from the energy balance, without time stepping.
 
 use super::history::LARGEST_INDENTATION;
 use super::loading::Loading;

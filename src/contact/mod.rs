@@ -1,11 +1,11 @@
 //! The physics: a rigid or elastic sphere pressed into an elastoplastic half-space.
 //!
-//! `f64` only; no allocation, no input or output, no panic, no `unsafe`, and nothing of FMI. A [`Model`] says what is in
-//! contact and by which law; a [`History`] is everything a contact remembers. [`History::advance`] moves it along a path,
-//! and force, stiffness, energies and dent are functions of the two. The trait [`Contact`] is what elastoplastic and
+//! `f64` only; no allocation, no input or output, no panic, no `unsafe`, and no FMI. A [`Model`] says which bodies are in
+//! contact and by which law; a [`History`] is everything that a contact remembers. [`History::advance`] moves it along a
+//! path, and force, stiffness, energies and dent are functions of the two. The trait [`Contact`] is what elastoplastic and
 //! [rate-dependent](damped) contacts have in common.
 //!
-//! | module | what |
+//! | module | content |
 //! |---|---|
 //! | [`material`] | bodies, effective radius and modulus, yield point |
 //! | [`segment`] | the form that the branches of most laws have: `F = c0 + c1 z + c2 z^1.5 + c3 z^2` |
@@ -16,12 +16,12 @@
 //! | [`quadrature`] | work and time where there is no closed form |
 //! | [`behaviour`] | the trait [`Contact`] |
 //! | [`history`] | the state of a contact and its path through the branches |
-//! | [`impact`] | what an impact will do, from the energy balance |
-//! | [`piece`] | the smooth pieces along which a contact moves |
+//! | [`impact`] | prediction of an impact from the energy balance |
+//! | [`piece`] | the smooth pieces of the law along which a contact moves |
 //! | [`momentum`] | the integral of force over time, along branches or by pieces |
 //! | [`motion`] | a contact that knows the mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
-//! | [`validity`] | up to where the laws hold |
+//! | [`validity`] | the range in which the laws are valid |
 
 pub mod behaviour;
 pub mod damped;

@@ -1,7 +1,7 @@
-//! Arithmetic that raises no floating-point exception but inexact and underflow: a host may trap the others.
+//! Arithmetic that raises no floating-point exceptions except inexact and underflow: a host may trap the others.
 //!
-//! A compiler that looks for the smallest code computes both sides of a choice between two numbers. So a division or a root that
-//! must not be made is not left out: it is made of something else, behind the compiler's back.
+//! A compiler that optimizes for size may compute both sides of a choice between two numbers. A division or a root that must
+//! not be evaluated is therefore not skipped, but evaluated for another operand, which is hidden from the compiler.
 
 use core::hint::black_box;
 use libm::sqrt;

@@ -1,8 +1,8 @@
 //! The force over time on one segment, while the indentation is a polynomial of third degree.
 //!
-//! All of a segment but its power is integrated in closed form. The power is smooth over time as long as its base isn't near
-//! zero, and a few points of Gauss's rule are then exact to rounding; how many is known before. Where the base is zero at an
-//! end a rule is taken that has the power as its weight.
+//! Everything in a segment except its power is integrated in closed form. The power is smooth over time as long as its base is
+//! not near zero; a few points of Gauss's rule are then exact to rounding, and their number is known in advance. Where the base
+//! is zero at an end, a rule with the power as its weight is used.
 
 use super::numbers::{largest, root};
 use super::path::Course;

@@ -1,5 +1,5 @@
-//! Where the laws are valid: small against the bodies, and slow against elastic waves. No law here stops there; whoever
-//! goes on is told.
+//! The range in which the laws are valid: small compared with the bodies, and slow compared with elastic waves. No law stops
+//! there; leaving the range is reported.
 
 use libm::sqrt;
 

@@ -1,4 +1,4 @@
-//! Why a call is refused.
+//! Why a call is rejected.
 
 use crate::instance::{Fault, Phase};
 

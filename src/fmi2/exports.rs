@@ -1,6 +1,6 @@
 //! The C functions of the scene that this library is built for.
 //!
-//! Each is written out: cbindgen, which proves the signatures against the official headers, doesn't expand macros, and neither
+//! Each is written out: cbindgen, which proves the signatures against the official headers, does not expand macros, and neither
 //! does a reader.
 
 use super::abi::*;

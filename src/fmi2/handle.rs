@@ -1,4 +1,4 @@
-//! The pointers that this library hands out, each with the one type that it points to.
+//! The pointers that this library returns, each with the one type that it points to.
 
 use core::ffi::c_void;
 

@@ -1,9 +1,9 @@
 //! The C interface of FMI 2.0 for co-simulation: 34 functions, and the only `unsafe` of the library.
 //!
-//! The functions are written once for any [`Scene`](crate::scene::Scene). `exports` makes the C symbols of them, for the scene
-//! that the exporter has written.
+//! The functions are written once, for any [`Scene`](crate::scene::Scene). `exports` makes C symbols of them, for the scene that
+//! the exporter has written.
 //!
-//! | module | what |
+//! | module | content |
 //! |---|---|
 //! | [`abi`] | the types of the standard's headers |
 //! | [`component`] | what an `fmi2Component` points to; the guard that every call passes |
@@ -20,8 +20,9 @@
 //! | `exports` | the C symbols |
 //!
 //! # Safety
-//! Every function trusts its caller for what C can't check: a component that this library made and has not freed, arrays
-//! as long as announced, strings that end. Null pointers, unknown references, wrong order and damaged state are refused.
+//! Every function trusts its caller in what C cannot check: a component that this library created and has not freed, arrays
+//! as long as announced, strings that are terminated. Null pointers, unknown references, calls out of order and damaged states
+//! are rejected.
 #![allow(unsafe_code)]
 #![allow(non_camel_case_types, non_snake_case, non_upper_case_globals, clippy::missing_safety_doc)]
 

@@ -1,4 +1,4 @@
-//! A refused call or a warning as text: the one place where it becomes words.
+//! The text of a rejected call or a warning: the one place where it is worded.
 
 use super::complaint::Complaint;
 use super::text::Text;

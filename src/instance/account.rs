@@ -1,10 +1,11 @@
-//! What a contact that moves its bodies remembers for its master: how the last step ended, and the momentum on its way.
+//! What a contact that moves its bodies remembers for its importer: how the last step ended, and the momentum in transit.
 //!
-//! A *serial* master steps the contact first and applies its force over the same step. A *parallel* one steps all units at once:
-//! what it applies over a step is the force that the contact showed before. So the contact keeps an account. Its debt is the
-//! impulse that it has given and the master has not applied. The bodies really close at the given rate less debt over mass; a
-//! step adds the impulse of the contact to the debt and takes off what the master has applied; and the force to apply over the
-//! next step is the debt over the length of a step. Momentum is neither lost nor given twice, however long the steps are.
+//! A *serial* importer (Gauss-Seidel) steps the contact first and applies its force over the same step. A *parallel* importer
+//! (Jacobi) steps all FMUs at once: over a step, it applies the force that the contact showed before that step. The contact
+//! therefore keeps an account. Its debt is the impulse that it has given and the importer has not applied. The bodies really close
+//! at the given rate less debt over mass. A step adds the impulse of the contact to the debt and subtracts what the importer has
+//! applied. The force to apply over the next step is the debt over the length of a step. Momentum is neither lost nor given twice,
+//! however long the steps are.
 
 use super::*;
 use crate::contact::words::{load_numbers, store_numbers};

@@ -1,5 +1,5 @@
-//! What a contact has beside its state for masters that couple it well: the course of its input inside of a step, and the
-//! momentum of the last one.
+//! What a contact stores beside its state for accurate coupling: the course of its input within a step, and the momentum of the
+//! last step.
 
 use crate::contact::path::{Course, Sum};
 use crate::contact::words::{load_numbers, store_numbers};

@@ -1,4 +1,4 @@
-//! What an instance refuses, and what its user should know.
+//! Reasons to refuse a call, and warnings for the user.
 
 /// Why an instance refuses something. It is then as it was.
 #[derive(Clone, Copy, Debug, PartialEq)]

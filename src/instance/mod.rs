@@ -1,6 +1,6 @@
 //! Co-simulation as safe Rust: phase, time, variables, step, reset, save and load. Nothing here is particular to FMI 2.0.
 //!
-//! An [`Instance`] is made for a [`Scene`], and an ordinary value:
+//! An [`Instance`] belongs to a [`Scene`], and is an ordinary value:
 //! ```
 //! use brinell::instance::Instance;
 //! use brinell::scene::{Real, exported::Exported};

@@ -1,8 +1,8 @@
-//! Noticing a master whose steps are too long for the force that it applies.
+//! Detects an importer whose steps are too long for the force that it applies.
 //!
-//! An explicit master that moves a mass by the contact's force is stable up to steps of `2 sqrt(m/K)`. Beyond, the mass gains
-//! energy with every step. A motion that is prescribed is exact in steps of any length: what tells the two apart is that the rate
-//! of a coupled mass answers the force, `-h F/m` from step to step.
+//! An explicit importer that moves a mass by the contact force is stable up to steps of `2 sqrt(m/K)`. Beyond, the mass gains
+//! energy with every step. A prescribed motion is exact at any step. The difference: the rate of a coupled mass responds to the
+//! force, by `-h F/m` from step to step.
 
 use super::*;
 

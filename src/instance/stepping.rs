@@ -1,4 +1,4 @@
-//! Steps: the plain one, and any other.
+//! Steps: the plain step, and every other kind.
 
 use super::stability::watch;
 use super::*;

@@ -1,4 +1,4 @@
-//! Noticing where a simulation leaves what its law is valid for. It goes on there; the messages are made elsewhere.
+//! Detects that a simulation leaves the validity of its law. The simulation continues; the messages are written elsewhere.
 
 use super::*;
 use crate::contact::validity;

@@ -1,4 +1,4 @@
-//! How a scene that moves its bodies works together with the master that steps it.
+//! How a scene that moves its bodies is coupled with the importer that steps it.
 
 use super::storage::{Absent, Presence, Present};
 use core::marker::PhantomData;

@@ -1,7 +1,8 @@
-//! The scene: which contacts there are, by which laws, what can be set, and what is asked for.
+//! The scene: its contacts, their laws, what can be set, and which outputs it requests.
 //!
-//! A scene is a type. An [`Instance`](crate::instance::Instance) is made for one, so that what the scene doesn't ask for takes
-//! neither memory nor time. The exporter writes [`exported::Exported`] for the scene of each FMU; a program may write its own.
+//! A scene is a type. An [`Instance`](crate::instance::Instance) is compiled for one, so that features that the scene does not
+//! request take neither memory nor time. The exporter writes [`exported::Exported`] for the scene of each FMU; a program may
+//! write its own.
 
 pub mod coupling;
 pub mod exported;

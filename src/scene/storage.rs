@@ -1,4 +1,4 @@
-//! Memory whose size a scene decides: arrays of a length that it names, and what may be absent.
+//! Memory whose size the scene determines: arrays of a length that it specifies, and values that may be absent.
 
 /// An array of [`Store::LENGTH`] values.
 pub trait Store<T>: AsRef<[T]> + AsMut<[T]> {

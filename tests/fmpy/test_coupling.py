@@ -1,4 +1,4 @@
-"""What the README says about coupling: the error and the order of each way, as examples/coupling.py measures them."""
+"""What the guide says about coupling: the error and the order of each way, as examples/coupling.py measures them."""
 
 import functools
 import math

@@ -248,7 +248,7 @@ def test_a_mass_that_cannot_be_set_says_so():
         made.step(1e-6, 1.0, mass=1.0)
     with contact("mass_known") as made:
         if not made.mass_is_settable:
-            with pytest.raises(ContactError, match="fixed once a simulation has begun"):
+            with pytest.raises(ContactError, match="fixed once a simulation has started"):
                 made.step(1e-6, 1.0, mass=1.0)
         made.reset(effective_mass=8e-3)
         # the same energy makes the same dent
@@ -312,12 +312,12 @@ def test_a_gap_is_a_number(gap):
 
 
 def test_files_that_are_no_units(tmp_path):
-    with pytest.raises(FileNotFoundError, match="no unit .*nowhere.fmu"):
+    with pytest.raises(FileNotFoundError, match="no FMU .*nowhere.fmu"):
         Contact(tmp_path / "nowhere.fmu")
     with pytest.raises(FileNotFoundError):
         Contact(tmp_path)
     (tmp_path / "text.fmu").write_text("not a zip")
-    with pytest.raises(ContactError, match="text.fmu isn't a unit"):
+    with pytest.raises(ContactError, match="text.fmu is not an FMU"):
         Contact(tmp_path / "text.fmu")
     with pytest.raises(TypeError):
         Contact(3)

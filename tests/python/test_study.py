@@ -345,7 +345,7 @@ def test_the_command_names_failed_runs_with_their_parameters():
         ([], 2, "command"),
         (["study", SCENE], 2, "--vary"),
         (["study", SCENE, "--vary", "speed"], 2, "NAME=VALUE"),
-        (["study", SCENE, "--vary", "speed=x"], 1, "is no range"),
+        (["study", SCENE, "--vary", "speed=x"], 1, "is not a range"),
         (["study", "nowhere.toml", "--vary", "speed=1:2"], 1, "nowhere.toml"),
         (
             ["study", SCENE, "--vary", "speed=1:2", "--set", "hardness=1"],

@@ -1,1 +1,1 @@
-"""Studies: thousands of impacts, one step each, by a unit that knows the mass."""
+"""Studies: thousands of impacts, one step each, with an FMU that knows the mass."""

@@ -1,4 +1,4 @@
-"""The runs of a study: impacts, each in one step of a unit that knows the mass."""
+"""The runs of a study: impacts, each in one step of an FMU that knows the mass."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from ..errors import ContactError, ContactWarning
 from ..library import Library
 
 Table = dict[str, NDArray[Any]]
-"""Columns by name: numbers, and texts in `error` and `warning`."""
+"""Columns by name: numbers, and strings in `error` and `warning`."""
 RESULTS = ("restitution", "rebound_speed", "max_indentation", "dent", "energy_lost", "impulse")
 LONG = 1.0
-"""The first step [s]: longer than almost any impact. What goes on is stepped on, ten times as long
-each time."""
+"""The first step [s]: longer than almost any impact. If the impact is not over, further steps
+follow, each ten times as long."""
 
 
 def run(unit: Path | bytes, names: Sequence[str], rows: NDArray[np.float64]) -> Table:
-    """A chunk: one instance for all its impacts, reset between them.
+    """Run a chunk: one instance for all its impacts, reset between them.
 
     `names` are those of the columns of `rows`: "speed" [m/s], "mass" [kg] and parameters of the
-    unit, in SI units. A unit given as bytes needs no file on the machine.
+    FMU, in SI units. An FMU that is passed as bytes needs no file on the machine.
     """
     table: Table = {name: rows[:, index].copy() for index, name in enumerate(names)}
     table |= {name: np.full(len(rows), np.nan) for name in RESULTS}
@@ -49,10 +49,10 @@ def run(unit: Path | bytes, names: Sequence[str], rows: NDArray[np.float64]) -> 
 
 
 def impact(contact: Contact, row: dict[str, float]) -> tuple[float, ...]:
-    """One impact; its `RESULTS`."""
+    """Run one impact; return its `RESULTS`."""
     speed, mass = row.pop("speed"), row.pop("mass")
     if not speed > 0.0:
-        raise ContactError(f"speed = {speed} m/s: an impact has a closing speed above zero")
+        raise ContactError(f"speed = {speed} m/s: an impact needs a closing speed above zero")
     contact.reset(parameters={**row, "effective_mass": mass}, initial_gap=0.0)
     impulse, now, step = 0.0, speed, LONG
     for _ in range(12):
@@ -61,14 +61,14 @@ def impact(contact: Contact, row: dict[str, float]) -> tuple[float, ...]:
         if contact["force"] == 0.0:
             break
     else:
-        raise ContactError(f"the impact isn't over after {contact.time:g} s")
+        raise ContactError(f"the impact is not over after {contact.time:g} s")
     names = ("max_indentation", "residual_indentation", "dissipated_energy")
     return -now / speed, -now, *(contact[name] for name in names), impulse
 
 
 @functools.cache
 def _library(unit: Path | bytes) -> Library:
-    """Loaded once in each process, and not for each chunk."""
+    """Loaded once per process, not once per chunk."""
     if isinstance(unit, Path):
         return Library.of(unit)
     with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
@@ -78,7 +78,7 @@ def _library(unit: Path | bytes) -> Library:
 
 
 def failed(names: Sequence[str], rows: NDArray[np.float64], error: str) -> Table:
-    """What stands for a chunk that couldn't be run at all."""
+    """The table of a chunk that could not be run at all."""
     table: Table = {name: rows[:, index].copy() for index, name in enumerate(names)}
     table |= {name: np.full(len(rows), np.nan) for name in RESULTS}
     table["error"] = np.full(len(rows), error, dtype=object)

@@ -17,8 +17,8 @@ UNITS = {"speed": "m/s", "mass": "kg", "radius": "m", "strength": "Pa", "modulus
 
 
 def draw(path: Path, table: Table, names: Sequence[str]) -> None:
-    """Draws the results over the parameters `names` that were varied; the ending of `path` says how
-    it is written."""
+    """Draw the results over the varied parameters `names`; the extension of `path` selects the
+    format."""
     width = len(names) if len(names) > 2 else 1
     figure = Figure(figsize=(4.2 * max(width, 2) if width > 1 else 9.0, 3.8 * (1 + (width > 1))))
     figure.set_layout_engine("constrained")
@@ -59,12 +59,12 @@ def _map(
 
 
 def _axes(axes: Any, table: Table, name: str, label: str, *, vertical: bool = False) -> None:
-    """Names an axis, logarithmic if the values are spread so."""
+    """Label an axis, and make it logarithmic if the values are spread logarithmically."""
     values = np.unique(table[name])
     unit = UNITS.get(name.replace(".", "_").rsplit("_", 1)[-1])
     text = f"{name} [{unit}]" if unit else name
     middle = values[len(values) // 2]
-    # of a logarithmic range the middle value is nearer to the geometric than to the arithmetic mean
+    # in a logarithmic range, the middle value is nearer to the geometric than to the other mean
     spread = values[0] > 0.0 and middle < 0.75 * 0.5 * (values[0] + values[-1])
     if vertical:
         axes.set(ylabel=text, yscale="log" if spread else "linear")

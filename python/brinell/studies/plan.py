@@ -1,4 +1,4 @@
-"""Which runs a study has: a grid, or samples."""
+"""The runs of a study: a grid, or samples."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ class Range:
     first: float
     last: float
     count: int = 20
-    """Of a grid; samples have as many as there are samples."""
+    """Number of values in a grid; ignored for samples."""
     logarithmic: bool = False
 
     def __post_init__(self) -> None:
         if not np.isfinite([self.first, self.last]).all():
-            raise ValueError(f"{self.first}:{self.last}: the ends of a range are finite")
+            raise ValueError(f"{self.first}:{self.last}: the ends of a range must be finite")
         if self.count < 1:
-            raise ValueError(f"{self.count} values: a range has at least one")
+            raise ValueError(f"{self.count} values: a range needs at least one")
         if self.logarithmic and not (self.first > 0.0 and self.last > 0.0):
-            raise ValueError(f"{self.first}:{self.last}: a logarithmic range is above zero")
+            raise ValueError(f"{self.first}:{self.last}: a logarithmic range must be above zero")
 
     def at(self, parts: Array) -> Array:
-        """The values at these parts of the way, from 0 to 1."""
+        """The values at these fractions of the range, from 0 to 1."""
         if self.logarithmic:
-            # the ends are those that were asked for, to the last bit
+            # the ends are those that were given, to the last bit
             inner = np.exp(np.log(self.first) + parts * np.log(self.last / self.first))
         else:
             inner = self.first + parts * (self.last - self.first)
@@ -48,8 +48,8 @@ Varied = Range | Sequence[float] | Array | str
 
 
 def read(text: str) -> Range | Array:
-    """`FROM:TO`, `FROM:TO:COUNT`, `FROM:TO:COUNTlog`, `FROM:TO:log`, or values with commas between
-    them."""
+    """Parse `FROM:TO`, `FROM:TO:COUNT`, `FROM:TO:COUNTlog`, `FROM:TO:log`, or comma-separated
+    values."""
     try:
         if ":" not in text:
             return np.array([float(part) for part in text.split(",")])
@@ -61,8 +61,8 @@ def read(text: str) -> Range | Array:
         ends = float(first), float(last)
     except ValueError:
         raise ValueError(
-            f"{text!r} is no range: allowed are FROM:TO:COUNT, FROM:TO:COUNTlog and values "
-            "with commas between them"
+            f"{text!r} is not a range: allowed are FROM:TO:COUNT, FROM:TO:COUNTlog and "
+            "comma-separated values"
         ) from None
     return Range(*ends, count, match[2] is not None)
 
@@ -70,10 +70,10 @@ def read(text: str) -> Range | Array:
 def runs(vary: Mapping[str, Varied], sample: str = "grid", seed: int = 0) -> dict[str, Array]:
     """The values of each parameter in all runs.
 
-    `sample` is "grid", "sobol:COUNT" or "lhs:COUNT" (Latin hypercube); the two take ranges only.
+    `sample` is "grid", "sobol:COUNT" or "lhs:COUNT" (Latin hypercube); these take ranges only.
     """
     if not vary:
-        raise ValueError("a study varies something: vary={'speed': '0.1:10:50log'}, for example")
+        raise ValueError("nothing is varied; for example, vary={'speed': '0.1:10:50log'}")
     given = {name: read(value) if isinstance(value, str) else value for name, value in vary.items()}
     if sample == "grid":
         axes = [_axis(name, value) for name, value in given.items()]
@@ -84,7 +84,7 @@ def runs(vary: Mapping[str, Varied], sample: str = "grid", seed: int = 0) -> dic
         raise ValueError(f"sample = {sample!r}; allowed are grid, sobol:COUNT and lhs:COUNT")
     for name, value in given.items():
         if not isinstance(value, Range):
-            raise TypeError(f"{name}: samples are taken from a range, not from single values")
+            raise TypeError(f"{name}: samples need a range, not single values")
     places = _places(match[1], int(match[2]), len(given), seed)
     return {
         name: value.at(column)
@@ -101,7 +101,7 @@ def _axis(name: str, value: Range | Sequence[float] | Array) -> Array:
 
 
 def _places(kind: str, count: int, dimensions: int, seed: int) -> Array:
-    """Points of the unit cube."""
+    """Points in the unit cube."""
     import warnings
 
     from scipy.stats import qmc
@@ -109,6 +109,6 @@ def _places(kind: str, count: int, dimensions: int, seed: int) -> Array:
     if kind == "lhs":
         return np.asarray(qmc.LatinHypercube(dimensions, rng=seed).random(count))
     with warnings.catch_warnings():
-        # a count that isn't a power of two costs balance, which is the caller's choice
+        # a count that is not a power of two is less balanced, which is the caller's choice
         warnings.simplefilter("ignore", UserWarning)
         return np.asarray(qmc.Sobol(dimensions, rng=seed).random(count))

@@ -1,4 +1,4 @@
-"""The unit of a study: the scene's first contact, moved by the unit, with everything settable."""
+"""The FMU of a study: the scene's first contact, moved by the FMU, with all parameters settable."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ OUTPUTS = ["indentation", "max_indentation", "residual_indentation", "dissipated
 
 
 def unit(scene: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str, float]]:
-    """Exports the unit of impacts of a scene file into `folder`; gives it and the impact of the
-    scene.
+    """Export the FMU for the impacts of a scene file into `folder`; return its path, and the impact
+    of the scene.
 
     `mass` [kg] is needed if the scene has none.
     """
@@ -24,7 +24,7 @@ def unit(scene: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str,
     impact = dict(data.get("impact", {}))
     known = mass or impact.get("mass") or data.get("coupling", {}).get("effective_mass")
     if known is None:
-        raise ValueError(f"{scene} has no [impact] with a mass: give mass=, or vary it")
+        raise ValueError(f"{scene} has no [impact] with a mass: pass mass=, or vary it")
     path = folder / "scene.toml"
     path.write_text(toml(of_impacts(data, float(known))), encoding="utf-8")
     usual = {name: impact[name] for name in ("speed",) if name in impact}
@@ -32,12 +32,12 @@ def unit(scene: Path, folder: Path, mass: float | None) -> tuple[Path, dict[str,
 
 
 def of_impacts(data: Mapping[str, Any], mass: float) -> dict[str, Any]:
-    """A scene of one contact that knows its mass, and whose parameters can all be set."""
+    """The scene with one contact, a known mass, and all parameters settable."""
     made = {key: value for key, value in data.items() if key not in ("contact", "fmu")}
     first = data.get("contact", [{}])[0]
     for body in ("impactor", "target"):
         made[body] = {**data.get(body, {}), **first.get(body, {})}
-    # what an impact leaves behind is read when the bodies are apart again
+    # the dent of an impact is read after the bodies have separated
     made["target"].pop("surface", None)
     made["fmu"] = {"outputs": OUTPUTS}
     made["coupling"] = {"effective_mass": mass}
@@ -47,7 +47,7 @@ def of_impacts(data: Mapping[str, Any], mass: float) -> dict[str, Any]:
 
 
 def toml(data: Mapping[str, Any]) -> str:
-    """TOML with every table in one line."""
+    """TOML with every table on one line."""
     return "".join(f"{key} = {_value(value)}\n" for key, value in data.items())
 
 

@@ -1,4 +1,4 @@
-"""Tables on disk: the parts of a study that goes on, and its result as Parquet or CSV."""
+"""Tables on disk: the parts of an unfinished study, and its result as Parquet or CSV."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ from .impacts import Table
 
 
 class Parts:
-    """The chunks that are done, beside the result that they will become: a study that was stopped
-    goes on from them.
+    """The finished chunks, in a folder beside the future result: an interrupted study continues
+    from them.
 
-    They belong to one plan; those of another are refused, since nobody knows what they cost.
+    They belong to one plan. Parts of another study are not overwritten, since they may have taken
+    long to compute.
     """
 
     def __init__(self, output: Path, plan: bytes, size: int) -> None:
@@ -43,24 +44,24 @@ class Parts:
             draft.replace(note)
 
     def load(self, chunk: int) -> Table | None:
-        """A chunk that is done."""
+        """A chunk, if it is finished."""
         path = self.folder / f"{chunk:06}.parquet"
         return read(path) if path.is_file() else None
 
     def save(self, chunk: int, table: Table) -> None:
-        """A part is there whole, or not at all."""
+        """Save a chunk; its file is complete, or does not exist."""
         path = self.folder / f"{chunk:06}.parquet"
         draft = path.with_suffix(".draft")
         parquet.write_table(pyarrow.table(table), draft)
         draft.replace(path)
 
     def remove(self) -> None:
-        """Once the result is written."""
+        """Remove the parts, after the result is written."""
         shutil.rmtree(self.folder)
 
 
 def write(path: Path, table: Table) -> None:
-    """A table as its ending says: .parquet or .csv."""
+    """Write a table; the extension selects .parquet or .csv."""
     arrow = pyarrow.table(table)
     if path.suffix == ".parquet":
         parquet.write_table(arrow, path)
@@ -69,11 +70,11 @@ def write(path: Path, table: Table) -> None:
 
 
 def read(path: Path) -> Table:
-    """The table of a .parquet file."""
+    """Read the table of a .parquet file."""
     columns = parquet.read_table(path)
     return {name: columns[name].to_numpy() for name in columns.column_names}
 
 
 def joined(tables: Sequence[Table]) -> Table:
-    """Chunks in their order, as one table."""
+    """The chunks, in their order, as one table."""
     return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}

@@ -43,19 +43,19 @@ def study(
     scheduler: str | None = None,
     progress: bool = True,
 ) -> Table:
-    """Thousands of impacts of a scene's first contact; gives a table with a row for each.
+    """Run thousands of impacts of a scene's first contact; return a table with a row for each.
 
-    `vary` names what is varied: "speed" [m/s], "mass" [kg], and any parameter of the unit in SI
-    units. Each has a `Range`, a text (`"0.1:10:50log"`) or a list of values. `sample` is "grid",
-    "sobol:COUNT" or "lhs:COUNT". `mass`, `speed` and `parameters` are those of all runs; without
-    them the scene's.
+    `vary` says what is varied: "speed" [m/s], "mass" [kg], and any parameter of the FMU, in SI
+    units. Each value is a `Range`, a string (`"0.1:10:50log"`) or a list of values. `sample` is
+    "grid", "sobol:COUNT" or "lhs:COUNT". `mass`, `speed` and `parameters` hold for all runs; the
+    default is those of the scene.
 
-    `output` names files by their endings: .parquet and .csv for the table, .svg and .png for a
-    picture. With a table a study that was stopped goes on where it was. All cores are used, or
-    `workers` processes, each with chunks of `chunk` runs; with `scheduler` those of Dask: "local",
-    or an address like "tcp://host:8786".
+    `output` names files; their extensions select the format: .parquet and .csv for the table, .svg
+    and .png for a picture. With a table among them, an interrupted study continues where it was.
+    The study uses all cores, or `workers` processes, in chunks of `chunk` runs. With `scheduler` it
+    uses Dask: "local", or an address such as "tcp://host:8786".
 
-    A run that fails has its reason in the column `error`, and no number among its results.
+    A run that fails has its reason in the column `error`, and NaN as its results.
     """
     outputs = _outputs(output)
     values = plan.runs(vary, sample, seed)
@@ -83,7 +83,7 @@ def _outputs(output: str | Path | Sequence[str | Path]) -> list[Path]:
     paths = [Path(path) for path in given]
     for path in paths:
         if path.suffix not in ENDINGS:
-            raise ValueError(f"{path}: a study is written to {', '.join(ENDINGS)}")
+            raise ValueError(f"{path}: a study can be written to {', '.join(ENDINGS)}")
         if not path.absolute().parent.is_dir():
             raise FileNotFoundError(f"{path}: there is no such folder")
     return paths
@@ -102,14 +102,14 @@ def _columns(values: Mapping[str, Rows], usual: Mapping[str, float]) -> dict[str
     columns = {**fixed, **values}
     for name in ("speed", "mass"):
         if name not in columns:
-            raise ValueError(f"{name} is needed: the scene has none, so give it or vary it")
+            raise ValueError(f"{name} is needed: the scene has none; pass it, or vary it")
     return columns
 
 
 def _check(unit: Path, columns: Mapping[str, Rows]) -> None:
     variables = Variables(Library.of(unit))
     if not variables.knows_mass or len(variables.contacts) != 1:
-        raise ContactError(f"{unit}: a study needs a unit with one contact that knows the mass")
+        raise ContactError(f"{unit}: a study needs an FMU with one contact that knows the mass")
     for name in ("effective_mass", "initial_gap", *(set(columns) - {"speed", "mass"})):
         if name not in variables.parameters:
             raise variables.unknown("parameter", name, ("speed", "mass", *variables.parameters))
@@ -155,7 +155,7 @@ def _run(
 def _results(
     unit: Path, names: list[str], chunks: Chunks, workers: int, scheduler: str | None
 ) -> Iterator[tuple[int, Table]]:
-    """The chunks as they are done. One that has failed is tried once more, alone."""
+    """The chunks as they finish. A chunk that fails is tried once more, alone."""
     if scheduler is None and (workers == 1 or len(chunks) <= 1):
         for at, rows in chunks.items():
             yield at, impacts.run(unit, names, rows)
@@ -173,8 +173,8 @@ def _results(
 
 
 def _alone(unit: Path, names: list[str], rows: Rows) -> Table:
-    """A chunk in a process of its own; if it ends the process, halves of it, down to the run that
-    does so."""
+    """Run a chunk in a process of its own. If the process dies, run halves of the chunk, down to
+    the run that is the reason."""
     from . import store
 
     with ProcessPoolExecutor(1) as pool:
@@ -182,7 +182,7 @@ def _alone(unit: Path, names: list[str], rows: Rows) -> Table:
             return pool.submit(impacts.run, unit, names, rows).result()
         except BrokenProcessPool as error:
             if len(rows) == 1:
-                return impacts.failed(names, rows, f"the run has ended its process: {error}")
+                return impacts.failed(names, rows, f"the run has killed its process: {error}")
         except Exception as error:
             return impacts.failed(names, rows, f"the run has failed: {error!r}")
     middle = len(rows) // 2
@@ -194,13 +194,13 @@ def _alone(unit: Path, names: list[str], rows: Rows) -> Table:
 def _pool(
     unit: Path, workers: int, scheduler: str | None
 ) -> Iterator[tuple[Callable[..., Any], Callable[..., Any]]]:
-    """How to start a chunk, and how to wait for the chunks."""
+    """A function to start a chunk, and one to wait for chunks."""
     if scheduler is None:
         pool = ProcessPoolExecutor(workers)
         try:
             yield lambda names, rows: pool.submit(impacts.run, unit, names, rows), as_completed
         finally:
-            # whoever stops a study doesn't wait for all of it
+            # an interrupted study does not wait for the remaining chunks
             pool.shutdown(cancel_futures=True)
         return
     from dask import distributed
@@ -210,7 +210,7 @@ def _pool(
     local = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
     client = connect(**local if scheduler == "local" else {"address": scheduler})
     with client:
-        # another machine hasn't got the file
+        # other machines do not have the file
         data = client.scatter(unit.read_bytes(), broadcast=True)
         yield (
             lambda names, rows: client.submit(impacts.run, data, names, rows, pure=False),

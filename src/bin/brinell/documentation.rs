@@ -1,4 +1,4 @@
-//! `documentation/index.html` of a unit: what it is, its law with a picture, its variables.
+//! `documentation/index.html` of an FMU: what it is, its law with a picture, its variables.
 
 use crate::bodies;
 use crate::energy;
@@ -15,7 +15,7 @@ use brinell::contact::impact::Prediction;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// The page of the planned unit.
+/// The page of the planned FMU.
 pub fn write(plan: &Plan) -> String {
     let mut page = String::new();
     body(&mut page, plan).expect("a String takes everything");
@@ -29,7 +29,7 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(page, "<h1>{name}</h1>\n<p>{description}</p>")?;
     writeln!(
         page,
-        "<p>FMI 2.0 co-simulation unit of the normal contact of {}: the closing speed of the bodies goes in, the contact \
+        "<p>FMU (FMI 2.0 co-simulation) of the normal contact of {}: the closing speed of the bodies goes in, the contact \
          force comes out. {}</p>",
         contact(scene),
         coupling(scene)
@@ -60,9 +60,9 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     if let Some(guard) = &plan.guard {
         writeln!(
             page,
-            "<h3>Passivity guard</h3>\n<ul>\n<li><code>d_e &lt;= 2.5 W/F_m</code></li>\n</ul>\n<p>Unloading gives back no \
-             more than loading took: where it would, the elastic recovery is shortened and the dent deeper than the \
-             law says. The guard {}. When it first acts this is logged (category logStatusWarning).</p>",
+            "<h3>Passivity guard</h3>\n<ul>\n<li><code>d_e &lt;= 2.5 W/F_m</code></li>\n</ul>\n<p>Unloading returns no \
+             more energy than loading took: where it would, the elastic recovery is shortened, and the dent is deeper than \
+             the law says. The guard {}. The FMU logs when it first acts (category logStatusWarning).</p>",
             escape(&guard.words())
         )?;
     }
@@ -98,7 +98,7 @@ fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
     if scene.contacts[0].name.is_none() {
         return Ok(());
     }
-    writeln!(page, "<h2>Contacts</h2>\n<table>\n<tr><th>Name</th><th>Bodies</th><th>Their own numbers</th></tr>")?;
+    writeln!(page, "<h2>Contacts</h2>\n<table>\n<tr><th>Name</th><th>Bodies</th><th>Own values</th></tr>")?;
     for (index, group) in scene.contacts.iter().enumerate() {
         let (impactor, target) = bodies::words(scene, index);
         let unit =
@@ -116,7 +116,7 @@ fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
     writeln!(page, "</table>")
 }
 
-/// How the unit and its master work together.
+/// How the FMU and its importer work together.
 fn coupling(scene: &Scene) -> String {
     if let Some(coupling) = scene.coupling {
         let mass = if coupling.mass_input {
@@ -128,40 +128,41 @@ fn coupling(scene: &Scene) -> String {
             "<code>external_acceleration</code> to the acceleration by all other forces, such as gravity"
         } else {
             "its first input derivative to the acceleration by all other forces, such as gravity \
-             (<code>fmi2SetRealInputDerivatives</code>, for every step anew; without it they have none during the step)"
+             (<code>fmi2SetRealInputDerivatives</code>, again for every step; without it, no other force acts during the step)"
         };
         let force = if coupling.parallel {
-            "The master steps all units at once: it applies the <code>mean_force</code> of one step over the next, held constant. The \
-             unit keeps an account of the momentum that is on its way, so that it is right at any step. A master that steps the \
-             contact first and applies its force over the same step needs a scene without <code>master = \"parallel\"</code>"
+            "The importer steps all FMUs at once (Jacobi): it applies the <code>mean_force</code> of one step over the next, held \
+             constant. The FMU keeps an account of the momentum in transit, so that it is right at any step. An importer that \
+             steps the contact first and applies its force over the same step (Gauss-Seidel) needs a scene without \
+             <code>master = \"parallel\"</code>"
         } else {
-            "After the step apply <code>mean_force</code> to the bodies over that step: they end it with the speed that the unit has \
-             found, however short an impact was within it. A master that steps all units at once, and so applies it over the \
-             next step, needs a scene with <code>master = \"parallel\"</code>"
+            "After the step, apply <code>mean_force</code> to the bodies over that step: they end it with the speed that the FMU \
+             has computed, however short an impact was within it (Gauss-Seidel). An importer that steps all FMUs at once \
+             (Jacobi), and so applies it over the next step, needs a scene with <code>master = \"parallel\"</code>"
         };
         format!(
-            "The unit knows the mass that the contact force accelerates, {mass}, and moves the bodies through each step itself. \
-             Before a step set <code>indentation_rate</code> to the closing speed of the bodies at its start, and {acceleration}. \
-             {force}; the unit tells once in the log if it is in the wrong one. <code>force</code> and the other outputs are those \
-             at the end of the step."
+            "The FMU knows the mass that the contact force accelerates, {mass}, and moves the bodies through each step itself. \
+             Before a step, set <code>indentation_rate</code> to the closing speed of the bodies at its start, and {acceleration}. \
+             {force}. The FMU warns once in the log if the importer works in the other order. <code>force</code> and the other \
+             outputs are those at the end of the step."
         )
     } else if scene.damped.is_some() {
-        "The rate is held over a step, and the law is followed exactly: the result doesn't depend on how time is cut. The \
-         force follows the rate at the same instant: set the rate again before the force is read, or solve that loop."
+        "The rate is held over a step, and the law is followed exactly: the result does not depend on how time is divided. The \
+         force follows the rate at the same instant: set the rate again before you read the force, or solve that loop."
             .into()
     } else {
         "The rate is held over a step, or is a polynomial in time if its first and second derivative are set \
-         (<code>fmi2SetRealInputDerivatives</code>, for one step). The law is followed exactly: the result doesn't depend on how \
-         time is cut."
+         (<code>fmi2SetRealInputDerivatives</code>, for one step). The law is followed exactly: the result does not depend on how \
+         time is divided."
             .into()
     }
 }
 
-/// What the energy balance says of the impact, and which step suits it.
+/// The impact by the energy balance, and a suitable step.
 fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     let Plan { scene, experiment, .. } = plan;
     let prediction = plan.prediction();
-    let assumed = if scene.impact_is_assumed { " (the scene names none; a solid steel ball is assumed)" } else { "" };
+    let assumed = if scene.impact_is_assumed { " (the scene gives none; a solid steel ball is assumed)" } else { "" };
     writeln!(
         page,
         "<p>{} kg at {} m/s{assumed}{}; {}:</p>\n<table>",
@@ -178,7 +179,7 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
         ("Largest contact radius", prediction.max_contact_radius, "m"),
         ("Coefficient of restitution", prediction.restitution, ""),
         ("Contact time", prediction.contact_time(), "s"),
-        ("Step that suits it", experiment.step, "s"),
+        ("Suitable step, explicit coupling", experiment.step, "s"),
         ("Largest stable step, 2 sqrt(m/K)", 2.0 * (scene.impact_of(0).mass / stiffness).sqrt(), "s"),
     ];
     for (quantity, value, unit) in rows {
@@ -193,7 +194,7 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     }
     writeln!(
         page,
-        "<p>The law is valid {}. A simulation that leaves this goes on, and it is logged once (category logStatusWarning).</p>",
+        "<p>The law is valid {}. Leaving the valid range logs one warning (category logStatusWarning); the simulation continues.</p>",
         plan.valid
     )
 }
@@ -206,13 +207,13 @@ fn law(page: &mut String, heading: &str, text: &LawText) -> std::fmt::Result {
     writeln!(page, "</ul>\n<p>{} Reference: {}.</p>", escape(&text.notes), escape(&text.law.reference))
 }
 
-/// The constants of a law as they are in this unit.
+/// The constants of a law as they are in this FMU.
 fn law_constants(page: &mut String, text: &LawText, constants: &[Constant]) -> std::fmt::Result {
     if constants.is_empty() {
         return Ok(());
     }
-    let others = if text.is_published { "" } else { " (the text above speaks of those of the reference)" };
-    writeln!(page, "<p>Its constants in this unit{others}:</p>\n<table>")?;
+    let others = if text.is_published { "" } else { " (the text above describes those of the reference)" };
+    writeln!(page, "<p>Its constants in this FMU{others}:</p>\n<table>")?;
     for Constant { name, value, unit, description, .. } in constants {
         writeln!(
             page,
@@ -255,12 +256,12 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
     writeln!(page, "</table>")
 }
 
-/// The parameters that can't be set in this unit.
+/// The parameters that cannot be set in this FMU.
 fn constants(page: &mut String, constants: &[plan::Constant]) -> std::fmt::Result {
     if constants.is_empty() {
         return Ok(());
     }
-    writeln!(page, "<p>Constants of this unit:</p>\n<table>")?;
+    writeln!(page, "<p>Constants of this FMU:</p>\n<table>")?;
     for plan::Constant { name, value, unit, .. } in constants {
         let value = digits(*value);
         writeln!(page, "<tr><td><code>{name}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>")?;

@@ -43,16 +43,16 @@ pub fn of(scene: &Scene) -> Energy {
 /// What the unit of `scene` can do, in words.
 pub fn words(scene: &Scene) -> String {
     match of(scene) {
-        Energy::Passive => "Together these laws make no energy: dissipated energy never falls.".into(),
+        Energy::Passive => "Together, these laws make no energy: dissipated energy never falls.".into(),
         Energy::Guarded => {
-            "With the guard no contact gives back more than it took. Dissipated energy may fall all the same, \
+            "With the guard, no contact returns more energy than it took. Dissipated energy may still fall \
             where a deeper dent loses less."
                 .into()
         }
         Energy::MayBeMade { below_poissons_ratio } => {
             let below = below_poissons_ratio.map(|ratio| format!(" below a Poisson's ratio of {ratio}"));
             format!(
-                "Together these laws may make energy{}: dissipated energy may fall, and an impact on an untouched surface \
+                "Together, these laws may make energy{}: dissipated energy may fall, and an impact on an untouched surface \
                  may have a restitution above 1.{}",
                 below.unwrap_or_default(),
                 published_words(scene)

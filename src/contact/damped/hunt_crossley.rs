@@ -1,4 +1,4 @@
-//! Hunt and Crossley, with the damping factors of those who came after.
+//! Hunt and Crossley, with the damping factors of later authors.
 
 use super::{Damped, Factors, Shape, power_three_halves};
 use crate::contact::material::Pair;

@@ -1,4 +1,4 @@
-//! What an impact on a rate-dependent contact will do.
+//! Prediction of an impact on a rate-dependent contact.
 
 use super::{Damped, Model};
 use crate::contact::Regime;

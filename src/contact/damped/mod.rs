@@ -1,9 +1,8 @@
 //! Rate-dependent laws, one file each: an elastic force and a damping that grows with the rate, as multibody tools use
 //! them. They leave no dent.
 //!
-//! All have the form `F = K phi(d) + C psi(d) d'`, never below zero: where the sum is negative the bodies have come apart
-//! faster than the surface follows. The force depends on the rate at the same instant, and so does its unit's
-//! `ModelStructure`.
+//! All have the form `F = K phi(d) + C psi(d) d'`, never below zero: where the sum is negative, the bodies separate faster
+//! than the surface follows. The force depends on the rate at the same instant, and the `ModelStructure` of the FMU says so.
 
 pub mod history;
 pub mod impact;

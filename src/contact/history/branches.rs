@@ -1,4 +1,4 @@
-//! From branch to branch: the next one is found from the present one, and where that doesn't tell, from nothing.
+//! From branch to branch: the next branch is found from the present one, or from scratch if that does not determine it.
 
 use super::{ANY, FARTHEST, History, LARGEST_FORCE, LARGEST_INDENTATION, Regime, TOUCHING, TooDeep};
 use crate::contact::loading::Loading;

@@ -1,4 +1,4 @@
-//! A contact on a course whose rate changes, with the impulse on the way.
+//! A contact during a motion whose rate changes, with its impulse.
 
 use super::{History, Regime, TooDeep};
 use crate::contact::Model;

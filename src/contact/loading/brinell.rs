@@ -1,4 +1,4 @@
-//! The law `brinell`: what finite elements say of a rigid sphere on an elastic, perfectly plastic half-space.
+//! The law `brinell`: a fit to finite-element results for a rigid sphere on an elastic, perfectly plastic half-space.
 
 use super::{Loading, hertz, work_over_segments};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};

@@ -1,4 +1,4 @@
-//! Brizmer, Zait, Kligerman and Etsion: Hertz's law that fades, without any corner.
+//! Brizmer, Zait, Kligerman and Etsion: Hertz's law that fades out, without a corner.
 
 use super::{Loading, hertz};
 use crate::contact::dual::Dual;

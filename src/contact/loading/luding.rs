@@ -1,4 +1,4 @@
-//! Luding: a spring whose way back stiffens with the depth, up to a limit beyond which it is elastic again.
+//! Luding: a spring whose unloading stiffens with the depth, up to a limit beyond which it is elastic again.
 
 use super::{Loading, WaltonBraun, first_above, work_over_segments};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};

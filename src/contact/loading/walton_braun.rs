@@ -1,4 +1,4 @@
-//! Walton and Braun: a spring that is stiffer on the way back.
+//! Walton and Braun: a spring that is stiffer during unloading.
 
 use super::Loading;
 use crate::contact::history::{LARGEST_INDENTATION, Regime};

@@ -1,4 +1,4 @@
-//! Zhao, Maietta and Chang: contact area and mean pressure, each led smoothly from elastic to fully plastic.
+//! Zhao, Maietta and Chang: contact area and mean pressure, each with a smooth transition from elastic to fully plastic.
 
 use super::{Loading, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};

@@ -1,4 +1,4 @@
-//! The bodies on their way through a step, from event to event: touch, corner of the law, turning point, separation.
+//! The motion of the bodies through a step, from event to event: touch, corner of the law, turning point, separation.
 
 use super::field::Start;
 use super::flight::Flight;

@@ -1,4 +1,4 @@
-//! A motion on a segment that is no straight line, by powers of the time.
+//! A motion on a segment that is not a straight line, as a power series in time.
 
 use super::short::{Moments, Point};
 use crate::contact::numbers::root;

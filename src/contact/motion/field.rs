@@ -1,8 +1,8 @@
-//! The field of forces on a stretch: a way in one direction on one smooth piece of the law.
+//! The forces on a stretch: a motion in one direction on one smooth piece of the law.
 //!
-//! With the other forces held, kinetic energy is a function of the place alone, `v^2 = v0^2 + 2 (a d - W/m)`: a polynomial in
-//! `sqrt(z)` where the law has a segment, and fitted by one elsewhere. So no motion is followed in time: where the bodies turn
-//! is a root of it, and the time is an integral.
+//! With the other forces held, the kinetic energy is a function of the position alone, `v^2 = v0^2 + 2 (a d - W/m)`: a polynomial
+//! in `sqrt(z)` where the law has a segment, and approximated by one elsewhere. The turning point of the bodies is a root of it,
+//! and the time is an integral.
 
 use super::moment::Moment;
 use super::series::{SEGMENT, Series};

@@ -1,4 +1,4 @@
-//! Flight: two bodies that don't touch, on a parabola.
+//! Flight: two bodies that do not touch move on a parabola.
 
 use super::SMALLEST;
 use crate::contact::numbers::{largest, quotient, root};

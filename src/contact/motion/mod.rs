@@ -1,10 +1,10 @@
 //! The motion of a mass that the contact force slows down: a contact that knows the mass.
 //!
-//! An impact takes some ten microseconds, a step of a multibody tool a millisecond. Here `m x'' = m a - F(x)` is followed
-//! through the law inside of the step, however many times the bodies meet in it: from event to event (`bodies`), in flight
-//! (`flight`) and on the smooth pieces of the law (`stretch`). No time is stepped through: between two events the speed is a
-//! function of the place (`field`, `turning`), and the time an integral over the way (`travel`). A `short` motion on one segment
-//! needs no integral: it is a sine and a cosine on a `line`, and powers of the time on a `curve`.
+//! An impact takes some ten microseconds, a step of a multibody tool a millisecond. This module solves `m x'' = m a - F(x)`
+//! within the step, however many times the bodies meet in it: from event to event (`bodies`), in flight (`flight`) and on the
+//! smooth pieces of the law (`stretch`). There is no time stepping: between two events, the speed is a function of the position
+//! (`field`, `turning`), and the time is an integral over the position (`travel`). A `short` motion on one segment needs no
+//! integral: it is a sine and a cosine on a `line`, and a power series in time on a `curve`.
 
 mod bodies;
 mod curve;

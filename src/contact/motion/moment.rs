@@ -1,4 +1,4 @@
-//! A moment of a motion, and the powers of the time from there.
+//! A moment of a motion, and the power series in time that starts there.
 
 use crate::contact::numbers::quotient;
 use libm::fabs;

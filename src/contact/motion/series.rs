@@ -1,4 +1,4 @@
-//! The forces around a point of a smooth piece, as powers of the way from there.
+//! The forces around a point of a smooth piece, as a power series of the distance from it.
 
 use crate::contact::numbers::{quotient, root};
 use crate::contact::quadrature::POINTS;

@@ -1,4 +1,4 @@
-//! A stretch: a way in one direction on one smooth piece of the law, until the bodies turn, the piece ends, or the step.
+//! A stretch: a motion in one direction on one smooth piece of the law, until the bodies turn, or the piece or the step ends.
 
 use super::field::{Field, Place, Start};
 use super::fit::fitted;

@@ -1,4 +1,4 @@
-//! How long the bodies take for a way, and how far they come on it in a time.
+//! The time that the bodies take for a distance, and the distance that they cover in a time.
 
 use super::field::{Field, Mark, Place};
 use super::turning::behind;

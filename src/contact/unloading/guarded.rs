@@ -1,4 +1,4 @@
-//! The passivity guard: no unloading gives back more than the loading took.
+//! The passivity guard: no unloading returns more energy than the loading took.
 
 use super::{ContactRadius, DeformedRadius, OriginalRadius, Peak, Thornton, Unloading, hertzian};
 use crate::contact::material::Pair;

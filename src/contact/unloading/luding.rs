@@ -1,4 +1,4 @@
-//! A straight way back that is the stiffer the deeper it begins, up to a limit.
+//! A straight unloading line, stiffer the deeper it begins, up to a limit.
 
 use super::{Peak, Unloading, straight};
 use crate::contact::loading::Luding as LoadingLaw;

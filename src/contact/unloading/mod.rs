@@ -1,6 +1,6 @@
 //! Unloading laws, one file each: the path from the largest indentation down to the dent that remains.
 //!
-//! All are closures: from the point of the loading curve where the load begins to come off they give the elastic recovery
+//! All are closures: from the point of the loading curve where unloading begins, they determine the elastic recovery
 //! `d_e = d_m - d_f`, and with it the whole path. Reloading follows the same path back.
 
 pub mod guarded;

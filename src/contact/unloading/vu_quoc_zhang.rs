@@ -1,4 +1,4 @@
-//! Vu-Quoc and Zhang: the plastic part of the contact radius stays.
+//! Vu-Quoc and Zhang: the plastic part of the contact radius remains.
 
 use super::{Peak, Unloading, hertzian};
 use crate::contact::loading::{Loading, VuQuocZhang as LoadingLaw};

@@ -1,4 +1,4 @@
-//! A straight way back, stiffer than the way there.
+//! A straight unloading line, stiffer than the loading.
 
 use super::{Peak, Unloading, straight};
 use crate::contact::material::Pair;

@@ -1,4 +1,4 @@
-//! Where the work goes that is done on a rate-dependent contact.
+//! The energies of a rate-dependent contact: what becomes of the work done on it.
 
 use super::History;
 use crate::contact::damped::Damped;

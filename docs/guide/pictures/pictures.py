@@ -1,0 +1,115 @@
+"""Draws the pictures of README and guide: overview.svg and force.svg, beside this file.
+
+    pip install matplotlib ./python
+    python docs/guide/pictures/pictures.py
+"""
+
+import tempfile
+from pathlib import Path
+
+import brinell
+import matplotlib
+import numpy as np
+
+matplotlib.use("svg")
+from matplotlib import pyplot
+from matplotlib.patches import Circle, Polygon
+
+FOLDER = Path(__file__).parent
+BLUE, RED, GREY = "#0072b2", "#d55e00", "#777777"
+MASS, GRAVITY = 4e-3, 9.81  # kg, m/s^2
+SCENE = """
+name = "ball"
+impactor = { radius = 5e-3 }
+target = { material = "mild steel", surface = "fresh" }
+law = { loading = "brinell", unloading = "brinell" }
+fmu = { outputs = ["indentation", "residual_indentation", "mean_force"] }
+impact = { mass = 4e-3, speed = 1.0 }
+"""
+
+
+def unit(folder, name, more=""):
+    """The FMU of the ball."""
+    scene = Path(folder) / f"{name}.toml"
+    scene.write_text(SCENE + more)
+    return brinell.export(scene, Path(folder) / f"{name}.fmu")
+
+
+def cycle(path):
+    """Indentation [um] and force [N]: 12 um in, out, and in again to 16 um."""
+    rows = [(0.0, 0.0)]
+    with brinell.Contact(path, force="end") as contact:
+        for rate, steps in ((0.1, 120), (-0.1, 60), (0.1, 100), (-0.1, 80)):
+            for _ in range(steps):
+                force = contact.step(1e-6, rate)
+                if force > 0.0:
+                    rows.append((1e6 * contact["indentation"], force))
+        dent = 1e6 * contact["residual_indentation"]
+    return np.array([*rows, (dent, 0.0)]).T, dent
+
+
+def fall(path, h=1e-3):
+    """Times [ms] and heights [mm] of a ball that falls 50 mm, in steps of 1 ms."""
+    rows, speed = [(0.0, 50.0)], 0.0
+    with brinell.Contact(path, initial_gap=0.05) as contact:
+        for step in range(1, 500):
+            force = contact.step(h, speed, GRAVITY)
+            speed += h * (GRAVITY - force / MASS)
+            rows.append((1e3 * h * step, -1e3 * contact["indentation"]))
+    return np.array(rows).T
+
+
+def sketch(axes):
+    """A sphere in its dent, much too deep."""
+    angle = np.linspace(-0.62, 0.62, 60)
+    dent = np.column_stack([np.sin(angle), 1.0 - np.cos(angle)])
+    edge = dent[-1, 1]
+    block = [(-1.6, edge), *dent, (1.6, edge), (1.6, -0.9), (-1.6, -0.9)]
+    axes.add_patch(Polygon(block, facecolor="#d9d9d9", edgecolor="#444444"))
+    axes.add_patch(Circle((0.0, 1.0), 1.0, facecolor="#9ecae1", edgecolor="#444444"))
+    arrow = {"arrowstyle": "-|>", "linewidth": 1.6}
+    axes.annotate("", (0.0, 1.05), (0.0, 1.75), arrowprops={**arrow, "color": BLUE})
+    axes.text(1.1, 1.4, "speed in", color=BLUE)
+    axes.annotate("", (0.0, 0.72), (0.0, 0.05), arrowprops={**arrow, "color": RED})
+    axes.text(1.1, 0.85, "force out", color=RED)
+    axes.text(0.0, -0.5, "the dent remains", ha="center", color="#444444")
+    axes.set(xlim=(-1.7, 2.1), ylim=(-1.0, 2.1), aspect="equal")
+    axes.axis("off")
+
+
+def save(figure, name):
+    figure.savefig(FOLDER / name, metadata={"Date": None})
+
+
+def main():
+    matplotlib.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3})
+    with tempfile.TemporaryDirectory() as folder:
+        (indentation, force), dent = cycle(unit(folder, "plain"))
+        time, height = fall(unit(folder, "known", "coupling = { effective_mass = 4e-3 }"))
+    figure, (left, middle, right) = pyplot.subplots(
+        1, 3, figsize=(9.6, 2.9), layout="constrained", width_ratios=[0.8, 1.2, 1.4]
+    )
+    sketch(left)
+    middle.plot(indentation, force, color=BLUE)
+    middle.plot([dent], [0.0], "o", color=RED, clip_on=False)
+    middle.text(dent + 0.7, 12.0, "dent", color=RED)
+    middle.set(xlabel="indentation [µm]", ylabel="force [N]", title="loading, unloading, reloading", xlim=0, ylim=0)
+    right.plot(time, height, color=BLUE)
+    right.set(xlabel="time [ms]", ylabel="height [mm]", title="impacts of 30 µs in steps of 1 ms", xlim=(0, 500), ylim=0)
+    save(figure, "overview.svg")
+
+    with tempfile.TemporaryDirectory() as folder, brinell.Contact(
+        unit(folder, "plain"), force="end", target_yield_strength=400e6
+    ) as contact:
+        rows = [(0.0, 0.0)]
+        for rate in [0.1] * 100 + [-0.1] * 100:
+            contact_force = contact.step(1e-6, rate)
+            rows.append((1e6 * contact["indentation"], contact_force))
+    figure, axes = pyplot.subplots(figsize=(5.2, 3.2), layout="constrained")
+    axes.plot(*np.array(rows).T, color=BLUE)
+    axes.set(xlabel="indentation [um]", ylabel="force [N]")
+    save(figure, "force.svg")
+
+
+if __name__ == "__main__":
+    main()

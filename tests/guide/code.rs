@@ -1,0 +1,184 @@
+//! The code of README and guide runs, page by page from top to bottom, each page in a folder of its own.
+//!
+//! - `toml` blocks are scenes, or parts of one: `brinell predict` reads them. "Save this as `x.toml`" writes a file for what follows.
+//! - `sh` and `python` blocks run beside the files that earlier blocks left.
+//! - A `text` block behind the comment `<!-- output -->` is all that the block before it prints; behind `<!-- check -->` some
+//!   lines of it.
+//! - `<!-- not run: why -->` before a block leaves it out.
+//! - `rust` blocks are tests of the documentation; see the end of src/lib.rs.
+
+use crate::markdown::{Block, Page};
+use crate::{is_writing, pages, python, read, root, tell};
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use tempfile::TempDir;
+
+/// Packages of engines, which a block may import.
+const ENGINES: [&str; 3] = ["mujoco", "exudyn", "pydrake"];
+
+/// Pages whose code is not run: decisions and history speak of the inside.
+const NOT_RUN: [&str; 4] = ["CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "truth/README.md"];
+
+/// A page in a folder of its own.
+struct Run {
+    page: PathBuf,
+    folder: TempDir,
+    /// What the last block printed.
+    printed: String,
+    mistakes: Vec<String>,
+    /// Outputs that have changed, and what they are.
+    changes: Vec<(std::ops::Range<usize>, String)>,
+}
+
+impl Run {
+    fn new(page: &Path) -> Run {
+        let folder = tempfile::tempdir().expect("a folder for a page");
+        for name in ["scenes", "examples"] {
+            fs::create_dir(folder.path().join(name)).expect("an empty folder");
+            for entry in fs::read_dir(root().join(name)).expect("the repository has it").map(Result::unwrap) {
+                if entry.path().is_file() {
+                    fs::copy(entry.path(), folder.path().join(name).join(entry.file_name())).expect("room for a file");
+                }
+            }
+        }
+        Run { page: page.into(), folder, printed: String::new(), mistakes: Vec::new(), changes: Vec::new() }
+    }
+
+    fn run(&mut self, block: &Block) {
+        let place = format!("{} ```{}", self.page.display(), block.language);
+        if let Some(why) = block.comment.as_deref().and_then(|comment| comment.strip_prefix("not run:")) {
+            self.printed.clear();
+            return println!("{place}: not run:{why}");
+        }
+        match (block.language.as_str(), block.comment.as_deref()) {
+            ("toml", _) => self.scene(block),
+            ("sh", _) => self.shell(&block.text),
+            ("python", _) => self.python(&block.text),
+            ("text", Some("output")) if block.text.trim() != self.printed.trim() => {
+                self.changes.push((block.range.clone(), self.printed.trim().to_string()));
+            }
+            ("text", Some("check")) if !self.printed.contains(block.text.trim_end()) => {
+                self.mistakes.push(format!("{place} isn't in what is printed:\n{}", self.printed));
+            }
+            ("text" | "rust", _) => {}
+            (other, _) => self.mistakes.push(format!("{place}: nobody knows how to run {other:?}")),
+        }
+    }
+
+    /// A scene, whose name and bodies may be missing if only another part of it is shown.
+    fn scene(&mut self, block: &Block) {
+        let mut text = block.text.clone();
+        if let Some(file) = &block.file {
+            fs::write(self.folder.path().join(file), &text).expect("room for a scene");
+        } else {
+            let missing =
+                |key: &str, text: &str| toml::from_str::<toml::Table>(text).is_ok_and(|it| !it.contains_key(key));
+            if missing("name", &text) {
+                text = format!("name = \"part\"\n{text}");
+            }
+            if missing("impactor", &text) && missing("target", &text) {
+                text += "\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
+            }
+        }
+        let path = self.folder.path().join("part_of_a_scene.toml");
+        fs::write(&path, text).expect("room for a scene");
+        let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        program.arg("predict").arg(&path);
+        self.call(program);
+    }
+
+    fn shell(&mut self, text: &str) {
+        match text.trim() {
+            // the program that cargo has built for the tests, and the tests themselves
+            "cargo run --release" => self.call(Command::new(env!("CARGO_BIN_EXE_brinell"))),
+            "cargo test --release" => {}
+            text => {
+                let mut bash = Command::new("bash");
+                bash.args(["-euo", "pipefail", "-c", text]);
+                self.call(bash);
+            }
+        }
+    }
+
+    fn python(&mut self, text: &str) {
+        let engine = ENGINES.iter().find(|engine| text.contains(&format!("import {engine}")));
+        let interpreter = if engine.is_some() { python::engines() } else { python::python() };
+        if let Some(engine) = engine {
+            let output = Command::new(&interpreter).args(["-c", &format!("import {engine}")]).output();
+            if !output.is_ok_and(|output| output.status.success()) {
+                return tell(&format!("NOT RUN: {}, since {engine} can't be installed here", self.page.display()));
+            }
+        }
+        let mut command = Command::new(interpreter);
+        command.args(["-c", text]);
+        self.call(command);
+    }
+
+    /// Runs `command` in the folder of the page, with the program and the Python module at hand.
+    fn call(&mut self, mut command: Command) {
+        let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
+        let mut path = vec![program.parent().unwrap().to_path_buf(), python::python().parent().unwrap().to_path_buf()];
+        path.extend(env::split_paths(&env::var_os("PATH").unwrap_or_default()));
+        let path: OsString = env::join_paths(path).expect("folders without colons");
+        command
+            .current_dir(self.folder.path())
+            .env("PATH", path)
+            .env("PYTHONPATH", root().join("python"))
+            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .env("BRINELL", program)
+            .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
+            .env("MPLBACKEND", "Agg");
+        let output = command.output().unwrap_or_else(|error| panic!("{command:?} can't be started: {error}"));
+        self.printed = String::from_utf8_lossy(&output.stdout).into_owned();
+        if !output.status.success() {
+            let told = String::from_utf8_lossy(&output.stderr);
+            self.mistakes.push(format!("{}: {command:?} failed:\n{}{told}", self.page.display(), self.printed));
+        }
+    }
+
+    /// Writes the outputs into the page, or complains about those that differ.
+    fn finish(mut self) -> Vec<String> {
+        if is_writing() && !self.changes.is_empty() {
+            let mut text = read(&self.page);
+            // from the end, so that places before stay right
+            for (range, output) in self.changes.into_iter().rev() {
+                text.replace_range(range, &format!("```text\n{output}\n```"));
+            }
+            fs::write(root().join(&self.page), text).expect("the page can be written");
+        } else {
+            let wrong = |(_, output)| format!("{}: BRINELL_WRITE=1 would write\n{output}", self.page.display());
+            self.mistakes.extend(self.changes.into_iter().map(wrong));
+        }
+        self.mistakes
+    }
+}
+
+#[test]
+fn the_code_runs_and_prints_what_is_shown() {
+    let mut pages = pages();
+    pages.retain(|page| !NOT_RUN.iter().any(|name| page == Path::new(name)));
+    let (next, mistakes) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    // an environment that has to be made is made once, before anything waits for it
+    python::python();
+    let work = || {
+        while let Some(page) = pages.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let blocks = Page::parse(&read(page)).blocks;
+            let mut run = Run::new(page);
+            blocks.iter().for_each(|block| run.run(block));
+            mistakes.lock().expect("no page panics").extend(run.finish());
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(work);
+        }
+    });
+    let mistakes = mistakes.into_inner().expect("no page panics");
+    assert!(mistakes.is_empty(), "{}", mistakes.join("\n\n"));
+}

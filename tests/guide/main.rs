@@ -1,0 +1,58 @@
+//! README and guide: links lead somewhere, code runs and prints what is shown, tables are those of `modelDescription/`, and the
+//! book builds.
+//!
+//! `BRINELL_WRITE=1 cargo test --release --test guide` writes tables and outputs anew instead of comparing them.
+
+mod book;
+mod code;
+mod links;
+mod markdown;
+#[path = "../support/python.rs"]
+mod python;
+mod tables;
+
+use std::env;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The repository.
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Every Markdown file that people read, as a path below the repository.
+fn pages() -> Vec<PathBuf> {
+    let own = ["README.md", "CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "python/README.md", "truth/README.md"];
+    let mut pages: Vec<_> = own.map(PathBuf::from).into();
+    collect(Path::new("docs"), &mut pages);
+    assert!(pages.len() > own.len() + 20, "the guide is missing: {pages:?}");
+    pages
+}
+
+fn collect(folder: &Path, pages: &mut Vec<PathBuf>) {
+    let entries = fs::read_dir(root().join(folder)).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    for entry in entries.map(|entry| entry.expect("a readable folder")) {
+        let path = folder.join(entry.file_name());
+        if entry.path().is_dir() {
+            collect(&path, pages);
+        } else if path.extension().is_some_and(|extension| extension == "md") {
+            pages.push(path);
+        }
+    }
+}
+
+/// The text of a page.
+fn read(page: &Path) -> String {
+    fs::read_to_string(root().join(page)).unwrap_or_else(|error| panic!("{}: {error}", page.display()))
+}
+
+/// Whether texts are to be written rather than compared.
+fn is_writing() -> bool {
+    env::var_os("BRINELL_WRITE").is_some()
+}
+
+/// Writes past the test harness, which shows the output of a test only if it fails.
+fn tell(what: &str) {
+    writeln!(std::io::stderr(), "{what}").expect("standard error is open");
+}

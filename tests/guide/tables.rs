@@ -1,0 +1,220 @@
+//! Tables of the guide that come from `modelDescription/`, and the keys of a scene.
+
+use crate::markdown::Page;
+use crate::{is_writing, read, root};
+use serde_json::Value as Json;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use toml::{Table, Value};
+
+/// The entries of `kind` in a table of `modelDescription/`.
+fn entries(file: &str, kind: &str) -> Vec<Table> {
+    let text = read(&Path::new("modelDescription").join(file));
+    let mut table: Table = toml::from_str(&text).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let Some(Value::Array(entries)) = table.remove(kind) else { panic!("{file} has no {kind}") };
+    entries.into_iter().map(|entry| entry.try_into().expect("entries are tables")).collect()
+}
+
+fn text<'a>(entry: &'a Table, key: &str) -> &'a str {
+    entry.get(key).and_then(Value::as_str).unwrap_or_default()
+}
+
+fn number(entry: &Table, key: &str) -> Option<f64> {
+    entry.get(key).and_then(Value::as_float)
+}
+
+/// `value` in few characters: 0.5, 1e18.
+fn short(value: f64) -> String {
+    let [plain, exponent] = [format!("{value}"), format!("{value:e}")];
+    if plain.len() <= exponent.len() + 1 { plain } else { exponent }
+}
+
+/// Allowed values, if there are limits.
+fn allowed(entry: &Table) -> String {
+    match (number(entry, "minimum"), number(entry, "maximum")) {
+        (Some(least), Some(most)) => format!("{} to {}", short(least), short(most)),
+        _ => String::new(),
+    }
+}
+
+fn row(cells: &[&str]) -> String {
+    format!("| {} |\n", cells.join(" | ")).replace("|  |", "| |").replace("|  |", "| |")
+}
+
+fn heading(cells: &[&str]) -> String {
+    row(cells) + &"|---".repeat(cells.len()) + "|\n"
+}
+
+fn variables(causality: &str) -> String {
+    let is_output = causality == "output";
+    let mut table =
+        heading(if is_output { &["name", "unit", "meaning"] } else { &["name", "unit", "allowed", "meaning"] });
+    for variable in entries("variables.toml", "variable") {
+        if text(&variable, "causality") != causality {
+            continue;
+        }
+        let (name, unit) = (format!("`{}`", text(&variable, "name")), text(&variable, "unit"));
+        let (allowed, meaning) = (allowed(&variable), text(&variable, "description"));
+        table += &if is_output { row(&[&name, unit, meaning]) } else { row(&[&name, unit, &allowed, meaning]) };
+    }
+    table
+}
+
+/// The descriptions that are different in FMUs of other kinds.
+fn kinds() -> String {
+    let mut table = heading(&["name", "in an FMU", "meaning"]);
+    for variable in entries("variables.toml", "variable") {
+        let name = format!("`{}`", text(&variable, "name"));
+        for instead in variable.get("instead").and_then(Value::as_array).into_iter().flatten() {
+            let instead = instead.as_table().expect("a description of another kind is a table");
+            let kind = match text(instead, "of") {
+                "rate-dependent" => "with a rate-dependent law",
+                "parallel" => "that knows the mass, for parallel importers",
+                "acceleration-input" => "that knows the mass, with `external_acceleration`",
+                "mass-known" => "that knows the mass",
+                "makes-energy" => "whose laws make energy",
+                "loses-less" => "whose laws lose less in a deeper dent",
+                other => panic!("what is the kind {other}?"),
+            };
+            table += &row(&[&name, kind, text(instead, "description")]);
+        }
+    }
+    table
+}
+
+fn regimes() -> String {
+    let variables = entries("variables.toml", "variable");
+    let regime = variables.iter().find(|variable| text(variable, "name") == "regime").expect("a variable of the table");
+    let items = regime["items"].as_array().expect("an enumeration has items").iter().enumerate();
+    let line = |(value, item): (usize, &Value)| {
+        let item = item.as_table().expect("an item is a table");
+        row(&[&value.to_string(), &format!("`{}`", text(item, "name")), text(item, "description")])
+    };
+    heading(&["value", "name", "meaning"]) + &items.map(line).collect::<String>()
+}
+
+fn materials() -> String {
+    let mut table = heading(&["material", "E [Pa]", "nu", "yield strength [Pa]", "density [kg/m^3]", "source"]);
+    for material in entries("materials.toml", "material") {
+        let number = |key: &str| short(number(&material, key).expect("a material is complete"));
+        let [modulus, ratio, strength, density] =
+            ["youngs_modulus", "poissons_ratio", "yield_strength", "density"].map(number);
+        table += &row(&[text(&material, "name"), &modulus, &ratio, &strength, &density, text(&material, "source")]);
+    }
+    table
+}
+
+/// Each law of `kind`, with the texts and constants that `brinell laws` shows.
+fn laws(kind: &str) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_brinell")).args(["laws", "--json"]).output();
+    let output = output.expect("cargo has built the program");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let list: Json = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    let (mut page, mut shown) = (String::new(), Vec::new());
+    for law in list[kind].as_array().expect("a list of laws") {
+        let text = |key: &str| law[key].as_str().unwrap_or_default();
+        // a law with several damping factors is listed once for each
+        let name = text("name").split('/').next().unwrap_or_default();
+        if shown.contains(&name) {
+            continue;
+        }
+        shown.push(name);
+        page += &format!("### `{name}`\n\n{}.\n\n", text("title"));
+        for formula in law["formulas"].as_array().expect("a law has formulas") {
+            page += &format!("- `{}`\n", formula.as_str().expect("a formula is text"));
+        }
+        page += &format!("\n{}\n\n", text("notes"));
+        for (key, label) in [("validity", "Validity"), ("reference", "Reference")] {
+            if !text(key).is_empty() {
+                page += &format!("{label}: {}.\n\n", text(key).trim_end_matches('.'));
+            }
+        }
+        page += &constants(&law["parameters"]);
+    }
+    page
+}
+
+/// The table of the constants of a law; nothing if it has none.
+fn constants(constants: &Json) -> String {
+    let mut table = String::new();
+    for constant in constants.as_array().expect("a list of constants") {
+        let text = |key: &str| constant[key].as_str().expect("a text of the constant");
+        let number = |key: &str| short(constant[key].as_f64().expect("a number of the constant"));
+        let (name, allowed) =
+            (format!("`{}`", text("name")), format!("{} to {}", number("minimum"), number("maximum")));
+        table += &row(&[&name, &number("value"), text("unit"), &allowed, text("description")]);
+    }
+    if table.is_empty() { table } else { heading(&["constant", "value", "unit", "allowed", "meaning"]) + &table + "\n" }
+}
+
+/// Compares what is between the comments of the table `name` in `page` with `table`, or writes it.
+fn shows(page: &str, name: &str, table: &str) {
+    let path = Path::new("docs/guide").join(page);
+    let whole = read(&path);
+    let [begin, end] = ["begin", "end"].map(|place| format!("<!-- table of {name}: {place} -->"));
+    let (before, rest) = whole.split_once(&begin).unwrap_or_else(|| panic!("{page} has no {begin}"));
+    let (shown, after) = rest.split_once(&end).unwrap_or_else(|| panic!("{page} has no {end}"));
+    let table = format!("\n\n{}\n\n", table.trim());
+    if is_writing() {
+        fs::write(root().join(&path), format!("{before}{begin}{table}{end}{after}")).expect("the page can be written");
+    } else {
+        assert!(
+            shown == table,
+            "{page}: the table of {name} isn't that of modelDescription/; BRINELL_WRITE=1 writes it"
+        );
+    }
+}
+
+#[test]
+fn tables_are_those_of_the_model_description() {
+    shows("variables.md", "inputs", &variables("input"));
+    shows("variables.md", "outputs", &variables("output"));
+    shows("variables.md", "other kinds", &kinds());
+    shows("variables.md", "regimes", &regimes());
+    shows("variables.md", "parameters", &variables("parameter"));
+    shows("scenes.md", "materials", &materials());
+    shows("all-laws.md", "loading laws", &laws("loading"));
+    shows("all-laws.md", "unloading laws", &laws("unloading"));
+    shows("all-laws.md", "rate-dependent laws", &laws("damped"));
+}
+
+/// The keys of a table of a scene file: the public fields of this struct of the exporter.
+fn fields(structure: &str) -> Vec<String> {
+    let source = read(Path::new("src/bin/brinell/scene/file.rs"));
+    let (_, rest) =
+        source.split_once(&format!("pub struct {structure} {{")).unwrap_or_else(|| panic!("no {structure}"));
+    let fields = rest.split("\n}").next().unwrap().lines().filter_map(|line| line.trim().strip_prefix("pub "));
+    fields.map(|field| field.split(':').next().unwrap().to_string()).collect()
+}
+
+#[test]
+fn every_key_of_a_scene_is_explained_and_no_other() {
+    let page = read(Path::new("docs/guide/scenes.md"));
+    let tables = [
+        ("### `[impactor]`", "Impactor"),
+        ("### `[target]`", "Target"),
+        ("### `[law]`", "Law"),
+        ("### `[fmu]`", "Fmu"),
+        ("### `[impact]`", "ImpactTable"),
+        ("### `[coupling]`", "CouplingTable"),
+        ("### `[[contact]]`", "Contact"),
+    ];
+    for (heading, structure) in tables {
+        let (_, section) = page.split_once(heading).unwrap_or_else(|| panic!("scenes.md has no {heading}"));
+        let section = section.split("\n#").next().unwrap();
+        let rows = section.lines().filter_map(|line| line.strip_prefix("| `")?.split('`').next());
+        let (mut explained, mut keys) = (rows.map(String::from).collect::<Vec<_>>(), fields(structure));
+        explained.sort();
+        keys.sort();
+        assert_eq!(explained, keys, "scenes.md, {heading}: explained, and what the exporter reads");
+    }
+    for key in fields("File") {
+        let shown = Page::parse(&page).code;
+        let names = [key.clone(), format!("[{key}]"), format!("[[{key}]]")];
+        assert!(
+            key == "description" || names.iter().any(|name| shown.contains(name)),
+            "scenes.md says nothing of {key}"
+        );
+    }
+}
