@@ -146,26 +146,6 @@ fn an_example_is_at_most_forty_lines_of_the_users_own_code() {
     tell(&format!("lines of the user's own code:\n{counts}"));
 }
 
-#[test]
-fn a_ball_bounces_to_rest_in_exudyn() {
-    example("exudyn_ball", &["exudyn"]);
-}
-
-#[test]
-fn a_ball_bounces_to_rest_in_drake() {
-    example("drake_ball", &["pydrake.all"]);
-}
-
-#[test]
-fn a_hammer_pendulum_rebounds() {
-    example("pendulum", &[]);
-}
-
-#[test]
-fn a_ball_flies_through_a_box() {
-    example("ball_in_box", &[]);
-}
-
 /// The first block of `page` in this language.
 fn block<'a>(page: &'a str, language: &str) -> &'a str {
     let start = format!("```{language}\n");
