@@ -84,10 +84,10 @@ def test_samples_fill_their_ranges_evenly_and_repeat_with_their_seed(kind):
 @pytest.mark.parametrize(
     ("vary", "sample", "words"),
     [
-        ({}, "grid", "varies something"),
+        ({}, "grid", "nothing is varied"),
         ({"a": "1:2"}, "random:10", "sobol:COUNT"),
         ({"a": "1:2"}, "lhs:0", "lhs"),
-        ({"a": [1.0]}, "lhs:4", "from a range"),
+        ({"a": [1.0]}, "lhs:4", "need a range"),
         ({"a": []}, "grid", "finite numbers"),
         ({"a": [float("nan")]}, "grid", "finite numbers"),
         ({"a": [[1.0]]}, "grid", "finite numbers"),
@@ -186,7 +186,7 @@ def faulty(unit, names, rows):
 def test_a_run_that_ends_its_process_is_recorded_alone(unit, monkeypatch, chunk):
     monkeypatch.setattr(impacts, "run", lethal)
     table = quick(unit, {"speed": [1.0, 2.0, 3.0, 4.0, 5.0]}, workers=2, chunk=chunk)
-    assert [text[:17] for text in table["error"]] == ["", "the run has ended", "", "", ""]
+    assert [text[:18] for text in table["error"]] == ["", "the run has killed", "", "", ""]
     assert table["speed"][1] == 2.0 and np.isfinite(table["restitution"][[0, 2, 3, 4]]).all()
 
 
