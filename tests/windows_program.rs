@@ -31,7 +31,7 @@ static UNPACKED: LazyLock<PathBuf> = LazyLock::new(|| {
     let unpack = "import sys, zipfile; zipfile.ZipFile(sys.argv[1]).extractall(sys.argv[2])";
     output(Command::new("python3").args(["-c", unpack]).arg(archive).arg(&folder)).with_status(0);
     let unpacked = folder.join(name);
-    if output(&mut wine(&unpacked).arg("--version")).status != Some(0) {
+    if output(wine(&unpacked).arg("--version")).status != Some(0) {
         let compiler = packaging.join("bin/x86_64-w64-mingw32-gcc");
         let compiler = if compiler.is_file() { compiler } else { "x86_64-w64-mingw32-gcc".into() };
         let mut compile = Command::new(compiler);
