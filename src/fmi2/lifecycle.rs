@@ -68,6 +68,7 @@ unsafe fn make<S: Scene>(
     logger: Logger,
     logging_on: bool,
 ) -> Result<fmi2Component, Complaint> {
+    S::verify().map_err(|reason| Complaint::BadInstance { reason })?;
     if name.is_null() || guid.is_null() {
         return Err(Complaint::NullPointer { argument: if name.is_null() { "instanceName" } else { "fmuGUID" } });
     }

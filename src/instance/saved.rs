@@ -106,9 +106,16 @@ impl<S: Scene> Instance<S> {
         let [time, stop, last_step] = load_numbers(&mut words)?;
         let clock = Clock::of(time, stop, phase, flags & 1 != 0)?;
         let mut values = S::start_values();
-        for (value, settable) in values.as_mut().iter_mut().zip(S::settable()) {
+        for (index, value) in values.as_mut().iter_mut().enumerate() {
+            let Some(settable) = S::settable(index) else {
+                // a constant of the scene, which may be infinite
+                if words.next()? != value.to_bits() {
+                    return None;
+                }
+                continue;
+            };
             [*value] = load_numbers(&mut words)?;
-            if !allows(settable, *value) {
+            if !allows(&settable, *value) {
                 return None;
             }
         }

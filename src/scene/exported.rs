@@ -77,8 +77,8 @@ impl Scene for Exported {
         ("", false)
     }
 
-    fn settable() -> &'static [Settable] {
-        &SETTABLE
+    fn settable(index: usize) -> Option<Settable> {
+        SETTABLE.get(index).copied()
     }
 
     fn start_values() -> Self::Values {

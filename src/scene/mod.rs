@@ -1,10 +1,15 @@
 //! The scene: which contacts there are, by which laws, what can be set, and what is asked for.
 //!
 //! A scene is a type. An [`Instance`](crate::instance::Instance) is made for one, so that what the scene doesn't ask for takes
-//! neither memory nor time. The exporter writes [`exported::Exported`] for the scene of each FMU; a program may write its own.
+//! neither memory nor time. The exporter writes [`exported::Exported`] for the scene of each FMU; a program may write its own. A [`prebuilt::Prebuilt`]
+//! scene is read from memory.
 
 pub mod coupling;
+#[cfg(not(feature = "prebuilt"))]
 pub mod exported;
+#[cfg(feature = "prebuilt")]
+pub mod kind;
+pub mod prebuilt;
 pub mod storage;
 pub mod variable;
 
@@ -18,7 +23,7 @@ use crate::contact::{Contact, Pair};
 /// A scene: `CONTACTS` contacts in groups of equal ones, with their parameters and variables.
 ///
 /// Contacts are counted from 0, and so are groups. The contacts of a group follow each other. Everything that depends on
-/// parameters is asked for with their present values, in the order of [`Scene::settable`].
+/// parameters is asked for with their present values, in the order of [`Scene::Values`].
 pub trait Scene: Sized {
     /// What is in contact, and by which laws.
     type Model: Copy;
@@ -29,7 +34,7 @@ pub trait Scene: Sized {
     type Contacts<T: Copy>: Store<T>;
     /// Something of each group of contacts.
     type Groups<T: Copy>: Store<T>;
-    /// The values of the parameters that can be set.
+    /// The values of the parameters that can be set, and maybe of others.
     type Values: Store<f64> + Copy;
 
     /// Whether forces are kept in memory. One contact computes its force when it is asked for, and so do those whose force
@@ -48,8 +53,6 @@ pub trait Scene: Sized {
     /// Whether it is noticed that steps are too long for a mass like that of the scene's impact.
     type Watch: Presence;
 
-    /// Effective mass of the scene's impact \[kg\], if it names one.
-    const IMPACT_MASS: f64 = f64::NAN;
     /// How the bodies move through a step, if the scene knows their mass.
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
     /// The passivity guard, if there is one.
@@ -75,15 +78,15 @@ pub trait Scene: Sized {
     /// The name of a group, and whether its contacts are counted.
     fn group_name(group: usize) -> (&'static str, bool);
 
-    /// The parameters that can be set, with their limits.
-    fn settable() -> &'static [Settable];
+    /// The parameter with this `index` among [`Scene::Values`], if it can be set, with its limits.
+    fn settable(index: usize) -> Option<Settable>;
 
     /// Whether the one with this `index` may be set between steps, too.
     fn is_tunable(_index: usize) -> bool {
         false
     }
 
-    /// Their values before anyone sets them.
+    /// The values of the parameters before anyone sets them.
     fn start_values() -> Self::Values;
 
     /// The value of any parameter for the contacts of a group: set, or constant in this scene. A parameter that the scene
@@ -95,6 +98,31 @@ pub trait Scene: Sized {
 
     /// Density of the target of a group \[kg/m^3\], if it is known.
     fn density(group: usize) -> Option<f64>;
+
+    /// Effective mass of the scene's impact \[kg\]; NaN if it names none.
+    #[inline(always)]
+    fn impact_mass() -> f64 {
+        f64::NAN
+    }
+
+    /// Whether `variable` is an input of the scene beside the rate.
+    #[inline(always)]
+    fn has_input(variable: Real) -> bool {
+        match variable {
+            Real::ExternalAcceleration => <Self::Coupling as Coupling>::Acceleration::IS_PRESENT,
+            Real::EffectiveMass => <Self::Coupling as Coupling>::Mass::IS_PRESENT,
+            _ => false,
+        }
+    }
+
+    /// Whether the scene can be used.
+    ///
+    /// # Errors
+    /// Why it can't. Only a scene that is read from memory can be unusable.
+    #[inline(always)]
+    fn verify() -> Result<(), &'static str> {
+        Ok(())
+    }
 
     /// The Real variable with this value reference, and its contact.
     fn real(value_reference: u32) -> Option<(Real, usize)>;

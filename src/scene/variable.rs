@@ -25,6 +25,11 @@ pub enum Parameter {
     InitialGap,
 }
 
+impl Parameter {
+    /// How many there are.
+    pub const COUNT: usize = Parameter::InitialGap as usize + 1;
+}
+
 /// A parameter of the scene that can be set, with its limits.
 #[derive(Clone, Copy, Debug)]
 pub struct Settable {
@@ -41,7 +46,7 @@ pub struct Settable {
 /// Where a parameter has its value from, if groups of contacts differ.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// From the parameter with this index in [`Scene::settable`](super::Scene::settable).
+    /// From the parameter with this index among [`Scene::Values`](super::Scene::Values).
     Settable(usize),
     /// From the scene.
     Constant(f64),
@@ -95,7 +100,7 @@ pub enum Real {
     ExternalAcceleration,
     /// The effective mass as an input \[kg\].
     EffectiveMass,
-    /// The settable parameter with this index in [`Scene::settable`](super::Scene::settable).
+    /// The settable parameter with this index among [`Scene::Values`](super::Scene::Values).
     Parameter(usize),
 }
 

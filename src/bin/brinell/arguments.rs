@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::package::Way;
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -25,6 +26,8 @@ pub enum Command {
         /// Where to write the unit [default: NAME.fmu in the current folder]
         #[arg(short, long)]
         output: Option<PathBuf>,
+        #[command(flatten)]
+        way: WayArguments,
     },
     /// Builds the unit of a scene and packs it as a system (SSP 1.0) with its parameters
     Ssp(SspArguments),
@@ -57,11 +60,16 @@ pub enum Command {
         #[arg(short, long, value_name = "FILE.svg")]
         output: Option<PathBuf>,
     },
+    /// Compiles the libraries from which FMUs are made where there is no compiler
+    Prebuild(PrebuildArguments),
     /// Lists the built-in materials
     Materials,
     /// Prints the Rust constants of a scene, as they are compiled into its unit
     #[command(hide = true)]
     Constants { scene: PathBuf },
+    /// Prints the Rust source of the prebuilt library that a scene fits into
+    #[command(hide = true)]
+    Kind { scene: PathBuf },
 }
 
 #[derive(clap::Args)]
@@ -77,6 +85,41 @@ pub struct SspArguments {
     /// A connection such as contact.mean_force=mass.force; may be given several times
     #[arg(long, value_name = "UNIT.OUTPUT=UNIT.INPUT", requires = "with")]
     pub connect: Vec<String>,
+    #[command(flatten)]
+    pub way: WayArguments,
+}
+
+#[derive(clap::Args)]
+pub struct WayArguments {
+    /// Compiles the library, which needs a Rust toolchain [default: if there is one]
+    #[arg(long, conflicts_with = "prebuilt")]
+    compile: bool,
+    /// Fills in a prebuilt library, which needs no toolchain
+    #[arg(long)]
+    prebuilt: bool,
+}
+
+impl WayArguments {
+    pub fn chosen(&self) -> Way {
+        match (self.compile, self.prebuilt) {
+            (true, _) => Way::Compiled,
+            (_, true) => Way::Prebuilt,
+            _ => Way::Any,
+        }
+    }
+}
+
+#[derive(clap::Args)]
+pub struct PrebuildArguments {
+    /// The folder that the libraries go to
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// Laws: LOADING, LOADING/UNLOADING or RATE-DEPENDENT/DAMPING [default: all]
+    #[arg(long, value_delimiter = ',')]
+    pub laws: Vec<String>,
+    /// Kinds: force, state, everything, serial, parallel [default: all]
+    #[arg(long, value_delimiter = ',')]
+    pub kinds: Vec<String>,
 }
 
 #[derive(clap::Args)]

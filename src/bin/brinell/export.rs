@@ -1,17 +1,17 @@
 //! `brinell export`: builds the unit of a scene and says what is in it.
 
-use crate::package::{self, ExportError};
+use crate::package::{self, ExportError, Way};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::summary::Summary;
 use std::path::{Path, PathBuf};
 
-/// The command: writes the unit of `scene` to `output`, or into the current folder; gives its path.
-pub fn run(scene: &Scene, output: Option<&Path>, as_json: bool) -> Result<PathBuf, ExportError> {
+/// The command: makes the unit of `scene` in this `way` and writes it to `output`, or into the current folder; gives its path.
+pub fn run(scene: &Scene, way: Way, output: Option<&Path>, as_json: bool) -> Result<PathBuf, ExportError> {
     let path = output.map_or_else(|| format!("{}.fmu", scene.name).into(), Path::to_path_buf);
     eprintln!("building {} ...", path.display());
     let plan = Plan::of(scene);
-    let exported = package::export(&plan, &path)?;
+    let exported = package::export(&plan, way, &path)?;
     let summary = Summary::of(&plan);
     if as_json {
         println!("{}", summary.json(&exported));

@@ -29,6 +29,7 @@ mod parameters;
 mod plan;
 mod platform;
 mod plot;
+mod prebuilt;
 mod predict;
 mod report;
 mod scene;
@@ -42,6 +43,7 @@ mod xml;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
+use package::Way;
 use plan::Plan;
 use scene::Scene;
 use std::error::Error;
@@ -76,14 +78,15 @@ fn leave_quietly_when_nobody_reads() {
 fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     let json = arguments.json;
     match &arguments.command {
-        None => return check::run(&export::run(&Scene::default_scene()?, None, json)?, json),
+        None => return check::run(&export::run(&Scene::default_scene()?, Way::Any, None, json)?, json),
         Some(Command::Check { fmu }) => return check::run(fmu, json),
         Some(Command::Report { scene, output, peer, quick }) => {
             return Ok(report::run(&Scene::read(scene)?, peer, output.as_deref(), *quick, json)?);
         }
-        Some(Command::Export { scene, output }) => {
-            export::run(&Scene::read(scene)?, output.as_deref(), json)?;
+        Some(Command::Export { scene, output, way }) => {
+            export::run(&Scene::read(scene)?, way.chosen(), output.as_deref(), json)?;
         }
+        Some(Command::Prebuild(arguments)) => prebuilt::command::run(arguments, json)?,
         Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
         Some(Command::Predict(arguments)) => predict::command::run(arguments, json)?,
         Some(Command::Curve(arguments)) => curve::run(arguments)?,
@@ -91,6 +94,10 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Materials) => materials::run(json),
         Some(Command::Constants { scene }) => {
             print!("{}", constants::write(&Plan::of(&Scene::read(scene)?), "unpacked"));
+        }
+        Some(Command::Kind { scene }) => {
+            let library = prebuilt::Library::of(&Scene::read(scene)?)?;
+            print!("{}", constants::kind::write(&library.scene, "unpacked"));
         }
     }
     Ok(true)

@@ -1,7 +1,7 @@
 //! What `brinell export` says: what the unit has, and what was left out of it.
 
 use crate::interface::Entry;
-use crate::package::Exported;
+use crate::package::{Exported, How};
 use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{Causality, VARIABLES};
@@ -70,7 +70,7 @@ impl Summary<'_> {
         let OtherLaws { loading, unloading, damped } = &self.laws;
         let mut object = json!({
             "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size,
-            "imports": exported.imports, "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
+            "imports": exported.imports, "made": exported.how.as_ref().map(How::json), "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
             "makes_energy": self.plan.makes_energy, "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
             "variables": variables.iter().map(Entry::label).collect::<Vec<_>>(), "variable_count": self.variable_count(),
             "constants": constants.iter().map(|constant| &constant.name).collect::<Vec<_>>(),
@@ -101,6 +101,9 @@ impl Summary<'_> {
             exported.library_size,
             exported.imports.join(", ")
         );
+        if let Some(how) = &exported.how {
+            println!("  made       {}", how.words());
+        }
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
         println!("  law        {}", law(scene));
         if let Some(guard) = guard {

@@ -17,6 +17,12 @@ const ABSENT: [(&str, f64); 6] = [
     ("effective_mass", f64::INFINITY),
 ];
 
+/// The value of the parameter `name` for the contacts of a group, before anyone sets it.
+pub fn start_value(scene: &Scene, group: usize, name: &str) -> f64 {
+    let absent = || ABSENT.iter().find(|(absent, _)| *absent == name).map_or(f64::NAN, |(_, value)| *value);
+    scene.group_value(group, name).unwrap_or_else(absent)
+}
+
 pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
     let settable: Vec<_> = entries.iter().filter(|entry| entry.variable.causality == Causality::Parameter).collect();
     let number = |value: Option<f64>| literal(value.expect("a parameter has a start value and limits"));
@@ -34,7 +40,7 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
     }
     table.push_str(if settable.is_empty() { "];\n" } else { "\n];\n" });
     file.add_item(&table);
-    file.add_method("settable() -> &'static [Settable]", "&SETTABLE");
+    file.add_method("settable(index: usize) -> Option<Settable>", "SETTABLE.get(index).copied()");
     let tunable = settable.iter().position(|entry| is_tunable(scene, &entry.variable.name));
     if let Some(place) = tunable {
         file.add_method("is_tunable(index: usize) -> bool", &format!("index == {place}"));
@@ -45,8 +51,8 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
     file.add_method("start_values() -> Self::Values", &starts);
 }
 
-/// The variables that a scene can have as parameters.
-fn parameters() -> impl Iterator<Item = &'static Variable> {
+/// The variables that a scene can have as parameters, in the order of the library's enum.
+pub fn parameters() -> impl Iterator<Item = &'static Variable> {
     table::VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter)
 }
 
@@ -77,10 +83,7 @@ pub fn add_parameters(file: &mut File, scene: &Scene) {
         None => match place(&scene.parameters, name) {
             Some((_, Some(place))) => Value::Settable(place),
             Some((value, None)) => Value::Constant(value),
-            None => {
-                let absent = ABSENT.iter().find(|(absent, _)| *absent == name);
-                Value::Constant(absent.map_or(f64::NAN, |(_, value)| *value))
-            }
+            None => Value::Constant(start_value(scene, group, name)),
         },
     };
     let differing: Vec<_> = differing(scene).map(|variable| variable.rust.as_str()).collect();

@@ -5,8 +5,8 @@ use super::folder::Cache;
 use super::rustc::Rustc;
 use super::{LIBM_SOURCE, LIBRARY_SOURCE, hash};
 use crate::files::FileError;
+use crate::plan::Plan;
 use crate::platform::Platform;
-use crate::scene::Scene;
 use std::path::Path;
 use std::{env, fs, io};
 
@@ -41,8 +41,37 @@ const MANY_CONTACTS: usize = 16;
 
 /// As small as it can be, since the few lines of a plain step are the same in any case; or, for many contacts, with loops that
 /// work on several at once.
-fn optimization(scene: &Scene) -> &'static str {
-    if scene.contact_count() < MANY_CONTACTS { "-Copt-level=s" } else { "-Copt-level=3" }
+fn optimization(source: &Source) -> &'static str {
+    match source {
+        Source::Scene { plan, .. } if plan.scene.contact_count() >= MANY_CONTACTS => "-Copt-level=3",
+        _ => "-Copt-level=s",
+    }
+}
+
+/// The source file that a library has of its own.
+pub enum Source<'a> {
+    /// The constants of a scene.
+    Scene { plan: &'a Plan<'a>, constants: &'a str },
+    /// The kind of a prebuilt library.
+    Kind { text: &'a str },
+}
+
+impl Source<'_> {
+    /// Its path and its text.
+    fn file(&self) -> (&'static str, &str) {
+        match self {
+            Source::Scene { constants, .. } => ("src/scene/exported.rs", constants),
+            Source::Kind { text } => ("src/scene/kind.rs", text),
+        }
+    }
+
+    /// What else the compiler is told.
+    fn arguments(&self) -> &'static [&'static str] {
+        match self {
+            Source::Scene { .. } => &[],
+            Source::Kind { .. } => &["--cfg=feature=\"prebuilt\""],
+        }
+    }
 }
 
 /// Leaves out what unwinding would need, and the compiler's name. Nothing unwinds through a library that cannot panic.
@@ -62,21 +91,24 @@ fn link_arguments() -> &'static [&'static str] {
     }
 }
 
-/// Compiles the library with `constants` as its scene and gives its bytes.
+/// Compiles the library with `source` and gives its bytes.
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn build(scene: &Scene, constants: &str, platform: &Platform) -> Result<Vec<u8>, ExportError> {
+pub fn build(source: &Source, platform: &Platform) -> Result<Vec<u8>, ExportError> {
     let cache = Cache::open()?;
     let rustc = Rustc::find(&cache.folder)?;
     let folder = cache.build_folder()?;
-    let settings = [SETTINGS.as_slice(), &[optimization(scene), "--target", platform.target]].concat();
+    let settings = [SETTINGS.as_slice(), &[optimization(source), "--target", platform.target]].concat();
     make_libm(&cache, &rustc, folder.path(), &settings)?;
-    let own = [("src/scene/exported.rs", constants), LINKER_SCRIPT];
+    let own = [source.file(), LINKER_SCRIPT];
     write(&cache, folder.path(), LIBRARY_SOURCE.iter().copied().chain(own))?;
     let library = format!("unit.{}", platform.extension);
     let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library];
-    rustc.run(folder.path(), settings.iter().chain(&LIBRARY).chain(link_arguments()).chain(&named))?;
+    rustc.run(
+        folder.path(),
+        settings.iter().chain(&LIBRARY).chain(source.arguments()).chain(link_arguments()).chain(&named),
+    )?;
     let library = folder.path().join(library);
     Ok(fs::read(&library).map_err(FileError::at(&library))?)
 }

@@ -5,17 +5,20 @@ mod error;
 mod folder;
 mod library;
 mod rustc;
+mod way;
 
 pub use error::ExportError;
+pub use library::{Source, build as build_library};
+pub use way::{How, Way};
 
 use crate::files::write_whole;
 use crate::plan::Plan;
 use crate::platform::{self, Platform};
-use crate::symbols;
-use crate::{constants, documentation, model_description};
+use crate::{documentation, symbols};
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use way::{Made, make};
 use zip::CompressionMethod;
 use zip::write::SimpleFileOptions;
 
@@ -35,28 +38,29 @@ pub struct Exported {
     /// Size of the library in it [bytes].
     pub library_size: usize,
     pub imports: Vec<String>,
+    /// How the library was made; unknown before there is one.
+    pub how: Option<How>,
 }
 
-/// Builds the planned unit and writes it to `path`, which is replaced only when everything has gone well.
+/// Builds the planned unit in this `way` and writes it to `path`, which is replaced only when everything has gone well.
 ///
 /// # Errors
 /// [`ExportError`]; nothing is then written.
-pub fn export(plan: &Plan, path: &Path) -> Result<Exported, ExportError> {
-    let (archive, exported) = build(plan)?;
+pub fn export(plan: &Plan, way: Way, path: &Path) -> Result<Exported, ExportError> {
+    let (archive, exported) = build(plan, way)?;
     write_whole(path, &archive)?;
     Ok(Exported { path: path.into(), ..exported })
 }
 
-/// Builds the planned unit: the bytes of its archive, and what is in it. It has no path yet.
+/// Builds the planned unit in this `way`: the bytes of its archive, and what is in it. It has no path yet.
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn build(plan: &Plan) -> Result<(Vec<u8>, Exported), ExportError> {
+pub fn build(plan: &Plan, way: Way) -> Result<(Vec<u8>, Exported), ExportError> {
     let platform = platform::here()?;
     let Platform { folder, extension, .. } = platform;
     let scene = plan.scene;
-    let Identified { guid, description, constants } = Identified::of(plan);
-    let library = library::build(scene, &constants, &platform)?;
+    let Made { guid, description, library, how } = make(plan, way, &platform)?;
     let imports = symbols::check(&library)?;
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
     let page = documentation::write(plan);
@@ -70,36 +74,26 @@ pub fn build(plan: &Plan) -> Result<(Vec<u8>, Exported), ExportError> {
     ];
     let archive = archive(&files)?;
     let size = archive.len();
-    Ok((archive, Exported { path: PathBuf::new(), guid, size, library_size: library.len(), imports }))
+    Ok((archive, Exported { path: PathBuf::new(), guid, size, library_size: library.len(), imports, how: Some(how) }))
 }
 
-/// The two texts that the unit recognises itself by, and what they have in common.
-struct Identified {
-    guid: String,
-    description: String,
-    constants: String,
+/// What stands for the GUID until it is known, as long as one. In quotes it can't be in any other place: those of a scene's texts
+/// are written as `&quot;` and `\"`.
+pub const GUID_TO_COME: &str = "GUID of 32 digits that will come";
+
+/// `text` with the GUID in its place.
+pub fn identified(text: &str, guid: &str) -> String {
+    let quoted = |text: &str| format!("\"{text}\"");
+    text.replacen(&quoted(GUID_TO_COME), &quoted(guid), 1)
 }
 
-/// What stands for the GUID until it is known. In quotes it can't be in any other place: those of a scene's texts are written
-/// as `&quot;` and `\"`.
-const GUID_TO_COME: &str = "GUID to come";
-
-impl Identified {
-    /// The GUID is a hash of all that the unit is made of: description, constants, source of the library and of `libm`.
-    fn of(plan: &Plan) -> Identified {
-        let description = model_description::write(plan, GUID_TO_COME);
-        let constants = constants::write(plan, GUID_TO_COME);
-        let sources = LIBRARY_SOURCE.iter().chain(LIBM_SOURCE).flat_map(|(name, text)| [*name, *text]);
-        let guid = hash([description.as_str(), &constants].into_iter().chain(sources));
-        let quoted = |text: &str| format!("\"{text}\"");
-        let identified = |text: String| text.replacen(&quoted(GUID_TO_COME), &quoted(&guid), 1);
-        let (description, constants) = (identified(description), identified(constants));
-        Identified { guid, description, constants }
-    }
+/// What every library is made of: names and texts of the files.
+pub fn sources<'a>() -> impl Iterator<Item = &'a str> {
+    LIBRARY_SOURCE.iter().chain(LIBM_SOURCE).flat_map(|&(name, text)| [name, text])
 }
 
 /// The hash of `texts`: 32 digits.
-fn hash<'a>(texts: impl Iterator<Item = &'a str>) -> String {
+pub fn hash<'a>(texts: impl Iterator<Item = &'a str>) -> String {
     let mut hash = Sha256::new();
     for text in texts {
         hash.update(text);
