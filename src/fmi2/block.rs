@@ -29,4 +29,9 @@ impl Source for Section {
         // it are numbers.
         unsafe { &*block }
     }
+
+    fn words() -> &'static [u64; Block::WORDS] {
+        // SAFETY: a block is made of words without gaps, which its size proves.
+        unsafe { &*core::ptr::from_ref(Section::block()).cast() }
+    }
 }

@@ -17,6 +17,9 @@ pub const VARIABLES: usize = 64;
 /// Room for the texts \[bytes\].
 pub const TEXTS: usize = 512;
 
+/// Length of a GUID \[bytes\].
+pub const GUID: usize = 32;
+
 /// A value reference that no variable has.
 pub const NO_VARIABLE: u8 = u8::MAX;
 
@@ -63,7 +66,9 @@ pub struct Data {
     pub maxima: [f64; Parameter::COUNT],
     /// What each value reference means: the place of a variable in the table of variables, or a parameter.
     pub variables: [u8; VARIABLES],
-    /// GUID, then name and unit of each parameter that can be set, or two empty texts; each ends with 0.
+    /// The GUID.
+    pub guid: [u8; GUID],
+    /// Name and unit of each parameter that can be set, or two empty texts; each ends with 0.
     pub texts: [u8; TEXTS],
 }
 
@@ -98,22 +103,22 @@ impl Block {
     /// A block with these `data` for a `library`.
     pub fn filled(library: u64, data: Data) -> Block {
         let mut block = Block { length: Data::WORDS as u64, data, ..Block::unfilled(library) };
-        block.checksum = block.data.checksum();
+        block.checksum = checksum(block.data.words());
         block
     }
 
-    /// Whether the block is one for this `library`, and whole.
+    /// Whether the block, which has these `words`, is one for this `library`, and whole.
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn check(&self, library: u64) -> Result<(), &'static str> {
+    pub fn check(&self, words: &[u64; Block::WORDS], library: u64) -> Result<(), &'static str> {
         if self.magic != MAGIC || self.version != VERSION {
             Err("the data of this prebuilt library have another version")
         } else if self.length == 0 {
             Err("this prebuilt library has no scene: `brinell export` puts one in")
         } else if self.library != library {
             Err("the data of this prebuilt library were made for another library")
-        } else if self.length != Data::WORDS as u64 || self.checksum != self.data.checksum() {
+        } else if self.length != Data::WORDS as u64 || self.checksum != checksum(words.iter().skip(HEAD).copied()) {
             Err("the data of this prebuilt library are damaged")
         } else {
             Ok(())
@@ -141,6 +146,7 @@ impl Data {
         minima: [0.0; Parameter::COUNT],
         maxima: [0.0; Parameter::COUNT],
         variables: [NO_VARIABLE; VARIABLES],
+        guid: [0; GUID],
         texts: [0; TEXTS],
     };
 
@@ -155,6 +161,11 @@ impl Data {
         parameter < Parameter::COUNT && self.settable >> parameter & 1 != 0
     }
 
+    /// The GUID.
+    pub fn guid(&self) -> &str {
+        core::str::from_utf8(&self.guid).unwrap_or_default()
+    }
+
     /// The text at this place; none behind the last one.
     #[inline(never)]
     pub fn text(&self, place: usize) -> &str {
@@ -167,18 +178,21 @@ impl Data {
         let numbers = [self.impact_mass, self.density].into_iter().chain(self.starts).chain(self.minima);
         let (variables, _) = self.variables.as_chunks();
         let (texts, _) = self.texts.as_chunks();
-        let bytes = variables.iter().chain(texts).map(|bytes| u64::from_le_bytes(*bytes));
+        let (guid, _) = self.guid.as_chunks();
+        let bytes = variables.iter().chain(guid).chain(texts).map(|bytes| u64::from_le_bytes(*bytes));
         let numbers = numbers.chain(self.maxima).map(f64::to_bits);
         [self.identity, self.flags, self.settable].into_iter().chain(numbers).chain(bytes)
     }
-
-    /// A hash of the data, after FNV-1a but of whole words: any single changed word changes it.
-    ///
-    /// Reference: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm".
-    #[inline(never)]
-    fn checksum(&self) -> u64 {
-        self.words().fold(0xcbf2_9ce4_8422_2325, |sum, word| (sum ^ word).wrapping_mul(0x100_0000_01b3))
-    }
 }
 
-const _: () = assert!(size_of::<Block>() == 8 * (5 + 5 + 3 * Parameter::COUNT + (VARIABLES + TEXTS) / 8));
+/// The words before the data.
+const HEAD: usize = 5;
+
+/// A hash of the data, after FNV-1a but of whole words: any single changed word changes it.
+///
+/// Reference: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm".
+fn checksum(data: impl Iterator<Item = u64>) -> u64 {
+    data.fold(0xcbf2_9ce4_8422_2325, |sum, word| (sum ^ word).wrapping_mul(0x100_0000_01b3))
+}
+
+const _: () = assert!(size_of::<Block>() == 8 * (HEAD + 5 + 3 * Parameter::COUNT + (VARIABLES + GUID + TEXTS) / 8));

@@ -48,6 +48,9 @@ pub trait Kind {
 pub trait Source {
     /// The block. Of what is in it the compiler knows nothing.
     fn block() -> &'static Block;
+
+    /// The same as words.
+    fn words() -> &'static [u64; Block::WORDS];
 }
 
 /// The scene of a library of the kind `K` with the data from `B`.
@@ -79,11 +82,11 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
 
     fn verify() -> Result<(), &'static str> {
-        B::block().check(K::LIBRARY)
+        B::block().check(B::words(), K::LIBRARY)
     }
 
     fn guid() -> &'static str {
-        B::block().data.text(0)
+        B::block().data.guid()
     }
 
     #[inline]
@@ -106,7 +109,7 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
     fn settable(index: usize) -> Option<Settable> {
         let data = &B::block().data;
         let [&minimum, &maximum] = [data.minima.get(index)?, data.maxima.get(index)?];
-        let settable = Settable { name: data.text(1 + 2 * index), unit: data.text(2 + 2 * index), minimum, maximum };
+        let settable = Settable { name: data.text(2 * index), unit: data.text(2 * index + 1), minimum, maximum };
         data.is_settable(index).then_some(settable)
     }
 

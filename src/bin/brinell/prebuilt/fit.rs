@@ -9,7 +9,7 @@ use crate::table::{Causality, VARIABLES};
 use brinell::contact::Surface;
 use brinell::contact::damped::AnyDamped;
 use brinell::scene::identity_of;
-use brinell::scene::prebuilt::block::{Data, FIRST_PARAMETER, Flag, TEXTS, VARIABLES as PLACES};
+use brinell::scene::prebuilt::block::{Data, FIRST_PARAMETER, Flag, GUID, TEXTS, VARIABLES as PLACES};
 
 /// A scene that no prebuilt library has room for.
 #[derive(Debug, thiserror::Error)]
@@ -88,7 +88,7 @@ fn damped_of(laws: &Laws) -> Option<AnyDamped> {
 pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
     let scene = plan.scene;
     let group = &scene.contacts[0];
-    let mut data = Data { identity: identity_of(guid), ..Data::EMPTY };
+    let mut data = Data { identity: identity_of(guid), guid: as_bytes(guid), ..Data::EMPTY };
     let flags = [
         (Flag::Fresh, group.surface == Surface::Fresh),
         (Flag::Acceleration, scene.has_input("external_acceleration")),
@@ -97,7 +97,7 @@ pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
     data.flags = flags.iter().filter(|(_, is)| *is).map(|(flag, _)| flag.bit()).sum();
     data.density = group.density.unwrap_or(f64::NAN);
     data.impact_mass = if scene.watches { scene.impact.mass } else { f64::NAN };
-    let mut texts = format!("{guid}\0");
+    let mut texts = String::new();
     let is_parameter = |entry: &&Entry| entry.variable.causality == Causality::Parameter;
     for (place, variable) in parameters().enumerate() {
         data.starts[place] = start_value(scene, 0, &variable.name);
@@ -129,6 +129,10 @@ pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
     })?;
     room.copy_from_slice(texts.as_bytes());
     Ok(data)
+}
+
+fn as_bytes(guid: &str) -> [u8; GUID] {
+    guid.as_bytes().try_into().expect("a GUID has 32 digits")
 }
 
 /// A value reference and a place in the table need a byte each.

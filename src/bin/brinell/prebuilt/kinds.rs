@@ -30,7 +30,7 @@ enum Outputs {
     AllBut(&'static [&'static str]),
 }
 
-/// The kinds, those before that cost less. The impulse and what belongs to it is computed in every step, all other outputs only
+/// The kinds, those before that cost less. `impulse` and `mean_force` are computed in every step, all other outputs only
 /// when they are read.
 pub const KINDS: [Kind; 5] = [
     Kind {
@@ -38,11 +38,7 @@ pub const KINDS: [Kind; 5] = [
         outputs: Outputs::These(&["indentation", "residual_indentation", "dissipated_energy"]),
         master: None,
     },
-    Kind {
-        name: "state",
-        outputs: Outputs::AllBut(&["impulse", "mean_force", "predicted_force", "closing_speed"]),
-        master: None,
-    },
+    Kind { name: "state", outputs: Outputs::AllBut(&["impulse", "mean_force", "closing_speed"]), master: None },
     Kind { name: "everything", outputs: Outputs::AllBut(&["closing_speed"]), master: None },
     Kind { name: "serial", outputs: Outputs::AllBut(&[]), master: Some(Master::Serial) },
     Kind { name: "parallel", outputs: Outputs::AllBut(&[]), master: Some(Master::Parallel) },
