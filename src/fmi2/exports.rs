@@ -5,6 +5,10 @@
 
 use super::abi::*;
 use super::{lifecycle, states, status, stepping, variables};
+
+#[cfg(feature = "prebuilt")]
+use super::block::Exported;
+#[cfg(not(feature = "prebuilt"))]
 use crate::scene::exported::Exported;
 
 /// The platform types: those of `fmi2TypesPlatform.h`, "default".

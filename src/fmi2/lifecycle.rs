@@ -72,6 +72,7 @@ unsafe fn make<S: Scene>(
     memory: Memory,
     logging_on: bool,
 ) -> Result<fmi2Component, Complaint> {
+    S::verify().map_err(|reason| Complaint::BadInstance { reason })?;
     if name.is_null() || guid.is_null() {
         return Err(Complaint::NullPointer { argument: if name.is_null() { "instanceName" } else { "fmuGUID" } });
     }

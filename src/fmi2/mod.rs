@@ -1,7 +1,7 @@
 //! The C interface of FMI 2.0 for co-simulation: 34 functions, and the only `unsafe` of the library.
 //!
-//! The functions are written once, for any [`Scene`](crate::scene::Scene). `exports` makes C symbols of them, for the scene that
-//! the exporter has written.
+//! The functions are written once for any [`Scene`](crate::scene::Scene). `exports` makes the C symbols of them, for the scene
+//! that the exporter has written, or for the one in the block of a prebuilt library.
 //!
 //! | module | content |
 //! |---|---|
@@ -18,6 +18,7 @@
 //! | [`state`] | FMU states and their bytes |
 //! | [`lifecycle`], [`variables`], [`stepping`], [`status`], [`states`] | the functions, for any scene |
 //! | `exports` | the C symbols |
+//! | `block` | the data of a prebuilt library |
 //!
 //! # Safety
 //! Every function trusts its caller in what C cannot check: a component that this library created and has not freed, arrays
@@ -27,6 +28,8 @@
 #![allow(non_camel_case_types, non_snake_case, non_upper_case_globals, clippy::missing_safety_doc)]
 
 pub mod abi;
+#[cfg(feature = "prebuilt")]
+pub mod block;
 #[cfg(test)]
 mod bytes;
 pub mod category;

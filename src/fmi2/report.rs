@@ -4,7 +4,7 @@ use super::complaint::Complaint;
 use super::text::Text;
 use crate::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
-use crate::scene::{Coupling, Presence, Scene, Settable};
+use crate::scene::{Coupling, Presence, Real, Scene, Settable};
 
 fn phase_name(phase: Phase) -> &'static str {
     match phase {
@@ -73,7 +73,7 @@ fn contact_of<S: Scene>(fault: Fault) -> Option<usize> {
         Fault::NoPointContact { contact, .. } | Fault::TooDeep { contact, .. } | Fault::TooLong { contact, .. } => {
             Some(contact)
         }
-        Fault::FixedParameter { index } | Fault::OutOfRange { index, .. } => S::settable_at(index)?.1,
+        Fault::FixedParameter { index } | Fault::OutOfRange { index, .. } => S::settable(index)?.1,
         _ => None,
     }
 }
@@ -126,7 +126,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
     match fault {
         Fault::NotSettable => "an output can't be set",
         Fault::FixedParameter { index } => {
-            words[0] = S::settable_at(index).map_or("", |(settable, _)| settable.name);
+            words[0] = S::settable(index).map_or("", |(settable, _)| settable.name);
             "the parameter @ can't be set after initialization"
         }
         Fault::NotFinite { name, value } => {
@@ -142,8 +142,8 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             "indentation_rate = ~ is too fast: the force would not be finite"
         }
         Fault::OutOfRange { index, value } => {
-            let Some((settable, _)) = S::settable_at(index) else { return "" };
-            let Settable { name, unit, minimum, maximum } = *settable;
+            let Some((settable, _)) = S::settable(index) else { return "" };
+            let Settable { name, unit, minimum, maximum } = settable;
             (*words, *numbers) = ([name, unit], [value, minimum, maximum]);
             if unit.is_empty() {
                 "@ = ~ is out of range: allowed is ~ to ~"
@@ -205,7 +205,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         }
         Fault::DerivativeNotFinite => "the derivative is beyond all numbers",
         Fault::NotAnInput => "there are derivatives by indentation_rate only",
-        Fault::NoInputDerivatives if <S::Coupling as Coupling>::Acceleration::IS_PRESENT => {
+        Fault::NoInputDerivatives if S::has_input(Real::ExternalAcceleration) => {
             "inputs of this unit have no derivatives: external_acceleration is the input for the acceleration"
         }
         Fault::NoInputDerivatives => "inputs of this unit have no derivatives: its law depends on the rate",

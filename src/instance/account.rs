@@ -93,27 +93,21 @@ impl<S: Scene> Instance<S> {
     /// Whether the unit moves the bodies.
     pub(super) const MOVES: bool = <S::Coupling as Coupling>::Ending::IS_PRESENT;
 
-    /// Whether `variable` is an input of the scene beside the rate.
-    pub(super) fn has_input(variable: Real) -> bool {
-        match variable {
-            Real::ExternalAcceleration => <S::Coupling as Coupling>::Acceleration::IS_PRESENT,
-            Real::EffectiveMass => <S::Coupling as Coupling>::Mass::IS_PRESENT,
-            _ => false,
-        }
-    }
-
     /// Effective mass of `contact` \[kg\].
     pub(super) fn mass(&self, contact: usize) -> f64 {
         match self.contacts.masses.as_ref().get(contact) {
-            Some(&mass) => mass,
-            None => S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values),
+            Some(&mass) if S::has_input(Real::EffectiveMass) => mass,
+            _ => S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values),
         }
     }
 
     /// Closing acceleration of `contact` by all forces but its own \[m/s^2\]: the input, where there is one, or else the `slope`
     /// of the rate.
     pub(super) fn acceleration(&self, contact: usize, slope: f64) -> f64 {
-        self.contacts.accelerations.as_ref().get(contact).copied().unwrap_or(slope)
+        match self.contacts.accelerations.as_ref().get(contact) {
+            Some(&acceleration) if S::has_input(Real::ExternalAcceleration) => acceleration,
+            _ => slope,
+        }
     }
 
     /// What of the given rate of `contact` is momentum that the master has yet to take off \[m/s\].

@@ -16,7 +16,7 @@ impl<S: Scene> Instance<S> {
     /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`], [`Fault::NotFinite`],
     /// [`Fault::NoInputDerivatives`] for a law that follows the rate, and where the acceleration is an input.
     pub fn check_input_derivative(&self, (variable, _): (Real, usize), order: i32, value: f64) -> Result<(), Fault> {
-        if !S::Course::IS_PRESENT || <S::Coupling as Coupling>::Acceleration::IS_PRESENT {
+        if !S::Course::IS_PRESENT || S::has_input(Real::ExternalAcceleration) {
             return Err(Fault::NoInputDerivatives);
         }
         if variable != Real::IndentationRate {
@@ -45,7 +45,7 @@ impl<S: Scene> Instance<S> {
     #[inline(always)]
     pub fn set_plain_derivatives(&mut self, derivatives: impl Iterator<Item = (i32, f64)>) -> bool {
         let phases = Phase::Instantiated as u8 | Phase::Initialization as u8 | Phase::StepComplete as u8;
-        let has_derivatives = !<S::Coupling as Coupling>::Acceleration::IS_PRESENT;
+        let has_derivatives = !S::has_input(Real::ExternalAcceleration);
         let in_order = has_derivatives && self.phase() as u8 & phases != 0;
         let before = self.contacts.curves.as_ref().first().filter(|_| self.clock.curved).copied().unwrap_or_default();
         let mut numbers = [before.slope, before.bend];
@@ -157,7 +157,7 @@ impl<S: Scene> Instance<S> {
         if !variable.is_output() {
             return Err(Fault::NoDerivative { of: "outputs" });
         }
-        if input != Real::IndentationRate && !Self::has_input(input) {
+        if input != Real::IndentationRate && !S::has_input(input) {
             return Err(Fault::NotAnInput);
         }
         let derivative = match contact == by && input == Real::IndentationRate {

@@ -107,9 +107,15 @@ impl<S: Scene> Instance<S> {
         let clock = Clock::of(time, stop, phase, flags & 1 != 0)?;
         let mut values = S::start_values();
         for (index, value) in values.as_mut().iter_mut().enumerate() {
-            let (settable, _) = S::settable_at(index)?;
+            let Some((settable, _)) = S::settable(index) else {
+                // a constant of the scene, which may be infinite
+                if words.next()? != value.to_bits() {
+                    return None;
+                }
+                continue;
+            };
             [*value] = load_numbers(&mut words)?;
-            if !allows(settable, *value) {
+            if !allows(&settable, *value) {
                 return None;
             }
         }

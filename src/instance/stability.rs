@@ -22,7 +22,7 @@ pub(super) const UNSTABLE: u32 = u32::MAX;
 #[inline(never)]
 fn is_unstable<S: Scene>(before: &mut f64, history: &S::Contact, rate: f64, step: f64) -> bool {
     let change = rate - core::mem::replace(before, rate);
-    let inverse_mass = const { 1.0 / S::IMPACT_MASS };
+    let inverse_mass = 1.0 / S::impact_mass();
     // the speed that the force takes in such a step
     let kick = step * inverse_mass * history.force(rate);
     let long = step * step * inverse_mass * history.stiffness(rate) > STABLE;

@@ -60,7 +60,7 @@ impl<S: Scene> Instance<S> {
     pub fn take_deep(&mut self) -> Option<Warning> {
         let contact = core::mem::take(&mut self.deep.contact).checked_sub(1)? as usize;
         if S::Watch::IS_PRESENT && contact + 1 == stability::UNSTABLE as usize {
-            return Some(Warning::Unstable { step: self.deep.indentation, mass: S::IMPACT_MASS });
+            return Some(Warning::Unstable { step: self.deep.indentation, mass: S::impact_mass() });
         }
         Some(Warning::Deep { contact, indentation: self.deep.indentation, allowed: self.valid_depth(contact) })
     }

@@ -15,17 +15,17 @@ impl<S: Scene> Instance<S> {
             Real::IndentationRate if value.abs() > FASTEST => Err(Fault::RateOutOfRange { rate: value }),
             Real::IndentationRate => self.histories().get(contact).map_or(Ok(()), |history| check_rate(history, value)),
             Real::Parameter(index) => self.check_parameter(index, value),
-            _ if Self::has_input(variable) => check_input(variable, value),
+            _ if S::has_input(variable) => check_input(variable, value),
             _ => Err(Fault::NotSettable),
         }
     }
 
     fn check_parameter(&self, index: usize, value: f64) -> Result<(), Fault> {
-        let Some((settable, _)) = S::settable_at(index) else { return Err(Fault::NotSettable) };
+        let Some((settable, _)) = S::settable(index) else { return Err(Fault::NotSettable) };
         if !matches!(self.phase(), Phase::Instantiated | Phase::Initialization) && !S::is_tunable(index) {
             return Err(Fault::FixedParameter { index });
         }
-        if allows(settable, value) { Ok(()) } else { Err(Fault::OutOfRange { index, value }) }
+        if allows(&settable, value) { Ok(()) } else { Err(Fault::OutOfRange { index, value }) }
     }
 
     /// Sets a variable to a `value` that [`Instance::check_real`] has allowed; true for a parameter, which takes effect
@@ -148,8 +148,8 @@ impl<S: Scene> Instance<S> {
                 Some(ending) if !matches!(self.phase(), Phase::Instantiated | Phase::Initialization) => ending.speed,
                 _ => rate,
             },
-            Real::ExternalAcceleration if Self::has_input(variable) => self.acceleration(contact, f64::NAN),
-            Real::EffectiveMass if Self::has_input(variable) => self.mass(contact),
+            Real::ExternalAcceleration if S::has_input(variable) => self.acceleration(contact, f64::NAN),
+            Real::EffectiveMass if S::has_input(variable) => self.mass(contact),
             Real::ClosingSpeed | Real::ExternalAcceleration | Real::EffectiveMass => f64::NAN,
             Real::Parameter(index) => self.settings.values.as_ref().get(index).copied().unwrap_or(f64::NAN),
         }

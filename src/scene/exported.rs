@@ -77,8 +77,8 @@ impl Scene for Exported {
         ("", 0)
     }
 
-    fn settable() -> &'static [Settable] {
-        &SETTABLE
+    fn settable(index: usize) -> Option<(Settable, Option<usize>)> {
+        SETTABLE.get(index).map(|settable| (*settable, None))
     }
 
     fn start_values() -> Self::Values {

@@ -2,10 +2,15 @@
 //!
 //! A scene is a type. An [`Instance`](crate::instance::Instance) is compiled for one, so that features that the scene does not
 //! request take neither memory nor time. The exporter writes [`exported::Exported`] for the scene of each FMU; a program may
-//! write its own.
+//! write its own. The scene of a
+//! prebuilt library, [`prebuilt::Prebuilt`], is read from memory.
 
 pub mod coupling;
+#[cfg(not(feature = "prebuilt"))]
 pub mod exported;
+#[cfg(feature = "prebuilt")]
+pub mod kind;
+pub mod prebuilt;
 pub mod storage;
 pub mod variable;
 
@@ -19,7 +24,7 @@ use crate::contact::{Contact, Pair};
 /// A scene: `CONTACTS` contacts in groups of equal ones, with their parameters and variables.
 ///
 /// Contacts are counted from 0, and so are groups. The contacts of a group follow each other. Everything that depends on
-/// parameters is asked for with their present values, in the order of [`Scene::settable`].
+/// parameters is asked for with their present values, in the order of [`Scene::Values`].
 pub trait Scene: Sized {
     /// What is in contact, and by which laws.
     type Model: Copy;
@@ -30,7 +35,7 @@ pub trait Scene: Sized {
     type Contacts<T: Copy>: Store<T>;
     /// Something of each group of contacts.
     type Groups<T: Copy>: Store<T>;
-    /// The values of the parameters that can be set.
+    /// The values of the parameters that can be set, and maybe of others.
     type Values: Store<f64> + Copy;
 
     /// Whether forces are kept in memory. One contact computes its force when it is asked for, and so do those whose force
@@ -49,8 +54,6 @@ pub trait Scene: Sized {
     /// Whether it is noticed that steps are too long for a mass like that of the scene's impact.
     type Watch: Presence;
 
-    /// Effective mass of the scene's impact \[kg\], if it names one.
-    const IMPACT_MASS: f64 = f64::NAN;
     /// How the bodies move through a step, if the scene knows their mass.
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
     /// The passivity guard, if there is one.
@@ -76,20 +79,16 @@ pub trait Scene: Sized {
     /// The name of a contact, and its number from 1 on if contacts of that name are counted, or else 0.
     fn contact_name(contact: usize) -> (&'static str, usize);
 
-    /// The parameters that can be set, with their limits.
-    fn settable() -> &'static [Settable];
-
-    /// The parameter whose value has this `index`, and its contact if each contact has a value of its own.
-    fn settable_at(index: usize) -> Option<(&'static Settable, Option<usize>)> {
-        Self::settable().get(index).map(|settable| (settable, None))
-    }
+    /// The parameter whose value has this `index` among [`Scene::Values`], if it can be set, with its limits; and its contact, if
+    /// each contact has a value of its own.
+    fn settable(index: usize) -> Option<(Settable, Option<usize>)>;
 
     /// Whether the value with this `index` may be set between steps, too.
     fn is_tunable(_index: usize) -> bool {
         false
     }
 
-    /// Their values before anyone sets them.
+    /// The values of the parameters before anyone sets them.
     fn start_values() -> Self::Values;
 
     /// The value of any parameter for the contacts of a group: set, or constant in this scene. A parameter that the scene
@@ -101,6 +100,31 @@ pub trait Scene: Sized {
 
     /// Density of the target of a group \[kg/m^3\], if it is known.
     fn density(group: usize) -> Option<f64>;
+
+    /// Effective mass of the scene's impact \[kg\]; NaN if it names none.
+    #[inline(always)]
+    fn impact_mass() -> f64 {
+        f64::NAN
+    }
+
+    /// Whether `variable` is an input of the scene beside the rate.
+    #[inline(always)]
+    fn has_input(variable: Real) -> bool {
+        match variable {
+            Real::ExternalAcceleration => <Self::Coupling as Coupling>::Acceleration::IS_PRESENT,
+            Real::EffectiveMass => <Self::Coupling as Coupling>::Mass::IS_PRESENT,
+            _ => false,
+        }
+    }
+
+    /// Whether the scene can be used.
+    ///
+    /// # Errors
+    /// Why it can't. Only a scene that is read from memory can be unusable.
+    #[inline(always)]
+    fn verify() -> Result<(), &'static str> {
+        Ok(())
+    }
 
     /// The Real variable with this value reference, and its contact.
     fn real(value_reference: u32) -> Option<(Real, usize)>;

@@ -25,6 +25,11 @@ pub enum Parameter {
     InitialGap,
 }
 
+impl Parameter {
+    /// How many there are.
+    pub const COUNT: usize = Parameter::InitialGap as usize + 1;
+}
+
 /// A parameter of the scene that can be set, with its limits.
 #[derive(Clone, Copy, Debug)]
 pub struct Settable {
@@ -78,7 +83,7 @@ pub fn name_in(names: &[(&'static str, bool)], ends: &[usize], group: usize, con
 /// Where a parameter has its value from, if groups of contacts differ.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// From the value of a settable parameter with this index.
+    /// From the parameter with this index among [`Scene::Values`](super::Scene::Values).
     Settable(usize),
     /// From the values of a settable parameter that each contact has for itself: that of contact 0 would have this index.
     PerContact(usize),
@@ -137,7 +142,7 @@ pub enum Real {
     ExternalAcceleration,
     /// The effective mass as an input \[kg\].
     EffectiveMass,
-    /// The settable parameter with this index in [`Scene::settable`](super::Scene::settable).
+    /// The settable parameter with this index among [`Scene::Values`](super::Scene::Values).
     Parameter(usize),
 }
 

@@ -170,7 +170,6 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Prediction = M;
     type Coupling = K::Coupling;
     type Watch = K::Watch;
-    const IMPACT_MASS: f64 = 4e-3;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
 
     fn guid() -> &'static str {
@@ -193,8 +192,12 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
         ("contact", contact + 1)
     }
 
-    fn settable() -> &'static [Settable] {
-        &SETTABLE
+    fn settable(index: usize) -> Option<(Settable, Option<usize>)> {
+        SETTABLE.get(index).copied().map(|settable| (settable, None))
+    }
+
+    fn impact_mass() -> f64 {
+        4e-3
     }
 
     fn start_values() -> [f64; 3] {

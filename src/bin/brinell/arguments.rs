@@ -1,6 +1,8 @@
 //! The command line.
 
+use crate::package::Way;
 use crate::platform::{self, Platform};
+use crate::prebuilt;
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -32,6 +34,8 @@ pub enum Command {
         output: Option<PathBuf>,
         #[command(flatten)]
         platforms: PlatformArguments,
+        #[command(flatten)]
+        way: WayArguments,
     },
     /// Builds the unit of a scene and packs it as a system (SSP 1.0) with its parameters
     Ssp(SspArguments),
@@ -64,6 +68,8 @@ pub enum Command {
         #[arg(short, long, value_name = "FILE.svg")]
         output: Option<PathBuf>,
     },
+    /// Compiles the libraries from which FMUs are made where there is no compiler
+    Prebuild(PrebuildArguments),
     /// Lists the built-in materials
     Materials,
     /// Prints the script that completes the arguments of this program in a shell
@@ -80,6 +86,9 @@ pub enum Command {
     /// Prints the Rust constants of a scene, as they are compiled into its unit
     #[command(hide = true)]
     Constants { scene: PathBuf },
+    /// Prints the Rust source of the prebuilt library that a scene fits into
+    #[command(hide = true)]
+    Kind { scene: PathBuf },
 }
 
 #[derive(clap::Args)]
@@ -97,11 +106,14 @@ pub struct SspArguments {
     pub connect: Vec<String>,
     #[command(flatten)]
     pub platforms: PlatformArguments,
+    #[command(flatten)]
+    pub way: WayArguments,
 }
 
 #[derive(clap::Args, Default)]
 pub struct PlatformArguments {
-    /// Platforms of the FMU: linux64, aarch64-linux, win64, darwin64, aarch64-darwin, or "all" [default: this machine's]
+    /// Platforms: linux64, aarch64-linux, win64, darwin64, aarch64-darwin, or "all" [default: this machine's, or all that are
+    /// prebuilt if nothing is compiled]
     #[arg(long, value_delimiter = ',', value_name = "PLATFORM")]
     platforms: Vec<String>,
     /// Puts the arm64 library into linux64, for importers on ARM Linux that look only there
@@ -110,17 +122,20 @@ pub struct PlatformArguments {
 }
 
 impl PlatformArguments {
-    /// The platforms, each once, in the order of [`Platform::ALL`].
+    /// The platforms for a library that is made in this `way`, each once, in the order of [`Platform::ALL`].
     ///
     /// # Errors
     /// A sentence about a platform that doesn't exist.
-    pub fn chosen(&self) -> Result<Vec<Platform>, String> {
+    pub fn chosen(&self, way: Way) -> Result<Vec<Platform>, String> {
         let mut chosen = Vec::new();
         for name in &self.platforms {
             match name.as_str() {
                 "all" => chosen.extend(Platform::ALL),
                 _ => chosen.push(platform::named(name)?),
             }
+        }
+        if chosen.is_empty() && !way.compiles() {
+            chosen = prebuilt::platforms();
         }
         if chosen.is_empty() {
             chosen.push(platform::here().map_err(|error| error.to_string())?);
@@ -132,6 +147,41 @@ impl PlatformArguments {
         }
         Ok(platforms)
     }
+}
+
+#[derive(clap::Args)]
+pub struct WayArguments {
+    /// Compiles the library, which needs a Rust toolchain [default: if there is one]
+    #[arg(long, conflicts_with = "prebuilt")]
+    compile: bool,
+    /// Fills in a prebuilt library, which needs no toolchain
+    #[arg(long)]
+    prebuilt: bool,
+}
+
+impl WayArguments {
+    pub fn chosen(&self) -> Way {
+        match (self.compile, self.prebuilt) {
+            (true, _) => Way::Compiled,
+            (_, true) => Way::Prebuilt,
+            _ => Way::Any,
+        }
+    }
+}
+
+#[derive(clap::Args)]
+pub struct PrebuildArguments {
+    /// The folder that the libraries go to
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// Laws: LOADING, LOADING/UNLOADING or RATE-DEPENDENT/DAMPING [default: all]
+    #[arg(long, value_delimiter = ',')]
+    pub laws: Vec<String>,
+    /// Kinds: force, state, everything, serial, parallel [default: all]
+    #[arg(long, value_delimiter = ',')]
+    pub kinds: Vec<String>,
+    #[command(flatten)]
+    pub platforms: PlatformArguments,
 }
 
 #[derive(clap::Args)]

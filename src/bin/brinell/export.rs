@@ -1,23 +1,24 @@
 //! `brinell export`: builds the unit of a scene and says what is in it.
 
-use crate::package::{self, ExportError};
+use crate::package::{self, ExportError, Way};
 use crate::plan::Plan;
 use crate::platform::Platform;
 use crate::scene::Scene;
 use crate::summary::Summary;
 use std::path::{Path, PathBuf};
 
-/// The command: writes the FMU of `scene` for `platforms` to `output`, or into the current folder; gives its path.
+/// The command: makes the FMU of `scene` in this `way` for `platforms` and writes it to `output`, or into the current folder; gives
+/// its path.
 pub fn run(
     scene: &Scene,
-    platforms: &[Platform],
+    (way, platforms): (Way, &[Platform]),
     output: Option<&Path>,
     as_json: bool,
 ) -> Result<PathBuf, ExportError> {
     let path = output.map_or_else(|| format!("{}.fmu", scene.name).into(), Path::to_path_buf);
     eprintln!("building {} ...", path.display());
     let plan = Plan::of(scene);
-    let exported = package::export(&plan, platforms, &path)?;
+    let exported = package::export(&plan, way, platforms, &path)?;
     let summary = Summary::of(&plan);
     if as_json {
         println!("{}", summary.json(&exported));

@@ -30,6 +30,7 @@ mod parameters;
 mod plan;
 mod platform;
 mod plot;
+mod prebuilt;
 mod prebuilt_folder;
 mod predict;
 mod report;
@@ -45,6 +46,7 @@ mod xml;
 
 use arguments::{Arguments, Command, PlatformArguments};
 use clap::Parser;
+use package::Way;
 use plan::Plan;
 use scene::Scene;
 use std::error::Error;
@@ -87,16 +89,19 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     }
     match &arguments.command {
         None => {
-            let platforms = PlatformArguments::default().chosen()?;
-            return check::run(&export::run(&Scene::default_scene()?, &platforms, None, json)?, json);
+            let platforms = PlatformArguments::default().chosen(Way::Any)?;
+            let unit = export::run(&Scene::default_scene()?, (Way::Any, &platforms), None, json)?;
+            return check::run(&unit, json);
         }
         Some(Command::Check { fmu }) => return check::run(fmu, json),
         Some(Command::Report { scene, output, peer, quick }) => {
             return Ok(report::run(&Scene::read(scene)?, peer, output.as_deref(), *quick, json)?);
         }
-        Some(Command::Export { scene, output, platforms }) => {
-            export::run(&Scene::read(scene)?, &platforms.chosen()?, output.as_deref(), json)?;
+        Some(Command::Export { scene, output, platforms, way }) => {
+            let way = way.chosen();
+            export::run(&Scene::read(scene)?, (way, &platforms.chosen(way)?), output.as_deref(), json)?;
         }
+        Some(Command::Prebuild(arguments)) => prebuilt::command::run(arguments, json)?,
         Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
         Some(Command::Predict(arguments)) => predict::command::run(arguments, json)?,
         Some(Command::Curve(arguments)) => curve::run(arguments)?,
@@ -106,6 +111,10 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Man { output }) => about::manual(output)?,
         Some(Command::Constants { scene }) => {
             print!("{}", constants::write(&Plan::of(&Scene::read(scene)?), "unpacked"));
+        }
+        Some(Command::Kind { scene }) => {
+            let library = prebuilt::Library::of(&Scene::read(scene)?)?;
+            print!("{}", constants::kind::write(&library.scene, "unpacked"));
         }
     }
     Ok(true)

@@ -1,7 +1,7 @@
 //! What `brinell export` says: what the unit has, and what was left out of it.
 
 use crate::interface::Entry;
-use crate::package::{Exported, Packed};
+use crate::package::{Exported, How, Packed};
 use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{Causality, VARIABLES};
@@ -76,7 +76,7 @@ impl Summary<'_> {
             .collect();
         let mut object = json!({
             "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size(),
-            "imports": exported.imports(), "libraries": libraries, "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
+            "imports": exported.imports(), "libraries": libraries, "made": exported.how.as_ref().map(How::json), "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
             "makes_energy": self.plan.makes_energy, "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
             "variables": variables.iter().map(Entry::label).collect::<Vec<_>>(), "variable_count": self.variable_count(),
             "constants": constants.iter().map(|constant| &constant.name).collect::<Vec<_>>(),
@@ -109,6 +109,9 @@ impl Summary<'_> {
             let from = if platform.starts_with("win") { "kernel32" } else { "the process" };
             let taken = if imports.is_empty() { "nothing".into() } else { imports.join(", ") };
             println!("  {platform:<15}{size:>7} bytes; takes {taken} from {from}");
+        }
+        if let Some(how) = &exported.how {
+            println!("  made       {}", how.words());
         }
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
         println!("  law        {}", law(scene));

@@ -1,6 +1,7 @@
 //! The scene as Rust: the file `src/scene/exported.rs` of the library.
 
 mod groups;
+pub mod kind;
 mod parameters;
 mod variables;
 
@@ -8,6 +9,8 @@ use crate::plan::Plan;
 use crate::scene::{Coupling, Scene};
 use brinell::contact::damped::AnyDamped;
 use std::fmt::Write;
+
+pub use parameters::{parameters, start_value};
 
 /// The planned unit's scene as Rust, under the identification `guid`.
 pub fn write(plan: &Plan, guid: &str) -> String {
@@ -22,7 +25,11 @@ pub fn write(plan: &Plan, guid: &str) -> String {
     parameters::add_settable(&mut file, scene, entries);
     parameters::add_parameters(&mut file, scene);
     add_laws(&mut file, scene);
+    add_model(&mut file, scene);
     groups::add_density(&mut file, scene);
+    if scene.watches {
+        file.add_method("impact_mass() -> f64", &literal(scene.impact.mass));
+    }
     variables::add_reals(&mut file, entries);
     variables::add_integers(&mut file, entries);
     file.text(plan)
@@ -54,28 +61,8 @@ impl File {
     /// The whole file.
     fn text(&self, plan: &Plan) -> String {
         let scene = plan.scene;
-        let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
-        let presence = |is: bool| if is { "Present" } else { "Absent" };
-        let follows_rate = scene.damped.is_some();
-        let forces = presence(scene.contact_count() > 1 && !follows_rate);
-        let momentum = presence(chosen(&["impulse", "mean_force"]));
-        let (course, prediction) = (presence(!follows_rate), presence(chosen(&["predicted_force"])));
-        let coupling = match scene.coupling {
-            Some(Coupling { parallel, acceleration_input, mass_input }) => {
-                let [account, acceleration, mass] = [parallel, acceleration_input, mass_input].map(presence);
-                format!("Coupled<{account}, {acceleration}, {mass}>")
-            }
-            None => "Absent".into(),
-        };
-        let watch = presence(scene.watches);
-        let mass = match scene.watches {
-            true => format!("\n    const IMPACT_MASS: f64 = {};\n", literal(scene.impact.mass)),
-            false => String::new(),
-        };
-        let follow = match scene.coupling.is_some() {
-            true => "\n    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(follow);\n",
-            false => "",
-        };
+        let forces = presence(scene.contact_count() > 1 && scene.damped.is_none());
+        let (parts, follow) = (parts(scene), follow(scene));
         let guard = match plan.guard.as_ref().map(|guard| format!("the passivity guard {}", guard.words())) {
             Some(words) => format!(
                 "\n    const GUARD: Option<Guard<Self>> =\n        Some(Guard {{ words: {words:?}, acts: contact::History::is_held_back }});\n"
@@ -94,12 +81,7 @@ impl File {
     type Values = [f64; {values}];
 
     type Forces = {forces};
-    type Momentum = {momentum};
-    type Course = {course};
-    type Prediction = {prediction};
-    type Coupling = {coupling};
-    type Watch = {watch};
-{mass}{follow}{guard}{methods}}}
+{parts}{follow}{guard}{methods}}}
 "
         );
         let text = format!(
@@ -112,6 +94,41 @@ impl File {
 /// How many values can be set, as an expression.
 fn value_count(items: &str) -> &'static str {
     if items.contains("const VALUES:") { "VALUES" } else { "SETTABLE.len()" }
+}
+
+fn presence(is: bool) -> &'static str {
+    if is { "Present" } else { "Absent" }
+}
+
+/// Which parts of an instance the scene has, as types.
+fn parts(scene: &Scene) -> String {
+    let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
+    let momentum = presence(chosen(&["impulse", "mean_force"]));
+    let (course, prediction) = (presence(scene.damped.is_none()), presence(chosen(&["predicted_force"])));
+    let coupling = match scene.coupling {
+        Some(Coupling { parallel, acceleration_input, mass_input }) => {
+            let [account, acceleration, mass] = [parallel, acceleration_input, mass_input].map(presence);
+            format!("Coupled<{account}, {acceleration}, {mass}>")
+        }
+        None => "Absent".into(),
+    };
+    let watch = presence(scene.watches);
+    format!(
+        "    type Momentum = {momentum};
+    type Course = {course};
+    type Prediction = {prediction};
+    type Coupling = {coupling};
+    type Watch = {watch};
+"
+    )
+}
+
+/// How the bodies move, if the scene moves them.
+fn follow(scene: &Scene) -> &'static str {
+    match scene.coupling.is_some() {
+        true => "\n    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(follow);\n",
+        false => "",
+    }
 }
 
 /// What the file uses.
@@ -153,7 +170,7 @@ const HEAD: &str = "\
 //! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
 ";
 
-/// The laws with their constants, and the model of a group.
+/// The laws with their constants.
 fn add_laws(file: &mut File, scene: &Scene) {
     if let Some((_, law)) = &scene.damped {
         // an enum inside of a law is printed without its path
@@ -165,12 +182,6 @@ fn add_laws(file: &mut File, scene: &Scene) {
         let kind = add_law(file, "LAW", "damped", &value);
         file.model = format!("damped::Model<{kind}>");
         file.contact = format!("damped::History<{kind}>");
-        file.add_method(
-            "model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model",
-            "let value = |which| Self::parameter(which, group, values);\n\
-             let (restitution, mass) = (value(Parameter::Restitution), value(Parameter::EffectiveMass));\n\
-             damped::Model { pair, law: LAW, restitution, mass }",
-        );
         return;
     }
     let loading = add_law(file, "LOADING", "loading", &value_of(&scene.loading.1));
@@ -179,10 +190,26 @@ fn add_laws(file: &mut File, scene: &Scene) {
     let unloading = add_law(file, "UNLOADING", "unloading", &unloading);
     file.model = format!("contact::Model<{loading}, {unloading}>");
     file.contact = "contact::History".into();
+}
+
+/// The expressions of a model of each kind, from its laws.
+const DAMPED_MODEL: &str = "let (restitution, mass) = (value(Parameter::Restitution), value(Parameter::EffectiveMass));\n\
+                            damped::Model { pair, law: LAW, restitution, mass }";
+const MODEL: &str = "contact::Model { pair, loading: LOADING, unloading: UNLOADING, surface";
+
+/// The model of a group.
+fn add_model(file: &mut File, scene: &Scene) {
+    if scene.damped.is_some() {
+        file.add_method(
+            "model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model",
+            &format!("let value = |which| Self::parameter(which, group, values);\n{DAMPED_MODEL}"),
+        );
+        return;
+    }
     let (group, surface) = groups::surface(file, scene);
     file.add_method(
         &format!("model(pair: Pair, {group}: usize, _values: &Self::Values) -> Self::Model"),
-        &format!("contact::Model {{ pair, loading: LOADING, unloading: UNLOADING, surface: {surface} }}"),
+        &format!("{MODEL}: {surface} }}"),
     );
 }
 

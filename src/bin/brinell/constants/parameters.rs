@@ -18,6 +18,12 @@ const ABSENT: [(&str, f64); 6] = [
     ("effective_mass", f64::INFINITY),
 ];
 
+/// The value of the parameter `name` for the contacts of a group, before anyone sets it.
+pub fn start_value(scene: &Scene, group: usize, name: &str) -> f64 {
+    let absent = || ABSENT.iter().find(|(absent, _)| *absent == name).map_or(f64::NAN, |(_, value)| *value);
+    scene.group_value(group, name).unwrap_or_else(absent)
+}
+
 pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
     let settable: Vec<_> = entries.iter().filter(|entry| entry.variable.causality == Causality::Parameter).collect();
     let number = |value: Option<f64>| literal(value.expect("a parameter has a start value and limits"));
@@ -36,7 +42,6 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
     }
     table.push_str(if settable.is_empty() { "];\n" } else { "\n];\n" });
     file.add_item(&table);
-    file.add_method("settable() -> &'static [Settable]", "&SETTABLE");
     let starts: Vec<_> = settable.iter().map(|entry| number(entry.start)).collect();
     let per_contact = settable.iter().any(|entry| entry.count > 1);
     if per_contact {
@@ -46,6 +51,11 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
             list("STARTS", "f64", "SETTABLE.len()", &starts)
         ));
     }
+    let found = match per_contact {
+        true => "let (place, contact) = run_of(&RUNS, index)?;\nSome((*SETTABLE.get(place)?, contact))",
+        false => "SETTABLE.get(index).map(|settable| (*settable, None))",
+    };
+    file.add_method("settable(index: usize) -> Option<(Settable, Option<usize>)>", found);
     add_tunable(file, scene, &settable);
     let line = format!("[{}]", starts.join(", "));
     let starts = match line.len() {
@@ -67,10 +77,6 @@ fn add_runs(file: &mut File, scene: &Scene, settable: &[&Entry]) {
     let runs = list("RUNS", "Run", "SETTABLE.len()", &runs.collect::<Vec<_>>());
     file.add_item(&format!("/// The values of each of them.\n{runs}"));
     file.add_item(&format!("/// How many values can be set.\nconst VALUES: usize = {end};\n"));
-    file.add_method(
-        "settable_at(index: usize) -> Option<(&'static Settable, Option<usize>)>",
-        "let (place, contact) = run_of(&RUNS, index)?;\nSome((SETTABLE.get(place)?, contact))",
-    );
 }
 
 /// The first contact of `group`.
@@ -100,8 +106,8 @@ fn add_tunable(file: &mut File, scene: &Scene, settable: &[&Entry]) {
     file.add_method("is_tunable(index: usize) -> bool", &test);
 }
 
-/// The variables that a scene can have as parameters.
-fn parameters() -> impl Iterator<Item = &'static Variable> {
+/// The variables that a scene can have as parameters, in the order of the library's enum.
+pub fn parameters() -> impl Iterator<Item = &'static Variable> {
     table::VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::files::FileError;
 use crate::platform::NoPlatform;
+use crate::prebuilt::PrebuiltError;
 use crate::symbols::SymbolError;
 use std::io;
 use std::path::PathBuf;
@@ -15,6 +16,10 @@ pub enum ExportError {
     Platform(#[from] NoPlatform),
     #[error("{0}")]
     Folder(#[from] FolderError),
+    #[error("{0}")]
+    Prebuilt(#[from] PrebuiltError),
+    #[error("there is no Rust toolchain on PATH (see rustup.rs), and without one: {0}")]
+    NoCompiler(PrebuiltError),
     #[error("rustc can't be started ({0}): exporting needs a Rust toolchain on PATH, see rustup.rs")]
     NoRustc(io::Error),
     #[error("rustc is there and doesn't work: {0}")]

@@ -7,8 +7,8 @@ use super::link::{self, Linker};
 use super::rustc::Rustc;
 use super::{LIBM_SOURCE, LIBRARY_SOURCE, hash, universal};
 use crate::files::FileError;
+use crate::plan::Plan;
 use crate::platform::{Platform, System, Target};
-use crate::scene::Scene;
 use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
@@ -44,8 +44,50 @@ const MANY_CONTACTS: usize = 16;
 
 /// As small as it can be, since the few lines of a plain step are the same in any case; or, for many contacts, with loops that
 /// work on several at once.
-fn optimization(scene: &Scene) -> &'static str {
-    if scene.contact_count() < MANY_CONTACTS { "-Copt-level=s" } else { "-Copt-level=3" }
+fn optimization(source: &Source) -> &'static str {
+    match source {
+        Source::Scene { plan, .. } if plan.scene.contact_count() >= MANY_CONTACTS => "-Copt-level=3",
+        _ => "-Copt-level=s",
+    }
+}
+
+/// The source file that a library has of its own.
+pub enum Source<'a> {
+    /// The constants of a scene.
+    Scene { plan: &'a Plan<'a>, constants: &'a str },
+    /// The kind of a prebuilt library.
+    Kind { text: &'a str },
+}
+
+impl Source<'_> {
+    /// Its path and its text.
+    fn file(&self) -> (&'static str, &str) {
+        match self {
+            Source::Scene { constants, .. } => ("src/scene/exported.rs", constants),
+            Source::Kind { text } => ("src/scene/kind.rs", text),
+        }
+    }
+
+    /// What the library is called while it is made.
+    fn name(&self) -> &str {
+        match self {
+            Source::Scene { plan, .. } => &plan.scene.name,
+            Source::Kind { .. } => "prebuilt",
+        }
+    }
+
+    /// Whether it takes nothing from its process.
+    fn is_standalone(&self) -> bool {
+        matches!(self, Source::Scene { plan, .. } if plan.scene.standalone)
+    }
+
+    /// What else the compiler is told.
+    fn arguments(&self) -> &'static [&'static str] {
+        match self {
+            Source::Scene { .. } => &[],
+            Source::Kind { .. } => &["--cfg=feature=\"prebuilt\""],
+        }
+    }
 }
 
 /// The functions that copy and compare bytes, for a system whose C library can't be relied on: one object file for the linker.
@@ -59,12 +101,12 @@ const STANDALONE: &str = "--cfg=feature=\"standalone\"";
 const BYTES_ROOT: (&str, &str) =
     ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\nmod bytes;\n");
 
-/// Compiles the library of `platform` with `constants` as its scene and gives its bytes.
+/// Compiles the library of `platform` with `source` and gives its bytes.
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn build(scene: &Scene, constants: &str, platform: &Platform) -> Result<Vec<u8>, ExportError> {
-    let mut libraries = build_all(scene, constants, slice::from_ref(platform))?;
+pub fn build(source: &Source, platform: &Platform) -> Result<Vec<u8>, ExportError> {
+    let mut libraries = build_all(source, slice::from_ref(platform))?;
     Ok(libraries.remove(0))
 }
 
@@ -72,7 +114,7 @@ pub fn build(scene: &Scene, constants: &str, platform: &Platform) -> Result<Vec<
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn build_all(scene: &Scene, constants: &str, platforms: &[Platform]) -> Result<Vec<Vec<u8>>, ExportError> {
+pub fn build_all(source: &Source, platforms: &[Platform]) -> Result<Vec<Vec<u8>>, ExportError> {
     let cache = Cache::open()?;
     let compilers = Compilers::find(&cache)?;
     let mut targets: Vec<Target> = Vec::new();
@@ -91,7 +133,7 @@ pub fn build_all(scene: &Scene, constants: &str, platforms: &[Platform]) -> Resu
     let mut slices = Vec::new();
     for at_once in builds.chunks(thread::available_parallelism().map_or(1, NonZero::get)) {
         let built: Vec<_> = thread::scope(|scope| {
-            let threads = at_once.iter().map(|build| scope.spawn(|| build.run(scene, constants)));
+            let threads = at_once.iter().map(|build| scope.spawn(|| build.run(source)));
             let threads: Vec<_> = threads.collect();
             threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
         });
@@ -117,24 +159,29 @@ struct Build<'a> {
 }
 
 impl Build<'_> {
-    fn run(&self, scene: &Scene, constants: &str) -> Result<Vec<u8>, ExportError> {
+    fn run(&self, source: &Source) -> Result<Vec<u8>, ExportError> {
         let Build { cache, folder, rustc, linker, target } = self;
-        let settings = [SETTINGS.as_slice(), &[optimization(scene), "--target", target.triple]].concat();
+        let settings = [SETTINGS.as_slice(), &[optimization(source), "--target", target.triple]].concat();
         fs::create_dir_all(folder).map_err(FileError::at(folder)).map_err(|error| no_space(cache, error))?;
         make_libm(cache, rustc, folder, &settings)?;
-        let own = [("src/scene/exported.rs", constants), BYTES_ROOT];
+        let own = [source.file(), BYTES_ROOT];
         write(cache, folder, LIBRARY_SOURCE.iter().copied().chain(own).chain(link::files()))?;
         let mut objects = Vec::new();
-        if target.system == System::Windows || scene.standalone {
+        if target.system == System::Windows || source.is_standalone() {
             let bytes = "bytes.obj";
             let settings = settings.iter().filter(|setting| !setting.starts_with("-Copt-level"));
             rustc.run(folder, settings.chain(&BYTES).chain(&[bytes, BYTES_ROOT.0]), &[])?;
             objects.push(bytes);
         }
-        let library = format!("{}.{}", scene.name, target.system.extension());
+        let library = format!("{}.{}", source.name(), target.system.extension());
         let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library].map(String::from);
-        let standalone = scene.standalone.then_some(&STANDALONE);
-        let arguments = settings.iter().chain(&LIBRARY).chain(standalone).map(|argument| (*argument).to_string());
+        let standalone = source.is_standalone().then_some(&STANDALONE);
+        let arguments = settings
+            .iter()
+            .chain(&LIBRARY)
+            .chain(standalone)
+            .chain(source.arguments())
+            .map(|argument| (*argument).to_string());
         let arguments = arguments.chain(link::arguments(target, linker, &library, &objects)).chain(named);
         rustc.run(folder, arguments, &link::variables(target, folder))?;
         let library = folder.join(library);

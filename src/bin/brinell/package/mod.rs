@@ -8,18 +8,21 @@ mod library;
 mod link;
 mod rustc;
 mod universal;
+mod way;
 
 pub use error::ExportError;
+pub use library::{Source, build as build_library};
+pub use way::{How, Way};
 
 use crate::files::write_whole;
 use crate::plan::Plan;
 use crate::platform::Platform;
-use crate::symbols;
-use crate::{constants, documentation, model_description};
+use crate::{documentation, symbols};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use way::{Made, make};
 use zip::CompressionMethod;
 use zip::write::SimpleFileOptions;
 
@@ -38,6 +41,8 @@ pub struct Exported {
     pub size: usize,
     /// One library for each platform.
     pub libraries: Vec<Packed>,
+    /// How the libraries were made; unknown before there are any.
+    pub how: Option<How>,
 }
 
 impl Exported {
@@ -62,24 +67,24 @@ pub struct Packed {
     pub imports: Vec<String>,
 }
 
-/// Builds the planned FMU for `platforms` and writes it to `path`, which is replaced only when everything has gone well.
+/// Makes the planned FMU in this `way` for `platforms` and writes it to `path`, which is replaced only when everything has gone
+/// well.
 ///
 /// # Errors
 /// [`ExportError`]; nothing is then written.
-pub fn export(plan: &Plan, platforms: &[Platform], path: &Path) -> Result<Exported, ExportError> {
-    let (archive, exported) = build(plan, platforms)?;
+pub fn export(plan: &Plan, way: Way, platforms: &[Platform], path: &Path) -> Result<Exported, ExportError> {
+    let (archive, exported) = build(plan, way, platforms)?;
     write_whole(path, &archive)?;
     Ok(Exported { path: path.into(), ..exported })
 }
 
-/// Builds the planned FMU for `platforms`: the bytes of its archive, and what is in it. It has no path yet.
+/// Makes the planned FMU in this `way` for `platforms`: the bytes of its archive, and what is in it. It has no path yet.
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn build(plan: &Plan, platforms: &[Platform]) -> Result<(Vec<u8>, Exported), ExportError> {
+pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, Exported), ExportError> {
     let scene = plan.scene;
-    let Identified { guid, description, constants } = Identified::of(plan);
-    let built = library::build_all(scene, &constants, platforms)?;
+    let Made { guid, description, libraries: built, how } = make(plan, way, platforms)?;
     let mut libraries = Vec::new();
     for (platform, library) in platforms.iter().zip(&built) {
         let refused = |reason| ExportError::Symbols { platform: platform.folder, reason };
@@ -99,31 +104,22 @@ pub fn build(plan: &Plan, platforms: &[Platform]) -> Result<(Vec<u8>, Exported),
     ]);
     let archive = archive(&files)?;
     let size = archive.len();
-    Ok((archive, Exported { path: PathBuf::new(), guid, size, libraries }))
+    Ok((archive, Exported { path: PathBuf::new(), guid, size, libraries, how: Some(how) }))
 }
 
-/// The two texts that the unit recognises itself by, and what they have in common.
-struct Identified {
-    guid: String,
-    description: String,
-    constants: String,
+/// What stands for the GUID until it is known, as long as one. In quotes it can't be in any other place: those of a scene's texts
+/// are written as `&quot;` and `\"`.
+pub const GUID_TO_COME: &str = "GUID of 32 digits that will come";
+
+/// `text` with the GUID in its place.
+pub fn identified(text: &str, guid: &str) -> String {
+    let quoted = |text: &str| format!("\"{text}\"");
+    text.replacen(&quoted(GUID_TO_COME), &quoted(guid), 1)
 }
 
-/// What stands for the GUID until it is known. In quotes it can't be in any other place: those of a scene's texts are written
-/// as `&quot;` and `\"`.
-const GUID_TO_COME: &str = "GUID to come";
-
-impl Identified {
-    /// The GUID is a hash of all that the unit is made of: description, constants, source of the library and of `libm`.
-    fn of(plan: &Plan) -> Identified {
-        let description = model_description::write(plan, GUID_TO_COME);
-        let constants = constants::write(plan, GUID_TO_COME);
-        let guid = hash([description.as_str(), &constants].into_iter().chain(sources()));
-        let quoted = |text: &str| format!("\"{text}\"");
-        let identified = |text: String| text.replacen(&quoted(GUID_TO_COME), &quoted(&guid), 1);
-        let (description, constants) = (identified(description), identified(constants));
-        Identified { guid, description, constants }
-    }
+/// What every library is made of: names and texts of the files.
+pub fn sources<'a>() -> impl Iterator<Item = &'a str> {
+    LIBRARY_SOURCE.iter().chain(LIBM_SOURCE).flat_map(|&(name, text)| [name, text])
 }
 
 /// What the library is recognised by: 16 digits of a hash of its source and that of `libm`.
@@ -133,13 +129,8 @@ pub fn library_identity() -> String {
     identity
 }
 
-/// Names and texts of the source files of the library and of `libm`.
-fn sources<'a>() -> impl Iterator<Item = &'a str> {
-    LIBRARY_SOURCE.iter().chain(LIBM_SOURCE).flat_map(|(name, text)| -> [&'a str; 2] { [name, text] })
-}
-
 /// The hash of `texts`: 32 digits.
-fn hash<'a>(texts: impl Iterator<Item = &'a str>) -> String {
+pub fn hash<'a>(texts: impl Iterator<Item = &'a str>) -> String {
     let mut hash = Sha256::new();
     for text in texts {
         hash.update(text);

@@ -53,7 +53,7 @@ impl Units {
         for (needs, name) in kinds(scene) {
             progress.say(&format!("building {name}"));
             let path = folder.path().join("unit.fmu");
-            package::export(&Plan::of(&unit::first_contact(scene, needs)), &here, &path)?;
+            package::export(&Plan::of(&unit::first_contact(scene, needs)), package::Way::Any, &here, &path)?;
             let archive = Archive::open(&path)?;
             loaded.push(Loaded { needs, unit: archive.load()?, archive });
             progress.done(Work::Building);

@@ -35,17 +35,18 @@ const COMPONENT: &str = "contact";
 /// # Errors
 /// That of the name, the scene, the wiring, the export, or the file.
 pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
-    let SspArguments { scene, output, with, connect, platforms } = arguments;
+    let SspArguments { scene, output, with, connect, platforms, way } = arguments;
     let output = output.as_deref();
     // told before anything is built
     ending(output, &["ssp"])?;
-    let platforms = platforms.chosen()?;
+    let way = way.chosen();
+    let platforms = platforms.chosen(way)?;
     let scene = Scene::read(scene)?;
     let plan = Plan::of(&scene);
     let wiring = Wiring::read(&plan, with, connect)?;
     let path = output.map_or_else(|| format!("{}.ssp", scene.name).into(), Path::to_path_buf);
     eprintln!("building {} ...", path.display());
-    let (unit, exported) = package::build(&plan, &platforms)?;
+    let (unit, exported) = package::build(&plan, way, &platforms)?;
     let files = Files::of(&plan);
     let structure = document(|xml| structure::write(xml, &plan, &files, &wiring));
     let values = document(|xml| values::write(xml, &plan));

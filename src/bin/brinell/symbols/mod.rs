@@ -5,8 +5,6 @@ mod linux;
 mod macos;
 mod windows;
 
-pub use macos::{Page, pages};
-
 use crate::platform::{Platform, Processor, System, Target};
 use object::read::NameOrOrdinal;
 use object::read::macho::{FatArch, MachOFatFile32};

@@ -1,0 +1,94 @@
+//! The kind of a prebuilt library as Rust: the file `src/scene/kind.rs` of the library.
+
+use super::{DAMPED_MODEL, File, MODEL, add_laws, follow, parts};
+use crate::scene::Scene;
+use crate::table::{Causality, Type, VARIABLES, Variable};
+use std::fmt::Write;
+
+const HEAD: &str = "\
+//! What this library has, if it is a prebuilt one.
+//!
+//! `brinell prebuild` writes this file for every library that it builds. The one in the source tree is that of the kind `force`
+//! with the laws of `scenes/steel_ball.toml`; a test compares it with what the program writes.
+";
+
+/// The library that has the laws, the outputs and the inputs of `scene`, as Rust; `made_from` tells it from all others.
+pub fn write(scene: &Scene, made_from: &str) -> String {
+    let mut file = File::default();
+    file.add_item(&format!("/// What the library was made from.\nconst MADE_FROM: &str = {made_from:?};\n"));
+    add_laws(&mut file, scene);
+    if scene.damped.is_some() {
+        file.add_method(
+            "model(pair: Pair, _surface: Surface, value: impl Fn(Parameter) -> f64) -> Self::Model",
+            DAMPED_MODEL,
+        );
+    } else {
+        file.add_method(
+            "model(pair: Pair, surface: Surface, _value: impl Fn(Parameter) -> f64) -> Self::Model",
+            &format!("{MODEL} }}"),
+        );
+    }
+    add_places(&mut file, scene, Type::Real);
+    add_places(&mut file, scene, Type::Enumeration);
+    text(&file, scene)
+}
+
+/// Whether a library with all that `scene` has shows `variable`.
+fn is_shown(scene: &Scene, variable: &Variable) -> bool {
+    match variable.causality {
+        Causality::Input => variable.name == "indentation_rate" || scene.has_input(&variable.name),
+        Causality::Output => variable.name == "force" || scene.outputs.contains(&variable.name),
+        Causality::Parameter => false,
+    }
+}
+
+/// What the places in the table of variables mean, of those of type `kind`.
+fn add_places(file: &mut File, scene: &Scene, kind: Type) {
+    let (method, name) = match kind {
+        Type::Real => ("real", "Real"),
+        Type::Enumeration => ("integer", "Integer"),
+    };
+    let mut arms = String::new();
+    for (place, variable) in VARIABLES.iter().enumerate() {
+        if variable.r#type == kind && is_shown(scene, variable) {
+            writeln!(arms, "    {place} => {name}::{},", variable.rust).expect("a String takes everything");
+        }
+    }
+    let (argument, body) = match arms.is_empty() {
+        true => ("_place", "None".to_string()),
+        false => ("place", format!("Some(match place {{\n{arms}    _ => return None,\n}})")),
+    };
+    file.add_method(&format!("{method}({argument}: u8) -> Option<{name}>"), &body);
+}
+
+/// The whole file.
+fn text(file: &File, scene: &Scene) -> String {
+    let File { items, methods, model, contact } = file;
+    let (parts, follow) = (parts(scene), follow(scene));
+    let laws = if scene.damped.is_some() { "damped" } else { "loading, unloading" };
+    let contact_itself = if model.starts_with("contact::") { "self, " } else { "" };
+    let uses_follow = if follow.is_empty() { "" } else { "use crate::contact::motion::{Follow, follow};\n" };
+    let named = |name: &&str| parts.contains(*name);
+    let mut scene_names: Vec<_> = ["Absent", "Coupled"].into_iter().filter(named).collect();
+    scene_names.extend(["Integer", "Parameter"]);
+    scene_names.extend(["Present"].into_iter().filter(named));
+    let scene_names = scene_names.join(", ");
+    format!(
+        "{HEAD}
+use crate::contact::{{{contact_itself}Pair, Surface, {laws}}};
+{uses_follow}use crate::scene::prebuilt::Kind;
+use crate::scene::{{{scene_names}, Real, identity_of}};
+
+/// The library that the exporter fills in.
+pub struct Library;
+{items}
+impl Kind for Library {{
+    type Model = {model};
+    type Contact = {contact};
+
+{parts}{follow}
+    const LIBRARY: u64 = identity_of(MADE_FROM);
+{methods}}}
+"
+    )
+}

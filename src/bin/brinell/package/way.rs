@@ -1,0 +1,138 @@
+//! The two ways to a library: compiling it, or filling in a prebuilt one.
+
+use super::folder::Cache;
+use super::library::{self, Source};
+use super::rustc::Rustc;
+use super::{ExportError, GUID_TO_COME, hash, identified, sources};
+use crate::plan::Plan;
+use crate::platform::Platform;
+use crate::prebuilt::{PrebuiltError, Unit};
+use crate::{constants, model_description};
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+/// How the library of an FMU is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// By the compiler if there is one, or else from a prebuilt library.
+    Any,
+    Compiled,
+    Prebuilt,
+}
+
+/// What an FMU has that depends on how it was made.
+pub struct Made {
+    pub guid: String,
+    /// The model description.
+    pub description: String,
+    /// One for each platform.
+    pub libraries: Vec<Vec<u8>>,
+    pub how: How,
+}
+
+/// How a library was made, and what the other way would have meant.
+#[derive(Debug)]
+pub struct How {
+    /// How long it took.
+    time: Duration,
+    by: By,
+}
+
+#[derive(Debug)]
+enum By {
+    /// The prebuilt library that the scene fits into, and by how much it is larger [bytes]; or why there is none.
+    Compiler(Result<(String, i64), String>),
+    /// The prebuilt library, and by how much a compiled one is smaller [bytes].
+    Prebuilt(String, Option<i64>),
+}
+
+/// Makes the libraries of the planned FMU for `platforms`, and what belongs to them.
+///
+/// # Errors
+/// [`ExportError`]
+pub fn make(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<Made, ExportError> {
+    match way {
+        Way::Compiled => compile(plan, platforms),
+        Way::Prebuilt => Ok(fill_in(plan, platforms)?),
+        Way::Any if has_compiler() => compile(plan, platforms),
+        Way::Any => fill_in(plan, platforms).map_err(ExportError::NoCompiler),
+    }
+}
+
+impl Way {
+    /// Whether libraries that are made in this way are compiled.
+    pub fn compiles(self) -> bool {
+        self == Way::Compiled || self == Way::Any && has_compiler()
+    }
+}
+
+/// Whether a compiler can be started, be it good or not.
+fn has_compiler() -> bool {
+    !matches!(Cache::open().and_then(|cache| Rustc::find(&cache.folder)), Err(ExportError::NoRustc(_)))
+}
+
+/// By the compiler. The GUID is a hash of all that the unit is made of: description, constants, source of the library and of
+/// `libm`.
+fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
+    let begin = Instant::now();
+    let description = model_description::write(plan, GUID_TO_COME);
+    let constants = constants::write(plan, GUID_TO_COME);
+    let guid = hash([description.as_str(), &constants].into_iter().chain(sources()));
+    let (description, constants) = (identified(&description, &guid), identified(&constants, &guid));
+    let libraries = library::build_all(&Source::Scene { plan, constants: &constants }, platforms)?;
+    let time = begin.elapsed();
+    let larger = |unit: Unit| {
+        let mut larger = 0;
+        for (platform, library) in platforms.iter().zip(&libraries) {
+            larger += unit.sizes(platform)?.0 as i64 - library.len() as i64;
+        }
+        Some((unit.library.name(), larger))
+    };
+    let other = Unit::of(plan).map_err(|error| error.to_string());
+    let other = other.and_then(|unit| larger(unit).ok_or_else(|| "there is none for these platforms".into()));
+    Ok(Made { guid, description, libraries, how: How { time, by: By::Compiler(other) } })
+}
+
+/// From a prebuilt library.
+fn fill_in(plan: &Plan, platforms: &[Platform]) -> Result<Made, PrebuiltError> {
+    let begin = Instant::now();
+    let unit = Unit::of(plan)?;
+    let libraries = platforms.iter().map(|platform| unit.library(platform)).collect::<Result<Vec<_>, _>>()?;
+    let saves = platforms.iter().map(|platform| unit.sizes(platform).and_then(|(_, saves)| saves)).sum();
+    let how = How { time: begin.elapsed(), by: By::Prebuilt(unit.library.name(), saves) };
+    Ok(Made { guid: unit.guid, description: unit.description, libraries, how })
+}
+
+impl How {
+    /// For people.
+    pub fn words(&self) -> String {
+        let seconds = self.time.as_secs_f64();
+        match &self.by {
+            By::Compiler(Ok((name, larger))) => format!(
+                "compiled in {seconds:.1} s; the prebuilt library `{name}` (--prebuilt) would save that, and take {larger} \
+                 bytes more"
+            ),
+            By::Compiler(Err(reason)) => format!("compiled in {seconds:.1} s, and can't be made without: {reason}"),
+            By::Prebuilt(name, saves) => {
+                let saves = saves.map_or("some bytes".into(), |saves| format!("at least {saves} bytes"));
+                format!(
+                    "from the prebuilt library `{name}` in {seconds:.2} s; compiling (--compile) would save {saves}"
+                )
+            }
+        }
+    }
+
+    /// For programs.
+    pub fn json(&self) -> Value {
+        let seconds = self.time.as_secs_f64();
+        match &self.by {
+            By::Compiler(Ok((name, larger))) => {
+                json!({ "by": "compiler", "seconds": seconds, "prebuilt": name, "prebuilt_is_larger_by": larger })
+            }
+            By::Compiler(Err(reason)) => json!({ "by": "compiler", "seconds": seconds, "not_prebuilt": reason }),
+            By::Prebuilt(name, saves) => {
+                json!({ "by": "prebuilt", "seconds": seconds, "prebuilt": name, "prebuilt_is_larger_by": saves })
+            }
+        }
+    }
+}

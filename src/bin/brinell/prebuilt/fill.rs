@@ -1,0 +1,89 @@
+//! Writing the data of a scene into a prebuilt library.
+
+use super::signature::{self, SignatureError};
+use brinell::scene::prebuilt::block::{Block, Data, MAGIC, VERSION};
+use object::read::macho::{FatArch, MachOFatFile32, MachOFatFile64};
+use object::{BinaryFormat, FileKind, Object, ObjectSection};
+use std::ops::Range;
+
+/// What the section of the block is called, in Mach-O and elsewhere.
+const SECTIONS: [&str; 2] = ["__brinell", ".brinell"];
+
+/// A library that can't be filled in.
+#[derive(Debug, thiserror::Error)]
+pub enum FillError {
+    #[error("it can't be read as a library: {0}")]
+    Unreadable(#[from] object::Error),
+    #[error("it has no section {} for the data of a scene", SECTIONS[1])]
+    NoSection,
+    #[error(
+        "its section for the data of a scene has {found} bytes instead of {expected}: it was made by another version"
+    )]
+    Size { found: usize, expected: usize },
+    #[error("its section for the data of a scene begins with other numbers than an empty one of this version")]
+    NotEmpty,
+    #[error("its signature can't be renewed: {0}")]
+    Signature(#[from] SignatureError),
+}
+
+/// Writes `data` into `library`, which is told from all others by the number `identity`.
+///
+/// # Errors
+/// [`FillError`]; some of it may then be written.
+pub fn fill(library: &mut [u8], identity: u64, data: Data) -> Result<(), FillError> {
+    let block: Vec<u8> = Block::filled(identity, data).words().flat_map(u64::to_le_bytes).collect();
+    let empty: Vec<u8> = Block::unfilled(identity).words().flat_map(u64::to_le_bytes).collect();
+    debug_assert_eq!([block.len(), empty.len()], [size_of::<Block>(); 2]);
+    for slice in slices(library)? {
+        let slice = &mut library[slice];
+        let (format, section) = section(slice)?;
+        let room = &mut slice[section.clone()];
+        if room.len() != block.len() {
+            return Err(FillError::Size { found: room.len(), expected: block.len() });
+        }
+        // numbers that say what it is; the rest of an empty block says nothing
+        if room[..HEAD] != empty[..HEAD] {
+            return Err(FillError::NotEmpty);
+        }
+        if format == BinaryFormat::MachO {
+            signature::check(slice)?;
+        }
+        slice[section.clone()].copy_from_slice(&block);
+        if format == BinaryFormat::MachO {
+            signature::renew(slice, section)?;
+        }
+    }
+    Ok(())
+}
+
+/// Magic, version, library and length.
+const HEAD: usize = 8 * 4;
+const _: () = assert!(MAGIC != 0 && VERSION != 0);
+
+/// The libraries in a file: itself, or those of each processor in a universal one.
+fn slices(file: &[u8]) -> Result<Vec<Range<usize>>, object::Error> {
+    let range = |(offset, size): (u64, u64)| offset as usize..(offset + size) as usize;
+    Ok(match FileKind::parse(file)? {
+        FileKind::MachOFat32 => {
+            MachOFatFile32::parse(file)?.arches().iter().map(|arch| range(arch.file_range())).collect()
+        }
+        FileKind::MachOFat64 => {
+            MachOFatFile64::parse(file)?.arches().iter().map(|arch| range(arch.file_range())).collect()
+        }
+        _ => vec![0..file.len()],
+    })
+}
+
+/// The format of a library, and where its block is.
+fn section(library: &[u8]) -> Result<(BinaryFormat, Range<usize>), FillError> {
+    let file = object::File::parse(library)?;
+    let section = SECTIONS.iter().find_map(|name| file.section_by_name(name)).ok_or(FillError::NoSection)?;
+    let (offset, size) = section.file_range().ok_or(FillError::NoSection)?;
+    let offset = offset as usize;
+    // the sections of a DLL are padded to whole blocks of the file
+    let size = if file.format() == BinaryFormat::Pe { section.size() } else { size } as usize;
+    if library.len() < offset + size {
+        return Err(FillError::NoSection);
+    }
+    Ok((file.format(), offset..offset + size))
+}

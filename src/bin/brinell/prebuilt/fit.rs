@@ -1,0 +1,139 @@
+//! Whether a scene fits into a prebuilt library, and the data that it becomes there.
+
+use super::kinds::{Laws, Library};
+use crate::constants::{parameters, start_value};
+use crate::interface::Entry;
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::table::{Causality, VARIABLES};
+use brinell::contact::Surface;
+use brinell::contact::damped::AnyDamped;
+use brinell::scene::identity_of;
+use brinell::scene::prebuilt::block::{Data, FIRST_PARAMETER, Flag, GUID, TEXTS, VARIABLES as PLACES};
+
+/// A scene that no prebuilt library has room for.
+#[derive(Debug, thiserror::Error)]
+#[error("{key}: {reason}")]
+pub struct NeedsCompiler {
+    /// What in the scene is the reason.
+    pub key: String,
+    pub reason: String,
+}
+
+fn needs(key: impl Into<String>, reason: impl Into<String>) -> NeedsCompiler {
+    NeedsCompiler { key: key.into(), reason: reason.into() }
+}
+
+impl Library {
+    /// The smallest library that `scene` fits into.
+    ///
+    /// # Errors
+    /// [`NeedsCompiler`] with the first key that no prebuilt library has.
+    pub fn of(scene: &Scene) -> Result<Library, NeedsCompiler> {
+        library_for(scene)
+    }
+}
+
+fn library_for(scene: &Scene) -> Result<Library, NeedsCompiler> {
+    let count = scene.contact_count();
+    if count > 1 {
+        return Err(needs("[[contact]]", format!("there are {count} contacts, and prebuilt libraries have one")));
+    }
+    if scene.passivity_guard {
+        return Err(needs("law.passivity_guard", "prebuilt libraries have no guard"));
+    }
+    let laws = laws_of(scene)?;
+    let library = Library::for_scene(laws, scene).expect("some kind has all outputs");
+    let (published, kind) = (&library.scene, "the prebuilt library has the constants of the reference");
+    let differs = published.loading != scene.loading || published.damped != scene.damped;
+    if differs {
+        return Err(needs("law.loading_parameters", kind));
+    }
+    if published.unloading != scene.unloading {
+        return Err(needs("law.unloading_parameters", kind));
+    }
+    Ok(library)
+}
+
+/// The laws of `scene` as they are prebuilt, whatever their constants.
+fn laws_of(scene: &Scene) -> Result<Laws, NeedsCompiler> {
+    let all = Laws::all();
+    if let Some((name, law)) = scene.damped {
+        let of_name: Vec<_> = all.into_iter().filter(|laws| laws.loading == name).collect();
+        // the damping says which; constants are compared later
+        let same = of_name.iter().find(|laws| damped_of(laws) == Some(law)).or(of_name.first());
+        return Ok(*same.expect("every rate-dependent law is prebuilt"));
+    }
+    let of_name: Vec<_> = all.into_iter().filter(|laws| laws.loading == scene.loading.0).collect();
+    let partner = scene.unloading.map(|(name, _)| name);
+    if let Some(laws) = of_name.iter().find(|laws| laws.partner == partner) {
+        return Ok(*laws);
+    }
+    let prebuilt: Vec<_> = of_name.iter().filter_map(|laws| laws.partner).collect();
+    let reason = format!("{} is prebuilt with unloading = \"{}\"", scene.loading.0, prebuilt.join("\", \""));
+    Err(needs(format!("law.unloading = {:?}", partner.unwrap_or_default()), reason))
+}
+
+/// The rate-dependent law of these names, with its reference constants.
+fn damped_of(laws: &Laws) -> Option<AnyDamped> {
+    use crate::model::Dampings;
+    let (_, law) = AnyDamped::ALL.into_iter().find(|(name, _)| *name == laws.loading)?;
+    laws.partner.map_or(Some(law), |damping| law.with_damping(damping))
+}
+
+/// The data of the planned unit, under the identification `guid`.
+///
+/// # Errors
+/// [`NeedsCompiler`] if the names of its variables are too long.
+pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
+    let scene = plan.scene;
+    let group = &scene.contacts[0];
+    let mut data = Data { identity: identity_of(guid), guid: as_bytes(guid), ..Data::EMPTY };
+    let flags = [
+        (Flag::Fresh, group.surface == Surface::Fresh),
+        (Flag::Acceleration, scene.has_input("external_acceleration")),
+        (Flag::Mass, scene.has_input("effective_mass")),
+    ];
+    data.flags = flags.iter().filter(|(_, is)| *is).map(|(flag, _)| flag.bit()).sum();
+    data.density = group.density.unwrap_or(f64::NAN);
+    data.impact_mass = if scene.watches { scene.impact.mass } else { f64::NAN };
+    let mut texts = String::new();
+    let is_parameter = |entry: &&Entry| entry.variable.causality == Causality::Parameter;
+    for (place, variable) in parameters().enumerate() {
+        data.starts[place] = start_value(scene, 0, &variable.name);
+        let entry = plan.variables.iter().filter(is_parameter).find(|entry| entry.variable.name == variable.name);
+        if let Some(entry) = entry {
+            data.settable |= 1 << place;
+            data.minima[place] = variable.minimum.unwrap_or(f64::MIN);
+            data.maxima[place] = variable.maximum.unwrap_or(f64::MAX);
+            texts += &entry.name(0);
+            data.variables[entry.reference] = FIRST_PARAMETER + place as u8;
+        }
+        texts.push('\0');
+        texts += entry.and_then(|entry| entry.variable.unit.as_deref()).unwrap_or_default();
+        texts.push('\0');
+    }
+    for entry in plan.variables.iter().filter(|entry| !is_parameter(entry)) {
+        let place = VARIABLES.iter().position(|variable| std::ptr::eq(variable, entry.variable));
+        data.variables[entry.reference] = place.expect("every variable is in the table") as u8;
+    }
+    let room = data.texts.get_mut(..texts.len()).ok_or_else(|| {
+        let name = group.name.as_deref().unwrap_or_default();
+        needs(
+            format!("[[contact]] name = {name:?}"),
+            format!(
+                "the names of its variables take {} bytes, and prebuilt libraries have room for {TEXTS}",
+                texts.len()
+            ),
+        )
+    })?;
+    room.copy_from_slice(texts.as_bytes());
+    Ok(data)
+}
+
+fn as_bytes(guid: &str) -> [u8; GUID] {
+    guid.as_bytes().try_into().expect("a GUID has 32 digits")
+}
+
+/// A value reference and a place in the table need a byte each.
+const _: () = assert!(PLACES <= FIRST_PARAMETER as usize);

@@ -1,0 +1,201 @@
+//! Which libraries are prebuilt: the kinds, and the laws. This is the one place that lists them.
+
+use crate::constants;
+use crate::model::Dampings;
+use crate::package::{self, hash};
+use crate::pairing;
+use crate::scene::{Coupling, Scene};
+use crate::table::{Causality, VARIABLES};
+use brinell::contact::damped::{AnyDamped, Damped};
+use brinell::contact::loading::AnyLoading;
+use std::path::Path;
+
+/// What a library can show, and which masters it is for.
+pub struct Kind {
+    pub name: &'static str,
+    outputs: Outputs,
+    /// None if the library doesn't know the mass.
+    master: Option<Master>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Master {
+    Serial,
+    Parallel,
+}
+
+/// The outputs of a kind beside the force.
+enum Outputs {
+    These(&'static [&'static str]),
+    AllBut(&'static [&'static str]),
+}
+
+/// The kinds, those before that cost less. `impulse` and `mean_force` are computed in every step, all other outputs only
+/// when they are read.
+pub const KINDS: [Kind; 5] = [
+    Kind {
+        name: "force",
+        outputs: Outputs::These(&["indentation", "residual_indentation", "dissipated_energy"]),
+        master: None,
+    },
+    Kind { name: "state", outputs: Outputs::AllBut(&["impulse", "mean_force", "closing_speed"]), master: None },
+    Kind { name: "everything", outputs: Outputs::AllBut(&["closing_speed"]), master: None },
+    Kind { name: "serial", outputs: Outputs::AllBut(&[]), master: Some(Master::Serial) },
+    Kind { name: "parallel", outputs: Outputs::AllBut(&[]), master: Some(Master::Parallel) },
+];
+
+impl Kind {
+    /// Whether there is a library of this kind with rate-dependent laws: they don't go with a known mass.
+    fn goes_with_damped(&self) -> bool {
+        self.master.is_none()
+    }
+
+    fn has_output(&self, name: &str) -> bool {
+        match self.outputs {
+            Outputs::These(names) => names.contains(&name),
+            Outputs::AllBut(names) => !names.contains(&name),
+        }
+    }
+
+    /// The outputs beside the force, in the order of the table.
+    fn outputs(&self) -> impl Iterator<Item = &'static str> {
+        let outputs = VARIABLES.iter().filter(|variable| variable.causality == Causality::Output);
+        let names = outputs.map(|variable| variable.name.as_str());
+        names.filter(|name| *name != "force" && self.has_output(name))
+    }
+
+    /// Whether a library of this kind has all outputs and inputs of `scene`.
+    fn takes(&self, scene: &Scene) -> bool {
+        let master = scene.coupling.map(|Coupling { parallel, .. }| match parallel {
+            true => Master::Parallel,
+            false => Master::Serial,
+        });
+        master == self.master && scene.outputs.iter().all(|output| self.has_output(output))
+    }
+}
+
+/// The laws of a library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Laws {
+    pub loading: &'static str,
+    /// The unloading law, or the damping of a rate-dependent law with several.
+    pub partner: Option<&'static str>,
+}
+
+impl Laws {
+    /// Every loading law with the unloading law that a scene gets which names none, and every rate-dependent law in each of its
+    /// dampings.
+    pub fn all() -> Vec<Laws> {
+        let loading = AnyLoading::ALL.into_iter().map(|(loading, _)| {
+            let partner = (loading != "hertz").then(|| pairing::default_unloading(loading));
+            Laws { loading, partner }
+        });
+        let damped = AnyDamped::ALL.into_iter().flat_map(|(loading, law)| {
+            let dampings = law.dampings();
+            let partners = if dampings.is_empty() { vec![None] } else { dampings.into_iter().map(Some).collect() };
+            partners.into_iter().map(move |partner| Laws { loading, partner })
+        });
+        loading.chain(damped).collect()
+    }
+
+    /// The rate-dependent law, if it is one.
+    fn damped(&self) -> Option<AnyDamped> {
+        AnyDamped::ALL.into_iter().find(|(name, _)| *name == self.loading).map(|(_, law)| law)
+    }
+
+    /// Both names in one.
+    pub fn name(&self) -> String {
+        self.partner.map_or(self.loading.into(), |partner| format!("{}/{partner}", self.loading))
+    }
+
+    /// The table `[law]` of a scene with these laws.
+    fn table(&self) -> String {
+        let mut text = format!("[law]\nloading = {:?}\n", self.loading);
+        let damped = self.damped();
+        if let Some(partner) = self.partner {
+            text += &format!("{} = {partner:?}\n", if damped.is_some() { "damping" } else { "unloading" });
+        }
+        if damped.is_some_and(|law| law.needs_restitution()) {
+            text += "restitution = 0.7\n";
+        }
+        text
+    }
+}
+
+/// One library that is prebuilt.
+pub struct Library {
+    pub laws: Laws,
+    pub kind: &'static Kind,
+    /// A scene that has all that the library has.
+    pub scene: Scene,
+}
+
+impl Library {
+    fn new(laws: Laws, kind: &'static Kind) -> Library {
+        let outputs = kind.outputs().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+        let mut text = format!(
+            "name = \"prebuilt\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[fmu]\n\
+             outputs = [{outputs}]\n[impact]\nmass = 4e-3\nspeed = 1.0\n{}",
+            laws.table()
+        );
+        if let Some(master) = kind.master {
+            let master = if master == Master::Parallel { "parallel" } else { "serial" };
+            text += &format!(
+                "[coupling]\neffective_mass = 4e-3\nmaster = {master:?}\n\
+                 inputs = [\"external_acceleration\", \"effective_mass\"]\n"
+            );
+        }
+        let scene = Scene::parse(text, Path::new(kind.name));
+        Library { laws, kind, scene: scene.expect("the scenes of the kinds are right with every law") }
+    }
+
+    /// Every library, those of the same kind one after the other.
+    pub fn all() -> Vec<Library> {
+        let laws = Laws::all();
+        let of_kind = |kind: &'static Kind| {
+            let fitting = laws.iter().filter(|laws| laws.damped().is_none() || kind.goes_with_damped());
+            fitting.map(|laws| Library::new(*laws, kind)).collect::<Vec<_>>()
+        };
+        KINDS.iter().flat_map(of_kind).collect()
+    }
+
+    /// The smallest library that has what `scene` has, if it is one with these laws.
+    pub fn for_scene(laws: Laws, scene: &Scene) -> Option<Library> {
+        KINDS.iter().find(|kind| kind.takes(scene)).map(|kind| Library::new(laws, kind))
+    }
+
+    pub fn name(&self) -> String {
+        format!("{} {}", self.laws.name(), self.kind.name)
+    }
+
+    /// The source file of its own, and what it is made from: a hash of that file and all others.
+    pub fn source(&self) -> (String, String) {
+        let file = constants::kind::write(&self.scene, "");
+        let made_from = hash([file.as_str()].into_iter().chain(package::sources()));
+        (constants::kind::write(&self.scene, &made_from), made_from)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{KINDS, Laws, Library};
+    use std::collections::HashSet;
+
+    #[test]
+    fn every_law_is_prebuilt_in_every_kind_that_it_goes_with() {
+        let all = Library::all();
+        let names: HashSet<_> = all.iter().map(Library::name).collect();
+        assert_eq!(names.len(), all.len(), "each has a name of its own");
+        let damped = Laws::all().iter().filter(|laws| laws.damped().is_some()).count();
+        assert_eq!(all.len(), (Laws::all().len() - damped) * KINDS.len() + damped * 3);
+    }
+
+    /// Otherwise the library of a later kind would never be taken.
+    #[test]
+    fn the_scene_of_each_library_is_one_that_this_library_is_taken_for() {
+        for library in Library::all() {
+            let found = Library::for_scene(library.laws, &library.scene).expect("there is one");
+            assert_eq!(found.name(), library.name());
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Prebuilt libraries: FMUs without a compiler.
+//!
+//! Nearly all that differs between two scenes of the same laws is data. A prebuilt library has a block of memory for them
+//! (`brinell::scene::prebuilt`); `brinell prebuild` makes such libraries once, and an export writes the data of its scene into
+//! a copy of the one that fits.
+
+pub mod command;
+mod fill;
+mod fit;
+mod kinds;
+mod signature;
+mod store;
+
+pub use fit::NeedsCompiler;
+pub use kinds::Library;
+pub use store::StoreError;
+
+use crate::model_description;
+use crate::package::{self, GUID_TO_COME, hash};
+use crate::plan::Plan;
+use crate::platform::Platform;
+use brinell::scene::identity_of;
+use brinell::scene::prebuilt::block::{Block, Data};
+use fill::FillError;
+use store::Store;
+
+/// Why an FMU can't be made from a prebuilt library.
+#[derive(Debug, thiserror::Error)]
+pub enum PrebuiltError {
+    #[error("{0}")]
+    Store(#[from] StoreError),
+    #[error("this scene needs a compiler, which no prebuilt library has room for: {0}")]
+    NeedsCompiler(#[from] NeedsCompiler),
+    #[error("the prebuilt library `{name}` for {platform} can't be filled in: {reason}")]
+    Fill { name: String, platform: &'static str, reason: FillError },
+}
+
+/// The platforms that there are prebuilt libraries for.
+pub fn platforms() -> Vec<Platform> {
+    let names = Store::find().map(|store| store.platforms().to_vec()).unwrap_or_default();
+    Platform::ALL.into_iter().filter(|platform| names.iter().any(|name| name == platform.folder)).collect()
+}
+
+/// A unit that is made from a prebuilt library.
+pub struct Unit {
+    pub guid: String,
+    pub description: String,
+    /// The library for it.
+    pub library: Library,
+    made_from: String,
+    data: Data,
+    store: Store,
+}
+
+impl Unit {
+    /// The planned unit.
+    ///
+    /// # Errors
+    /// [`PrebuiltError`] if there are no prebuilt libraries, or none that the scene fits into.
+    pub fn of(plan: &Plan) -> Result<Unit, PrebuiltError> {
+        let library = Library::of(plan.scene)?;
+        let store = Store::find()?;
+        let (source, made_from) = library.source();
+        let description = model_description::write(plan, GUID_TO_COME);
+        // the data are as long as the GUID is, too
+        let block = Block::filled(0, fit::data_of(plan, GUID_TO_COME)?);
+        let words: String = block.words().map(|word| format!("{word:016x}")).collect();
+        let guid = hash([description.as_str(), &words, &source].into_iter().chain(package::sources()));
+        let description = package::identified(&description, &guid);
+        let data = fit::data_of(plan, &guid)?;
+        Ok(Unit { guid, description, library, made_from, data, store })
+    }
+
+    /// The library of the unit for `platform`.
+    ///
+    /// # Errors
+    /// [`PrebuiltError`] if it isn't there, or damaged.
+    pub fn library(&self, platform: &Platform) -> Result<Vec<u8>, PrebuiltError> {
+        let mut library = self.store.library(&self.library, platform)?;
+        fill::fill(&mut library, identity_of(&self.made_from), self.data).map_err(|reason| PrebuiltError::Fill {
+            name: self.library.name(),
+            platform: platform.folder,
+            reason,
+        })?;
+        Ok(library)
+    }
+
+    /// Size of the prebuilt library for `platform` [bytes], and by how much a compiled one is smaller, as far as it is known.
+    pub fn sizes(&self, platform: &Platform) -> Option<(usize, Option<i64>)> {
+        self.store.sizes(&self.library, platform).ok()
+    }
+}

@@ -1,0 +1,239 @@
+//! A folder of prebuilt libraries: for each platform an archive, and a list of what is in it with hashes.
+//!
+//! The libraries of a kind are compressed as one stream: most of their code is the same. One library is then found by unpacking
+//! a fraction of the archive.
+
+use super::kinds::Library;
+use crate::files::{FileError, write_whole};
+use crate::package::{self, hash};
+use crate::platform::Platform;
+use crate::prebuilt_folder;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Why a prebuilt library can't be had.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    #[error("there are no prebuilt libraries installed with this program: BRINELL_PREBUILT names a folder with them")]
+    NoFolder,
+    #[error("there are no prebuilt libraries for {platform} in {folder}, only for {known}", folder = folder.display())]
+    NoPlatform { folder: PathBuf, platform: &'static str, known: String },
+    #[error("the prebuilt libraries in {folder} are from another version of Brinell ({version}): make them anew by `brinell prebuild`", folder = folder.display())]
+    OtherVersion { folder: PathBuf, version: String },
+    #[error("there is no prebuilt library `{name}` in {folder}", folder = folder.display())]
+    NoLibrary { folder: PathBuf, name: String },
+    #[error("{path} is damaged: {reason}", path = path.display())]
+    Damaged { path: PathBuf, reason: String },
+    #[error("{0}")]
+    File(#[from] FileError),
+}
+
+/// The list of the libraries of one platform.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct List {
+    /// Version of the program.
+    brinell: String,
+    /// A hash of the sources that all libraries have in common.
+    sources: String,
+    /// The archive: its name, size and hash.
+    archive: Listed,
+    /// By kind how much smaller the compiled library of a scene with the same outputs is [bytes].
+    compiling_saves: BTreeMap<String, i64>,
+    streams: Vec<Stream>,
+}
+
+/// A piece of data with its hash.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Listed {
+    name: String,
+    size: usize,
+    sha256: String,
+}
+
+impl Listed {
+    fn new(name: String, bytes: &[u8]) -> Listed {
+        Listed { name, size: bytes.len(), sha256: sha256(bytes) }
+    }
+
+    fn is(&self, bytes: &[u8]) -> bool {
+        self.size == bytes.len() && self.sha256 == sha256(bytes)
+    }
+}
+
+/// Libraries that are compressed together, one after the other.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stream {
+    kind: String,
+    /// Compressed size [bytes].
+    size: usize,
+    libraries: Vec<Listed>,
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A hash of the sources that all libraries have in common.
+fn sources() -> String {
+    hash(package::sources())
+}
+
+/// Ending of a list, and of an archive.
+const LIST: &str = "json";
+const ARCHIVE: &str = "br";
+
+/// A folder of prebuilt libraries.
+pub struct Store {
+    folder: PathBuf,
+    platforms: Vec<String>,
+}
+
+impl Store {
+    /// The folder that the user names, or the installed one.
+    ///
+    /// # Errors
+    /// [`StoreError::NoFolder`]
+    pub fn find() -> Result<Store, StoreError> {
+        let found = prebuilt_folder::find().ok_or(StoreError::NoFolder)?;
+        Ok(Store { folder: found.path.clone(), platforms: found.platforms() })
+    }
+
+    /// The platforms that there are libraries for.
+    pub fn platforms(&self) -> &[String] {
+        &self.platforms
+    }
+
+    /// The list of `platform`, of this version.
+    fn list(&self, platform: &Platform) -> Result<List, StoreError> {
+        let path = self.folder.join(platform.folder).with_extension(LIST);
+        if !path.is_file() {
+            let known = self.platforms.join(", ");
+            return Err(StoreError::NoPlatform { folder: self.folder.clone(), platform: platform.folder, known });
+        }
+        let text = fs::read_to_string(&path).map_err(FileError::at(&path))?;
+        let list: List = serde_json::from_str(&text)
+            .map_err(|error| StoreError::Damaged { path: path.clone(), reason: error.to_string() })?;
+        if list.sources != sources() {
+            return Err(StoreError::OtherVersion { folder: self.folder.clone(), version: list.brinell });
+        }
+        Ok(list)
+    }
+
+    /// The prebuilt `library` for `platform`, as it was made.
+    ///
+    /// # Errors
+    /// [`StoreError`]
+    pub fn library(&self, library: &Library, platform: &Platform) -> Result<Vec<u8>, StoreError> {
+        let list = self.list(platform)?;
+        let path = self.folder.join(platform.folder).with_extension(ARCHIVE);
+        let damaged = |reason: &str| StoreError::Damaged { path: path.clone(), reason: reason.into() };
+        let archive = fs::read(&path).map_err(FileError::at(&path))?;
+        let (mut at, name) = (0, library.name());
+        for stream in &list.streams {
+            let end = at + stream.size;
+            if stream.kind == library.kind.name {
+                let packed = archive.get(at..end).ok_or_else(|| damaged("it is cut off"))?;
+                let mut begin = 0;
+                let listed = stream.libraries.iter().find(|listed| {
+                    let found = listed.name == name;
+                    begin += if found { 0 } else { listed.size };
+                    found
+                });
+                let Some(listed) = listed else { break };
+                let total = stream.libraries.iter().map(|listed| listed.size).sum();
+                let unpacked = unpack(packed, total).ok_or_else(|| damaged("it can't be unpacked"))?;
+                let bytes = &unpacked[begin..begin + listed.size];
+                let intact = listed.is(bytes);
+                return if intact { Ok(bytes.into()) } else { Err(damaged(&format!("`{name}` has another hash"))) };
+            }
+            at = end;
+        }
+        Err(StoreError::NoLibrary { folder: self.folder.clone(), name })
+    }
+
+    /// Size of the prebuilt `library` for `platform` [bytes], and by how much a compiled one is smaller.
+    ///
+    /// # Errors
+    /// [`StoreError`]
+    pub fn sizes(&self, library: &Library, platform: &Platform) -> Result<(usize, Option<i64>), StoreError> {
+        let (list, name) = (self.list(platform)?, library.name());
+        let mut listed = list.streams.iter().flat_map(|stream| &stream.libraries);
+        let found = listed.find(|listed| listed.name == name);
+        let none = || StoreError::NoLibrary { folder: self.folder.clone(), name: name.clone() };
+        let size = found.ok_or_else(none)?.size;
+        Ok((size, list.compiling_saves.get(library.kind.name).copied()))
+    }
+}
+
+/// What was written for a platform.
+pub struct Written {
+    pub libraries: usize,
+    /// All libraries [bytes].
+    pub unpacked: usize,
+    /// The archive [bytes].
+    pub packed: usize,
+}
+
+/// Writes the `libraries` of `platform` into `folder`, those of a kind in one stream.
+///
+/// # Errors
+/// [`FileError`]
+pub fn write(
+    folder: &Path,
+    platform: &Platform,
+    libraries: &[(&Library, Vec<u8>)],
+    compiling_saves: BTreeMap<String, i64>,
+) -> Result<Written, FileError> {
+    let (mut archive, mut streams, mut unpacked) = (Vec::new(), Vec::new(), 0);
+    for kind in libraries.chunk_by(|(one, _), (other, _)| one.kind.name == other.kind.name) {
+        let bytes: Vec<u8> = kind.iter().flat_map(|(_, bytes)| bytes).copied().collect();
+        let packed = pack(&bytes);
+        unpacked += bytes.len();
+        streams.push(Stream {
+            kind: kind[0].0.kind.name.into(),
+            size: packed.len(),
+            libraries: kind.iter().map(|(library, bytes)| Listed::new(library.name(), bytes)).collect(),
+        });
+        archive.extend(packed);
+    }
+    let path = |ending: &str| folder.join(platform.folder).with_extension(ending);
+    let name = format!("{}.{ARCHIVE}", platform.folder);
+    let list = List {
+        brinell: env!("CARGO_PKG_VERSION").into(),
+        sources: sources(),
+        archive: Listed::new(name, &archive),
+        compiling_saves,
+        streams,
+    };
+    let mut text = serde_json::to_string_pretty(&list).expect("a list is plain data");
+    text.push('\n');
+    write_whole(&path(ARCHIVE), &archive)?;
+    write_whole(&path(LIST), text.as_bytes())?;
+    Ok(Written { libraries: libraries.len(), unpacked, packed: archive.len() })
+}
+
+/// Room for the libraries of a kind [bits of bytes].
+const WINDOW: i32 = 24;
+
+/// `bytes`, compressed as far as it goes.
+fn pack(bytes: &[u8]) -> Vec<u8> {
+    let parameters = brotli::enc::BrotliEncoderParams { quality: 11, lgwin: WINDOW, ..Default::default() };
+    let mut packed = Vec::new();
+    let mut bytes = bytes;
+    brotli::BrotliCompress(&mut bytes, &mut packed, &parameters).expect("memory takes everything");
+    packed
+}
+
+/// What [`pack`] has made of this many bytes; none if it hasn't.
+fn unpack(packed: &[u8], size: usize) -> Option<Vec<u8>> {
+    let mut unpacked = Vec::with_capacity(size);
+    let mut packed = packed;
+    brotli::BrotliDecompress(&mut packed, &mut unpacked).ok()?;
+    (unpacked.len() == size).then_some(unpacked)
+}
