@@ -1,9 +1,10 @@
-//! `brinell`: exports FMI 2.0 co-simulation units of elastoplastic contact, and checks them.
+//! `brinell`: exports FMI 2.0 co-simulation FMUs of elastoplastic contact, and checks them.
 #![deny(unsafe_code)]
 
 mod arguments;
 mod bodies;
 mod check;
+mod columns;
 mod constants;
 mod curve;
 mod documentation;
@@ -11,6 +12,7 @@ mod energy;
 mod export;
 mod files;
 mod guard;
+mod hardness;
 mod html;
 mod importer;
 mod interface;
@@ -18,9 +20,12 @@ mod law_check;
 mod law_list;
 mod law_text;
 mod laws;
+mod layout;
 mod materials;
 mod model;
 mod model_description;
+mod nearest;
+mod new;
 mod nominal;
 mod numbers;
 mod package;
@@ -30,6 +35,7 @@ mod plan;
 mod platform;
 mod plot;
 mod predict;
+mod regime;
 mod report;
 mod scene;
 mod ssp;
@@ -37,7 +43,9 @@ mod summary;
 mod symbols;
 mod table;
 mod truth;
+mod units;
 mod validity;
+mod wrong_call;
 mod xml;
 
 use arguments::{Arguments, Command};
@@ -46,21 +54,40 @@ use plan::Plan;
 use scene::Scene;
 use std::error::Error;
 use std::process::ExitCode;
+use wrong_call::WrongCall;
 
 fn main() -> ExitCode {
     leave_quietly_when_nobody_reads();
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return not_understood(&error),
+    };
     match run(&arguments) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {
             eprintln!("brinell: {error}");
-            ExitCode::FAILURE
+            if error.is::<WrongCall>() { ExitCode::from(WRONG_CALL) } else { ExitCode::FAILURE }
         }
     }
 }
 
-/// A reader like `head` may close the pipe before all is printed: that is the end of the job, and no fault of the program.
+/// The exit status of a wrong command line.
+const WRONG_CALL: u8 = 2;
+
+/// Help, the version, or what is wrong with the arguments, in the style of every other error.
+fn not_understood(error: &clap::Error) -> ExitCode {
+    let text = error.render();
+    if !error.use_stderr() {
+        print!("{}", text.ansi());
+        return ExitCode::SUCCESS;
+    }
+    let text = text.to_string();
+    eprint!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text));
+    ExitCode::from(WRONG_CALL)
+}
+
+/// A reader like `head` may close the pipe before everything is printed: that ends the job, and is no error.
 fn leave_quietly_when_nobody_reads() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
@@ -72,22 +99,27 @@ fn leave_quietly_when_nobody_reads() {
     }));
 }
 
-/// Does what is asked for; false if the job is done and its result is bad.
+/// Runs a command; false if the job is done and its result is bad.
 fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     let json = arguments.json;
     match &arguments.command {
         None => return check::run(&export::run(&Scene::default_scene()?, None, json)?, json),
         Some(Command::Check { fmu }) => return check::run(fmu, json),
         Some(Command::Report { scene, output, peer, quick }) => {
-            return Ok(report::run(&Scene::read(scene)?, peer, output.as_deref(), *quick, json)?);
+            let scene = Scene::read_aloud(scene)?;
+            let usual = format!("{}_report", scene.name).into();
+            files::check_folder(output.as_ref().unwrap_or(&usual))?;
+            return Ok(report::run(&scene, peer, output.as_deref(), *quick, json)?);
         }
         Some(Command::Export { scene, output }) => {
-            export::run(&Scene::read(scene)?, output.as_deref(), json)?;
+            export::run(&Scene::read_aloud(scene)?, output.as_deref(), json)?;
         }
+        Some(Command::New(arguments)) => new::run(arguments, json)?,
         Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
         Some(Command::Predict(arguments)) => predict::command::run(arguments, json)?,
-        Some(Command::Curve(arguments)) => curve::run(arguments)?,
-        Some(Command::Laws { output }) => law_list::run(output.as_deref(), json)?,
+        Some(Command::Hardness(arguments)) => hardness::command::run(arguments, json)?,
+        Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
+        Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,
         Some(Command::Materials) => materials::run(json),
         Some(Command::Constants { scene }) => {
             print!("{}", constants::write(&Plan::of(&Scene::read(scene)?), "unpacked"));

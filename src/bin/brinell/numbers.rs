@@ -1,12 +1,164 @@
 //! Numbers for people.
 
-/// Six significant digits at most.
+/// At most six significant digits.
 pub fn digits(value: f64) -> String {
     significant(value, 6)
 }
 
-/// So many significant digits at most.
+/// At most `count` significant digits.
 pub fn significant(value: f64, count: usize) -> String {
-    let rounded: f64 = format!("{value:.*e}", count - 1).parse().expect("a number");
-    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+    let rounded = rounded(value, count);
+    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) {
+        // no sign of a zero
+        format!("{}", rounded + 0.0)
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// Significant digits of a number for people.
+const DIGITS: usize = 4;
+
+fn rounded(value: f64, count: usize) -> f64 {
+    format!("{value:.*e}", count - 1).parse().expect("a number")
+}
+
+/// The prefixes of SI, with their powers of ten.
+const PREFIXES: [(&str, i32); 10] =
+    [("f", -15), ("p", -12), ("n", -9), ("u", -6), ("m", -3), ("", 0), ("k", 3), ("M", 6), ("G", 9), ("T", 12)];
+
+/// A unit as it is written, and its size in the SI unit that it replaces.
+pub struct Prefixed {
+    pub unit: String,
+    pub size: f64,
+}
+
+impl Prefixed {
+    /// The unit below the name of a column.
+    pub fn heading(&self) -> String {
+        if self.unit.is_empty() { String::new() } else { format!("[{}]", self.unit) }
+    }
+
+    /// The unit after the `name` of a quantity.
+    pub fn after(&self, name: &str) -> String {
+        format!("{name} {}", self.heading()).trim_end().into()
+    }
+}
+
+/// The unit of this kind in which a number of the size `value` [`unit`] reads best.
+///
+/// Lengths, times and speeds have no prefix above 1 (`1200 m`), masses are in grams below a kilogram, and units that take no
+/// prefix (`kg/m^3`, a pure number) stay as they are.
+pub fn prefixed(value: f64, unit: &'static str) -> Prefixed {
+    let (base, first, largest) = match unit {
+        "m" | "s" | "m/s" => (unit, 0, 0),
+        "kg" => ("g", -3, 3),
+        "N" | "J" | "Pa" | "N/m" | "N.s" => (unit, 0, 12),
+        _ => return Prefixed { unit: unit.into(), size: 1.0 },
+    };
+    let value = rounded(value, DIGITS).abs();
+    let wanted = if value > 0.0 && value.is_finite() { value.log10() } else { 0.0 };
+    let power = (wanted.floor() as i32 - first).div_euclid(3) * 3;
+    let nearest = PREFIXES.iter().min_by_key(|(_, own)| (own - power.min(largest)).abs());
+    let (prefix, power) = nearest.expect("there are prefixes");
+    // through text: the power of ten that a person would write
+    let size = format!("1e{}", power + first).parse().expect("a power of ten");
+    Prefixed { unit: format!("{prefix}{base}"), size }
+}
+
+/// A number with its unit, four significant digits and a prefix of SI: `330.7 N`, `12.56 um`.
+pub fn quantity(value: f64, unit: &'static str) -> String {
+    let Prefixed { unit, size } = prefixed(value, unit);
+    format!("{} {unit}", significant(value / size, DIGITS)).trim_end().into()
+}
+
+/// A number of a table, in units of this size.
+pub fn cell(value: f64, size: f64) -> String {
+    significant(value / size, DIGITS)
+}
+
+/// A relative difference in percent, with its sign; one that nobody would see is called so.
+pub fn percent(difference: f64) -> String {
+    const LEAST: f64 = 1e-6;
+    match difference {
+        0.0 => "0 %".into(),
+        difference if difference.abs() < LEAST => format!("below {} %", significant(100.0 * LEAST, 1)),
+        difference => {
+            let sign = if difference > 0.0 { "+" } else { "" };
+            format!("{sign}{} %", significant(100.0 * difference, 2))
+        }
+    }
+}
+
+/// A number as a scene has it: `5e-3`, `210e9`, `7850`.
+pub fn plain(value: f64) -> String {
+    let value = rounded(value, 12);
+    let size = value.abs();
+    if size == 0.0 || (0.01..1e5).contains(&size) || !size.is_finite() {
+        return format!("{value}");
+    }
+    let power = (size.log10().floor() as i32).div_euclid(3) * 3;
+    format!("{}e{power}", rounded(value / 10f64.powi(power), 12))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_people_write_them() {
+        for (value, unit, text) in [
+            (330.664, "N", "330.7 N"),
+            (1.256060e-5, "m", "12.56 um"),
+            (2.984606e-5, "s", "29.85 us"),
+            (4.11e-3, "kg", "4.11 g"),
+            (2.5, "kg", "2.5 kg"),
+            (0.99996, "kg", "1 kg"),
+            (1.0, "m/s", "1 m/s"),
+            (1.8737e-3, "m/s", "1.874 mm/s"),
+            (5000.0, "m/s", "5000 m/s"),
+            (206e9, "Pa", "206 GPa"),
+            (999.96e6, "Pa", "1 GPa"),
+            (7850.0, "kg/m^3", "7850 kg/m^3"),
+            (0.44629924, "", "0.4463"),
+            (-0.05, "m", "-50 mm"),
+            (0.0, "J", "0 J"),
+            (-0.0, "J", "0 J"),
+            (2e-30, "m", "2e-15 fm"),
+            (3e20, "N", "3e8 TN"),
+        ] {
+            assert_eq!(quantity(value, unit), text);
+        }
+    }
+
+    #[test]
+    fn differences_that_nobody_sees_are_called_so() {
+        for (difference, text) in [
+            (0.0, "0 %"),
+            (-0.0, "0 %"),
+            (-3e-9, "below 0.0001 %"),
+            (1.234e-5, "+0.0012 %"),
+            (-0.021, "-2.1 %"),
+            (1e-6, "+0.0001 %"),
+        ] {
+            assert_eq!(percent(difference), text);
+        }
+    }
+
+    #[test]
+    fn numbers_of_a_scene_keep_their_digits() {
+        for (value, text) in [
+            (5.0 * 1e-3, "5e-3"),
+            (210e9, "210e9"),
+            (7.85 * 1e3, "7850"),
+            (0.3, "0.3"),
+            (1.5e-6, "1.5e-6"),
+            (0.0, "0"),
+            (-0.005, "-5e-3"),
+            (33e6, "33e6"),
+        ] {
+            assert_eq!(plain(value), text);
+            assert_eq!(text.parse::<f64>().unwrap(), rounded(value, 12));
+        }
+    }
 }

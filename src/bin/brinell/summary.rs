@@ -1,6 +1,7 @@
-//! What `brinell export` says: what the unit has, and what was left out of it.
+//! The summary of `brinell export`: what the FMU contains, and what was left out.
 
 use crate::interface::Entry;
+use crate::layout::paragraph;
 use crate::package::Exported;
 use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
@@ -11,7 +12,7 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use serde_json::{Value, json};
 
-/// Inputs and outputs, parameters, and what there could be besides.
+/// Inputs, outputs, parameters, and what the FMU could have besides.
 pub struct Summary<'a> {
     plan: &'a Plan<'a>,
     /// Outputs that weren't chosen.
@@ -95,31 +96,31 @@ impl Summary<'_> {
     /// For people.
     pub fn print(&self, exported: &Exported) {
         println!("{}", exported.path.display());
-        println!(
-            "  {} bytes, library {} bytes; needs no library, takes {} from the process",
-            exported.size,
-            exported.library_size,
-            exported.imports.join(", ")
-        );
+        let imports = exported.imports.join(", ");
+        let (size, library_size) = (exported.size, exported.library_size);
+        let libraries =
+            format!("{size} bytes, library {library_size} bytes; needs no other library, imports {imports}");
+        print!("{}", paragraph("  ", &libraries));
+        let line = |heading: &str, text: &str| print!("{}", paragraph(&format!("  {heading:<11}"), text));
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
-        println!("  law        {}", law(scene));
+        line("law", &law(scene));
         if let Some(guard) = guard {
-            println!("  guard      {}", guard.words());
+            line("guard", &guard.words());
         }
         if self.plan.makes_energy {
-            println!("  energy     these laws can give back more than they took");
+            line("energy", "these laws can give back more than they took");
         }
         for warning in warnings.iter().map(String::as_str).chain(self.plan.shared_bodies) {
-            println!("  warning    {warning}");
+            line("warning", warning);
         }
         if scene.contacts[0].name.is_some() {
-            println!("  contacts   {}", scene.contact_count());
-            scene.contacts.iter().for_each(|group| println!("    {}", group_line(group)));
+            line("contacts", &scene.contact_count().to_string());
+            scene.contacts.iter().for_each(|group| print!("{}", group_line(group)));
         }
-        println!("  variables  {}: {}", self.variable_count(), self.variables_by_kind().join(", "));
-        // what a group has of its own stands in its line
-        for Constant { name, value, .. } in constants.iter().filter(|constant| constant.shared) {
-            println!("  constant   {name} = {value:?}");
+        line("variables", &format!("{}: {}", self.variable_count(), self.variables_by_kind().join(", ")));
+        // constants of a group are in its line
+        for Constant { name, value, unit, .. } in constants.iter().filter(|constant| constant.shared) {
+            line("constant", format!("{name} = {value:?} {unit}").trim_end());
         }
         let OtherLaws { loading, unloading, damped } = &self.laws;
         println!("  left out");
@@ -132,7 +133,7 @@ impl Summary<'_> {
             ("besides", &self.features),
         ];
         for (heading, names) in parts.into_iter().filter(|(_, names)| !names.is_empty()) {
-            println!("    {heading:<12}{}", names.join(", "));
+            print!("{}", paragraph(&format!("    {heading:<12}"), &names.join(", ")));
         }
     }
 }
@@ -184,13 +185,13 @@ fn group_line(group: &Group) -> String {
     let own = group.own.iter().map(|Parameter { name, value, .. }| format!("{name} = {value:?}"));
     let own = own.collect::<Vec<_>>().join(", ");
     let own = if own.is_empty() { "as the scene".into() } else { own };
-    format!("{:<20} {:>6}  {own}", group.label(), group.len())
+    paragraph(&format!("    {:<20} {:>6}  ", group.label(), group.len()), &own)
 }
 
 fn law(scene: &Scene) -> String {
     match (scene.damped, scene.unloading) {
         (Some((damped, _)), _) => format!("{damped} (the force depends on the rate)"),
-        (None, Some((unloading, _))) => format!("{}, unloading by {unloading}", scene.loading.0),
+        (None, Some((unloading, _))) => format!("{}/{unloading} (loading/unloading)", scene.loading.0),
         (None, None) => format!("{} (elastic)", scene.loading.0),
     }
 }
