@@ -49,11 +49,18 @@ fn an_unknown_key_is_refused_in_each_table() {
         "§colour = 1\nname",
         &["`colour`", "`name`", "`impactor`", "`target`", "`law`", "`fmu`", "`impact`", "`contact`"],
     );
-    refused("[impactor]", "[impactor]\n§mass = 1", &["`mass`", "`radius`", "`youngs_modulus`", "`poissons_ratio`"]);
-    refused("[target]", "[target]\n§hardness = 1", &["`hardness`", "`material`", "`density`", "`surface`"]);
+    refused("[impactor]", "[impactor]\n§mass = 1", &["`mass`", "[impact] has a mass", "`material`", "`radius`"]);
+    refused(
+        "[target]",
+        "[target]\n§hardness = 1",
+        &["`hardness`", "`brinell hardness", "`material`", "`density`", "`surface`"],
+    );
     refused_with("[law]\n§laoding = \"hertz\"", &["`laoding`", "`loading`", "`unloading`", "`passivity_guard`"]);
     refused_with("[fmu]\n§inputs = []", &["`inputs`", "`outputs`", "`parameters`", "`initial_gap`"]);
-    refused_with("[impact]\nmass = 1\nspeed = 1\n§angle = 1", &["`angle`", "`mass`", "`speed`"]);
+    refused_with(
+        "[impact]\nmass = 1\nspeed = 1\n§angle = 1",
+        &["`angle` is not supported", "without friction", "`mass`", "`speed`"],
+    );
 }
 
 #[test]
@@ -135,7 +142,7 @@ fn a_character_that_xml_cannot_have_is_refused_by_its_key() {
         ("\u{fffe}", "U+FFFE"),
     ] {
         let description = format!("description = §\"steel{escape} ball\"\nname");
-        refused("name", &description, &["description has ", said, "character 6", "no XML"]);
+        refused("name", &description, &["description has ", said, "character 6", "XML doesn't allow"]);
         refused("\"ball\"", &format!("§\"ball{escape}\""), &["name = ", "letters, digits and `_`"]);
         let contact = format!("[[contact]]\nname = §\"left{escape}\"");
         refused_with(&contact, &["name = ", "letters, digits and `_`"]);
@@ -392,7 +399,7 @@ fn constants_of_two_laws_that_contradict_each_other_are_refused() {
     );
     refused_with(
         "[law]\nloading = \"kogut-etsion\"\nunloading = \"etsion\"\nloading_parameters = §{ hardness_factor = 3.0 }",
-        &["\"etsion\" counts in the units of \"kogut-etsion\" as published", "`hardness_factor` must be 2.8"],
+        &["\"etsion\" takes its units from \"kogut-etsion\" as published", "`hardness_factor` must be 2.8"],
     );
     refused_with("[law]\nloading = \"hertz\"\nunloading_parameters = §{}", &["unloading_parameters", "hertz unloads"]);
 }

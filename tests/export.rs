@@ -37,7 +37,7 @@ fn without_arguments_the_default_scene_is_exported_and_checked() {
     let folder = empty_folder();
     let run = run(folder.path(), [] as [&str; 0]).with_status(0);
     assert_eq!(contents(folder.path()), ["steel_ball.fmu"]);
-    for part in ["steel_ball.fmu", "predicted", "simulated", "largest force", "restitution", "they agree"] {
+    for part in ["steel_ball.fmu", "predicted", "simulated", "largest force", "restitution", "agreement within"] {
         assert!(run.out.contains(part), "nothing of {part:?} in {run:#?}");
     }
 }

@@ -80,7 +80,7 @@ fn a_wrong_connection_is_told_with_what_there_is() {
     let cases = [
         ("contact.force", "--connect contact.force: a connection is written as UNIT.OUTPUT=UNIT.INPUT"),
         ("force=other.force", "a connection is written as UNIT.OUTPUT=UNIT.INPUT"),
-        ("mass.rate=contact.indentation_rate", "there is no unit `mass`, the system has contact, other"),
+        ("mass.rate=contact.indentation_rate", "there is no FMU `mass`; the system has contact, other"),
         ("other.left.x=contact.indentation_rate", "other has no output `left.x` of type Real, it has left.force, "),
         ("other.left.regime=contact.indentation_rate", "other has no output `left.regime` of type Real"),
         ("other.left.force=contact.force", "contact has no input `force` of type Real, it has indentation_rate"),
@@ -101,15 +101,15 @@ fn a_wrong_connection_is_told_with_what_there_is() {
 fn a_unit_that_can_not_stand_in_a_system_is_refused_by_name() {
     let folder = empty_folder();
     let said = with_other(folder.path(), &["--with", "other.fmu"]).with_status(1);
-    assert!(said.err.contains("other.fmu: there is a unit `other` already"), "{said:#?}");
+    assert!(said.err.contains("other.fmu: the system already has an FMU `other`"), "{said:#?}");
     for name in ["contact.fmu", "mass_known.fmu"] {
         fs::copy(folder.path().join("other.fmu"), folder.path().join(name)).unwrap();
         let said = with_other(folder.path(), &["--with", name]).with_status(1);
-        assert!(said.err.contains(&format!("{name}: there is a unit")), "{said:#?}");
+        assert!(said.err.contains(&format!("{name}: the system already has an FMU")), "{said:#?}");
     }
     fs::copy(folder.path().join("other.fmu"), folder.path().join("a.b.fmu")).unwrap();
     let said = with_other(folder.path(), &["--with", "a.b.fmu"]).with_status(1);
-    assert!(said.err.contains("would be called `a.b`, and a name has letters, digits"), "{said:#?}");
+    assert!(said.err.contains("would be called `a.b`; only letters, digits"), "{said:#?}");
     let said = with_other(folder.path(), &["--with", "missing.fmu"]).with_status(1);
     assert!(said.err.contains("missing.fmu: "), "{said:#?}");
     fs::write(folder.path().join("text.fmu"), "text").unwrap();

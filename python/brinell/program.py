@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import os
 import re
@@ -13,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from importlib import metadata
 from pathlib import Path
-from typing import Any, overload
+from typing import overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -195,10 +193,9 @@ def sweep(
     mass: float | None = None,
 ) -> Columns | dict[str, Columns]:
     """Predictions over closing speeds from `first` to `last` [m/s], as columns: `speed`,
-    `restitution`, `dent` ...; with `laws`, a mapping from the name of each law to its columns."""
+    `restitution`, `dent` ...; with `laws`, a mapping from "LOADING/UNLOADING" to its columns."""
     options = _options({"mass": mass}, laws)
-    text = _run("predict", scene, *options, "--sweep", "speed", f"{first!r}:{last!r}")
-    tables = _tables(text)
+    tables = _tables(_run("predict", scene, *options, "--sweep", f"speed={first!r}:{last!r}"))
     return tables if laws is not None else next(iter(tables.values()))
 
 
@@ -237,19 +234,10 @@ def _options(values: Mapping[str, float | None], laws: Sequence[str] | None) -> 
 
 
 def _tables(text: str) -> dict[str, Columns]:
-    """A table of the exporter, split by its first column `law`; names lose their units."""
-    rows: dict[str, list[dict[str, str]]] = {}
-    for row in csv.DictReader(io.StringIO(text)):
-        rows.setdefault(row.pop("law"), []).append(row)
-    return {
-        law: {_bare(name): _column(table, name) for name in table[0]} for law, table in rows.items()
-    }
-
-
-def _column(table: list[dict[str, Any]], name: str) -> NDArray[np.float64]:
-    # a field that a law does not have is empty
-    return np.array([float(row[name] or "nan") for row in table])
-
-
-def _bare(name: str) -> str:
-    return re.sub(r"_(m_per_s|N_per_m|Pa|N|J|m|s)$", "", name)
+    """The columns of each law in what the exporter writes."""
+    tables = {}
+    for table in json.loads(text)["laws"]:
+        law = table.pop("law")
+        # a number that a law does not have is null
+        tables[law] = {name: np.array(column, dtype=np.float64) for name, column in table.items()}
+    return tables

@@ -3,19 +3,20 @@
 use crate::package::Way;
 use crate::platform::{self, Platform};
 use crate::prebuilt;
+use crate::{hardness, law_list, new, predict, units};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
 
-/// Exports FMI 2.0 co-simulation units of elastoplastic contact.
+/// Export FMI 2.0 co-simulation FMUs of elastoplastic contact.
 ///
-/// Without a command: exports the default scene into the current folder and checks the result.
+/// Without a command: export the default scene into the current folder and check the FMU.
 #[derive(Parser)]
-#[command(version, disable_version_flag = true, max_term_width = 100)]
+#[command(version, disable_version_flag = true, max_term_width = 100, after_help = STATUS)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Option<Command>,
-    /// Results as JSON
+    /// Print results as JSON: SI units, all digits
     #[arg(long, global = true)]
     pub json: bool,
     /// Says the versions of program and library, the platform, and which prebuilt libraries there are
@@ -23,9 +24,16 @@ pub struct Arguments {
     pub version: bool,
 }
 
+/// What the exit status of the program means.
+const STATUS: &str = "\
+Exit status: 0 success; 1 the job failed, or its result is bad (a wrong scene, no compiler, an FMU
+that fails its check); 2 the command line is wrong (an unknown option or law, a value out of range).";
+
 #[derive(Subcommand)]
 pub enum Command {
-    /// Builds and packs the unit of a scene
+    /// Write a commented scene file to begin with
+    New(new::Arguments),
+    /// Build the FMU of a scene
     Export {
         /// The scene file (TOML)
         scene: PathBuf,
@@ -37,53 +45,51 @@ pub enum Command {
         #[command(flatten)]
         way: WayArguments,
     },
-    /// Builds the unit of a scene and packs it as a system (SSP 1.0) with its parameters
+    /// Build the FMU of a scene and pack it as a system (SSP 1.0) with its parameters
     Ssp(SspArguments),
-    /// Loads a unit as an importer would, runs the impact of its scene, compares it with the energy balance
+    /// Load an FMU as an importer does, run the impact of its scene and compare it with the prediction
     Check {
-        /// The unit
+        /// The FMU
         fmu: PathBuf,
     },
-    /// Says what an impact will do: largest force and indentation, dent, restitution, times
-    Predict(PredictArguments),
-    /// Draws or tabulates one cycle of loading, unloading and reloading
+    /// Predict an impact: largest force and indentation, dent, restitution, contact time
+    Predict(predict::command::Arguments),
+    /// Predict a Brinell test: dent, Brinell and Meyer hardness; or find the yield strength from HBW
+    Hardness(hardness::command::Arguments),
+    /// Draw or tabulate one cycle of loading, unloading and reloading
     Curve(CurveArguments),
-    /// Measures the unit of a scene: error against run time, stability, extreme cases, laws; on one page
+    /// Measure the FMU of a scene: error against run time, stability, extreme cases, laws; on one page
     Report {
         /// The scene file
         scene: PathBuf,
-        /// The folder that the page and its data go to [default: NAME_report in the current folder]
+        /// The folder for the page and its data [default: NAME_report in the current folder]
         #[arg(short, long, value_name = "DIR")]
         output: Option<PathBuf>,
-        /// Another unit with the same variables, to be run in the same picture; may be given several times
+        /// Another FMU with the same variables, for the same pictures; can be repeated
         #[arg(long, value_name = "FMU")]
         peer: Vec<PathBuf>,
-        /// Fewer steps, and shorter runs
+        /// Use fewer steps and shorter runs
         #[arg(long)]
         quick: bool,
     },
-    /// Lists the laws, and measures each: error against finite elements, jumps, energy
-    Laws {
-        /// Draws the loading curves of all laws over Hertz's force, with finite elements as dots
-        #[arg(short, long, value_name = "FILE.svg")]
-        output: Option<PathBuf>,
-    },
-    /// Compiles the libraries from which FMUs are made where there is no compiler
+    /// List the laws with their error against finite elements, or show one law
+    Laws(law_list::Arguments),
+    /// Compile the libraries from which FMUs are made where there is no compiler
     Prebuild(PrebuildArguments),
-    /// Lists the built-in materials
+    /// List the built-in materials
     Materials,
-    /// Prints the script that completes the arguments of this program in a shell
+    /// Print the script that completes the arguments of this program in a shell
     Completions {
         /// The shell
         shell: Shell,
     },
-    /// Writes the manual pages of this program and its commands
+    /// Write the manual pages of this program and its commands
     Man {
-        /// The folder that they go to
+        /// The folder for the pages
         #[arg(short, long, value_name = "DIR")]
         output: PathBuf,
     },
-    /// Prints the Rust constants of a scene, as they are compiled into its unit
+    /// Print the Rust constants of a scene, as they are compiled into its FMU
     #[command(hide = true)]
     Constants { scene: PathBuf },
     /// Prints the Rust source of the prebuilt library that a scene fits into
@@ -93,16 +99,16 @@ pub enum Command {
 
 #[derive(clap::Args)]
 pub struct SspArguments {
-    /// The scene file (TOML); its unit is called `contact` in the system
+    /// The scene file (TOML); its FMU is the component `contact` of the system
     pub scene: PathBuf,
-    /// Where to write the system, a name in .ssp [default: NAME.ssp in the current folder]
+    /// Where to write the system: a name that ends in .ssp [default: NAME.ssp in the current folder]
     #[arg(short, long)]
     pub output: Option<PathBuf>,
-    /// Another unit that stands beside the contact, called as its file; may be given several times
+    /// Another FMU of the system, a component with the name of its file; can be repeated
     #[arg(long, value_name = "FMU")]
     pub with: Vec<PathBuf>,
-    /// A connection such as contact.mean_force=mass.force; may be given several times
-    #[arg(long, value_name = "UNIT.OUTPUT=UNIT.INPUT", requires = "with")]
+    /// A connection such as contact.mean_force=mass.force; can be repeated
+    #[arg(long, value_name = "FMU.OUTPUT=FMU.INPUT", requires = "with")]
     pub connect: Vec<String>,
     #[command(flatten)]
     pub platforms: PlatformArguments,
@@ -185,52 +191,19 @@ pub struct PrebuildArguments {
 }
 
 #[derive(clap::Args)]
-pub struct PredictArguments {
-    /// The scene file
-    pub scene: PathBuf,
-    /// Effective mass [kg] instead of the scene's
-    #[arg(long)]
-    pub mass: Option<f64>,
-    /// Closing speed [m/s] instead of the scene's
-    #[arg(long, conflicts_with_all = ["energy", "drop_height"])]
-    pub speed: Option<f64>,
-    /// Kinetic energy [J] instead of a speed
-    #[arg(long, conflicts_with = "drop_height")]
-    pub energy: Option<f64>,
-    /// Height of fall [m] instead of a speed
-    #[arg(long)]
-    pub drop_height: Option<f64>,
-    /// Laws to compare: LOADING or LOADING/UNLOADING, or "all" [default: the scene's]
-    #[arg(long, value_delimiter = ',')]
-    pub laws: Vec<String>,
-    /// A table, picture or page over a range of speeds [m/s]
-    #[arg(long, num_args = 2, value_names = ["speed", "FROM:TO"])]
-    pub sweep: Option<Vec<String>>,
-    /// Where the sweep goes: .csv, .svg or .html [default: a table on standard output]
-    #[arg(short, long, requires = "sweep")]
-    pub output: Option<PathBuf>,
-    /// A dent [m] that was measured: which speed makes it, which yield strength explains it
-    #[arg(long, conflicts_with = "sweep")]
-    pub dent: Option<f64>,
-    /// A restitution that was measured: which speeds have it, which yield strengths explain it
-    #[arg(long, conflicts_with_all = ["sweep", "dent"])]
-    pub restitution: Option<f64>,
-}
-
-#[derive(clap::Args)]
 pub struct CurveArguments {
     /// The scene file
     pub scene: PathBuf,
-    /// Where the curve goes: .csv or .svg [default: a table on standard output]
+    /// Write the curve with all digits: .csv or .svg [default: print a short table]
     #[arg(short, long)]
     pub output: Option<PathBuf>,
-    /// Laws to compare: LOADING or LOADING/UNLOADING, or "all" [default: the scene's]
+    /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
     #[arg(long, value_delimiter = ',')]
     pub laws: Vec<String>,
     /// Largest indentation [m] [default: that of the scene's impact]
-    #[arg(long)]
+    #[arg(long, value_parser = units::lengths)]
     pub to: Option<f64>,
-    /// Adds the finite-element loading curve as dots
+    /// Add the finite-element loading curve as dots to the picture
     #[arg(long)]
     pub truth: bool,
 }

@@ -1,36 +1,60 @@
 //! `brinell curve`: force, radius, pressure and energies along a path that loads, unloads, and loads again.
 
 use crate::arguments::CurveArguments;
-use crate::files::{deliver, ending};
+use crate::columns::{Column, Columns};
+use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
 use crate::model::AnyModel;
 use crate::plot::{Picture, Series};
 use crate::scene::Scene;
+use crate::wrong_call::WrongCall;
 use crate::{predict, truth};
 use brinell::contact::damped::{self, AnyDamped, Damped};
 use brinell::contact::impact::Impact;
 use brinell::contact::{History, Loading, TooDeep};
+use serde_json::json;
 use std::error::Error;
 use std::f64::consts::PI;
-use std::fmt::Write;
 
 /// Points of each branch of the path.
 const POINTS: u32 = 200;
 
-/// The command: draws or tabulates the curve that the arguments ask for.
-pub fn run(arguments: &CurveArguments) -> Result<(), Box<dyn Error>> {
-    let scene = Scene::read(&arguments.scene)?;
-    let choices = laws::choose(&scene, &arguments.laws)?;
-    let largest = predict::positive("to", arguments.to.unwrap_or(scene.predictions[0].max_indentation))?;
+/// Rows of the table in a terminal: four for each branch, and the end.
+const TABLE_ROWS: usize = 17;
+
+/// The command: draws or tabulates the curve that the arguments name.
+pub fn run(arguments: &CurveArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let output = arguments.output.as_deref();
-    let picture = ending(output, &["csv", "svg"])? == "svg";
+    let format = ending(output, &["csv", "svg"]).map_err(WrongCall)?;
+    if let Some(path) = output {
+        files::check_goal(path)?;
+    }
+    let scene = Scene::read_aloud(&arguments.scene)?;
+    let choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
+    let largest = arguments.to.unwrap_or(scene.predictions[0].max_indentation);
+    let largest = predict::positive("to", largest).map_err(WrongCall::of)?;
     let impact = &scene.impact_of(0);
-    let drawn = match picture {
-        true => self::picture(&choices, largest, impact, arguments.truth).map(|picture| picture.svg(860, 480)),
-        false => csv(&choices, largest, impact),
+    let too_deep = |_: TooDeep| WrongCall(format!("to = {largest:e} m is too deep for the law"));
+    let text = match (output, format) {
+        (Some(_), "svg") => picture(&choices, largest, impact, arguments.truth).map_err(too_deep)?.svg(860, 480),
+        (Some(_), _) => columns(&choices, largest, impact).map_err(too_deep)?.csv(),
+        (None, _) => {
+            let columns = columns(&choices, largest, impact).map_err(too_deep)?;
+            match as_json {
+                true => format!("{}\n", json!({ "laws": columns.json() })),
+                false => table(&columns),
+            }
+        }
     };
-    let too_deep = |_: TooDeep| format!("to = {largest:e} m is too deep for the law");
-    Ok(deliver(&drawn.map_err(too_deep)?, output)?)
+    Ok(deliver(&text, output)?)
+}
+
+/// A short table for a terminal.
+fn table(columns: &Columns) -> String {
+    let names = ["indentation", "force", "contact radius", "mean pressure", "stiffness", "dissipated energy"];
+    let count = columns.laws.iter().map(|(_, rows)| rows.len()).max().unwrap_or(0);
+    let text = columns.text(&names, TABLE_ROWS);
+    format!("{text}\n{TABLE_ROWS} of {count} points; -o FILE.csv writes all of them with all digits\n")
 }
 
 /// A point of the curve, in SI units.
@@ -105,41 +129,57 @@ fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<Row> {
     rows.into_iter().step_by(every).collect()
 }
 
-/// The curves as a table.
+/// The curves as columns.
 ///
 /// # Errors
 /// [`TooDeep`] if `largest` [m] is beyond what the laws can be evaluated for.
-fn csv(choices: &[Choice], largest: f64, impact: &Impact) -> Result<String, TooDeep> {
-    let mut text = String::from(
-        "law,indentation_m,force_N,contact_radius_m,mean_pressure_Pa,stiffness_N_per_m,work_J,elastic_energy_J,\
-         dissipated_energy_J,regime\n",
-    );
-    for choice in choices {
-        for row in rows(choice, largest, impact)? {
-            let work = row.elastic_energy + row.dissipated_energy;
-            writeln!(
-                text,
-                "{},{:e},{:e},{:e},{:e},{:e},{work:e},{:e},{:e},{}",
-                choice.name,
-                row.indentation,
-                row.force,
-                row.contact_radius,
-                row.mean_pressure,
-                row.stiffness,
-                row.elastic_energy,
-                row.dissipated_energy,
-                row.regime
-            )
-            .expect("a String takes everything");
-        }
-    }
-    Ok(text)
+fn columns(choices: &[Choice], largest: f64, impact: &Impact) -> Result<Columns, TooDeep> {
+    let names = [
+        ("indentation", "m"),
+        ("force", "N"),
+        ("contact radius", "m"),
+        ("mean pressure", "Pa"),
+        ("stiffness", "N/m"),
+        ("work", "J"),
+        ("elastic energy", "J"),
+        ("dissipated energy", "J"),
+        ("regime", ""),
+    ];
+    let numbers = |row: &Row| {
+        let work = row.elastic_energy + row.dissipated_energy;
+        let Row {
+            indentation,
+            force,
+            contact_radius,
+            mean_pressure,
+            stiffness,
+            elastic_energy,
+            dissipated_energy,
+            regime,
+        } = *row;
+        vec![
+            indentation,
+            force,
+            contact_radius,
+            mean_pressure,
+            stiffness,
+            work,
+            elastic_energy,
+            dissipated_energy,
+            f64::from(regime),
+        ]
+    };
+    let law = |choice: &Choice| Ok((choice.laws.clone(), rows(choice, largest, impact)?.iter().map(numbers).collect()));
+    Ok(Columns {
+        columns: names.into_iter().map(|(name, unit)| Column::new(name, unit)).collect(),
+        laws: choices.iter().map(law).collect::<Result<_, TooDeep>>()?,
+    })
 }
 
 /// The curves as a picture; with `dots` the finite-element loading curve of the same bodies.
 ///
 /// # Errors
-/// As for [`csv`].
+/// As for the columns.
 pub fn picture(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) -> Result<Picture, TooDeep> {
     let mut series = Vec::new();
     for choice in choices {

@@ -1,5 +1,6 @@
-//! `brinell export`: builds the unit of a scene and says what is in it.
+//! `brinell export`: builds the FMU of a scene and lists what it contains.
 
+use crate::files;
 use crate::package::{self, ExportError, Way};
 use crate::plan::Plan;
 use crate::platform::Platform;
@@ -16,6 +17,8 @@ pub fn run(
     as_json: bool,
 ) -> Result<PathBuf, ExportError> {
     let path = output.map_or_else(|| format!("{}.fmu", scene.name).into(), Path::to_path_buf);
+    // what would fail at the end fails before the work
+    files::check_goal(&path)?;
     eprintln!("building {} ...", path.display());
     let plan = Plan::of(scene);
     let exported = package::export(&plan, way, platforms, &path)?;

@@ -20,16 +20,13 @@ impl FileError {
     }
 }
 
-/// Writes beside the goal and renames, so that no half of a file is ever found there.
+/// Writes a temporary file and renames it: the goal is never half written.
 ///
 /// # Errors
 /// [`FileError`]; the goal is then as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let file_error = FileError::at(path);
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(path);
     let mut file = tempfile::Builder::new().prefix(".brinell-").tempfile_in(folder).map_err(&file_error)?;
     file.write_all(bytes).map_err(&file_error)?;
     #[cfg(unix)]
@@ -43,7 +40,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     Ok(())
 }
 
-/// A new folder in `parent` that nobody else can read or write, its name begins with `prefix`; it goes when it is dropped.
+/// A new folder in `parent` with a name that begins with `prefix`. Only its owner can read or write it; dropping it removes it.
 ///
 /// # Errors
 /// [`FileError`]
@@ -52,6 +49,47 @@ pub fn private_folder(prefix: &str, parent: &Path) -> Result<TempDir, FileError>
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
     builder.prefix(prefix).tempdir_in(parent).map_err(FileError::at(parent))
+}
+
+/// Refuses a goal that can't be written, before any work is done for it: a folder, or a file in a folder that doesn't exist or
+/// can't be written to.
+///
+/// # Errors
+/// [`FileError`]
+pub fn check_goal(path: &Path) -> Result<(), FileError> {
+    if path.is_dir() {
+        let error = io::Error::new(io::ErrorKind::IsADirectory, "this is a folder; a file is written here");
+        return Err(FileError::at(path)(error));
+    }
+    let folder = folder_of(path);
+    if !folder.is_dir() {
+        let error = io::Error::new(io::ErrorKind::NotFound, format!("there is no folder {}", folder.display()));
+        return Err(FileError::at(path)(error));
+    }
+    // the only sure way to find out; the file is gone at once
+    tempfile::Builder::new().prefix(".brinell-").tempfile_in(folder).map_err(FileError::at(path)).map(drop)
+}
+
+/// Refuses a folder that can't be written into, or can't be made.
+///
+/// # Errors
+/// [`FileError`]
+pub fn check_folder(path: &Path) -> Result<(), FileError> {
+    if path.exists() && !path.is_dir() {
+        let error = io::Error::new(io::ErrorKind::NotADirectory, "this is a file; a folder is written here");
+        return Err(FileError::at(path)(error));
+    }
+    // the nearest folder that exists is the one that others are made in
+    let there = path.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
+    tempfile::Builder::new().prefix(".brinell-").tempfile_in(there).map_err(FileError::at(path)).map(drop)
+}
+
+/// The folder that `path` is in.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
 }
 
 /// Prints `text`, or writes it where the user wants it.

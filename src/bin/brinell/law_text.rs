@@ -1,4 +1,4 @@
-//! What people are told of a law: the texts of the table, in which `{name}` is a number of the law itself.
+//! The texts about a law from the table, in which `{name}` is a number of the law itself.
 
 use crate::laws;
 use crate::numbers::significant;

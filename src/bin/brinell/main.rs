@@ -1,10 +1,11 @@
-//! `brinell`: exports FMI 2.0 co-simulation units of elastoplastic contact, and checks them.
+//! `brinell`: exports FMI 2.0 co-simulation FMUs of elastoplastic contact, and checks them.
 #![deny(unsafe_code)]
 
 mod about;
 mod arguments;
 mod bodies;
 mod check;
+mod columns;
 mod constants;
 mod curve;
 mod documentation;
@@ -12,6 +13,7 @@ mod energy;
 mod export;
 mod files;
 mod guard;
+mod hardness;
 mod html;
 mod importer;
 mod interface;
@@ -19,9 +21,12 @@ mod law_check;
 mod law_list;
 mod law_text;
 mod laws;
+mod layout;
 mod materials;
 mod model;
 mod model_description;
+mod nearest;
+mod new;
 mod nominal;
 mod numbers;
 mod package;
@@ -33,6 +38,7 @@ mod plot;
 mod prebuilt;
 mod prebuilt_folder;
 mod predict;
+mod regime;
 mod report;
 mod scene;
 mod ssp;
@@ -41,7 +47,9 @@ mod symbols;
 mod table;
 mod toolchain;
 mod truth;
+mod units;
 mod validity;
+mod wrong_call;
 mod xml;
 
 use arguments::{Arguments, Command, PlatformArguments};
@@ -51,24 +59,43 @@ use plan::Plan;
 use scene::Scene;
 use std::error::Error;
 use std::process::ExitCode;
+use wrong_call::WrongCall;
 
 fn main() -> ExitCode {
     leave_quietly_when_nobody_reads();
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return not_understood(&error),
+    };
     match run(&arguments) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {
             eprintln!("brinell: {error}");
-            ExitCode::FAILURE
+            if error.is::<WrongCall>() { ExitCode::from(WRONG_CALL) } else { ExitCode::FAILURE }
         }
     }
+}
+
+/// The exit status of a wrong command line.
+const WRONG_CALL: u8 = 2;
+
+/// Help, the version, or what is wrong with the arguments, in the style of every other error.
+fn not_understood(error: &clap::Error) -> ExitCode {
+    let text = error.render();
+    if !error.use_stderr() {
+        print!("{}", text.ansi());
+        return ExitCode::SUCCESS;
+    }
+    let text = text.to_string();
+    eprint!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text));
+    ExitCode::from(WRONG_CALL)
 }
 
 /// How the error of a pipe that its reader has closed ends: `EPIPE` on Unix, `ERROR_BROKEN_PIPE` and `ERROR_NO_DATA` on Windows.
 const CLOSED_PIPE: &[&str] = if cfg!(windows) { &["(os error 109)", "(os error 232)"] } else { &["(os error 32)"] };
 
-/// A reader like `head` may close the pipe before all is printed: that is the end of the job, and no fault of the program.
+/// A reader like `head` may close the pipe before everything is printed: that ends the job, and is no error.
 fn leave_quietly_when_nobody_reads() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
@@ -80,7 +107,7 @@ fn leave_quietly_when_nobody_reads() {
     }));
 }
 
-/// Does what is asked for; false if the job is done and its result is bad.
+/// Runs a command; false if the job is done and its result is bad.
 fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     let json = arguments.json;
     if arguments.version {
@@ -95,17 +122,22 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         }
         Some(Command::Check { fmu }) => return check::run(fmu, json),
         Some(Command::Report { scene, output, peer, quick }) => {
-            return Ok(report::run(&Scene::read(scene)?, peer, output.as_deref(), *quick, json)?);
+            let scene = Scene::read_aloud(scene)?;
+            let usual = format!("{}_report", scene.name).into();
+            files::check_folder(output.as_ref().unwrap_or(&usual))?;
+            return Ok(report::run(&scene, peer, output.as_deref(), *quick, json)?);
         }
         Some(Command::Export { scene, output, platforms, way }) => {
             let way = way.chosen();
-            export::run(&Scene::read(scene)?, (way, &platforms.chosen(way)?), output.as_deref(), json)?;
+            export::run(&Scene::read_aloud(scene)?, (way, &platforms.chosen(way)?), output.as_deref(), json)?;
         }
         Some(Command::Prebuild(arguments)) => prebuilt::command::run(arguments, json)?,
+        Some(Command::New(arguments)) => new::run(arguments, json)?,
         Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
         Some(Command::Predict(arguments)) => predict::command::run(arguments, json)?,
-        Some(Command::Curve(arguments)) => curve::run(arguments)?,
-        Some(Command::Laws { output }) => law_list::run(output.as_deref(), json)?,
+        Some(Command::Hardness(arguments)) => hardness::command::run(arguments, json)?,
+        Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
+        Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,
         Some(Command::Materials) => materials::run(json),
         Some(Command::Completions { shell }) => about::completions(*shell)?,
         Some(Command::Man { output }) => about::manual(output)?,

@@ -1,5 +1,7 @@
 //! `brinell materials`: the built-in materials.
 
+use crate::layout::{paragraph, table};
+use crate::numbers::quantity;
 use crate::table::MATERIALS;
 
 /// The command: prints the list.
@@ -8,12 +10,20 @@ pub fn run(as_json: bool) {
         println!("{}", serde_json::to_string(&*MATERIALS).expect("a table of numbers and words"));
         return;
     }
-    println!("{:<22} {:>10} {:>8} {:>10} {:>13}   source", "material", "E [GPa]", "nu", "S [MPa]", "rho [kg/m^3]");
+    let heading = ["material", "Young's modulus", "Poisson's ratio", "yield strength", "density"];
+    let mut rows = vec![heading.map(String::from).to_vec()];
+    rows.extend(MATERIALS.iter().map(|material| {
+        vec![
+            material.name.clone(),
+            quantity(material.youngs_modulus, "Pa"),
+            quantity(material.poissons_ratio, ""),
+            quantity(material.yield_strength, "Pa"),
+            quantity(material.density, "kg/m^3"),
+        ]
+    }));
+    print!("{}\nsources\n", table(&rows, 1, 0));
+    let widest = MATERIALS.iter().map(|material| material.name.len()).max().unwrap_or(0);
     for material in MATERIALS.iter() {
-        let (modulus, strength) = (1e-9 * material.youngs_modulus, 1e-6 * material.yield_strength);
-        println!(
-            "{:<22} {modulus:>10.1} {:>8} {strength:>10.0} {:>13}   {}",
-            material.name, material.poissons_ratio, material.density, material.source
-        );
+        print!("{}", paragraph(&format!("  {:<widest$}  ", material.name), &material.source));
     }
 }

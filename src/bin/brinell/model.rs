@@ -71,6 +71,15 @@ impl AnyModel {
         Some(AnyModel::Elastoplastic(Model { pair: Pair { yield_strength, ..model.pair }, ..*model }))
     }
 
+    /// The law on the bodies `pair`; its yield strength is the given one [Pa], or else stays as it is.
+    pub fn on(&self, pair: Pair, yield_strength: Option<f64>) -> AnyModel {
+        let pair = Pair { yield_strength: yield_strength.unwrap_or(self.pair().yield_strength), ..pair };
+        match self {
+            AnyModel::Elastoplastic(model) => AnyModel::Elastoplastic(Model { pair, ..*model }),
+            AnyModel::Damped(model) => AnyModel::Damped(damped::Model { pair, ..*model }),
+        }
+    }
+
     /// The stiffness of the way back from `indentation` [m]; of a rate-dependent law that of its elastic part [N/m].
     pub fn stiffness(&self, indentation: f64) -> f64 {
         match self {

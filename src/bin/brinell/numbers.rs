@@ -33,6 +33,18 @@ pub struct Prefixed {
     pub size: f64,
 }
 
+impl Prefixed {
+    /// The unit below the name of a column.
+    pub fn heading(&self) -> String {
+        if self.unit.is_empty() { String::new() } else { format!("[{}]", self.unit) }
+    }
+
+    /// The unit after the `name` of a quantity.
+    pub fn after(&self, name: &str) -> String {
+        format!("{name} {}", self.heading()).trim_end().into()
+    }
+}
+
 /// The unit of this kind in which a number of the size `value` [`unit`] reads best.
 ///
 /// Lengths, times and speeds have no prefix above 1 (`1200 m`), masses are in grams below a kilogram, and units that take no

@@ -6,10 +6,9 @@ use crate::table;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 
-/// The unloading law of a scene that names none: "contact-radius", where it can be.
+/// The unloading law of a loading law that is named alone: the one that it was published with, or "contact-radius".
 pub fn default_unloading(loading: &str) -> &'static str {
-    let law = table::loading_law(loading);
-    law.unloading.as_deref().filter(|_| law.no_other_unloading.is_some()).unwrap_or("contact-radius")
+    table::loading_law(loading).unloading.as_deref().unwrap_or("contact-radius")
 }
 
 /// Refuses two laws that don't make sense together.
@@ -59,8 +58,8 @@ pub fn check_ties(
         let (one, published) = (value_of(&loading, name), value_of(&published(loading_name), name));
         if one != published {
             return Err(format!(
-                "law.unloading = \"{unloading_name}\" counts in the units of \"{loading_name}\" as published: with it \
-                 `{name}` must be {:?}",
+                "law.unloading = \"{unloading_name}\" takes its units from \"{loading_name}\" as published: with it \
+                 `{name}` must be {:?}; law.unloading = \"contact-radius\" takes any",
                 published.unwrap_or(f64::NAN)
             ));
         }

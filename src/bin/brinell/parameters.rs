@@ -1,6 +1,7 @@
 //! The constants of a law: which there are, and the law with those that a scene gives.
 
-use crate::scene::{Mistake, unknown};
+use crate::nearest::unknown;
+use crate::scene::Mistake;
 use crate::table;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -8,11 +9,11 @@ use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use toml::Spanned;
 
-/// A table of constants as it stands in a scene.
+/// A table of constants as a scene gives it.
 pub type Given = Spanned<BTreeMap<Spanned<String>, Spanned<toml::Value>>>;
 
 /// A constant of a law with its value, for people and programs.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Constant {
     pub name: &'static str,
     pub value: f64,
@@ -111,7 +112,7 @@ fn check_one(
     let law = &table.name;
     if table.fixed.contains(asked) {
         let message =
-            format!("{key}_parameters.{asked} belongs to the fit of `{law}` as a whole: a scene can't change it");
+            format!("{key}_parameters.{asked} belongs to the fit of `{law}` as a whole; a scene can't change it");
         return Err(Mistake(name.span(), message));
     }
     let Some(parameter) = table.parameters.iter().find(|parameter| parameter.name == *asked) else {

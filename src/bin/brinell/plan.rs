@@ -1,4 +1,4 @@
-//! All that the files of a unit are made from, found once: model description, constants, documentation and summary say the same.
+//! Everything that the files of an FMU are made from, computed once for model description, constants, documentation and summary.
 
 use crate::energy::{self, Energy};
 use crate::guard::Guard;
@@ -31,8 +31,8 @@ pub struct Plan<'a> {
 }
 
 /// No scene says which bodies two contacts have in common.
-const SHARED_BODIES: &str = "the unit moves the bodies of each contact by themselves: a body that two contacts share, as in a chain or \
-                             between two walls, would be moved twice. Give such contacts units without [coupling], and short steps";
+const SHARED_BODIES: &str = "the FMU moves the bodies of each contact separately: a body that two contacts share, as in a chain or \
+                             between two walls, would be moved twice. For such contacts use FMUs without [coupling], and short steps";
 
 /// A parameter that can't be set.
 pub struct Constant {

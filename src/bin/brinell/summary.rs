@@ -1,6 +1,7 @@
-//! What `brinell export` says: what the unit has, and what was left out of it.
+//! The summary of `brinell export`: what the FMU contains, and what was left out.
 
 use crate::interface::Entry;
+use crate::layout::paragraph;
 use crate::package::{Exported, How, Packed};
 use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
@@ -11,7 +12,7 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use serde_json::{Value, json};
 
-/// Inputs and outputs, parameters, and what there could be besides.
+/// Inputs, outputs, parameters, and what the FMU could have besides.
 pub struct Summary<'a> {
     plan: &'a Plan<'a>,
     /// Outputs that weren't chosen.
@@ -105,33 +106,34 @@ impl Summary<'_> {
     pub fn print(&self, exported: &Exported) {
         println!("{}", exported.path.display());
         println!("  {} bytes", exported.size);
+        let line = |heading: &str, text: &str| print!("{}", paragraph(&format!("  {heading:<11}"), text));
         for Packed { platform, size, imports } in &exported.libraries {
             let from = if platform.starts_with("win") { "kernel32" } else { "the process" };
             let taken = if imports.is_empty() { "nothing".into() } else { imports.join(", ") };
-            println!("  {platform:<15}{size:>7} bytes; takes {taken} from {from}");
+            print!("{}", paragraph(&format!("  {platform:<15}"), &format!("{size} bytes; takes {taken} from {from}")));
         }
         if let Some(how) = &exported.how {
-            println!("  made       {}", how.words());
+            line("made", &how.words());
         }
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
-        println!("  law        {}", law(scene));
+        line("law", &law(scene));
         if let Some(guard) = guard {
-            println!("  guard      {}", guard.words());
+            line("guard", &guard.words());
         }
         if self.plan.makes_energy {
-            println!("  energy     these laws can give back more than they took");
+            line("energy", "these laws can give back more than they took");
         }
         for warning in warnings.iter().map(String::as_str).chain(self.plan.shared_bodies) {
-            println!("  warning    {warning}");
+            line("warning", warning);
         }
         if scene.contacts[0].name.is_some() {
-            println!("  contacts   {}", scene.contact_count());
-            scene.contacts.iter().for_each(|group| println!("    {}", group_line(group)));
+            line("contacts", &scene.contact_count().to_string());
+            scene.contacts.iter().for_each(|group| print!("{}", group_line(group)));
         }
-        println!("  variables  {}: {}", self.variable_count(), self.variables_by_kind().join(", "));
-        // what a group has of its own stands in its line
-        for Constant { name, value, .. } in constants.iter().filter(|constant| constant.shared) {
-            println!("  constant   {name} = {value:?}");
+        line("variables", &format!("{}: {}", self.variable_count(), self.variables_by_kind().join(", ")));
+        // constants of a group are in its line
+        for Constant { name, value, unit, .. } in constants.iter().filter(|constant| constant.shared) {
+            line("constant", format!("{name} = {value:?} {unit}").trim_end());
         }
         let OtherLaws { loading, unloading, damped } = &self.laws;
         println!("  left out");
@@ -144,7 +146,7 @@ impl Summary<'_> {
             ("besides", &self.features),
         ];
         for (heading, names) in parts.into_iter().filter(|(_, names)| !names.is_empty()) {
-            println!("    {heading:<12}{}", names.join(", "));
+            print!("{}", paragraph(&format!("    {heading:<12}"), &names.join(", ")));
         }
     }
 }
@@ -198,13 +200,13 @@ fn group_line(group: &Group) -> String {
     });
     let own = own.collect::<Vec<_>>().join(", ");
     let own = if own.is_empty() { "as the scene".into() } else { own };
-    format!("{:<20} {:>6}  {own}", group.label(), group.len())
+    paragraph(&format!("    {:<20} {:>6}  ", group.label(), group.len()), &own)
 }
 
 fn law(scene: &Scene) -> String {
     match (scene.damped, scene.unloading) {
         (Some((damped, _)), _) => format!("{damped} (the force depends on the rate)"),
-        (None, Some((unloading, _))) => format!("{}, unloading by {unloading}", scene.loading.0),
+        (None, Some((unloading, _))) => format!("{}/{unloading} (loading/unloading)", scene.loading.0),
         (None, None) => format!("{} (elastic)", scene.loading.0),
     }
 }

@@ -1,4 +1,4 @@
-//! What leaves the validity of the laws, in words.
+//! The limits of validity of the laws, in words.
 
 use crate::numbers::significant;
 use brinell::contact::Pair;
@@ -32,26 +32,30 @@ pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec
     width.into_iter().chain(speed).collect()
 }
 
-/// What is to be said against a `prediction` for an impact at `speed` [m/s] of the bodies `pair`, whose target may have a known
+/// Warnings about a `prediction` for an impact at `speed` [m/s] of the bodies `pair`, whose target may have a known
 /// `density` [kg/m^3]; nothing, if the laws are valid.
 pub fn warnings(pair: &Pair, density: Option<f64>, prediction: &Prediction, speed: f64) -> Vec<String> {
-    let words = |beyond| match beyond {
+    beyond(pair, density, prediction.max_contact_radius, speed).into_iter().map(words).collect()
+}
+
+/// A limit that is left, in words.
+pub fn words(beyond: Beyond) -> String {
+    match beyond {
         Beyond::Width(ratio) => format!(
-            "the contact radius reaches {} effective radii; above {LARGEST_RADIUS_RATIO} the sphere is no paraboloid any more, \
+            "the contact radius reaches {} effective radii; above {LARGEST_RADIUS_RATIO} a sphere is no longer a paraboloid, \
              and the law isn't valid",
             significant(ratio, 3)
         ),
         Beyond::Speed { ratio, waves } => format!(
             "the speed is {} of the wave speed of {waves:.0} m/s; above {LARGEST_SPEED_RATIO} elastic waves take energy \
-             that the law leaves out, here {:.0} % of an elastic impact's",
+             that the law neglects, here {:.0} % of that of an elastic impact",
             significant(ratio, 3),
             100.0 * wave_energy(ratio)
         ),
-    };
-    beyond(pair, density, prediction.max_contact_radius, speed).into_iter().map(words).collect()
+    }
 }
 
-/// Up to where the unit's law is valid on bodies with this `depth` [m] and target, in words: what the unit tells of.
+/// Up to where the law of an FMU is valid on bodies with this `depth` [m] and target, in words: beyond, the FMU logs a warning.
 pub fn limits(pair: &Pair, density: Option<f64>, depth: f64) -> String {
     let radius = format!(
         "up to a contact radius of {LARGEST_RADIUS_RATIO} effective radii, here an indentation of {depth:.3e} m"

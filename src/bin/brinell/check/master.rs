@@ -3,7 +3,7 @@
 use crate::importer::{ImportError, Instance};
 use brinell::contact::impact::Impact;
 
-/// How often a force that follows the rate is asked for again with the speed that it leads to.
+/// Iterations of a force that depends on the rate with the speed that it leads to.
 const ITERATIONS: u32 = 3;
 
 /// What an explicit co-simulation finds.

@@ -1,9 +1,10 @@
-//! `brinell check`: a packed unit, loaded as any importer would, runs the impact that its scene is made for.
+//! `brinell check`: loads an FMU as any importer does and runs the impact of its scene.
 
 mod master;
 mod trial;
 
 use crate::importer::{Archive, Description, ImportError, Instance};
+use crate::numbers::quantity;
 use crate::scene::{Scene, SceneError};
 use serde::Serialize;
 use std::error::Error;
@@ -18,13 +19,13 @@ const TOLERANCE: f64 = 1e-3;
 pub enum CheckError {
     #[error("{}: {source}", path.display())]
     Import { path: PathBuf, source: ImportError },
-    #[error("{}: there is no resources/scene.toml: it was not made by brinell, so that there is no impact to run", .0.display())]
+    #[error("{}: there is no resources/scene.toml: brinell has not made this FMU, and there is no impact to run", .0.display())]
     NoScene(PathBuf),
     #[error("{}: its scene can't be read: {source}", path.display())]
     Scene { path: PathBuf, source: SceneError },
 }
 
-/// The command: checks the unit at `path` and says what came out; whether it passed.
+/// The command: checks the FMU at `path` and prints the outcome; gives whether it passed.
 pub fn run(path: &Path, as_json: bool) -> Result<bool, Box<dyn Error>> {
     let outcome = check(path)?;
     if as_json {
@@ -123,18 +124,19 @@ fn wrong_starts(instance: &mut Instance, description: &Description) -> Result<Ve
 impl std::fmt::Display for Outcome {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let ImpactNumbers { mass, speed } = self.impact;
-        let assumed =
-            if self.impact_is_assumed { " (the scene names no impact: a solid steel ball is assumed)" } else { "" };
+        let assumed = if self.impact_is_assumed { " (the scene names no impact: a solid ball is assumed)" } else { "" };
         writeln!(f, "{}", self.fmu.display())?;
-        writeln!(f, "  platforms {}; {} variables", self.platforms.join(", "), self.variables)?;
+        writeln!(f, "  platforms: {}; {} variables", self.platforms.join(", "), self.variables)?;
         for wrong in &self.wrong_starts {
             writeln!(f, "  start value differs: {wrong}")?;
         }
         let trials = || self.plain.iter().chain(&self.contacts);
         if trials().any(|trial| trial.skipped.is_none()) {
-            writeln!(f, "  impact of {mass} kg at {speed} m/s{assumed}")?;
+            writeln!(f, "  impact of {} at {}{assumed}", quantity(mass, "kg"), quantity(speed, "m/s"))?;
             let steps = match &self.plain {
-                Some(Trial { step, .. }) => format!("{step:.3e} s steps ({} per contact)", self.steps_per_contact),
+                Some(Trial { step, .. }) => {
+                    format!("steps of {} ({} per contact)", quantity(*step, "s"), self.steps_per_contact)
+                }
                 None => format!("{} steps per contact", self.steps_per_contact),
             };
             writeln!(f, "  predicted {}, simulated by explicit co-simulation with {steps}", self.prediction)?;
@@ -145,7 +147,8 @@ impl std::fmt::Display for Outcome {
         if trials().all(|trial| trial.skipped.is_some()) {
             return Ok(());
         }
-        let verdict = if self.passed { "agree" } else { "DO NOT AGREE" };
-        writeln!(f, "\n  they {verdict} to {} % (dent: of the largest indentation)", 100.0 * TOLERANCE)
+        let verdict = if self.passed { "agreement" } else { "NO AGREEMENT" };
+        let tolerance = 100.0 * TOLERANCE;
+        writeln!(f, "\n  {verdict} within {tolerance} % (error of the dent relative to the largest indentation)")
     }
 }

@@ -1,7 +1,9 @@
-//! The impact of a scene on one contact of its unit, beside what is predicted for it.
+//! The impact of a scene on one contact of its FMU, compared with its prediction.
 
 use super::master::{Master, Simulated};
 use crate::importer::{Description, ImportError, Instance};
+use crate::layout::table;
+use crate::numbers::{percent, quantity};
 use crate::scene::{Parameter, Scene};
 use brinell::contact::impact::Prediction;
 use serde::Serialize;
@@ -134,7 +136,7 @@ fn compare(predicted: &Prediction, simulated: &Simulated) -> Vec<Row> {
     vec![
         row("largest force", "N", max_force, simulated.max_force, max_force),
         row("largest indentation", "m", max_indentation, simulated.max_indentation, max_indentation),
-        // a dent may be zero: its difference is told in largest indentations
+        // a dent may be zero: its error is relative to the largest indentation
         row("dent", "m", residual_indentation, simulated.residual_indentation, max_indentation),
         row("restitution", "", restitution, simulated.restitution, restitution),
         row("contact time", "s", contact_time, simulated.contact_time, contact_time),
@@ -152,13 +154,18 @@ impl std::fmt::Display for Trial {
             let separator = if name.is_empty() { "" } else { ": " };
             return writeln!(f, "  {name}{separator}no impact was run: {reason}");
         }
-        writeln!(f, "\n  {name:<20} {:>14} {:>14}    {:>11}", "predicted", "simulated", "difference")?;
-        for Row { quantity, unit, predicted, simulated, difference } in &self.rows {
-            let difference = 100.0 * difference;
-            writeln!(f, "  {quantity:<20} {predicted:>14.6e} {simulated:>14.6e} {unit:<2} {difference:>+11.5} %")?;
+        let mut rows = vec![vec![name, "predicted".into(), "simulated".into(), "difference".into()]];
+        for Row { quantity: name, unit, predicted, simulated, difference } in &self.rows {
+            rows.push(vec![
+                (*name).into(),
+                quantity(*predicted, unit),
+                quantity(*simulated, unit),
+                percent(*difference),
+            ]);
         }
+        write!(f, "\n{}", table(&rows, 1, 2))?;
         for other in &self.disturbed {
-            writeln!(f, "  {other} has changed, though its contact was at rest")?;
+            writeln!(f, "  {other} has changed although its contact was at rest")?;
         }
         Ok(())
     }

@@ -1,47 +1,109 @@
 //! The command `predict`: what is asked, and in which form the answer goes out.
 
-use super::sweep::{self, Sweep};
+use super::axis::Axis;
+use super::map::Map;
+use super::sweep::Sweep;
+use super::text::Answer;
+use super::time_history::TimeHistory;
 use super::{PredictError, inverse, page, rebound};
-use crate::arguments::PredictArguments;
-use crate::files::{deliver, ending};
+use crate::columns::Columns;
+use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
+use crate::layout::paragraph;
+use crate::numbers::quantity;
 use crate::scene::Scene;
+use crate::units;
+use crate::wrong_call::WrongCall;
 use brinell::contact::impact::Impact;
 use serde_json::json;
 use std::error::Error;
+use std::path::{Path, PathBuf};
+
+/// What `brinell predict` is asked.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The scene file
+    pub scene: PathBuf,
+    /// Effective mass [kg], instead of the scene's
+    #[arg(long, value_parser = units::masses)]
+    pub mass: Option<f64>,
+    /// Closing speed [m/s], instead of the scene's
+    #[arg(long, value_parser = units::speeds, conflicts_with_all = ["energy", "drop_height"])]
+    pub speed: Option<f64>,
+    /// Kinetic energy [J], instead of a speed
+    #[arg(long, value_parser = units::energies, conflicts_with = "drop_height")]
+    pub energy: Option<f64>,
+    /// Drop height [m], instead of a speed
+    #[arg(long, value_parser = units::lengths)]
+    pub drop_height: Option<f64>,
+    /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
+    #[arg(long, value_delimiter = ',')]
+    pub laws: Vec<String>,
+    /// Vary a quantity, such as speed=0.01:10 or target.yield_strength=200e6:900e6:8; twice: a map
+    #[arg(long, value_name = "NAME=FROM:TO[:COUNT]")]
+    pub sweep: Vec<String>,
+    /// Write the sweep with all digits: .csv, .svg or .html [default: print a short table]
+    #[arg(short, long, value_name = "FILE", requires = "sweep")]
+    pub output: Option<PathBuf>,
+    /// Write force, indentation and speed over time: .csv, .svg or .html
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["sweep", "dent", "restitution"])]
+    pub time_history: Option<PathBuf>,
+    /// From a measured depth of a dent [m] to the speed and to the yield strength that explain it
+    #[arg(long, value_parser = units::lengths, conflicts_with = "sweep")]
+    pub dent: Option<f64>,
+    /// From a measured coefficient of restitution to the speeds and yield strengths that explain it
+    #[arg(long, conflicts_with_all = ["sweep", "dent"])]
+    pub restitution: Option<f64>,
+}
 
 /// Answers what the arguments ask.
-pub fn run(arguments: &PredictArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
-    let scene = Scene::read(&arguments.scene)?;
-    let choices = laws::choose(&scene, &arguments.laws)?;
-    let impact = impact(&scene, arguments)?;
-    if let Some(range) = &arguments.sweep {
-        return sweep(&scene, &choices, impact.mass, range, arguments);
+pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
+    let formats = ["csv", "svg", "html"];
+    let output = arguments.output.as_deref();
+    let format = ending(output, &formats).map_err(WrongCall)?;
+    let history_format = ending(arguments.time_history.as_deref(), &formats).map_err(WrongCall)?;
+    for path in [output, arguments.time_history.as_deref()].into_iter().flatten() {
+        files::check_goal(path)?;
+    }
+    let axes = arguments.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>();
+    let axes = axes.map_err(WrongCall::of)?;
+    let scene = Scene::read_aloud(&arguments.scene)?;
+    let choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
+    let impact = impact(&scene, arguments).map_err(WrongCall::of)?;
+    let question = Question { scene: &scene, choices: &choices, impact, as_json };
+    if !axes.is_empty() {
+        return question.sweep(axes, output, format);
     }
     if let Some(dent) = arguments.dent {
-        return Ok(invert(&choices, &impact, super::positive("dent", dent)?, as_json)?);
+        return Ok(question.invert(super::positive("dent", dent).map_err(WrongCall::of)?)?);
     }
     if let Some(measured) = arguments.restitution {
-        let goal = rebound::measured(measured)?;
+        let goal = rebound::measured(measured).map_err(WrongCall::of)?;
         let rebounds = rebound::explain(&choices, &impact, goal)?;
-        if as_json {
-            println!("{}", rebound::as_json(&rebounds, &impact, goal));
-        } else {
-            print!("{}", rebound::text(&rebounds, &impact, goal));
+        match as_json {
+            true => println!("{}", rebound::as_json(&rebounds, &impact, goal)),
+            false => print!("{}", rebound::text(&rebounds, &impact, goal)),
         }
         return Ok(());
     }
-    let density = scene.contacts[0].density;
-    if as_json {
-        println!("{}", super::as_json(&choices, &impact, density)?);
-    } else {
-        print!("{}", super::text(&choices, &impact, density)?);
+    let answer = Answer::of(&scene, &choices, impact, arguments.drop_height)?;
+    if let Some(path) = &arguments.time_history {
+        question.write_history(path, history_format)?;
+    }
+    let mut object = answer.json();
+    object["time_history"] = json!(arguments.time_history);
+    match as_json {
+        true => println!("{object}"),
+        false => print!("{}", answer.text()),
+    }
+    if let Some(path) = arguments.time_history.as_deref().filter(|_| !as_json) {
+        println!("\ntime history: {}", path.display());
     }
     Ok(())
 }
 
 /// The scene's impact, with what the arguments say instead.
-fn impact(scene: &Scene, arguments: &PredictArguments) -> Result<Impact, PredictError> {
+fn impact(scene: &Scene, arguments: &Arguments) -> Result<Impact, PredictError> {
     let mass = super::positive("mass", arguments.mass.unwrap_or(scene.impact_of(0).mass))?;
     let speed = match (arguments.speed, arguments.energy, arguments.drop_height) {
         (Some(speed), ..) => super::positive("speed", speed)?,
@@ -54,42 +116,99 @@ fn impact(scene: &Scene, arguments: &PredictArguments) -> Result<Impact, Predict
     Ok(impact)
 }
 
-/// Impacts over a range of speeds, as a table, a picture or a page.
-fn sweep(
-    scene: &Scene,
-    choices: &[Choice],
-    mass: f64,
-    range: &[String],
-    arguments: &PredictArguments,
-) -> Result<(), Box<dyn Error>> {
-    let range = sweep::parse(range)?;
-    let output = arguments.output.as_deref();
-    let ending = ending(output, &["csv", "svg", "html"])?;
-    let sweep = Sweep::of(choices, mass, range)?;
-    let text = match ending {
-        "html" => page::write(scene, choices, &sweep),
-        "svg" => sweep.svg(),
-        _ => sweep.csv(),
-    };
-    Ok(deliver(&text, output)?)
+/// An impact on a scene by some laws, and how the answer is wanted.
+struct Question<'a> {
+    scene: &'a Scene,
+    choices: &'a [Choice],
+    impact: Impact,
+    as_json: bool,
 }
 
-/// Which speed makes `dent` [m], and which yield strength explains it after `impact`.
-fn invert(choices: &[Choice], impact: &Impact, dent: f64, as_json: bool) -> Result<(), PredictError> {
-    let mut answers = Vec::new();
-    for choice in choices {
-        let speed = inverse::speed_of_dent(choice, impact.mass, dent)?;
-        let strength = inverse::strength_of_dent(choice, impact, dent)?;
-        if as_json {
-            answers.push(json!({ "law": choice.name, "speed": speed, "yield_strength": strength }));
-        } else {
-            println!("{}: a dent of {dent:e} m is made", choice.name);
-            println!("  at a speed of {speed:.6e} m/s, or");
-            println!("  at {} m/s in a target with a yield strength of {strength:.6e} Pa", impact.speed);
+impl Question<'_> {
+    /// Impacts over one quantity or two, as a table, a picture or a page.
+    fn sweep(&self, axes: Vec<Axis>, output: Option<&Path>, format: &str) -> Result<(), Box<dyn Error>> {
+        let Question { scene, choices, impact, .. } = *self;
+        // what can't be varied, or not so far, is a mistake in the call; what a law can't do isn't
+        let failed = |error: PredictError| -> Box<dyn Error> {
+            match error {
+                PredictError::Beyond { .. } => error.into(),
+                error => WrongCall::of(error).into(),
+            }
+        };
+        let text = match <[Axis; 2]>::try_from(axes) {
+            Ok(axes) => {
+                let map = Map::of(scene, choices, impact, axes).map_err(failed)?;
+                let page = || page::of_map(scene, choices, impact, &map);
+                self.written((output, format), &|| map.columns(), &|| map.svg(), &page, &|| map.text())
+            }
+            Err(axes) if axes.len() == 1 => {
+                let axis = axes.into_iter().next().expect("one");
+                let sweep = Sweep::of(scene, choices, impact, axis).map_err(failed)?;
+                let page = || page::of_sweep(scene, choices, &sweep);
+                self.written((output, format), &|| sweep.columns(), &|| sweep.svg(), &page, &|| sweep.text())
+            }
+            Err(axes) => return Err(WrongCall(format!("--sweep is given {} times: at most two", axes.len())).into()),
+        };
+        Ok(deliver(&text, output)?)
+    }
+
+    /// A result in the form that is wanted.
+    fn written(
+        &self,
+        (output, format): (Option<&Path>, &str),
+        columns: &dyn Fn() -> Columns,
+        svg: &dyn Fn() -> String,
+        page: &dyn Fn() -> String,
+        text: &dyn Fn() -> String,
+    ) -> String {
+        match (output, format) {
+            (None, _) if self.as_json => {
+                let Impact { mass, speed } = self.impact;
+                format!("{}\n", json!({ "mass": mass, "speed": speed, "laws": columns().json() }))
+            }
+            (None, _) => text(),
+            (_, "html") => page(),
+            (_, "svg") => svg(),
+            _ => columns().csv(),
         }
     }
-    if as_json {
-        println!("{}", json!({ "dent": dent, "mass": impact.mass, "impact_speed": impact.speed, "laws": answers }));
+
+    /// Writes force, indentation and speed over time.
+    fn write_history(&self, path: &Path, format: &str) -> Result<(), Box<dyn Error>> {
+        let history = TimeHistory::of(self.choices, &self.impact)?;
+        let text = match format {
+            "html" => page::of_time_history(self.scene, self.choices, self.impact, &history),
+            "svg" => history.svg(),
+            _ => history.columns().csv(),
+        };
+        Ok(deliver(&text, Some(path))?)
     }
-    Ok(())
+
+    /// Which speed makes `dent` [m], and which yield strength explains it after the impact.
+    fn invert(&self, dent: f64) -> Result<(), PredictError> {
+        let Question { choices, impact, as_json, .. } = *self;
+        let mut answers = Vec::new();
+        for choice in choices {
+            let speed = inverse::speed_of_dent(choice, impact.mass, dent)?;
+            let strength = inverse::strength_of_dent(choice, &impact, dent)?;
+            if as_json {
+                answers.push(json!({ "law": choice.laws, "speed": speed, "yield_strength": strength }));
+                continue;
+            }
+            let words = format!(
+                "by {}, {} leaves a dent of {} at {} on the target of the scene, or at {} on a target with a yield strength of {}",
+                choice.laws,
+                quantity(impact.mass, "kg"),
+                quantity(dent, "m"),
+                quantity(speed, "m/s"),
+                quantity(impact.speed, "m/s"),
+                quantity(strength, "Pa")
+            );
+            print!("{}", paragraph("", &words));
+        }
+        if as_json {
+            println!("{}", json!({ "dent": dent, "mass": impact.mass, "impact_speed": impact.speed, "laws": answers }));
+        }
+        Ok(())
+    }
 }

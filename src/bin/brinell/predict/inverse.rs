@@ -6,10 +6,10 @@ use brinell::contact::impact::Impact;
 
 /// The speed [m/s] at which `mass` [kg] leaves a dent of `dent` [m].
 pub fn speed_of_dent(choice: &Choice, mass: f64, dent: f64) -> Result<f64, PredictError> {
-    choice.model.elastoplastic().ok_or_else(|| PredictError::NoDent(choice.name.clone()))?;
+    choice.model.elastoplastic().ok_or_else(|| PredictError::NoDent(choice.laws.clone()))?;
     // a speed too high for the law makes a dent deeper than any
     let depth = |speed: f64| one(choice, &Impact { mass, speed }).map_or(f64::INFINITY, |p| p.residual_indentation);
-    root("speed [m/s]", (1e-9, 1e6), ("dent", dent), depth)
+    root(("speed", "m/s"), (1e-9, 1e6), ("dent", dent), depth)
 }
 
 /// The yield strength [Pa] for which the impact leaves a dent of `dent` [m]: the Brinell test turned round.
@@ -21,17 +21,17 @@ pub fn strength_of_dent(choice: &Choice, impact: &Impact, dent: f64) -> Result<f
         prediction.map_or(f64::NEG_INFINITY, |prediction| -prediction.residual_indentation)
     };
     let modulus = choice.model.pair().modulus;
-    root("yield strength [Pa]", (1e-7 * modulus, modulus), ("dent", -dent), depth)
+    root(("yield strength", "Pa"), (1e-7 * modulus, modulus), ("dent", -dent), depth)
 }
 
 /// Where the rising function `of` has the value `goal`, by halving the logarithm of the argument to rounding.
 fn root(
-    what: &'static str,
+    (what, unit): (&'static str, &'static str),
     (low, high): (f64, f64),
     (name, goal): (&'static str, f64),
     of: impl Fn(f64) -> f64,
 ) -> Result<f64, PredictError> {
-    let none = PredictError::NoSolution { what, low, high, name, value: goal.abs() };
+    let none = PredictError::NoSolution { what, unit, low, high, name, value: goal.abs(), of: "m" };
     let (mut below, mut above) = (low, high);
     let exceeds = |argument: f64| of(argument) >= goal;
     if exceeds(below) || !exceeds(above) {

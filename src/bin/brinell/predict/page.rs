@@ -1,103 +1,195 @@
-//! A sweep as a page that needs nothing else: the scene in words, the pictures, the numbers.
+//! Impacts as a page that needs nothing else: the scene in words, the pictures, the numbers.
 
-use super::sweep::{STEPS, Sweep};
-use super::{methods, quantities};
+use super::map::Map;
+use super::methods;
+use super::sweep::Sweep;
+use super::time_history::TimeHistory;
 use crate::bodies;
+use crate::columns::{Columns, some};
 use crate::html::{PICTURE_STYLE, begin, escape};
 use crate::laws::Choice;
-use crate::numbers::digits;
-use crate::plot::css_lines;
+use crate::numbers::{digits, quantity};
+use crate::plot::{Picture, css_lines};
+use crate::regime;
 use crate::scene::Scene;
+use brinell::contact::Regime;
+use brinell::contact::impact::Impact;
 use std::fmt::Write;
 
-/// Every how manyth speed the tables show; the others are in the CSV.
-const STRIDE: usize = STEPS as usize / 20;
+/// Rows of a table; the others are in the CSV.
+const ROWS: usize = 21;
 
-/// The page of `sweep`, by the laws of `choices` on the bodies of the first contact of `scene`.
-pub fn write(scene: &Scene, choices: &[Choice], sweep: &Sweep) -> String {
-    let mut page = String::new();
-    body(&mut page, scene, choices, sweep).expect("a String takes everything");
-    page
+/// A page about impacts on the bodies of the first contact of a scene.
+struct Page<'a> {
+    scene: &'a Scene,
+    choices: &'a [Choice],
+    /// What the page shows: "impacts over speed".
+    subject: String,
+    /// The impact in words, from "with" on.
+    with: String,
+    /// The heading of the pictures.
+    heading: &'static str,
+    /// The names of the lines, if the pictures have some.
+    lines: Vec<&'a str>,
+    pictures: Vec<String>,
+    columns: Columns,
 }
 
-fn body(page: &mut String, scene: &Scene, choices: &[Choice], sweep: &Sweep) -> std::fmt::Result {
-    let name = escape(&scene.name);
-    begin(page, &format!("{name}: impacts"), PICTURE_STYLE)?;
-    writeln!(page, "<h1>{name}: impacts over speed</h1>")?;
-    if !scene.description.is_empty() {
-        writeln!(page, "<p>{}</p>", escape(&scene.description))?;
+/// The page of a sweep over one quantity.
+pub fn of_sweep(scene: &Scene, choices: &[Choice], sweep: &Sweep) -> String {
+    let (from, to) = (quantity(sweep.axis.from, sweep.axis.unit), quantity(sweep.axis.to, sweep.axis.unit));
+    let fixed = impact_but(sweep.impact, &[sweep.axis.name]);
+    Page {
+        scene,
+        choices,
+        subject: format!("impacts over {}", sweep.axis.name.replace('_', " ")),
+        with: format!("{fixed} and {} from {from} to {to}", sweep.axis.name),
+        heading: "Restitution, largest force and dent",
+        lines: sweep.laws.iter().map(|(law, _)| law.as_str()).collect(),
+        pictures: figures(&sweep.panels()),
+        columns: sweep.columns(),
     }
-    words(page, scene, choices, sweep)?;
-    legend(page, sweep)?;
-    writeln!(page, "<div class=\"panels\">")?;
-    for panel in sweep.panels() {
-        writeln!(page, "<figure>\n{}</figure>", panel.svg_without_legend(400, 360))?;
-    }
-    writeln!(page, "</div>")?;
-    let csv = sweep.csv();
-    // commas, letters, digits and signs stand for themselves in an address; line ends don't
-    let (address, lines) = (csv.replace('\n', "%0A"), csv.lines().count() - 1);
-    writeln!(
-        page,
-        "<p class=\"csv\"><a download=\"{name}_sweep.csv\" href=\"data:text/csv;charset=utf-8,{address}\">All {lines} \
-         impacts with all digits as CSV</a></p>"
-    )?;
-    for law in &sweep.laws {
-        table(page, law)?;
-    }
-    writeln!(page, "<p>Brinell {}</p>\n</body>\n</html>", env!("CARGO_PKG_VERSION"))
+    .write()
 }
 
-/// What meets what, and how the impacts were found.
-fn words(page: &mut String, scene: &Scene, choices: &[Choice], sweep: &Sweep) -> std::fmt::Result {
-    let (from, to) = sweep.range;
-    let (impactor, target) = bodies::words(scene, 0);
-    let begin = match bodies::first_contact(scene) {
-        Some(contact) => format!("In {contact}, {impactor}"),
-        None => capitalized(impactor),
+/// The page of a map over two quantities.
+pub fn of_map(scene: &Scene, choices: &[Choice], impact: Impact, map: &Map) -> String {
+    let [first, second] = &map.axes;
+    let range = |axis: &super::axis::Axis| {
+        format!("{} from {} to {}", axis.name, quantity(axis.from, axis.unit), quantity(axis.to, axis.unit))
     };
-    writeln!(
-        page,
-        "<p>{begin} meets {target} with an effective mass of {} kg and closing speeds from {} to {} m/s. The impacts are \
-         predicted {}.</p>\n<table class=\"scene\">",
-        digits(sweep.mass),
-        digits(from),
-        digits(to),
-        methods(choices)
-    )?;
-    for (name, value, unit) in bodies::numbers(scene, 0).into_iter().filter(|(name, ..)| *name != "initial_gap") {
-        writeln!(page, "<tr><th>{name}</th><td>{} {unit}</td></tr>", digits(value))?;
+    Page {
+        scene,
+        choices,
+        subject: format!("impacts over {} and {}", first.name.replace('_', " "), second.name.replace('_', " ")),
+        with: format!("{}, {} and {}", impact_but(impact, &[first.name, second.name]), range(first), range(second)),
+        heading: "Restitution, largest force and dent",
+        lines: Vec::new(),
+        pictures: vec![map.svg()],
+        columns: map.columns(),
     }
-    writeln!(page, "</table>")
+    .write()
+}
+
+/// The page of an impact over time.
+pub fn of_time_history(scene: &Scene, choices: &[Choice], impact: Impact, history: &TimeHistory) -> String {
+    Page {
+        scene,
+        choices,
+        subject: "an impact over time".into(),
+        with: impact_but(impact, &[]),
+        heading: "Force, indentation and closing speed",
+        lines: history.laws().collect(),
+        pictures: figures(&history.panels()),
+        columns: history.columns(),
+    }
+    .write()
+}
+
+/// The numbers of the impact that aren't varied, in words.
+fn impact_but(impact: Impact, varied: &[&str]) -> String {
+    let is_varied = |names: &[&str]| varied.iter().any(|name| names.contains(name));
+    let mass = format!("an effective mass of {}", quantity(impact.mass, "kg"));
+    let speed = format!("a closing speed of {}", quantity(impact.speed, "m/s"));
+    let mass = (!is_varied(&["mass", "effective_mass"])).then_some(mass);
+    let speed = (!is_varied(&["speed", "energy", "drop_height"])).then_some(speed);
+    let words: Vec<_> = mass.into_iter().chain(speed).collect();
+    if words.is_empty() { "masses and speeds".into() } else { words.join(" and ") }
+}
+
+fn figures(panels: &[Picture]) -> Vec<String> {
+    panels.iter().map(|panel| panel.svg_without_legend(400, 360)).collect()
+}
+
+impl Page<'_> {
+    fn write(&self) -> String {
+        let mut page = String::new();
+        self.body(&mut page).expect("a String takes everything");
+        page
+    }
+
+    fn body(&self, page: &mut String) -> std::fmt::Result {
+        let name = escape(&self.scene.name);
+        begin(page, &format!("{name}: {}", self.subject), PICTURE_STYLE)?;
+        writeln!(page, "<h1>{name}: {}</h1>", self.subject)?;
+        if !self.scene.description.is_empty() {
+            writeln!(page, "<p>{}</p>", escape(&self.scene.description))?;
+        }
+        self.words(page)?;
+        self.legend(page)?;
+        let panels = if self.pictures.len() > 1 { " class=\"panels\"" } else { "" };
+        writeln!(page, "<div{panels}>")?;
+        for picture in &self.pictures {
+            let wide = if self.pictures.len() > 1 { "" } else { " style=\"max-width: none\"" };
+            writeln!(page, "<figure{wide}>\n{picture}</figure>")?;
+        }
+        writeln!(page, "</div>")?;
+        let csv = self.columns.csv();
+        // commas, letters, digits and signs stand for themselves in an address; line ends don't
+        let (address, lines) = (csv.replace('\n', "%0A"), csv.lines().count() - 1);
+        writeln!(
+            page,
+            "<p class=\"csv\"><a download=\"{name}.csv\" href=\"data:text/csv;charset=utf-8,{address}\">All {lines} rows with \
+             all digits as CSV</a></p>"
+        )?;
+        for law in &self.columns.laws {
+            self.table(page, law)?;
+        }
+        writeln!(page, "<p>Brinell {}</p>\n</body>\n</html>", env!("CARGO_PKG_VERSION"))
+    }
+
+    /// What meets what, and how the impacts were found.
+    fn words(&self, page: &mut String) -> std::fmt::Result {
+        let (impactor, target) = bodies::words(self.scene, 0);
+        let begin = match bodies::first_contact(self.scene) {
+            Some(contact) => format!("In {contact}, {impactor}"),
+            None => capitalized(impactor),
+        };
+        let methods = methods(self.choices);
+        writeln!(
+            page,
+            "<p>{begin} meets {target} with {}. The impacts are predicted {methods}.</p>\n<table class=\"scene\">",
+            self.with
+        )?;
+        for (name, value, unit) in
+            bodies::numbers(self.scene, 0).into_iter().filter(|(name, ..)| *name != "initial_gap")
+        {
+            writeln!(page, "<tr><th>{name}</th><td>{} {unit}</td></tr>", digits(value))?;
+        }
+        writeln!(page, "</table>")
+    }
+
+    fn legend(&self, page: &mut String) -> std::fmt::Result {
+        writeln!(page, "<h2>{}</h2>\n<ul class=\"legend\">", self.heading)?;
+        for (law, line) in self.lines.iter().zip(css_lines(self.lines.iter().copied())) {
+            writeln!(page, "<li><i style=\"border-top: {line}\"></i>{}</li>", escape(law))?;
+        }
+        writeln!(page, "</ul>")
+    }
+
+    fn table(&self, page: &mut String, (law, rows): &(String, Vec<Vec<f64>>)) -> std::fmt::Result {
+        writeln!(page, "<h2>{}</h2>\n<div class=\"table\">\n<table>\n<thead><tr>", escape(law))?;
+        for column in &self.columns.columns {
+            let unit = if column.unit.is_empty() { String::new() } else { format!(" [{}]", column.unit) };
+            write!(page, "<th>{}{unit}</th>", column.name)?;
+        }
+        writeln!(page, "</tr></thead>\n<tbody>")?;
+        for row in some(rows.len(), ROWS) {
+            write!(page, "<tr>")?;
+            for (column, value) in self.columns.columns.iter().zip(&rows[row]) {
+                let regime = Regime::ALL.into_iter().find(|regime| f64::from(*regime as i32) == *value);
+                match regime.filter(|_| column.name == "regime") {
+                    Some(regime) => write!(page, "<td>{}</td>", regime::words(regime))?,
+                    None => write!(page, "<td>{}</td>", digits(*value))?,
+                }
+            }
+            writeln!(page, "</tr>")?;
+        }
+        writeln!(page, "</tbody>\n</table>\n</div>")
+    }
 }
 
 /// `words` as the beginning of a sentence.
 fn capitalized(words: &str) -> String {
     words[..1].to_uppercase() + &words[1..]
-}
-
-fn legend(page: &mut String, sweep: &Sweep) -> std::fmt::Result {
-    writeln!(page, "<h2>Restitution, largest force and dent</h2>\n<ul class=\"legend\">")?;
-    let names = || sweep.laws.iter().map(|(law, _)| law.as_str());
-    for (law, line) in names().zip(css_lines(names())) {
-        writeln!(page, "<li><i style=\"border-top: {line}\"></i>{}</li>", escape(law))?;
-    }
-    writeln!(page, "</ul>")
-}
-
-fn table(page: &mut String, (law, points): &(String, Vec<super::sweep::Point>)) -> std::fmt::Result {
-    writeln!(page, "<h2>{}</h2>\n<div class=\"table\">\n<table>\n<thead><tr><th>speed [m/s]</th>", escape(law))?;
-    for (name, _, unit) in points.first().map(|(_, prediction)| quantities(prediction)).into_iter().flatten() {
-        let unit = if unit.is_empty() { "[1]".into() } else { format!("[{unit}]") };
-        write!(page, "<th>{name} {unit}</th>")?;
-    }
-    writeln!(page, "<th>regime</th></tr></thead>\n<tbody>")?;
-    for (speed, prediction) in points.iter().step_by(STRIDE) {
-        write!(page, "<tr><td>{}</td>", digits(*speed))?;
-        for (_, value, _) in quantities(prediction) {
-            write!(page, "<td>{}</td>", digits(value))?;
-        }
-        writeln!(page, "<td>{}</td></tr>", prediction.regime as i32)?;
-    }
-    writeln!(page, "</tbody>\n</table>\n</div>")
 }

@@ -3,9 +3,10 @@
 
 use super::PredictError;
 use crate::laws::Choice;
+use crate::layout::paragraph;
+use crate::numbers::{quantity, significant};
 use brinell::contact::impact::Impact;
 use serde_json::{Value, json};
-use std::fmt::Write;
 
 /// Speeds among which solutions are looked for [m/s].
 const SPEEDS: (f64, f64) = (1e-9, 1e6);
@@ -61,7 +62,7 @@ pub fn measured(value: f64) -> Result<f64, PredictError> {
 /// [`PredictError::NoRebound`] if no law explains it in either way.
 pub fn explain(choices: &[Choice], impact: &Impact, goal: f64) -> Result<Vec<Rebound>, PredictError> {
     if let Some(damped) = choices.iter().find(|choice| choice.model.elastoplastic().is_none()) {
-        return Err(PredictError::NoDent(damped.name.clone()));
+        return Err(PredictError::NoDent(damped.laws.clone()));
     }
     let rebounds: Vec<_> = choices.iter().map(|choice| explain_by(choice, impact, goal)).collect();
     if rebounds.iter().all(|rebound| rebound.speeds.is_empty() && rebound.strengths.is_empty()) {
@@ -84,7 +85,7 @@ fn explain_by(choice: &Choice, impact: &Impact, goal: f64) -> Rebound {
     let range = (STRENGTHS.0 * modulus, STRENGTHS.1 * modulus);
     let strengths =
         search(range, goal, |yield_strength| model.with_yield_strength(yield_strength)?.restitution(impact));
-    Rebound { law: choice.name.clone(), speeds, strengths }
+    Rebound { law: choice.laws.clone(), speeds, strengths }
 }
 
 /// Every place in `range` where the function `of`, which may be undefined in places, has the value `goal`.
@@ -173,9 +174,15 @@ impl Search {
         !self.solutions.iter().any(|solution| !matches!(solution, Solution::Jump(_)))
     }
 
-    fn nothing(&self, what: &str, unit: &str) -> String {
+    fn nothing(&self, what: &str, unit: &'static str) -> String {
         let ((low, high), (least, most)) = (self.range, self.reached);
-        format!("with a {what} from {low:.3e} to {high:.3e} {unit} restitution is {least:.6} to {most:.6}")
+        format!(
+            "with a {what} from {} to {} restitution is {} to {}",
+            quantity(low, unit),
+            quantity(high, unit),
+            significant(least, 4),
+            significant(most, 4)
+        )
     }
 
     fn json(&self) -> Value {
@@ -189,17 +196,18 @@ impl Search {
         })
     }
 
-    fn text(&self, text: &mut String, what: &str, unit: &str) {
-        let mut line = |line: std::fmt::Arguments| writeln!(text, "  {line}").expect("a String takes everything");
+    fn text(&self, text: &mut String, what: &str, unit: &'static str) {
+        let number = |value: f64| quantity(value, unit);
         for solution in &self.solutions {
-            match solution {
-                Solution::At(x) => line(format_args!("with a {what} of {x:.6e} {unit}")),
-                Solution::Between(from, to) => line(format_args!("with any {what} from {from:.6e} to {to:.6e} {unit}")),
-                Solution::Jump(x) => line(format_args!("not at {x:.6e} {unit}, where restitution jumps past it")),
-            }
+            let words = match *solution {
+                Solution::At(x) => format!("with a {what} of {}", number(x)),
+                Solution::Between(from, to) => format!("with any {what} from {} to {}", number(from), number(to)),
+                Solution::Jump(x) => format!("not at {}, where restitution jumps past it", number(x)),
+            };
+            text.push_str(&paragraph("  ", &words));
         }
         if self.is_empty() {
-            line(format_args!("with no {what}: {}", self.nothing(what, unit)));
+            text.push_str(&paragraph("  ", &format!("with no {what}: {}", self.nothing(what, unit))));
         }
     }
 }
@@ -207,10 +215,14 @@ impl Search {
 /// The explanations for people.
 pub fn text(rebounds: &[Rebound], impact: &Impact, goal: f64) -> String {
     let mut text = String::new();
+    let (mass, speed) = (quantity(impact.mass, "kg"), quantity(impact.speed, "m/s"));
     for Rebound { law, speeds, strengths } in rebounds {
-        writeln!(text, "{law}: restitution is {goal} on the target of the scene").expect("a String takes everything");
+        text.push_str(&paragraph(
+            "",
+            &format!("by {law}, {mass} has a restitution of {goal} on the target of the scene"),
+        ));
         speeds.text(&mut text, "speed", "m/s");
-        writeln!(text, "and at {} m/s on a target", impact.speed).expect("a String takes everything");
+        text.push_str(&format!("and at {speed} on a target\n"));
         strengths.text(&mut text, STRENGTH, "Pa");
     }
     text

@@ -1,93 +1,128 @@
-//! `brinell predict --sweep`: predictions over a range of speeds, as a table and as a picture.
+//! `brinell predict --sweep`: predictions over a range of one quantity, as a table and as a picture.
 
-use super::{PredictError, check_energy, one, quantities};
+use super::axis::{Axis, varied};
+use super::{PredictError, one, quantities};
+use crate::columns::{Column, Columns, some};
 use crate::laws::Choice;
+use crate::layout;
+use crate::numbers::{cell, prefixed};
 use crate::plot::{Picture, Series, side_by_side};
+use crate::scene::Scene;
 use brinell::contact::impact::{Impact, Prediction};
-use std::fmt::Write;
 
-/// Steps from the first speed to the last one.
-pub const STEPS: u32 = 200;
+/// Values of a sweep that goes into a file.
+pub const VALUES: usize = 201;
+
+/// Rows of the table in a terminal.
+const ROWS: usize = 9;
+
+/// Values of the quantity in a table with a row for each law.
+pub const GRID_COLUMNS: usize = 6;
+
+/// What such tables and the maps show: names, units, values.
+pub const SHOWN: [(&str, &str, fn(&Prediction) -> f64); 3] = [
+    ("restitution", "", |prediction| prediction.restitution),
+    ("largest force", "N", |prediction| prediction.max_force),
+    ("dent", "m", |prediction| prediction.residual_indentation),
+];
 
 /// Decades of dents that the picture shows: just beyond yield a dent is as small as one likes.
 const DENT_DECADES: i32 = 6;
 
-/// Predictions over a range of speeds.
+/// Predictions over a range of a quantity.
 pub struct Sweep {
-    /// Effective mass [kg].
-    pub mass: f64,
-    /// First and last speed [m/s].
-    pub range: (f64, f64),
-    /// Each law with its impacts, from the first speed to the last.
+    /// What is varied.
+    pub axis: Axis,
+    /// What isn't.
+    pub impact: Impact,
+    /// Each law with its impacts, from the first value to the last.
     pub laws: Vec<(String, Vec<Point>)>,
 }
 
-/// A speed [m/s] and its impact.
+/// A value of the quantity and its impact.
 pub type Point = (f64, Prediction);
 
-/// A range of speeds, as `--sweep speed FROM:TO` says it.
-pub fn parse(words: &[String]) -> Result<(f64, f64), PredictError> {
-    let wrong = || PredictError::Sweep(words.join(" "));
-    let [quantity, range] = words else { return Err(wrong()) };
-    let (from, to) = range.split_once(':').ok_or_else(wrong)?;
-    let (from, to): (f64, f64) = (from.parse().map_err(|_| wrong())?, to.parse().map_err(|_| wrong())?);
-    if quantity == "speed" && from > 0.0 && to > from && to.is_finite() { Ok((from, to)) } else { Err(wrong()) }
-}
-
-/// Speeds evenly spread over their decades; both ends are among them as they are.
-fn speeds((from, to): (f64, f64)) -> impl Iterator<Item = f64> {
-    let within = (1..STEPS).map(move |index| from * libm::pow(to / from, f64::from(index) / f64::from(STEPS)));
-    std::iter::once(from).chain(within).chain([to])
-}
-
-/// The impacts of one law.
-fn points(choice: &Choice, mass: f64, range: (f64, f64)) -> impl Iterator<Item = Result<Point, PredictError>> {
-    speeds(range).map(move |speed| Ok((speed, one(choice, &Impact { mass, speed })?)))
-}
-
 impl Sweep {
-    /// The impacts of `mass` [kg] at the speeds of `range` [m/s].
+    /// `impact` with each value of `axis`, by the laws of `choices`.
     ///
     /// # Errors
-    /// [`PredictError::Beyond`] for a speed that a law can't be evaluated for, [`PredictError::Energy`] for one that no law can.
-    pub fn of(choices: &[Choice], mass: f64, range: (f64, f64)) -> Result<Sweep, PredictError> {
-        for speed in [range.0, range.1] {
-            check_energy(&Impact { mass, speed })?;
-        }
-        let law = |choice: &Choice| Ok((choice.name.clone(), points(choice, mass, range).collect::<Result<_, _>>()?));
-        Ok(Sweep { mass, range, laws: choices.iter().map(law).collect::<Result<_, PredictError>>()? })
+    /// [`PredictError`] for the first value that can't be, or that a law can't be evaluated for.
+    pub fn of(scene: &Scene, choices: &[Choice], impact: Impact, axis: Axis) -> Result<Sweep, PredictError> {
+        let values = axis.values(VALUES);
+        let point = |choice: &Choice, value: f64| -> Result<Point, PredictError> {
+            let (choice, impact) = varied(scene, choice, impact, &[(&axis, value)])?;
+            Ok((value, one(&choice, &impact)?))
+        };
+        let points = |choice: &Choice| {
+            values.iter().map(|value| point(choice, *value)).collect::<Result<Vec<_>, PredictError>>()
+        };
+        let law = |choice: &Choice| Ok((choice.laws.clone(), points(choice)?));
+        let laws = choices.iter().map(law).collect::<Result<_, PredictError>>()?;
+        Ok(Sweep { axis, impact, laws })
     }
 
-    /// The same without the impacts that a law can't be evaluated for.
+    /// Impacts of `mass` [kg] over a range of speeds [m/s], without those that a law can't be evaluated for.
     pub fn where_possible(choices: &[Choice], mass: f64, range: (f64, f64)) -> Sweep {
-        let law = |choice: &Choice| (choice.name.clone(), points(choice, mass, range).flatten().collect());
-        Sweep { mass, range, laws: choices.iter().map(law).collect() }
+        let axis = Axis::speeds(range);
+        let values = axis.values(VALUES);
+        let points = |choice: &Choice| {
+            let point = |speed: &f64| Some((*speed, one(choice, &Impact { mass, speed: *speed }).ok()?));
+            values.iter().filter_map(point).collect()
+        };
+        let laws = choices.iter().map(|choice| (choice.name.clone(), points(choice))).collect();
+        Sweep { axis, impact: Impact { mass, speed: range.0 }, laws }
     }
 
-    /// The sweep as a table, one line for each law and speed.
-    pub fn csv(&self) -> String {
-        let mut text = String::from(
-            "law,speed_m_per_s,largest_force_N,largest_indentation_m,largest_contact_radius_m,dent_m,restitution,\
-             kinetic_energy_J,energy_lost_J,loading_time_s,unloading_time_s,regime\n",
-        );
-        for (law, points) in &self.laws {
-            for (speed, prediction) in points {
-                write!(text, "{law},{speed:e}").expect("a String takes everything");
-                for (_, value, _) in quantities(prediction) {
-                    write!(text, ",{value:e}").expect("a String takes everything");
-                }
-                writeln!(text, ",{}", prediction.regime as i32).expect("a String takes everything");
-            }
+    /// The sweep as columns.
+    pub fn columns(&self) -> Columns {
+        let mut columns = vec![Column::new(self.axis.name, self.axis.unit)];
+        let prediction = self.laws.iter().flat_map(|(_, points)| points).next().map(|(_, prediction)| prediction);
+        let quantities_of = |prediction: &Prediction| quantities(prediction).into_iter();
+        let names = prediction.into_iter().flat_map(quantities_of).filter(|(name, ..)| *name != self.axis.name);
+        columns.extend(names.map(|(name, _, unit)| Column::new(name, unit)));
+        columns.push(Column::new("regime", ""));
+        let row = |(value, prediction): &Point| {
+            let numbers = quantities_of(prediction).filter(|(name, ..)| *name != self.axis.name);
+            let numbers = numbers.map(|(_, number, _)| number);
+            [*value].into_iter().chain(numbers).chain([f64::from(prediction.regime as i32)]).collect()
+        };
+        let laws = self.laws.iter().map(|(law, points)| (law.clone(), points.iter().map(row).collect()));
+        Columns { columns, laws: laws.collect() }
+    }
+
+    /// A short table for a terminal: of one law a row for each value, of several a row for each law.
+    pub fn text(&self) -> String {
+        let [(_, points)] = self.laws.as_slice() else { return self.grids() };
+        let names = [self.axis.name, "restitution", "largest force", "largest indentation", "dent", "loading time"];
+        let mut text = self.columns().text(&names, ROWS);
+        if points.len() > ROWS {
+            text += &format!("\n{ROWS} of {} values; -o FILE.csv writes all of them with all digits\n", points.len());
         }
         text
     }
 
-    /// Restitution, largest force and dent against speed.
+    /// A row for each law, with some values of the quantity.
+    fn grids(&self) -> String {
+        let values: Vec<f64> =
+            self.laws.first().into_iter().flat_map(|(_, points)| points).map(|point| point.0).collect();
+        let shown = some(values.len(), GRID_COLUMNS);
+        let heads: Vec<f64> = shown.iter().map(|place| values[*place]).collect();
+        let grids = SHOWN.map(|(name, unit, of)| {
+            let row = |(law, points): &(String, Vec<Point>)| {
+                (law.clone(), shown.iter().map(|place| of(&points[*place].1)).collect())
+            };
+            let rows: Vec<_> = self.laws.iter().map(row).collect();
+            grid((name, unit), "law", &self.axis, &heads, &rows)
+        });
+        grids.join("\n")
+    }
+
+    /// Restitution, largest force and dent over the quantity.
     pub fn panels(&self) -> [Picture; 3] {
         let panel = |title: &str, logarithmic, value: &dyn Fn(&Prediction) -> f64| Picture {
-            x_title: "speed [m/s]".into(),
+            x_title: self.axis.title(),
             y_title: title.into(),
-            logarithmic: (true, logarithmic),
+            logarithmic: (self.axis.is_logarithmic(), logarithmic),
             series: self.series(value),
         };
         let predictions = || self.laws.iter().flat_map(|(_, points)| points).map(|(_, prediction)| prediction);
@@ -100,9 +135,9 @@ impl Sweep {
         };
         [
             panel("coefficient of restitution", false, &|prediction| prediction.restitution),
-            panel("largest force [N]", true, &|prediction| prediction.max_force),
+            panel("largest force [N]", self.axis.is_logarithmic(), &|prediction| prediction.max_force),
             // without any dent the zeros are what there is to show
-            panel("depth of the dent [m]", deepest > 0.0, &dent),
+            panel("depth of the dent [m]", deepest > 0.0 && self.axis.is_logarithmic(), &dent),
         ]
     }
 
@@ -119,4 +154,24 @@ impl Sweep {
     pub fn svg(&self) -> String {
         side_by_side(&self.panels(), 1200, 380)
     }
+}
+
+/// One quantity over the values `heads` of `axis`, in rows that have names; `corner` is what the rows are.
+pub fn grid(
+    (name, unit): (&str, &'static str),
+    corner: &str,
+    axis: &Axis,
+    heads: &[f64],
+    rows: &[(String, Vec<f64>)],
+) -> String {
+    let largest =
+        |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let unit = prefixed(largest(&mut rows.iter().flat_map(|(_, values)| values).copied()), unit);
+    let head_unit = prefixed(largest(&mut heads.iter().copied()), axis.unit);
+    let cells = |first: &str, values: &[f64], size: f64| {
+        [first.to_string()].into_iter().chain(values.iter().map(|value| cell(*value, size))).collect::<Vec<_>>()
+    };
+    let mut lines = vec![cells(corner, heads, head_unit.size)];
+    lines.extend(rows.iter().map(|(name, values)| cells(name, values, unit.size)));
+    format!("{} by {}\n{}", unit.after(name), head_unit.after(axis.name), layout::table(&lines, 1, 2))
 }

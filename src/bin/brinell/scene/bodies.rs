@@ -7,7 +7,15 @@ use std::collections::HashMap;
 impl Scene {
     /// The bodies of the contacts of `group`; none if they don't fit.
     pub(super) fn pair_of(&self, group: usize) -> Option<Pair> {
-        let value = |name| self.group_value(group, name);
+        self.pair_with(group, &[])
+    }
+
+    /// The same bodies with these values of some of their parameters.
+    pub fn pair_with(&self, group: usize, values: &[(&str, f64)]) -> Option<Pair> {
+        let value = |name| {
+            let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
+            other.or_else(|| self.group_value(group, name))
+        };
         let impactor = Body {
             radius: value("impactor.radius").unwrap_or(f64::NAN),
             youngs_modulus: value("impactor.youngs_modulus").unwrap_or(f64::INFINITY),

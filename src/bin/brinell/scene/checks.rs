@@ -1,10 +1,11 @@
 //! Checking a scene: from the file as it is written to what can be built.
 
-use super::contacts::Contacts;
+use super::contacts::{Contacts, IMPACTOR_DENSITY};
 use super::coupling;
 use super::file::{File, ImpactTable, NamesName};
 use super::laws;
 use super::{Mistake, Parameter, Scene};
+use crate::nearest::unknown;
 use crate::predict;
 use crate::table::{self, Causality, VARIABLES};
 use crate::xml;
@@ -39,12 +40,12 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     }
     let coupling = coupling::check(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
     let (coupling, known_mass) = coupling.unzip();
-    let impact = check_impact(file.impact.as_ref().map(Spanned::get_ref), known_mass.as_ref(), &contacts)?;
+    let impact = check_impact(file.impact.as_ref(), known_mass.as_ref(), &contacts)?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     predict::check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let (mut parameters, mut groups) = contacts.parameters();
     let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
-    let span = file.impact.as_ref().map(|table| table.get_ref().mass.span());
+    let span = file.impact.as_ref().and_then(|table| Some(table.get_ref().mass.as_ref()?.span()));
     let mass = known_mass.or(mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass)));
     contacts.check_masses(mass.is_some())?;
     let is_input = |name: &str| name == "effective_mass" && coupling.is_some_and(|coupling| coupling.mass_input);
@@ -59,7 +60,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     parameters.retain(|shared| !groups.iter().all(|group| group.own.iter().any(|own| own.name == shared.name)));
     parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
     let mut outputs = check_outputs(&file.fmu.outputs, coupling.is_some())?;
-    // of no use without it
+    // without it such an FMU is of no use
     if coupling.is_some() && !outputs.iter().any(|output| output == "mean_force") {
         outputs.push("mean_force".into());
     }
@@ -127,7 +128,7 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
         return Ok(text.clone());
     }
     let message = format!(
-        "name = {text:?} is not a C identifier of at most 100 letters, digits and `_`, not beginning with a digit"
+        "name = {text:?} is not a C identifier: at most 100 letters, digits and `_`, and no digit at the beginning"
     );
     Err(Mistake(name.span(), message))
 }
@@ -140,34 +141,47 @@ fn check_description(given: Option<&Spanned<String>>) -> Result<String, Mistake>
         Some((place, character)) => {
             let number = text.get_ref()[..place].chars().count() + 1;
             let character = xml::name(character);
-            let message = format!("description has {character} as its character {number}, which no XML can have");
+            let message = format!("description has {character} as character {number}, which XML doesn't allow");
             Err(Mistake(text.span(), message))
         }
     }
 }
 
-/// The impact that the scene names, or one at 1 m/s of the mass that the unit knows, or else of a solid steel ball with the
-/// radius of the first contact's impactor.
+/// The impact that the scene names, or one at 1 m/s. Its mass is the given one, or that which the unit knows, or else that of a
+/// solid ball with the radius and the density of the first contact's impactor. Without an `[impact]` the ball may be of steel.
 fn check_impact(
-    given: Option<&ImpactTable>,
+    given: Option<&Spanned<ImpactTable>>,
     known: Option<&Spanned<f64>>,
     contacts: &Contacts,
 ) -> Result<Impact, Mistake> {
-    if let Some(table) = given {
-        let mass = positive("impact.mass", &table.mass)?;
-        if let Some(known) = known.map(Spanned::get_ref).filter(|known| **known != mass) {
-            let message =
-                format!("impact.mass = {mass:?} and coupling.effective_mass = {known:?} must be the same mass");
-            return Err(Mistake(table.mass.span(), message));
-        }
-        return Ok(Impact { mass, speed: positive("impact.speed", &table.speed)? });
+    let number = |name| contacts.number(0, name).map(|number| *number.get_ref());
+    let radius = number("impactor.radius").unwrap_or(f64::NAN);
+    let ball = |density: f64| density * 4.0 / 3.0 * PI * radius * radius * radius;
+    let Some(table) = given else {
+        let mass = known.map(|mass| *mass.get_ref());
+        let mass = mass.unwrap_or_else(|| ball(number(IMPACTOR_DENSITY).unwrap_or(STEEL)));
+        return Ok(Impact { mass, speed: 1.0 });
+    };
+    let ImpactTable { mass, speed, .. } = table.get_ref();
+    let speed = positive("impact.speed", speed)?;
+    let Some(given) = mass else {
+        let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(IMPACTOR_DENSITY).map(ball)).ok_or_else(|| {
+            let message = "missing field `mass` in [impact]: give it, or the density or material of [impactor], which is then \
+                           taken for a solid ball";
+            Mistake(table.span(), message.into())
+        })?;
+        return Ok(Impact { mass, speed });
+    };
+    let mass = positive("impact.mass", given)?;
+    if let Some(known) = known.map(Spanned::get_ref).filter(|known| **known != mass) {
+        let message = format!("impact.mass = {mass:?} and coupling.effective_mass = {known:?} must be the same mass");
+        return Err(Mistake(given.span(), message));
     }
-    if let Some(mass) = known {
-        return Ok(Impact { mass: *mass.get_ref(), speed: 1.0 });
-    }
-    let radius = contacts.number(0, "impactor.radius").map_or(f64::NAN, |radius| *radius.get_ref());
-    Ok(Impact { mass: 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius, speed: 1.0 })
+    Ok(Impact { mass, speed })
 }
+
+/// Density of the ball that is assumed without an `[impact]` [kg/m^3].
+const STEEL: f64 = 7850.0;
 
 /// Refuses bodies that don't touch in one point.
 fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mistake> {
@@ -185,30 +199,26 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
     Err(Mistake(socket.span(), message))
 }
 
-/// What is said of an impact beyond what the law can be evaluated for.
+/// The message about an impact that the law can't be evaluated for.
 fn too_hard(scene: &Scene, group: usize) -> String {
     let Impact { mass, speed } = scene.impact_of(group);
     let what = match scene.damped {
         None => "drives the bodies deeper than the law can be evaluated",
-        Some(_) => "drives the bodies deeper than the law can be evaluated, or is damped so much that it has no end",
+        Some(_) => {
+            "drives the bodies deeper than the law can be evaluated, or is damped so strongly that it never ends"
+        }
     };
     format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}")
 }
 
-/// What there is instead of a name that was asked for.
-pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
-    let names = names.collect::<Vec<_>>().join("`, `");
-    format!("unknown {what} `{asked}`, expected one of `{names}`")
-}
-
-/// Refuses a value of the parameter `name` out of its range; `owner` stands before the name in the message.
+/// Refuses a value of the parameter `name` out of its range; `owner` comes before the name in the message.
 pub fn check_limits(name: &str, owner: &str, value: &Spanned<f64>) -> Result<(), Mistake> {
     let variable = table::variable(name);
     let allowed = variable.minimum.unwrap_or(f64::MIN)..=variable.maximum.unwrap_or(f64::MAX);
     check_range((name, variable.unit.as_deref().unwrap_or("")), owner, value, allowed)
 }
 
-/// Refuses a value of what has this name and unit, unless it is `allowed`; `owner` stands before the name in the message.
+/// Refuses a value with this name and unit unless it is `allowed`; `owner` comes before the name in the message.
 pub fn check_range(
     (name, unit): (&str, &str),
     owner: &str,
@@ -273,7 +283,7 @@ fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool) -> Result<Vec<Str
         }
         if text == "closing_speed" && !knows_mass {
             let message =
-                "the output closing_speed is that of bodies which the unit moves: it needs [coupling] effective_mass";
+                "the output closing_speed needs [coupling] effective_mass: the FMU must move the bodies itself";
             return Err(Mistake(name.span(), message.into()));
         }
         if text != "force" && !outputs.contains(text) {

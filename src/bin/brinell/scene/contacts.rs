@@ -1,22 +1,23 @@
 //! What is in contact: the numbers that a scene gives for all contacts, and those that a contact has instead.
 
-use super::checks::{check_identifier, check_limits, check_range, unknown};
+use super::checks::{check_identifier, check_limits, check_range};
 use super::file::{Contact, File, Impactor, SurfaceName, Target};
 use super::{Group, Mistake, Parameter};
+use crate::nearest::unknown;
 use crate::table::{self, MATERIALS, VARIABLES};
 use brinell::contact::Surface;
 use std::collections::HashSet;
 use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
-/// Most contacts of a unit: the model description then has some hundred megabytes.
+/// Most contacts of an FMU: the model description then has some hundred megabytes.
 const MOST_CONTACTS: i64 = 100_000;
 
 /// Most values of parameters that each contact has for itself: restoring a state from bytes has them on the stack.
 const MOST_VALUES: usize = 10_000;
 
 /// What the contacts of a scene may give themselves, in the order of the table.
-const PROPERTIES: [&str; 10] = [
+const PROPERTIES: [&str; 11] = [
     "impactor.radius",
     "impactor.youngs_modulus",
     "impactor.poissons_ratio",
@@ -25,47 +26,53 @@ const PROPERTIES: [&str; 10] = [
     "target.poissons_ratio",
     "target.yield_strength",
     DENSITY,
+    IMPACTOR_DENSITY,
     MASS,
     "initial_gap",
 ];
 
-/// What the scene gives for all contacts elsewhere.
+/// A property that the scene gives for all contacts elsewhere.
 const MASS: &str = "effective_mass";
 
-/// What is no variable of the unit.
+/// Properties that are no variables of the FMU.
 const DENSITY: &str = "target.density";
+pub const IMPACTOR_DENSITY: &str = "impactor.density";
 
 /// Allowed densities [kg/m^3]: from thin gases to what no solid is.
 const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
 
-/// The numbers that one level of the scene gives, the whole scene or one contact, each where it stands in the file.
+/// The numbers of one level, the whole scene or one contact, each with its place in the file.
 struct Numbers(Vec<(&'static str, Spanned<f64>)>);
 
 impl Numbers {
-    /// A number stands before the one of a material.
+    /// An explicit number overrides that of a material.
     fn of(
         impactor: &Impactor,
         target: &Target,
         mass: Option<&Spanned<f64>>,
         initial_gap: Option<&Spanned<f64>>,
     ) -> Result<Numbers, Mistake> {
-        let material = match &target.material {
-            Some(name) => Some((find_material(name)?, name.span())),
-            None => None,
+        let find = |name: &Option<Spanned<String>>| match name {
+            Some(name) => Ok(Some((find_material(name)?, name.span()))),
+            None => Ok(None),
         };
-        let of_material = |value: fn(&table::Material) -> f64| {
-            let (material, span) = material.clone()?;
-            Some(Spanned::new(span, value(material)))
+        let (of_impactor, of_target) = (find(&impactor.material)?, find(&target.material)?);
+        let from = |material: &Option<(&table::Material, Range<usize>)>, value: fn(&table::Material) -> f64| {
+            let (material, span) = material.as_ref()?;
+            Some(Spanned::new(span.clone(), value(material)))
         };
+        let of_material = |value| from(&of_target, value);
+        let of_ball = |value| from(&of_impactor, value);
         let given = [
             impactor.radius.clone(),
-            impactor.youngs_modulus.clone(),
-            impactor.poissons_ratio.clone(),
+            impactor.youngs_modulus.clone().or_else(|| of_ball(|material| material.youngs_modulus)),
+            impactor.poissons_ratio.clone().or_else(|| of_ball(|material| material.poissons_ratio)),
             target.radius.clone(),
             target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus)),
             target.poissons_ratio.clone().or_else(|| of_material(|material| material.poissons_ratio)),
             target.yield_strength.clone().or_else(|| of_material(|material| material.yield_strength)),
             target.density.clone().or_else(|| of_material(|material| material.density)),
+            impactor.density.clone().or_else(|| of_ball(|material| material.density)),
             mass.cloned(),
             initial_gap.cloned(),
         ];
@@ -83,7 +90,7 @@ impl Numbers {
 
     /// As parameters that can be set, where `wanted` says so.
     fn parameters(&self, wanted: impl Fn(&str) -> bool) -> Vec<Parameter> {
-        let wanted = self.0.iter().filter(|(name, _)| *name != DENSITY && wanted(name));
+        let wanted = self.0.iter().filter(|(name, _)| ![DENSITY, IMPACTOR_DENSITY].contains(name) && wanted(name));
         wanted.map(|(name, value)| Parameter::shared(name, *value.get_ref(), true)).collect()
     }
 }
@@ -222,7 +229,7 @@ impl Contacts {
         let missing = |name| self.number(index, name).is_none();
         let span = self.given[index].span.clone();
         if missing("impactor.radius") {
-            let message = "impactor.radius is missing: the contact gives none, nor [impactor] for all of them";
+            let message = "impactor.radius is missing: neither the contact nor [impactor] gives one";
             return Err(Mistake(span, self.said(index, message)));
         }
         if missing("target.youngs_modulus") || missing("target.poissons_ratio") {
@@ -235,7 +242,7 @@ impl Contacts {
         let modulus = self.number(index, "impactor.youngs_modulus");
         let ratio = self.number(index, "impactor.poissons_ratio");
         if let (Some(given), None) | (None, Some(given)) = (modulus, ratio) {
-            let message = "an elastic impactor needs both `youngs_modulus` and `poissons_ratio`; a rigid one neither";
+            let message = "an elastic impactor needs both `youngs_modulus` and `poissons_ratio`, or a `material`; a rigid one needs neither";
             return Err(Mistake(given.span(), self.said(index, message)));
         }
         Ok(())
@@ -270,10 +277,10 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
     })
 }
 
-/// Refuses a number out of range; `owner` stands before its name.
+/// Refuses a number out of range; `owner` comes before its name in the message.
 fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
     numbers.0.iter().try_for_each(|(name, value)| match *name {
-        DENSITY => check_range((name, "kg/m^3"), owner, value, DENSITIES),
+        DENSITY | IMPACTOR_DENSITY => check_range((name, "kg/m^3"), owner, value, DENSITIES),
         _ => check_limits(name, owner, value),
     })
 }
@@ -286,7 +293,7 @@ fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistak
         return Ok(vec![Given { name: None, count: None, surface, own, per_contact: Vec::new(), span: 0..0 }]);
     };
     if contacts.get_ref().is_empty() {
-        let message = "the list of contacts is empty: leave it out for one contact with plain variable names";
+        let message = "the list of contacts is empty; leave it out for one contact with plain variable names";
         return Err(Mistake(contacts.span(), message.into()));
     }
     let (mut names, mut total) = (HashSet::new(), 0);
@@ -321,7 +328,7 @@ fn check_contact_name(name: &Spanned<String>) -> Result<String, Mistake> {
     let mut taken: Vec<_> = VARIABLES.iter().filter_map(|variable| variable.name.split('.').next()).collect();
     taken.dedup();
     if taken.contains(&text.as_str()) {
-        let message = format!("name = {text:?} belongs to a variable of the unit, as do `{}`", taken.join("`, `"));
+        let message = format!("name = {text:?} belongs to a variable of the FMU, as do `{}`", taken.join("`, `"));
         return Err(Mistake(name.span(), message));
     }
     Ok(text)

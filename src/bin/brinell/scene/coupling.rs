@@ -1,11 +1,12 @@
-//! The table `[coupling]`: the mass that the unit is to know, and the master that it is made for.
+//! The table `[coupling]`: the mass that the FMU moves, and the co-simulation algorithm that it is made for.
 
-use super::checks::{positive, unknown};
+use super::checks::positive;
 use super::file::{CouplingTable, MasterName};
 use super::{Coupling, Mistake};
+use crate::nearest::unknown;
 use toml::Spanned;
 
-/// What can be an input beside the rate.
+/// Inputs that an FMU can have beside the rate.
 const INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
 
 /// The coupling that the table asks for, and the mass; `damped` is the name of a law whose force depends on the rate.
@@ -15,8 +16,7 @@ pub fn check(
 ) -> Result<Option<(Coupling, Spanned<f64>)>, Mistake> {
     let Some(table) = given else { return Ok(None) };
     if let Some(name) = damped {
-        let message =
-            format!("a contact that knows the mass needs a law whose force doesn't depend on the rate; {name}'s does");
+        let message = format!("[coupling] needs a law whose force doesn't depend on the rate; that of {name} does");
         return Err(Mistake(table.span(), message));
     }
     let CouplingTable { effective_mass, master, inputs } = table.get_ref();

@@ -1,6 +1,6 @@
 //! The scene file as it is written: tables and keys, without meaning.
 
-use super::Mistake;
+use super::{Mistake, mistakes};
 use crate::parameters::Given;
 use brinell::contact::Surface;
 use serde::Deserialize;
@@ -25,9 +25,11 @@ pub struct File {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Impactor {
+    pub material: Option<Spanned<String>>,
     pub radius: Option<Spanned<f64>>,
     pub youngs_modulus: Option<Spanned<f64>>,
     pub poissons_ratio: Option<Spanned<f64>>,
+    pub density: Option<Spanned<f64>>,
 }
 
 #[derive(Default, Deserialize)]
@@ -113,7 +115,8 @@ pub enum MasterName {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImpactTable {
-    pub mass: Spanned<f64>,
+    /// None: that of a solid ball, if the impactor has a density.
+    pub mass: Option<Spanned<f64>>,
     pub speed: Spanned<f64>,
     pub watch: Option<bool>,
 }
@@ -142,12 +145,9 @@ impl File {
     pub fn read(text: &str) -> Result<File, Mistake> {
         toml::from_str::<File>(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            // the parser speaks of Rust's types and doesn't name the key: the line does
-            let message = error.message().replace("expected f64", "expected a number");
-            let message = message.replace("expected i64", "expected a whole number");
             let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
             let line = text[line..].lines().next().unwrap_or_default().trim();
-            Mistake(span, format!("{message} in `{line}`"))
+            Mistake(span.clone(), mistakes::words(error.message(), line, &text[span]))
         })
     }
 }

@@ -1,12 +1,12 @@
 //! The laws that a scene names, and whether they make sense on its bodies.
 
-use super::checks::unknown;
 use super::contacts::Contacts;
 use super::file::Law;
 use super::{Mistake, Scene};
 use crate::law_check;
 use crate::laws;
 use crate::model::Dampings;
+use crate::nearest::unknown;
 use crate::pairing;
 use crate::parameters;
 use crate::table;
@@ -24,7 +24,9 @@ pub fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mista
         (Some(restitution), _) if !needs_restitution => {
             let names = AnyDamped::ALL.iter().filter(|(_, law)| law.needs_restitution()).map(|(name, _)| *name);
             let names = names.collect::<Vec<_>>().join("\", \"");
-            let message = format!("law.restitution is for the loading laws \"{names}\"; this one has its own");
+            let message = format!(
+                "law.restitution belongs to the loading laws \"{names}\"; this law has a restitution of its own"
+            );
             return Err(Mistake(restitution.span(), message));
         }
         (None, Some(asked)) if needs_restitution => {
@@ -35,12 +37,14 @@ pub fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mista
     }
     if let (Some((name, _)), Some(unloading)) = (found, &law.unloading) {
         let asked = unloading.get_ref();
-        let message = format!("law.unloading = \"{asked}\" has no meaning here: {name} leaves no dent");
+        let message = format!("law.unloading = \"{asked}\" has no effect: {name} leaves no dent");
         return Err(Mistake(unloading.span(), message));
     }
     let Some((name, reference)) = found else {
         return match &law.damping {
-            Some(damping) => Err(Mistake(damping.span(), format!("law.damping is for \"{}\"", with_dampings()))),
+            Some(damping) => {
+                Err(Mistake(damping.span(), format!("law.damping belongs to the loading laws \"{}\"", with_dampings())))
+            }
             None => Ok(None),
         };
     };
@@ -62,7 +66,8 @@ fn with_dampings() -> String {
 fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<AnyDamped, Mistake> {
     let dampings = law.dampings();
     if dampings.is_empty() {
-        let message = format!("law.damping is for \"{}\"; {name} has one damping", with_dampings());
+        let message =
+            format!("law.damping belongs to the loading laws \"{}\"; {name} has one damping", with_dampings());
         return Err(Mistake(asked.span(), message));
     }
     law.with_damping(asked.get_ref())
@@ -104,11 +109,11 @@ pub fn check_unloading(
     let span = name.map_or(0..0, Spanned::span);
     let asked = name.map_or(pairing::default_unloading(loading), |name| name.get_ref().as_str());
     if elastic {
-        let message = format!("law.unloading = \"{asked}\" has no meaning here: hertz unloads along the loading curve");
+        let message = format!("law.unloading = \"{asked}\" has no effect: hertz unloads along the loading curve");
         return match (name, parameters) {
             (Some(_), _) => Err(Mistake(span, message)),
             (None, Some(parameters)) => {
-                let message = "law.unloading_parameters has no meaning here: hertz unloads along the loading curve";
+                let message = "law.unloading_parameters has no effect: hertz unloads along the loading curve";
                 Err(Mistake(parameters.span(), message.into()))
             }
             (None, None) => Ok(None),
@@ -147,11 +152,11 @@ pub fn check_curves(given: &Law, scene: &Scene, group: usize) -> Result<(), Mist
     law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
 }
 
-/// Whether the guard is asked for, of an unloading law that has a guarded form.
+/// Whether the scene wants the guard; the unloading law must have a guarded form.
 pub fn check_guard(asked: Option<&Spanned<bool>>, unloading: Option<(&str, AnyUnloading)>) -> Result<bool, Mistake> {
     let Some(asked) = asked.filter(|asked| *asked.get_ref()) else { return Ok(false) };
     let Some((name, law)) = unloading else {
-        let message = "law.passivity_guard has no meaning here: hertz gives back just what was put in";
+        let message = "law.passivity_guard has no effect: hertz gives back exactly what was put in";
         return Err(Mistake(asked.span(), message.into()));
     };
     if law.guarded().is_some() {
@@ -159,6 +164,6 @@ pub fn check_guard(asked: Option<&Spanned<bool>>, unloading: Option<(&str, AnyUn
     }
     let guarded = AnyUnloading::ALL.iter().filter(|(_, law)| law.guarded().is_some()).map(|(name, _)| *name);
     let names = guarded.collect::<Vec<_>>().join("`, `");
-    let message = format!("law.unloading = \"{name}\" has no passivity guard: `{names}` have one");
+    let message = format!("law.unloading = \"{name}\" has no passivity guard; these laws have one: `{names}`");
     Err(Mistake(asked.span(), message))
 }

@@ -6,8 +6,8 @@ mod contacts;
 mod coupling;
 mod file;
 mod laws;
-
-pub use checks::unknown;
+mod mistakes;
+mod plausible;
 
 use crate::model::AnyModel;
 use brinell::contact::damped::{self, AnyDamped};
@@ -47,7 +47,7 @@ pub struct Scene {
     pub predictions: Vec<Prediction>,
     /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
     pub impact_is_assumed: bool,
-    /// The unit tells of steps that are unstable with the mass of the impact.
+    /// The FMU warns of steps that are unstable with the mass of the impact.
     pub watches: bool,
     /// The names of variables are declared to be a tree, not as flat.
     pub structured_names: bool,
@@ -96,7 +96,7 @@ pub struct Group {
     /// The parameters that this group has instead of those of all contacts, in the order of the table.
     pub own: Vec<Parameter>,
     pub surface: Surface,
-    /// Density of the target [kg/m^3], if it is known. It is no variable: what leaves the validity of the law is told by it.
+    /// Density of the target [kg/m^3], if it is known. It is no variable; it limits the speeds for which the law is valid.
     pub density: Option<f64>,
 }
 
@@ -112,8 +112,19 @@ pub enum SceneError {
 /// A mistake at a place in the text.
 pub struct Mistake(pub std::ops::Range<usize>, pub String);
 
+impl Mistake {
+    /// The mistake with its line and column in the `text` of the file at `path`.
+    fn in_file(self, text: &str, path: &Path) -> SceneError {
+        let Mistake(span, message) = self;
+        let before = &text[..span.start];
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+        SceneError::Wrong { path: path.into(), line, column, message }
+    }
+}
+
 impl Scene {
-    /// The scene of a program that was told of none.
+    /// The scene of a program that is called without one.
     ///
     /// # Errors
     /// As for [`Scene::read`].
@@ -130,6 +141,19 @@ impl Scene {
         Scene::parse(std::fs::read_to_string(path).map_err(unreadable)?, path)
     }
 
+    /// The same, with the doubts about it on standard error.
+    ///
+    /// # Errors
+    /// As for [`Scene::read`].
+    pub fn read_aloud(path: &Path) -> Result<Scene, SceneError> {
+        let scene = Scene::read(path)?;
+        let file = file::File::read(&scene.text).map_err(|mistake| mistake.in_file(&scene.text, path))?;
+        for doubt in plausible::doubts(&file) {
+            eprintln!("brinell: warning: {}", doubt.in_file(&scene.text, path));
+        }
+        Ok(scene)
+    }
+
     /// Checks the scene `text`; `path` is for messages.
     ///
     /// # Errors
@@ -138,12 +162,7 @@ impl Scene {
         let checked = file::File::read(&text).and_then(checks::check);
         match checked {
             Ok(scene) => Ok(Scene { text, ..scene }),
-            Err(Mistake(span, message)) => {
-                let before = &text[..span.start];
-                let line = before.matches('\n').count() + 1;
-                let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
-                Err(SceneError::Wrong { path: path.into(), line, column, message })
-            }
+            Err(mistake) => Err(mistake.in_file(&text, path)),
         }
     }
 
@@ -168,7 +187,7 @@ impl Scene {
         self.contacts.iter().any(|group| group.len() > 1 && group.own.iter().any(|own| own.per_contact))
     }
 
-    /// Whether the input `name` stands beside the rate.
+    /// Whether the FMU has the input `name` beside the rate.
     pub fn has_input(&self, name: &str) -> bool {
         self.coupling.is_some_and(|coupling| match name {
             "external_acceleration" => coupling.acceleration_input,
@@ -208,7 +227,7 @@ impl Scene {
         self.model_of(0)
     }
 
-    /// The contacts of `group` by their elastoplastic laws; the unloading of an elastic contact is never asked for.
+    /// The contacts of `group` by their elastoplastic laws; an elastic contact never uses its unloading law.
     pub fn model_of(&self, group: usize) -> Model<AnyLoading, AnyUnloading> {
         let pair = self.pair_of(group).expect("a checked scene has bodies that fit");
         let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
@@ -224,7 +243,7 @@ impl Group {
         self.count.unwrap_or(1)
     }
 
-    /// What stands before the names of the variables of a contact, which is counted from 0: "", "left." or "contact\[7].".
+    /// The prefix of the variables of a contact, which is counted from 0: "", "left." or "contact\[7].".
     pub fn prefix(&self, index: usize) -> String {
         match (&self.name, self.count) {
             (None, _) => String::new(),

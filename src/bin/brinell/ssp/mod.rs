@@ -1,4 +1,4 @@
-//! `brinell ssp`: the unit of a scene as a system of SSP 1.0, with its parameters in a file of their own.
+//! `brinell ssp`: the FMU of a scene as a system of SSP 1.0, with its parameters in a file of their own.
 //!
 //! Reference: *System Structure and Parameterization*, version 1.0 (Modelica Association, 2019): SystemStructure.ssd is the
 //! system, a `.ssv` file the values of its parameters, and `resources/` has what both refer to.
@@ -8,12 +8,14 @@ mod values;
 mod wiring;
 
 use crate::arguments::SspArguments;
-use crate::files::{ending, write_whole};
+use crate::files::{check_goal, ending, write_whole};
 use crate::interface::Entry;
+use crate::layout::paragraph;
 use crate::package::{self, Exported};
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::table::Causality;
+use crate::wrong_call::WrongCall;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use serde_json::json;
@@ -37,14 +39,15 @@ const COMPONENT: &str = "contact";
 pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let SspArguments { scene, output, with, connect, platforms, way } = arguments;
     let output = output.as_deref();
-    // told before anything is built
-    ending(output, &["ssp"])?;
+    // rejected before anything is built
+    ending(output, &["ssp"]).map_err(WrongCall)?;
     let way = way.chosen();
     let platforms = platforms.chosen(way)?;
-    let scene = Scene::read(scene)?;
+    let scene = Scene::read_aloud(scene)?;
     let plan = Plan::of(&scene);
     let wiring = Wiring::read(&plan, with, connect)?;
     let path = output.map_or_else(|| format!("{}.ssp", scene.name).into(), Path::to_path_buf);
+    check_goal(&path)?;
     eprintln!("building {} ...", path.display());
     let (unit, exported) = package::build(&plan, way, &platforms)?;
     let files = Files::of(&plan);
@@ -89,10 +92,10 @@ fn tell(plan: &Plan, files: &Files, system: Exported, as_json: bool) {
         return;
     }
     println!("{}", path.display());
-    println!("  {size} bytes; the unit is its component `{COMPONENT}`");
-    println!("  inputs      {}", inputs.join(", "));
-    println!("  outputs     {}", outputs.join(", "));
-    println!("  parameters  {}", parameters.join(", "));
+    println!("  {size} bytes; the FMU is its component `{COMPONENT}`");
+    for (heading, names) in [("inputs", inputs), ("outputs", outputs), ("parameters", parameters)] {
+        print!("{}", paragraph(&format!("  {heading:<12}"), &names.join(", ")));
+    }
 }
 
 /// The variables of one kind.

@@ -1,4 +1,4 @@
-//! The other units of a system, and what is connected with what.
+//! The other FMUs of a system, and their connections.
 
 use super::{COMPONENT, of_kind};
 use crate::importer::{Archive, Description, ImportError};
@@ -8,26 +8,26 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// A call that can't be carried out.
+/// A connection that can't be made.
 #[derive(Debug, thiserror::Error)]
 pub enum WiringError {
     #[error("{path}: {source}", path = path.display())]
     Unreadable { path: PathBuf, source: io::Error },
     #[error("{path}: {source}", path = path.display())]
     Unit { path: PathBuf, source: ImportError },
-    #[error("{path}: its fmiVersion is `{version}`, and a system takes co-simulation units of 2.0", path = path.display())]
+    #[error("{path}: its fmiVersion is `{version}`; a system takes FMUs of 2.0 for co-simulation", path = path.display())]
     Version { path: PathBuf, version: String },
-    #[error("{path}: the unit would be called `{name}`, and a name has letters, digits, `_` and `-` only", path = path.display())]
+    #[error("{path}: the FMU would be called `{name}`; only letters, digits, `_` and `-` are allowed", path = path.display())]
     Name { path: PathBuf, name: String },
-    #[error("{path}: there is a unit `{name}` already; give the file another name", path = path.display())]
+    #[error("{path}: the system already has an FMU `{name}`; give the file another name", path = path.display())]
     Twice { path: PathBuf, name: String },
-    #[error("--connect {0}: a connection is written as UNIT.OUTPUT=UNIT.INPUT, such as contact.mean_force=mass.force")]
+    #[error("--connect {0}: write a connection as FMU.OUTPUT=FMU.INPUT, such as contact.mean_force=mass.force")]
     Form(String),
-    #[error("--connect {connection}: there is no unit `{name}`, the system has {allowed}")]
+    #[error("--connect {connection}: there is no FMU `{name}`; the system has {allowed}")]
     NoUnit { connection: String, name: String, allowed: String },
-    #[error("--connect {connection}: {unit} has no {kind} `{name}` of type Real, it has {allowed}")]
+    #[error("--connect {connection}: {unit} has no {kind} `{name}` of type Real; it has {allowed}")]
     NoVariable { connection: String, unit: String, kind: &'static str, name: String, allowed: String },
-    #[error("--connect {connection}: the input {input} is connected already")]
+    #[error("--connect {connection}: the input {input} is already connected")]
     Taken { connection: String, input: String },
 }
 
@@ -45,7 +45,7 @@ pub struct End {
     pub variable: String,
 }
 
-/// A unit that stands beside the contact.
+/// Another FMU of the system.
 pub struct Peer {
     pub name: String,
     pub bytes: Vec<u8>,
@@ -58,7 +58,7 @@ impl Peer {
     }
 }
 
-/// What stands beside the contact, and what is connected with what.
+/// The other FMUs, and the connections.
 #[derive(Default)]
 pub struct Wiring {
     pub peers: Vec<Peer>,

@@ -1,8 +1,12 @@
-//! `brinell laws`: what laws there are, and how good each is, measured when it is asked for.
+//! `brinell laws`: the laws, each measured when the command runs.
+
+mod chart;
+mod single;
+mod text;
 
 use crate::curve;
 use crate::energy::{self, Balance};
-use crate::files::{deliver, ending};
+use crate::files::{self, deliver, ending};
 use crate::law_text::{self, LawText};
 use crate::laws::{self, unloading_of};
 use crate::model::Dampings;
@@ -10,6 +14,7 @@ use crate::parameters::{self, Constant};
 use crate::scene::Scene;
 use crate::table;
 use crate::truth;
+use crate::wrong_call::WrongCall;
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::history::LARGEST_INDENTATION;
 use brinell::contact::impact::Impact;
@@ -18,15 +23,31 @@ use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model};
 use serde::Serialize;
 use std::error::Error;
-use std::path::Path;
+use std::path::PathBuf;
 
-/// The command: lists the laws, or draws their loading curves into the file `output`.
-pub fn run(output: Option<&Path>, as_json: bool) -> Result<(), Box<dyn Error>> {
+/// What `brinell laws` is asked.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// A law to show with its formulas, constants, validity and curve [default: list all]
+    pub name: Option<String>,
+    /// Draw instead: the curve of the law, or the loading curves of all laws over Hertz's force
+    #[arg(short, long, value_name = "FILE.svg")]
+    pub output: Option<PathBuf>,
+}
+
+/// The command: lists the laws, shows one, or draws curves into a file.
+pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
+    let Arguments { name, output } = arguments;
+    let output = output.as_deref();
+    if let Some(path) = output {
+        ending(output, &["svg"]).map_err(WrongCall)?;
+        files::check_goal(path)?;
+    }
     let scene = Scene::default_scene()?;
+    if let Some(name) = name {
+        return single::run(&scene, name, output, as_json);
+    }
     if output.is_some() {
-        if ending(output, &["csv", "svg"])? == "csv" {
-            return Err("the loading curves are a picture: the name must end in .svg".into());
-        }
         let choices = laws::choose(&scene, &["all".to_string()])?;
         return Ok(deliver(&curve::over_hertz(&choices), output)?);
     }
@@ -34,7 +55,7 @@ pub fn run(output: Option<&Path>, as_json: bool) -> Result<(), Box<dyn Error>> {
     if as_json {
         println!("{}", serde_json::to_string(&list)?);
     } else {
-        print(&list);
+        print!("{}", text::list(&list));
     }
     Ok(())
 }
@@ -90,7 +111,7 @@ pub struct Told {
 }
 
 /// What was measured of a rate-dependent law, in one of its dampings, and what is said of it.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Rated {
     pub name: String,
     pub title: &'static str,
@@ -166,7 +187,7 @@ fn balances(name: &str, model: &Model<AnyLoading, AnyUnloading>) -> [Balance; 2]
 }
 
 fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
-    let (unloading_name, unloading) = unloading_of(name, scene);
+    let (unloading_name, unloading) = unloading_of(name);
     let model = Model { loading, unloading, ..scene.model() };
     let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
     let force = |d: f64| loading.segment(&model.pair, d).force(d);
@@ -209,93 +230,4 @@ fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
         notes,
         reference: &told.reference,
     }
-}
-
-/// The list for people: a table, then a paragraph for each law.
-pub fn print(list: &List) {
-    println!("loading laws; error of the force against finite elements up to 1000 yield indentations d_y");
-    println!(
-        "(truth/README.md), on the bodies of the default scene; energy for all bodies that a unit takes, the largest"
-    );
-    println!("restitution of those with a Poisson's ratio nu from 0 on\n");
-    println!("{:<20}{:>22}{:>9}   {:<12}energy (with this unloading law)", "law", "worst error", "rms", "continuous");
-    for law in &list.loading {
-        let percent = |value: f64| format!("{:+.1} %", 100.0 * value);
-        let jump = if law.continuous { "yes".into() } else { format!("{} jump", percent(law.largest_jump)) };
-        let below = law.passive_from_poissons_ratio.map(|ratio| format!(" (nu < {ratio})")).unwrap_or_default();
-        let energy = match law.largest_restitution {
-            _ if law.passive => format!("passive ({})", law.unloading),
-            e => format!("makes energy{below}: e up to {e:.3} ({})", law.unloading),
-        };
-        let worst_at: f64 = format!("{:.3e}", law.worst_at).parse().expect("a number");
-        let worst = format!("{} at {worst_at} d_y", percent(law.worst_error));
-        let rms = format!("{:.1} %", 100.0 * law.rms_error);
-        println!("{:<20}{worst:>22}{rms:>9}   {jump:<12}{energy}", law.name);
-    }
-    println!("\nEach law with its reference constants; a scene changes them by law.loading_parameters.");
-    for law in &list.loading {
-        println!("\n{}: {}", law.name, law.title);
-        entry("parameters", &values(&law.parameters));
-        entry("validity", &law.validity);
-        entry("notes", &law.notes);
-        entry("reference", law.reference);
-    }
-    println!("\nunloading laws; a scene changes their constants by law.unloading_parameters");
-    for law in &list.unloading {
-        println!("\n{}: {}", law.name, law.title);
-        entry("parameters", &values(&law.parameters));
-        entry("notes", &law.notes);
-        entry("reference", law.reference);
-    }
-    print_damped(&list.damped);
-}
-
-fn print_damped(laws: &[Rated]) {
-    println!(
-        "\nrate-dependent laws, /DAMPING; all are passive, and leave no dent (law.loading, law.damping, law.restitution)\n"
-    );
-    println!("{:<36}{:<28}restitution at 1 m/s (asked: {ASKED})", "law", "force at first touch");
-    for law in laws {
-        // what the fourth root of the smallest depth leaves is no jump
-        let jump = match law.force_at_touch {
-            part if part < 0.01 => "none".into(),
-            part => format!("jumps to {:.0} % of largest", 100.0 * part),
-        };
-        println!("{:<36}{jump:<28}{:.4}", law.name, law.restitution);
-    }
-    for law in laws
-        .iter()
-        .filter(|law| !law.name.contains('/') || ["/exact", "/original"].iter().any(|first| law.name.ends_with(first)))
-    {
-        println!("\n{}: {}", law.name.split('/').next().unwrap_or_default(), law.title);
-        entry("parameters", &values(&law.parameters));
-        entry("validity", &law.validity);
-        entry("notes", &law.notes);
-        entry("reference", law.reference);
-    }
-}
-
-fn values(constants: &[Constant]) -> String {
-    let value =
-        |constant: &Constant| format!("{} = {} {}", constant.name, constant.value, constant.unit).trim_end().into();
-    let all: Vec<String> = constants.iter().map(value).collect();
-    if all.is_empty() { "none".into() } else { all.join(", ") }
-}
-
-/// Prints `text` behind its `heading`, in lines of at most 118 characters.
-fn entry(heading: &str, text: &str) {
-    const WIDTH: usize = 104;
-    let mut heading = heading;
-    let mut line = String::new();
-    for word in text.split(' ') {
-        if !line.is_empty() && line.len() + 1 + word.len() > WIDTH {
-            println!("  {heading:<12}{line}");
-            (heading, line) = ("", String::new());
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    println!("  {heading:<12}{line}");
 }

@@ -1,0 +1,246 @@
+//! `brinell hardness`: dent and hardness of a test, or the yield strength that a hardness comes from.
+
+use super::{ADMITTED, Dent, load_ratio, run_test, strength_of};
+use crate::laws::{self, Choice};
+use crate::layout::{paragraph, table};
+use crate::numbers::{quantity, significant};
+use crate::predict::positive;
+use crate::regime;
+use crate::scene::Scene;
+use crate::units;
+use crate::wrong_call::WrongCall;
+use brinell::contact::validity::LARGEST_RADIUS_RATIO;
+use serde_json::{Value, json};
+use std::error::Error;
+use std::path::PathBuf;
+
+/// What `brinell hardness` is asked.
+#[derive(clap::Args)]
+#[command(group = clap::ArgGroup::new("size").required(true))]
+pub struct Arguments {
+    /// The scene file: ball and target, which must be flat
+    pub scene: PathBuf,
+    /// Test load with its unit, such as 29.4kN or 3000kgf
+    #[arg(long, group = "size", value_parser = units::loads)]
+    pub load: Option<f64>,
+    /// Test load [N]
+    #[arg(long, group = "size", value_parser = units::forces)]
+    pub force: Option<f64>,
+    /// A measured Brinell hardness (HBW): print the yield strength of the target instead
+    #[arg(long, value_name = "HBW")]
+    pub brinell: Option<f64>,
+    /// Laws to compare: LOADING or LOADING/UNLOADING, or "all" [default: the scene's]
+    #[arg(long, value_delimiter = ',')]
+    pub laws: Vec<String>,
+}
+
+/// The answer of one law.
+struct Answer {
+    laws: String,
+    /// [Pa], if it was looked for.
+    yield_strength: Option<f64>,
+    dent: Dent,
+}
+
+/// Runs the test that the arguments name.
+pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
+    let load = arguments.load.or(arguments.force).unwrap_or(f64::NAN);
+    let load = positive("load", load).map_err(WrongCall::of)?;
+    let hardness = arguments.brinell.map(|value| positive("brinell", value)).transpose().map_err(WrongCall::of)?;
+    let scene = Scene::read_aloud(&arguments.scene)?;
+    if let Some(radius) = scene.group_value(0, "target.radius") {
+        let radius = quantity(radius, "m");
+        return Err(format!("a Brinell test needs a flat target, and the scene has target.radius = {radius}").into());
+    }
+    if hardness.is_some() && scene.yield_strength.is_none() {
+        let message =
+            "the scene gives no target.yield_strength; give any, so that its law yields: --brinell replaces it";
+        return Err(message.into());
+    }
+    let choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
+    // Hertz's law is one of all, and leaves no dent
+    let all = arguments.laws.iter().any(|name| name == "all");
+    let choices: Vec<_> = choices.into_iter().filter(|choice| !all || choice.laws != "hertz").collect();
+    let ball = 2.0 * scene.group_value(0, "impactor.radius").unwrap_or(f64::NAN);
+    let answer = |choice: &Choice| -> Result<Answer, String> {
+        let (yield_strength, dent) = match hardness {
+            Some(hardness) => {
+                let (strength, dent) = strength_of(choice, load, ball, hardness)?;
+                (Some(strength), dent)
+            }
+            None => (None, run_test(choice, load, ball)?),
+        };
+        Ok(Answer { laws: choice.laws.clone(), yield_strength, dent })
+    };
+    let mut answers = Vec::new();
+    let mut left_out = Vec::new();
+    for choice in &choices {
+        match answer(choice) {
+            Ok(answer) => answers.push(answer),
+            // one law of several may have no answer
+            Err(reason) if choices.len() > 1 => left_out.push(reason),
+            Err(reason) => return Err(reason.into()),
+        }
+    }
+    match as_json {
+        true => println!("{}", as_value(&answers, &left_out, load, ball, hardness)),
+        false => print!("{}", text(&answers, &left_out, load, ball, hardness)),
+    }
+    Ok(())
+}
+
+/// What isn't right about a dent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Doubt {
+    NoDent,
+    WiderThanBall,
+    BeyondLaw,
+    Small,
+}
+
+impl Doubt {
+    const ALL: [Doubt; 4] = [Doubt::NoDent, Doubt::WiderThanBall, Doubt::BeyondLaw, Doubt::Small];
+
+    fn is_about(self, dent: &Dent) -> bool {
+        let dented = dent.meyer.is_some();
+        match self {
+            Doubt::NoDent => !dented,
+            Doubt::WiderThanBall => dented && dent.brinell.is_none(),
+            Doubt::BeyondLaw => dent.is_beyond_law(),
+            Doubt::Small => dented && dent.radius_ratio < ADMITTED.0,
+        }
+    }
+
+    /// In words, of a dent with this ratio `a/R` or, of several, none.
+    fn words(self, ratio: Option<f64>) -> String {
+        let ratio = ratio.map_or(String::new(), |ratio| format!(" = {}", significant(ratio, 3)));
+        let (least, most) = ADMITTED;
+        match self {
+            Doubt::NoDent => {
+                "the load doesn't reach the yield point: it leaves no dent, and there is no hardness".into()
+            }
+            Doubt::WiderThanBall => "the dent is wider than the ball: there is no Brinell hardness".into(),
+            Doubt::BeyondLaw => format!(
+                "a/R{ratio} is beyond the validity of the law, which ends at {LARGEST_RADIUS_RATIO}: a sphere is no longer a \
+                 paraboloid there, and strains are large. Standard Brinell tests, with dents of {least} to {most} ball diameters, \
+                 are mostly beyond it. Finite elements with large deformation differ by 6 % at a/R = 0.5 (E*/S = 100)"
+            ),
+            Doubt::Small => format!(
+                "a/R{ratio}: the dent is smaller than ISO 6506-1 admits, which is {least} to {most} ball diameters"
+            ),
+        }
+    }
+}
+
+/// The warnings about the dent of one law.
+fn warnings(answer: &Answer) -> Vec<String> {
+    let dent = &answer.dent;
+    let doubts = Doubt::ALL.into_iter().filter(|doubt| doubt.is_about(dent));
+    doubts.map(|doubt| doubt.words(Some(dent.radius_ratio))).collect()
+}
+
+/// The warnings about the dents of several laws, each with the laws that it is about.
+fn warnings_of_all(answers: &[Answer]) -> Vec<String> {
+    let warning = |doubt: Doubt| {
+        let laws = answers.iter().filter(|answer| doubt.is_about(&answer.dent)).map(|answer| answer.laws.as_str());
+        let laws: Vec<_> = laws.collect();
+        (!laws.is_empty()).then(|| format!("{}. Laws: {}", doubt.words(None), laws.join(", ")))
+    };
+    Doubt::ALL.into_iter().filter_map(warning).collect()
+}
+
+/// For people.
+fn text(answers: &[Answer], left_out: &[String], load: f64, ball: f64, hardness: Option<f64>) -> String {
+    let ratio = significant(load_ratio(load, ball), 3);
+    let ball_words = quantity(ball, "m");
+    let load_words = quantity(load, "N");
+    let heading = match hardness {
+        Some(hardness) => format!("which yield strength gives HBW {hardness}"),
+        None => "dent and hardness".into(),
+    };
+    let heading =
+        format!("{heading}: ball of {ball_words}, load {load_words} (0.102 F/D^2 = {ratio} N/mm^2), quasi-static");
+    let mut text = paragraph("", &heading);
+    text.push('\n');
+    if let [answer] = answers {
+        text += &single(answer);
+    } else {
+        text += &rows(answers, hardness.is_some());
+    }
+    let warnings = match answers {
+        [answer] => warnings(answer),
+        answers => warnings_of_all(answers),
+    };
+    let lines = warnings.iter().map(|warning| ("warning: ", warning));
+    for (heading, words) in lines.chain(left_out.iter().map(|reason| ("left out: ", reason))) {
+        text.push('\n');
+        text += &paragraph(heading, words);
+    }
+    text
+}
+
+/// Everything about the dent of one law.
+fn single(answer: &Answer) -> String {
+    let Answer { laws, yield_strength, dent } = answer;
+    let number = |value: Option<f64>| value.map_or("none".into(), |value| format!("{} HBW", significant(value, 4)));
+    let meyer = dent.meyer.map_or("none".into(), |value| quantity(value, "Pa"));
+    let diameter = format!("{} ({} of the ball's)", quantity(dent.diameter, "m"), significant(dent.radius_ratio, 3));
+    let mut rows = vec![("law", laws.clone())];
+    if let Some(strength) = yield_strength {
+        rows.push(("yield strength", quantity(*strength, "Pa")));
+    }
+    rows.extend([
+        ("Brinell hardness", number(dent.brinell)),
+        ("Meyer hardness", meyer),
+        ("diameter of the dent", if dent.meyer.is_some() { diameter } else { "none".into() }),
+        ("depth after unloading", quantity(dent.depth, "m")),
+        ("depth under the load", quantity(dent.max_indentation, "m")),
+        ("mean pressure under the load", quantity(dent.mean_pressure, "Pa")),
+        ("regime", regime::words(dent.regime).into()),
+    ]);
+    let rows: Vec<_> = rows.into_iter().map(|(name, value)| vec![name.to_string(), value]).collect();
+    table(&rows, 2, 2)
+}
+
+/// A row for each law.
+fn rows(answers: &[Answer], turned_round: bool) -> String {
+    let mut lines = vec![["law", "HBW", "Meyer", "diameter", "depth", "a/R"].map(String::from).to_vec()];
+    if turned_round {
+        lines[0].push("yield strength".into());
+    }
+    for Answer { laws, yield_strength, dent } in answers {
+        let mut line = vec![
+            laws.clone(),
+            dent.brinell.map_or("none".into(), |value| significant(value, 4)),
+            dent.meyer.map_or("none".into(), |value| quantity(value, "Pa")),
+            quantity(dent.diameter, "m"),
+            quantity(dent.depth, "m"),
+            significant(dent.radius_ratio, 3),
+        ];
+        line.extend(yield_strength.map(|strength| quantity(strength, "Pa")));
+        lines.push(line);
+    }
+    table(&lines, 1, 0)
+}
+
+/// For programs: all digits, SI units.
+fn as_value(answers: &[Answer], left_out: &[String], load: f64, ball: f64, hardness: Option<f64>) -> Value {
+    let law = |answer: &Answer| {
+        let Answer { laws, yield_strength, dent } = answer;
+        let mut law = json!({
+            "law": laws, "brinell_hardness": dent.brinell, "meyer_hardness": dent.meyer, "dent_diameter": dent.diameter,
+            "dent_depth": dent.depth, "max_indentation": dent.max_indentation, "mean_pressure": dent.mean_pressure,
+            "contact_radius_ratio": dent.radius_ratio, "regime": dent.regime as i32, "regime_name": regime::words(dent.regime),
+            "warnings": warnings(answer),
+        });
+        if let Some(strength) = yield_strength {
+            law["yield_strength"] = json!(strength);
+        }
+        law
+    };
+    let laws: Vec<_> = answers.iter().map(law).collect();
+    json!({
+        "load": load, "ball_diameter": ball, "load_ratio": load_ratio(load, ball), "asked_brinell_hardness": hardness,
+        "laws": laws, "left_out": left_out,
+    })
+}

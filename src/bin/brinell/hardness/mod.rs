@@ -1,0 +1,176 @@
+//! Quasi-static hardness: what a Brinell test leaves in the target of a scene, and the same turned round.
+//!
+//! Reference: ISO 6506-1, *Metallic materials - Brinell hardness test - Part 1: Test method*; E. Meyer, *Zeitschrift des
+//! Vereines deutscher Ingenieure* 52 (1908); D. Tabor, *The Hardness of Metals*, Oxford 1951.
+
+pub mod command;
+
+use crate::laws::Choice;
+use crate::model::AnyModel;
+use brinell::contact::history::LARGEST_INDENTATION;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::validity::LARGEST_RADIUS_RATIO;
+use brinell::contact::{Loading, Model, Regime};
+use std::f64::consts::PI;
+
+/// The factor of the Brinell number and of the load ratio for forces in newtons: 1/9.80665 to three digits, as in ISO 6506-1.
+const PER_KILOGRAM: f64 = 0.102;
+
+/// The dent diameters that ISO 6506-1 admits, in diameters of the ball.
+pub const ADMITTED: (f64, f64) = (0.24, 0.6);
+
+/// Yield strengths that are looked for, in effective moduli.
+const STRENGTHS: (f64, f64) = (1e-7, 1.0);
+
+/// What a test has left behind.
+#[derive(Clone, Copy, Debug)]
+pub struct Dent {
+    /// Indentation under the load [m].
+    pub max_indentation: f64,
+    /// Diameter of the contact under the load [m]: that of the dent, since unloading makes it shallower, and hardly narrower.
+    pub diameter: f64,
+    /// Depth of the dent after unloading [m].
+    pub depth: f64,
+    /// Load over the area of the contact under the load [Pa].
+    pub mean_pressure: f64,
+    pub regime: Regime,
+    /// Contact radius over effective radius.
+    pub radius_ratio: f64,
+    /// Brinell number HBW; none without a dent, or of a dent that is wider than the ball.
+    pub brinell: Option<f64>,
+    /// Meyer hardness [Pa]; none without a dent.
+    pub meyer: Option<f64>,
+}
+
+impl Dent {
+    /// The law isn't valid for a dent as wide as this one.
+    pub fn is_beyond_law(&self) -> bool {
+        self.radius_ratio > LARGEST_RADIUS_RATIO
+    }
+}
+
+/// The Brinell number of a dent of this `diameter` [m] that a ball of diameter `ball` [m] has made under `load` [N]:
+/// `HBW = 0.102 * 2 F / (pi D (D - sqrt(D^2 - d^2)))` with lengths in millimetres. None if the dent is wider than the ball.
+///
+/// Reference: ISO 6506-1, section 4.
+pub fn brinell_number(load: f64, ball: f64, diameter: f64) -> Option<f64> {
+    let (ball, diameter) = (1e3 * ball, 1e3 * diameter);
+    if diameter > ball {
+        return None;
+    }
+    // D - sqrt(D^2 - d^2) without the loss of digits of a small dent
+    let depth = diameter * diameter / (ball + (ball * ball - diameter * diameter).sqrt());
+    Some(PER_KILOGRAM * 2.0 * load / (PI * ball * depth))
+}
+
+/// The load ratio `0.102 F/D^2` of ISO 6506-1 [N/mm^2], with the ball's diameter [m].
+pub fn load_ratio(load: f64, ball: f64) -> f64 {
+    PER_KILOGRAM * load / (1e6 * ball * ball)
+}
+
+/// The test with `load` [N] and a ball of the diameter `ball` [m]; none if the law can't be evaluated for it.
+fn test(model: &Model<AnyLoading, AnyUnloading>, load: f64, ball: f64) -> Option<Dent> {
+    let depth = depth_of_force(model, load)?;
+    let peak = model.peak(depth);
+    let (radius, is_elastic) = (peak.contact_radius, model.is_elastic_at(depth));
+    let residual = model.unloading_path(depth).lower;
+    let area = PI * radius * radius;
+    let is_number = radius > 0.0 && radius.is_finite() && residual.is_finite();
+    is_number.then(|| Dent {
+        max_indentation: depth,
+        diameter: 2.0 * radius,
+        depth: residual,
+        mean_pressure: load / area,
+        regime: model.loading.regime(&model.pair, depth),
+        radius_ratio: radius / model.pair.radius,
+        brinell: if is_elastic { None } else { brinell_number(load, ball, 2.0 * radius) },
+        meyer: (!is_elastic).then_some(load / area),
+    })
+}
+
+/// The first indentation [m] whose force reaches `force` [N].
+fn depth_of_force(model: &Model<AnyLoading, AnyUnloading>, force: f64) -> Option<f64> {
+    let at = |depth: f64| model.loading.segment(&model.pair, depth).force(depth);
+    // f64 keeps its order when the bits of positive numbers are read as integers
+    let (mut low, mut high) = (0, LARGEST_INDENTATION.to_bits());
+    if !(at(LARGEST_INDENTATION) >= force) {
+        // a fit may have no number there
+        high = (model.pair.radius * 1e3).to_bits();
+        if !(at(f64::from_bits(high)) >= force) {
+            return None;
+        }
+    }
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        *(if at(f64::from_bits(middle)) >= force { &mut high } else { &mut low }) = middle;
+    }
+    Some(f64::from_bits(high))
+}
+
+/// The test by the laws of `choice`.
+///
+/// # Errors
+/// Why there is no answer.
+pub fn run_test(choice: &Choice, load: f64, ball: f64) -> Result<Dent, String> {
+    let model = elastoplastic(choice)?;
+    test(&model, load, ball).ok_or_else(|| format!("the law {} can't be evaluated for this load", choice.laws))
+}
+
+fn elastoplastic(choice: &Choice) -> Result<Model<AnyLoading, AnyUnloading>, String> {
+    let model = choice.model.elastoplastic().filter(|_| choice.laws != "hertz");
+    model
+        .copied()
+        .ok_or_else(|| format!("the law {} leaves no dent: a hardness test needs a law that yields", choice.laws))
+}
+
+/// The yield strength [Pa] of a target on which the test gives the Brinell number `hardness`, and the dent there.
+///
+/// # Errors
+/// Why there is no answer.
+pub fn strength_of(choice: &Choice, load: f64, ball: f64, hardness: f64) -> Result<(f64, Dent), String> {
+    let model = elastoplastic(choice)?;
+    let with = |yield_strength: f64| {
+        let softer = AnyModel::Elastoplastic(model).with_yield_strength(yield_strength)?;
+        test(softer.elastoplastic()?, load, ball)
+    };
+    // no dent at all is as hard as can be, one that is wider than the ball as soft
+    let is_harder = |strength: f64| match with(strength) {
+        Some(Dent { brinell: Some(number), .. }) => number >= hardness,
+        Some(Dent { meyer: None, .. }) => true,
+        _ => false,
+    };
+    let modulus = model.pair.modulus;
+    let (mut soft, mut hard) = (STRENGTHS.0 * modulus, STRENGTHS.1 * modulus);
+    let none =
+        || format!("by the law {} no yield strength of the target explains HBW {hardness} at this load", choice.laws);
+    if is_harder(soft) || !is_harder(hard) {
+        return Err(none());
+    }
+    while hard > soft.next_up() {
+        let middle = (soft * hard).sqrt().clamp(soft.next_up(), hard.next_down());
+        *(if is_harder(middle) { &mut hard } else { &mut soft }) = middle;
+    }
+    let dent = with(hard).ok_or_else(none)?;
+    // where the dent ends the hardness has no value at all
+    match dent.brinell {
+        Some(found) if (found / hardness - 1.0).abs() < 1e-6 => Ok((hard, dent)),
+        _ => Err(none()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The numbers of the table for HBW 10/3000 in ISO 6506-4: dent diameters [mm] and hardness.
+    #[test]
+    fn the_brinell_number_is_that_of_the_standard() {
+        for (diameter, hardness) in [(2.40, 653.0), (3.00, 415.0), (4.00, 229.0), (5.00, 143.0), (6.00, 95.5)] {
+            let number = brinell_number(29_420.0, 10e-3, 1e-3 * diameter).expect("a dent");
+            assert!((number / hardness - 1.0).abs() < 2e-3, "{diameter} mm: {number}, not {hardness}");
+        }
+        assert_eq!(brinell_number(1.0, 1e-2, 1.01e-2), None);
+        assert!((load_ratio(29_420.0, 10e-3) - 30.0).abs() < 0.01);
+    }
+}

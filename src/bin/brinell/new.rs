@@ -1,0 +1,55 @@
+//! `brinell new`: a scene to begin with.
+
+use crate::files::{self, FileError};
+use crate::scene::Scene;
+use crate::wrong_call::WrongCall;
+use serde_json::json;
+use std::error::Error;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// The scene, with `NAME` where its name belongs.
+const TEMPLATE: &str = include_str!("new_scene.toml");
+
+/// What `brinell new` is asked.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Name of the contact: letters, digits and `_`
+    pub name: String,
+    /// Where to write the scene [default: NAME.toml in the current folder]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+/// Writes the scene, unless there is a file already.
+pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
+    let Arguments { name, output } = arguments;
+    let path = output.clone().unwrap_or_else(|| format!("{name}.toml").into());
+    let text = TEMPLATE.replace("NAME", name);
+    // only the name can be wrong
+    Scene::parse(text.clone(), &path).map_err(|_| {
+        WrongCall(format!(
+            "{name:?} can't be the name of a scene: use letters, digits and `_`, and begin with no digit"
+        ))
+    })?;
+    write_new(&path, &text)?;
+    if as_json {
+        println!("{}", json!({ "scene": path }));
+    } else {
+        let file = path.display();
+        println!("{file}\nnext:  brinell predict {file}\n       brinell export {file}");
+    }
+    Ok(())
+}
+
+/// Writes a file that doesn't exist yet.
+fn write_new(path: &Path, text: &str) -> Result<(), FileError> {
+    let file_error = FileError::at(path);
+    if path.exists() {
+        let error = io::Error::new(io::ErrorKind::AlreadyExists, "this file exists already, and is not overwritten");
+        return Err(file_error(error));
+    }
+    files::check_goal(path)?;
+    let mut file = std::fs::File::create_new(path).map_err(&file_error)?;
+    file.write_all(text.as_bytes()).map_err(&file_error)
+}

@@ -1,0 +1,200 @@
+//! What a sweep varies: a quantity of the impact, or a parameter of the scene.
+
+use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_height};
+use crate::laws::Choice;
+use crate::model::AnyModel;
+use crate::nearest::{nearest, one_of};
+use crate::scene::Scene;
+use crate::table::{self, Causality, VARIABLES};
+use brinell::contact::impact::Impact;
+
+/// Something that a sweep varies, from one value to another.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// As the user names it: `speed`, `target.yield_strength`.
+    pub name: &'static str,
+    /// [SI]
+    pub unit: &'static str,
+    pub from: f64,
+    pub to: f64,
+    /// How many values there are, if the user says it.
+    count: Option<usize>,
+}
+
+/// The quantities of an impact, with their units.
+const OF_IMPACT: [(&str, &str); 4] = [("speed", "m/s"), ("mass", "kg"), ("energy", "J"), ("drop_height", "m")];
+
+/// Parameters that an impact doesn't depend on.
+const WITHOUT_EFFECT: [&str; 1] = ["initial_gap"];
+
+/// Most values of a sweep.
+const MOST: usize = 10_000;
+
+impl Axis {
+    /// The axis that `words` name: NAME=FROM:TO or NAME=FROM:TO:COUNT.
+    ///
+    /// # Errors
+    /// [`PredictError::Sweep`]: what is wrong, and what is expected.
+    pub fn parse(words: &str) -> Result<Axis, PredictError> {
+        let wrong = |why: &str| {
+            PredictError::Sweep(format!(
+                "{words}: {why}; expected NAME=FROM:TO or NAME=FROM:TO:COUNT, such as speed=0.01:10 or \
+                 target.yield_strength=200e6:900e6:8"
+            ))
+        };
+        let (name, range) = words.split_once('=').ok_or_else(|| wrong("no `=`"))?;
+        let (name, unit) = find(name).map_err(|why| PredictError::Sweep(format!("{words}: {why}")))?;
+        let parts: Vec<&str> = range.split(':').collect();
+        let (from, to, count) = match parts.as_slice() {
+            [from, to] => (from, to, None),
+            [from, to, count] => (from, to, Some(*count)),
+            _ => return Err(wrong("no range")),
+        };
+        let number = |text: &str| {
+            let number: Option<f64> = text.trim().parse().ok();
+            number.filter(|number| number.is_finite()).ok_or_else(|| wrong(&format!("`{text}` is no number")))
+        };
+        let (from, to) = (number(from)?, number(to)?);
+        if from >= to {
+            return Err(wrong("FROM must be below TO"));
+        }
+        let count = count.map(|text| match text.parse() {
+            Ok(count) if (2..=MOST).contains(&count) => Ok(count),
+            _ => Err(wrong(&format!("COUNT = {text} must be a whole number from 2 to {MOST}"))),
+        });
+        Ok(Axis { name, unit, from, to, count: count.transpose()? })
+    }
+
+    /// Closing speeds, in a range [m/s].
+    pub fn speeds((from, to): (f64, f64)) -> Axis {
+        Axis { name: "speed", unit: "m/s", from, to, count: None }
+    }
+
+    /// The values are evenly spread over their decades: the range has a decade or more.
+    pub fn is_logarithmic(&self) -> bool {
+        self.from > 0.0 && self.to >= 10.0 * self.from
+    }
+
+    /// The values, as many as the user wants or else `usual`; both ends are among them as they are.
+    pub fn values(&self, usual: usize) -> Vec<f64> {
+        let count = self.count.unwrap_or(usual);
+        let part = |index: usize| index as f64 / (count - 1) as f64;
+        let value = |index: usize| match index {
+            0 => self.from,
+            index if index == count - 1 => self.to,
+            index if self.is_logarithmic() => self.from * libm::pow(self.to / self.from, part(index)),
+            index => self.from + (self.to - self.from) * part(index),
+        };
+        (0..count).map(value).collect()
+    }
+
+    /// The name with its unit, for an axis of a picture.
+    pub fn title(&self) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
+        format!("{}{unit}", self.name.replace('_', " "))
+    }
+}
+
+/// The quantity `name` with its unit.
+fn find(name: &str) -> Result<(&'static str, &'static str), String> {
+    let parameters = VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter);
+    let parameters = parameters.map(|variable| (variable.name.as_str(), variable.unit.as_deref().unwrap_or("")));
+    let known: Vec<_> = OF_IMPACT.into_iter().chain(parameters).collect();
+    let found = known.iter().find(|(known, _)| *known == name);
+    let names: Vec<_> = known.iter().map(|(name, _)| *name).filter(|name| !WITHOUT_EFFECT.contains(name)).collect();
+    match found {
+        Some((name, _)) if WITHOUT_EFFECT.contains(name) => Err(format!("an impact doesn't depend on {name}")),
+        Some(found) => Ok(*found),
+        None => {
+            let guess = nearest(name, names.iter().copied());
+            let guess = guess.map_or(String::new(), |guess| format!("; did you mean `{guess}`?"));
+            Err(format!("no quantity is called `{name}`{guess} Expected {}", one_of(&names)))
+        }
+    }
+}
+
+/// Law and impact where the quantities have these values, on the bodies of the first contact of `scene`.
+///
+/// # Errors
+/// The value that can't be, with what is allowed.
+pub fn varied(
+    scene: &Scene,
+    choice: &Choice,
+    impact: Impact,
+    values: &[(&Axis, f64)],
+) -> Result<(Choice, Impact), PredictError> {
+    let (mut choice, mut impact) = (choice.clone(), impact);
+    let mut bodies = Vec::new();
+    for (axis, value) in values {
+        let value = *value;
+        match axis.name {
+            "speed" => impact.speed = positive("speed", value)?,
+            "mass" => impact.mass = positive("mass", value)?,
+            "energy" => impact.speed = speed_of_energy(impact.mass, positive("energy", value)?),
+            "drop_height" => impact.speed = speed_of_height(positive("drop_height", value)?),
+            name => {
+                check_limits(name, value)?;
+                match (name, &mut choice.model) {
+                    ("effective_mass", AnyModel::Damped(model)) => (model.mass, impact.mass) = (value, value),
+                    ("effective_mass", AnyModel::Elastoplastic(_)) => impact.mass = value,
+                    ("restitution", AnyModel::Damped(model)) => model.restitution = value,
+                    ("restitution", AnyModel::Elastoplastic(_)) => {
+                        let why = format!("restitution is a parameter of rate-dependent laws, not of {}", choice.laws);
+                        return Err(PredictError::Sweep(why));
+                    }
+                    _ => bodies.push((name, value)),
+                }
+            }
+        }
+    }
+    // an energy belongs to the mass, in whatever order the two are given
+    if let Some((_, energy)) = values.iter().find(|(axis, _)| axis.name == "energy") {
+        impact.speed = speed_of_energy(impact.mass, *energy);
+    }
+    if !bodies.is_empty() {
+        choice.model = with_bodies(scene, &choice, &bodies)?;
+    }
+    check_energy(&impact)?;
+    Ok((choice, impact))
+}
+
+/// The law on bodies with these parameters.
+fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result<AnyModel, PredictError> {
+    let missing = |name: &str| PredictError::Sweep(format!("{name}: {}", why_absent(name)));
+    for (name, _) in bodies {
+        // a rigid impactor has no modulus, a flat target no radius; a strength is no parameter of an elastic law
+        let is_there = scene.group_value(0, name).is_some() || *name == "target.radius";
+        let strength = *name == "target.yield_strength";
+        let yields = choice.model.elastoplastic().is_some() && choice.laws != "hertz";
+        if if strength { !yields } else { !is_there } {
+            return Err(missing(name));
+        }
+    }
+    let pair = scene.pair_with(0, bodies).ok_or_else(|| {
+        let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::NAN);
+        let words = bodies.iter().map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ");
+        PredictError::Sweep(format!(
+            "{words}: these bodies don't touch in one point (impactor.radius = {radius}); a socket must be wider than the impactor"
+        ))
+    })?;
+    let strength = bodies.iter().find(|(name, _)| *name == "target.yield_strength").map(|(_, value)| *value);
+    Ok(choice.model.on(pair, strength))
+}
+
+fn why_absent(name: &str) -> &'static str {
+    match name {
+        "target.yield_strength" => "the law has no yield strength",
+        _ => "the impactor of the scene is rigid; give youngs_modulus and poissons_ratio, or a material",
+    }
+}
+
+fn check_limits(name: &'static str, value: f64) -> Result<(), PredictError> {
+    let variable = table::variable(name);
+    let (minimum, maximum) = (variable.minimum.unwrap_or(f64::MIN), variable.maximum.unwrap_or(f64::MAX));
+    if (minimum..=maximum).contains(&value) {
+        return Ok(());
+    }
+    let unit = variable.unit.as_deref().unwrap_or("");
+    let message = format!("{name} = {value} is out of range: allowed is {minimum:?} to {maximum:?} {unit}");
+    Err(PredictError::Sweep(message.trim_end().into()))
+}

@@ -1,0 +1,213 @@
+//! A prediction in words and numbers: for people, and for programs.
+
+use super::{PredictError, energy_lost, methods, notes, one, onsets, quantities};
+use crate::laws::Choice;
+use crate::layout::{paragraph, table};
+use crate::numbers::{Prefixed, cell, prefixed, quantity};
+use crate::regime;
+use crate::scene::Scene;
+use crate::validity;
+use brinell::contact::Regime;
+use brinell::contact::impact::{Impact, Prediction};
+use brinell::contact::validity::LARGEST_RADIUS_RATIO;
+use serde_json::{Value, json};
+
+/// Predictions of one impact by several laws.
+pub struct Answer<'a> {
+    scene: &'a Scene,
+    choices: &'a [Choice],
+    impact: Impact,
+    /// Height of fall [m], if the speed comes from one.
+    fall: Option<f64>,
+    predictions: Vec<Prediction>,
+}
+
+impl Answer<'_> {
+    /// The predictions for `impact`, which is that of a `fall` from a height [m] if there is one.
+    ///
+    /// # Errors
+    /// [`PredictError::Beyond`]
+    pub fn of<'a>(
+        scene: &'a Scene,
+        choices: &'a [Choice],
+        impact: Impact,
+        fall: Option<f64>,
+    ) -> Result<Answer<'a>, PredictError> {
+        let predictions = choices.iter().map(|choice| one(choice, &impact)).collect::<Result<_, _>>()?;
+        Ok(Answer { scene, choices, impact, fall, predictions })
+    }
+
+    fn laws(&self) -> impl Iterator<Item = (&Choice, &Prediction)> {
+        self.choices.iter().zip(&self.predictions)
+    }
+
+    /// Where the law isn't valid, in words.
+    fn warnings(&self, choice: &Choice, prediction: &Prediction) -> Vec<String> {
+        validity::warnings(&choice.model.pair(), self.scene.contacts[0].density, prediction, self.impact.speed)
+    }
+
+    /// The warnings for people: one for several laws.
+    fn all_warnings(&self) -> Vec<String> {
+        if let ([choice], [prediction]) = (self.choices, self.predictions.as_slice()) {
+            return self.warnings(choice, prediction);
+        }
+        let density = self.scene.contacts[0].density;
+        let beyond = |choice: &Choice, prediction: &Prediction| {
+            validity::beyond(&choice.model.pair(), density, prediction.max_contact_radius, self.impact.speed)
+        };
+        let wide = self.laws().filter(|(choice, prediction)| {
+            beyond(choice, prediction).iter().any(|limit| matches!(limit, validity::Beyond::Width(_)))
+        });
+        let wide: Vec<_> = wide.map(|(choice, _)| choice.laws.as_str()).collect();
+        let mut warnings = Vec::new();
+        if !wide.is_empty() {
+            warnings.push(format!(
+                "the contact radius exceeds {LARGEST_RADIUS_RATIO} effective radii, where no law is valid, with {}",
+                wide.join(", ")
+            ));
+        }
+        // the speed is the same with every law
+        let fast = self.laws().find_map(|(choice, prediction)| {
+            let limits = beyond(choice, prediction);
+            let is_fast = |limit: &validity::Beyond| matches!(limit, validity::Beyond::Speed { .. });
+            limits.into_iter().find(is_fast).map(validity::words)
+        });
+        warnings.extend(fast);
+        warnings
+    }
+
+    /// Height of the rebound [m].
+    fn rebound_height(&self, prediction: &Prediction) -> Option<f64> {
+        Some(self.fall? * prediction.restitution * prediction.restitution)
+    }
+
+    /// For people.
+    pub fn text(&self) -> String {
+        let Impact { mass, speed } = self.impact;
+        let fall = self.fall.map_or(String::new(), |height| format!(" (a fall of {})", quantity(height, "m")));
+        let (mass, speed) = (quantity(mass, "kg"), quantity(speed, "m/s"));
+        let by = match self.choices {
+            [choice] => format!("{}, ", choice.laws),
+            _ => String::new(),
+        };
+        let assumed =
+            if self.scene.impact_is_assumed { "; the scene names no impact: a solid ball is assumed" } else { "" };
+        let heading = format!("impact of {mass} at {speed}{fall}: {by}predicted {}{assumed}", methods(self.choices));
+        let mut text = paragraph("", &heading);
+        text.push('\n');
+        text += &match (self.choices, self.predictions.as_slice()) {
+            ([choice], [prediction]) => self.single(choice, prediction),
+            _ => self.rows(),
+        };
+        for warning in self.all_warnings() {
+            text.push('\n');
+            text += &paragraph("warning: ", &warning);
+        }
+        for note in notes::of(self.scene, self.choices, &self.predictions) {
+            text.push('\n');
+            text += &paragraph("note: ", note);
+        }
+        text
+    }
+
+    /// All quantities of one law.
+    fn single(&self, choice: &Choice, prediction: &Prediction) -> String {
+        let times = format!(
+            "{} (loading {}, unloading {})",
+            quantity(prediction.contact_time(), "s"),
+            quantity(prediction.loading_time, "s"),
+            quantity(prediction.unloading_time, "s")
+        );
+        let ratio = prediction.max_contact_radius / choice.model.pair().radius;
+        let radius = format!("{} (a/R = {})", quantity(prediction.max_contact_radius, "m"), cell(ratio, 1.0));
+        let mut rows = vec![
+            ("largest force", quantity(prediction.max_force, "N")),
+            ("largest indentation", quantity(prediction.max_indentation, "m")),
+            ("largest contact radius", radius),
+            ("depth of the dent", quantity(prediction.residual_indentation, "m")),
+            ("restitution", quantity(prediction.restitution, "")),
+            ("rebound speed", quantity(prediction.restitution * self.impact.speed, "m/s")),
+        ];
+        if let Some(height) = self.rebound_height(prediction) {
+            rows.push(("rebound height", quantity(height, "m")));
+        }
+        rows.extend([
+            ("kinetic energy", quantity(prediction.energy, "J")),
+            ("energy lost", quantity(energy_lost(prediction), "J")),
+            ("contact time", times),
+            ("regime reached", regime::words(prediction.regime).into()),
+        ]);
+        for (regime, speed) in onsets(choice, self.impact.mass) {
+            rows.push(("", format!("{} from {}", regime::words(regime), quantity(speed, "m/s"))));
+        }
+        let rows: Vec<_> = rows.into_iter().map(|(name, value)| vec![name.to_string(), value]).collect();
+        table(&rows, 2, 2)
+    }
+
+    /// A row for each law.
+    fn rows(&self) -> String {
+        let contact_time = Prediction::contact_time;
+        let height = |prediction: &Prediction| self.rebound_height(prediction).unwrap_or(f64::NAN);
+        let last = if self.fall.is_some() { shown("rebound", "m", &height) } else { shown("time", "s", &contact_time) };
+        let columns = [
+            shown("restitution", "", &|prediction| prediction.restitution),
+            shown("force", "N", &|prediction| prediction.max_force),
+            shown("indentation", "m", &|prediction| prediction.max_indentation),
+            shown("dent", "m", &|prediction| prediction.residual_indentation),
+            last,
+        ];
+        let units = columns.each_ref().map(|column| {
+            let sizes = self.predictions.iter().map(|prediction| (column.of)(prediction).abs());
+            prefixed(sizes.fold(0.0, f64::max), column.unit)
+        });
+        let mut heading = vec!["law".to_string()];
+        heading.extend(columns.iter().map(|column| column.name.to_string()));
+        heading.push("regime".into());
+        let mut below = vec![String::new()];
+        below.extend(units.iter().map(Prefixed::heading));
+        let mut rows = vec![heading, below];
+        for (choice, prediction) in self.laws() {
+            let mut row = vec![choice.laws.clone()];
+            row.extend(columns.iter().zip(&units).map(|(column, unit)| cell((column.of)(prediction), unit.size)));
+            row.push(regime::short(prediction.regime).into());
+            rows.push(row);
+        }
+        table(&rows, 1, 0)
+    }
+
+    /// For programs: all digits, SI units.
+    pub fn json(&self) -> Value {
+        let law = |(choice, prediction): (&Choice, &Prediction)| {
+            let mut law = json!({
+                "law": choice.laws, "regime": prediction.regime as i32, "regime_name": regime::words(prediction.regime),
+            });
+            for (name, value, _) in quantities(prediction) {
+                law[name.replace(' ', "_")] = json!(value);
+            }
+            law["rebound_speed"] = json!(prediction.restitution * self.impact.speed);
+            if let Some(height) = self.rebound_height(prediction) {
+                law["rebound_height"] = json!(height);
+            }
+            let onset = |(regime, speed): (Regime, f64)| json!({ "regime": regime as i32, "regime_name": regime::words(regime), "speed": speed });
+            law["onsets"] = onsets(choice, self.impact.mass).into_iter().map(onset).collect();
+            law["warnings"] = json!(self.warnings(choice, prediction));
+            law
+        };
+        let Impact { mass, speed } = self.impact;
+        json!({
+            "mass": mass, "speed": speed, "drop_height": self.fall, "laws": self.laws().map(law).collect::<Vec<_>>(),
+            "notes": notes::of(self.scene, self.choices, &self.predictions),
+        })
+    }
+}
+
+/// A column of the table of several laws.
+struct Shown<'a> {
+    name: &'static str,
+    unit: &'static str,
+    of: &'a dyn Fn(&Prediction) -> f64,
+}
+
+fn shown<'a>(name: &'static str, unit: &'static str, of: &'a dyn Fn(&Prediction) -> f64) -> Shown<'a> {
+    Shown { name, unit, of }
+}

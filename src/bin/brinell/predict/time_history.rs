@@ -1,0 +1,131 @@
+//! `brinell predict --time-history`: force, indentation and speed over the time of an impact.
+
+use super::PredictError;
+use crate::columns::{Column, Columns};
+use crate::laws::Choice;
+use crate::model::AnyModel;
+use crate::plot::{Picture, Series, side_by_side};
+use brinell::contact::impact::{Impact, Prediction};
+use brinell::contact::motion::{Drive, follow};
+use brinell::contact::{History, Model, damped};
+
+/// Moments of the way in, and as many of the way out.
+const MOMENTS: u32 = 200;
+
+/// A moment of an impact.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment {
+    /// Since first contact [s].
+    pub time: f64,
+    /// [m]
+    pub indentation: f64,
+    /// [N]
+    pub force: f64,
+    /// Closing speed [m/s].
+    pub speed: f64,
+}
+
+/// Impacts by several laws over time.
+pub struct TimeHistory {
+    laws: Vec<(String, Vec<Moment>)>,
+}
+
+/// The course of `impact` from first contact to separation; `None` beyond what the law can be evaluated for.
+pub fn moments(model: &AnyModel, impact: &Impact) -> Option<Vec<Moment>> {
+    let prediction = model.predict(impact)?;
+    match model {
+        AnyModel::Elastoplastic(model) => followed(model, impact, &prediction),
+        AnyModel::Damped(model) => {
+            let mut all = Vec::new();
+            damped::impact::follow(model, impact, |state, force| {
+                let damped::impact::State { time, indentation, speed } = *state;
+                all.push(Moment { time, indentation, force, speed });
+            })?;
+            // the method makes some thousand steps
+            let last = all.len() - 1;
+            let count = 2 * MOMENTS as usize;
+            Some((0..=count).map(|moment| all[last * moment / count]).collect())
+        }
+    }
+}
+
+/// The motion through the law, in even steps of the way in and of the way out: each is exact, however long it is.
+fn followed<L: brinell::contact::Loading, U: brinell::contact::Unloading>(
+    model: &Model<L, U>,
+    impact: &Impact,
+    prediction: &Prediction,
+) -> Option<Vec<Moment>> {
+    let drive = Drive { mass: impact.mass, acceleration: 0.0 };
+    let mut history = History::start(model, 0.0).ok()?;
+    let mut speed = impact.speed;
+    let mut all = vec![Moment { time: 0.0, indentation: 0.0, force: 0.0, speed }];
+    let (loading, unloading) = (prediction.loading_time, prediction.unloading_time);
+    for moment in 1..=2 * MOMENTS {
+        let step = if moment <= MOMENTS { loading } else { unloading } / f64::from(MOMENTS);
+        speed = follow(&mut history, model, &drive, speed, step).ok()?.speed;
+        let time = match moment {
+            moment if moment <= MOMENTS => loading * f64::from(moment) / f64::from(MOMENTS),
+            moment => loading + unloading * f64::from(moment - MOMENTS) / f64::from(MOMENTS),
+        };
+        all.push(Moment { time, indentation: history.indentation(), force: history.force(), speed });
+    }
+    Some(all)
+}
+
+impl TimeHistory {
+    /// `impact` by the laws of `choices`.
+    ///
+    /// # Errors
+    /// [`PredictError::Beyond`]
+    pub fn of(choices: &[Choice], impact: &Impact) -> Result<TimeHistory, PredictError> {
+        let law = |choice: &Choice| {
+            let moments = moments(&choice.model, impact);
+            let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass: impact.mass, speed: impact.speed };
+            Ok((choice.laws.clone(), moments.ok_or_else(beyond)?))
+        };
+        Ok(TimeHistory { laws: choices.iter().map(law).collect::<Result<_, PredictError>>()? })
+    }
+
+    /// As columns.
+    pub fn columns(&self) -> Columns {
+        let names = [("time", "s"), ("indentation", "m"), ("force", "N"), ("speed", "m/s")];
+        let row = |moment: &Moment| vec![moment.time, moment.indentation, moment.force, moment.speed];
+        let law = |(law, moments): &(String, Vec<Moment>)| (law.clone(), moments.iter().map(row).collect());
+        Columns {
+            columns: names.into_iter().map(|(name, unit)| Column::new(name, unit)).collect(),
+            laws: self.laws.iter().map(law).collect(),
+        }
+    }
+
+    /// Force, indentation and speed over time.
+    pub fn panels(&self) -> [Picture; 3] {
+        let panel = |title: &str, value: fn(&Moment) -> f64| {
+            let line = |(law, moments): &(String, Vec<Moment>)| Series {
+                label: law.clone(),
+                points: moments.iter().map(|moment| (1e6 * moment.time, value(moment))).collect(),
+                dots: false,
+            };
+            Picture {
+                x_title: "time [us]".into(),
+                y_title: title.into(),
+                logarithmic: (false, false),
+                series: self.laws.iter().map(line).collect(),
+            }
+        };
+        [
+            panel("force [N]", |moment| moment.force),
+            panel("indentation [um]", |moment| 1e6 * moment.indentation),
+            panel("closing speed [m/s]", |moment| moment.speed),
+        ]
+    }
+
+    /// The three panels as one picture.
+    pub fn svg(&self) -> String {
+        side_by_side(&self.panels(), 1200, 380)
+    }
+
+    /// The names of the laws.
+    pub fn laws(&self) -> impl Iterator<Item = &str> {
+        self.laws.iter().map(|(law, _)| law.as_str())
+    }
+}

@@ -1,0 +1,20 @@
+//! The parts of a law, in words.
+
+use brinell::contact::Regime;
+
+/// What a regime is called.
+pub fn words(regime: Regime) -> &'static str {
+    match regime {
+        Regime::Apart => "apart",
+        Regime::Elastic => "elastic",
+        Regime::ElastoplasticFirst => "elastoplastic (first region)",
+        Regime::ElastoplasticSecond => "elastoplastic (second region)",
+        Regime::FullyPlastic => "fully plastic",
+        Regime::Unloaded => "below the largest indentation",
+    }
+}
+
+/// The same for a narrow column.
+pub fn short(regime: Regime) -> &'static str {
+    words(regime).split(" (").next().unwrap_or_default()
+}

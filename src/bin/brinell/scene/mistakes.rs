@@ -1,0 +1,117 @@
+//! What the parser of the scene file says, in the words of its user.
+
+use crate::nearest::{nearest, one_of};
+use crate::table::VARIABLES;
+use crate::units;
+
+/// What a contact here can't have, by the words that somebody would look for it with.
+const UNSUPPORTED: [(&[&str], &str); 6] = [
+    (
+        &["friction", "friction_coefficient", "mu", "tangential", "tangential_stiffness", "angle", "spin", "oblique"],
+        "contacts act along the normal, without friction",
+    ),
+    (&["coating", "layer", "film", "thickness"], "bodies are of one material each, and thick"),
+    (
+        &["cylinder", "shape", "geometry", "length", "cone", "plane", "mesh"],
+        "the bodies are spheres, sockets and flat surfaces",
+    ),
+    (&["adhesion", "cohesion", "surface_energy", "work_of_adhesion", "stickiness"], "surfaces don't stick"),
+    (&["roughness", "asperities"], "surfaces are smooth"),
+    (&["temperature", "creep", "strain_rate"], "yield strength depends on neither temperature nor rate"),
+];
+
+/// Keys that belong elsewhere.
+const ELSEWHERE: [(&str, &str); 6] = [
+    ("mass", "[impact] has a mass, the bodies have none"),
+    ("speed", "[impact] has a speed"),
+    ("hardness", "give yield_strength; `brinell hardness SCENE --brinell HBW` finds it from a Brinell hardness"),
+    ("diameter", "give the radius"),
+    ("elasticity", "give youngs_modulus"),
+    ("poisson_ratio", "it is called poissons_ratio"),
+];
+
+/// The `message` of the parser about a `line`, of which it means the part `meant`.
+pub fn words(message: &str, line: &str, meant: &str) -> String {
+    if let Some(field) = message.strip_prefix("missing field ") {
+        return missing(field, line);
+    }
+    if let Some(names) = message.strip_prefix("unknown field ") {
+        return unknown_field(names);
+    }
+    if let Some(hint) = hint(line, meant) {
+        return hint;
+    }
+    if let Some(names) = message.strip_prefix("unknown variant ") {
+        let names = quoted(names);
+        let (asked, known) = names.split_first().expect("the parser names the variant");
+        return format!("{} in `{line}`", crate::nearest::unknown("word", asked, known.iter().copied()));
+    }
+    // the parser speaks of Rust's types and doesn't name the key: the line does
+    let message =
+        message.replace("expected f64", "expected a number").replace("expected i64", "expected a whole number");
+    format!("{message} in `{line}`")
+}
+
+/// A key that must be there, of the table that begins in `line`; of the file, where that is none.
+fn missing(field: &str, line: &str) -> String {
+    match (field, line) {
+        ("`name`", line) if !line.starts_with("[[") => {
+            "missing `name`: begin the scene with name = \"my_contact\", which is the name of the FMU".into()
+        }
+        (field, line) => format!("missing {field} in `{line}`"),
+    }
+}
+
+/// The names between backquotes.
+fn quoted(text: &str) -> Vec<&str> {
+    text.split('`').skip(1).step_by(2).collect()
+}
+
+/// A key that doesn't exist, and those that do: "`laoding`, expected one of `loading`, `unloading`".
+fn unknown_field(names: &str) -> String {
+    let names = quoted(names);
+    let (asked, known) = names.split_first().expect("the parser names the key");
+    let plain = asked.to_lowercase();
+    if let Some((_, why)) = UNSUPPORTED.iter().find(|(words, _)| words.contains(&plain.as_str())) {
+        return format!("`{asked}` is not supported: {why}; see Limits in the guide. Expected {}", one_of(known));
+    }
+    let guess = nearest(asked, known.iter().copied());
+    let elsewhere = ELSEWHERE.iter().find(|(name, _)| *name == plain).map(|(_, where_else)| *where_else);
+    let more = match (guess, elsewhere) {
+        (_, Some(elsewhere)) => format!("; {elsewhere}. Expected "),
+        (Some(guess), None) => format!("; did you mean `{guess}`? Expected "),
+        (None, None) => ", expected ".into(),
+    };
+    format!("unknown key `{asked}`{more}{}", one_of(known))
+}
+
+/// What is said of a number with a unit behind it, as in `radius = 5mm`.
+fn hint(line: &str, meant: &str) -> Option<String> {
+    let (key, value) = line.split_once('=')?;
+    let value = value.split('#').next().unwrap_or_default();
+    let key = key.trim().rsplit('.').next()?.trim();
+    // in a table of one line, the part that is meant
+    let (key, value) = match line.find('{') {
+        Some(_) => {
+            let before = &line[..line.find(meant)?];
+            let key = before.trim_end().strip_suffix('=')?.trim_end();
+            (key.rsplit([' ', '{', ',']).next()?, meant)
+        }
+        None => (key, value),
+    };
+    let unit = unit_of(key)?;
+    let hint = units::hint(value, unit)?;
+    Some(format!("{key} = {}: {hint}", value.trim()))
+}
+
+/// The SI unit of a key.
+fn unit_of(key: &str) -> Option<&'static str> {
+    match key {
+        "density" => return Some("kg/m^3"),
+        "mass" => return Some("kg"),
+        "speed" => return Some("m/s"),
+        _ => {}
+    }
+    let of_key = VARIABLES.iter().find(|variable| variable.name.rsplit('.').next() == Some(key));
+    of_key.and_then(|variable| variable.unit.as_deref())
+}

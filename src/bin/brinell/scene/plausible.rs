@@ -1,0 +1,118 @@
+//! Numbers that may be right and hardly are: a radius of 5 m, a Young's modulus of 210 Pa.
+
+use super::Mistake;
+use super::file::{File, Impactor, Target};
+use crate::numbers::{plain, quantity};
+use std::ops::RangeInclusive;
+use toml::Spanned;
+
+/// What a number of a contact is expected to be.
+struct Expected {
+    range: RangeInclusive<f64>,
+    unit: &'static str,
+    /// Units that somebody may have had in mind, as factors, the likeliest first.
+    factors: &'static [f64],
+    /// Where the range comes from.
+    why: &'static str,
+}
+
+/// From some micrometres, where continua end, to the size of a machine.
+const RADIUS: Expected =
+    Expected { range: 1e-6..=2.0, unit: "m", factors: &[1e-3, 1e-6], why: "balls and tips have 1 um to 2 m" };
+
+/// From soft rubber to diamond.
+const MODULUS: Expected = Expected {
+    range: 1e5..=1.3e12,
+    unit: "Pa",
+    factors: &[1e9, 1e6],
+    why: "metals have 10 to 450 GPa, stones, glasses and ceramics 5 to 600 GPa, polymers 0.1 MPa to 10 GPa",
+};
+
+/// From soft polymers to ceramics.
+const STRENGTH: Expected = Expected {
+    range: 1e5..=3e10,
+    unit: "Pa",
+    factors: &[1e6, 1e9],
+    why: "metals have 5 MPa to 3 GPa, stones, glasses and ceramics 0.1 to 30 GPa, polymers 1 to 200 MPa",
+};
+
+/// From foam to osmium.
+const DENSITY: Expected = Expected {
+    range: 20.0..=23_000.0,
+    unit: "kg/m^3",
+    factors: &[1e3],
+    why: "metals have 500 to 23000 kg/m^3, stones and glasses 2000 to 8000, polymers 800 to 2300",
+};
+
+/// A yield strength above this part of Young's modulus: no solid without defects has more.
+const STRENGTH_OVER_MODULUS: f64 = 0.2;
+
+/// What is doubtful in `file`, each with its place.
+pub fn doubts(file: &File) -> Vec<Mistake> {
+    let mut doubts = Vec::new();
+    let mut bodies = |owner: &str, impactor: Option<&Impactor>, target: Option<&Target>| {
+        if let Some(Impactor { radius, youngs_modulus, density, .. }) = impactor {
+            let of_impactor = [
+                ("radius", radius, &RADIUS),
+                ("youngs_modulus", youngs_modulus, &MODULUS),
+                ("density", density, &DENSITY),
+            ];
+            doubts.extend(of_impactor.into_iter().filter_map(|(key, value, expected)| {
+                expected.doubt(&format!("{owner}impactor.{key}"), value.as_ref()?)
+            }));
+        }
+        let Some(Target { radius, youngs_modulus, yield_strength, density, .. }) = target else { return };
+        let of_target = [
+            ("radius", radius, &RADIUS),
+            ("youngs_modulus", youngs_modulus, &MODULUS),
+            ("yield_strength", yield_strength, &STRENGTH),
+            ("density", density, &DENSITY),
+        ];
+        let before = doubts.len();
+        doubts.extend(of_target.into_iter().filter_map(|(key, value, expected)| {
+            // a wide target is nearly flat
+            let is_flat = |value: &Spanned<f64>| key == "radius" && value.get_ref().abs() > *RADIUS.range.end();
+            expected.doubt(&format!("{owner}target.{key}"), value.as_ref().filter(|value| !is_flat(value))?)
+        }));
+        if let (true, Some(strength), Some(modulus)) = (before == doubts.len(), yield_strength, youngs_modulus) {
+            doubts.extend(too_strong(owner, strength, *modulus.get_ref()));
+        }
+    };
+    bodies("", file.impactor.as_ref().map(Spanned::get_ref), file.target.as_ref().map(Spanned::get_ref));
+    for contact in file.contact.iter().flat_map(|contacts| contacts.get_ref()) {
+        let contact = contact.get_ref();
+        let owner = format!("{}.", contact.name.get_ref());
+        bodies(&owner, Some(&contact.impactor), Some(&contact.target));
+    }
+    doubts
+}
+
+impl Expected {
+    /// The doubt about the value of `key`, if it isn't what is expected.
+    fn doubt(&self, key: &str, value: &Spanned<f64>) -> Option<Mistake> {
+        let number = *value.get_ref();
+        let size = number.abs();
+        // what is no number is refused elsewhere
+        if !size.is_finite() || size == 0.0 || self.range.contains(&size) {
+            return None;
+        }
+        let meant = self.factors.iter().map(|factor| number * factor).find(|meant| self.range.contains(&meant.abs()));
+        let question = meant.map_or(String::new(), |meant| format!("; did you mean {}?", plain(meant)));
+        let message = format!("{key} = {} {}{question} ({})", plain(number), self.unit, self.why);
+        Some(Mistake(value.span(), message))
+    }
+}
+
+/// The doubt about a yield strength near Young's modulus.
+fn too_strong(owner: &str, strength: &Spanned<f64>, modulus: f64) -> Option<Mistake> {
+    let number = *strength.get_ref();
+    (number > STRENGTH_OVER_MODULUS * modulus && number.is_finite() && modulus > 0.0).then(|| {
+        let (said, modulus) = (quantity(number, "Pa"), quantity(modulus, "Pa"));
+        let message = format!(
+            "{owner}target.yield_strength = {} ({said}) is more than a fifth of youngs_modulus ({modulus}); no material is as \
+             strong as that",
+            plain(number)
+        );
+        Mistake(strength.span(), message)
+    })
+}

@@ -1,0 +1,236 @@
+//! `brinell new`, and scenes with mistakes that beginners make.
+
+#[path = "support/command.rs"]
+mod command;
+
+use command::{contents, empty_folder, run, scene};
+use std::fs;
+
+#[test]
+fn a_new_scene_is_a_good_one_and_is_not_overwritten() {
+    let folder = empty_folder();
+    let made = run(folder.path(), ["new", "hammer"]).with_status(0);
+    assert!(made.out.contains("hammer.toml") && made.out.contains("brinell predict"), "{made:#?}");
+    let text = fs::read_to_string(folder.path().join("hammer.toml")).unwrap();
+    assert!(text.contains("name = \"hammer\"") && text.contains("surface = \"fresh\"") && text.contains("for ever"));
+    assert!(!text.contains("NAME\"") && text.lines().all(|line| line.chars().count() <= 130), "{text}");
+    let predicted = run(folder.path(), ["predict", "hammer.toml"]).with_status(0);
+    assert_eq!(predicted.err, "", "a template without doubts");
+    run(folder.path(), ["export", "hammer.toml"]).with_status(0);
+    let refused = run(folder.path(), ["new", "hammer"]).with_status(1);
+    assert!(refused.err.contains("hammer.toml") && refused.err.contains("exists already"), "{refused:#?}");
+    assert_eq!(fs::read_to_string(folder.path().join("hammer.toml")).unwrap(), text);
+}
+
+/// Every commented key is one that a scene takes.
+#[test]
+fn every_comment_of_a_new_scene_that_is_a_key_can_be_taken_in() {
+    let folder = empty_folder();
+    run(folder.path(), ["new", "all"]).with_status(0);
+    let path = folder.path().join("all.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    let mut taken = 0;
+    let lines: Vec<String> = text
+        .lines()
+        .map(|line| {
+            let key = line.strip_prefix("# ").filter(|key| key.starts_with('[') || key.contains(" = "));
+            taken += usize::from(key.is_some());
+            key.unwrap_or(line).to_string()
+        })
+        .collect();
+    assert!(taken >= 14, "{taken}: {text}");
+    fs::write(&path, lines.join("\n")).unwrap();
+    let predicted = run(folder.path(), ["predict", "all.toml"]).with_status(0);
+    assert_eq!(predicted.err, "");
+}
+
+#[test]
+fn a_name_that_is_none_is_refused_and_nothing_is_written() {
+    let folder = empty_folder();
+    for name in ["4ball", "steel ball", "a\"b", "../ball"] {
+        let refused = run(folder.path(), ["new", name]).with_status(2);
+        assert!(refused.err.contains("letters, digits and `_`"), "{refused:#?}");
+    }
+    assert!(contents(folder.path()).is_empty());
+}
+
+/// What `brinell predict` says of a scene that is wrong.
+#[track_caller]
+fn said(text: &str) -> String {
+    let folder = empty_folder();
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    run(folder.path(), ["predict", "scene.toml"]).with_status(1).err
+}
+
+/// What it doubts in a scene that is not.
+#[track_caller]
+fn doubted(text: &str) -> String {
+    let folder = empty_folder();
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    run(folder.path(), ["predict", "scene.toml"]).with_status(0).err
+}
+
+const SCENE: &str = "\
+name = \"ball\"
+[impactor]
+radius = 5e-3
+[target]
+youngs_modulus = 206e9
+poissons_ratio = 0.3
+yield_strength = 300e6
+[impact]
+mass = 4e-3
+speed = 1.0
+";
+
+#[test]
+fn a_number_with_a_unit_says_the_number_that_is_meant() {
+    for (from, to, hint) in [
+        ("radius = 5e-3", "radius = 5mm", "scene.toml:3:10: radius = 5mm: metres, a number without unit: 5e-3"),
+        ("radius = 5e-3", "radius = \"5 mm\"", "radius = \"5 mm\": metres, a number without unit: 5e-3"),
+        ("206e9", "\"206 GPa\"", "pascals, a number without unit: 206e9"),
+        ("206e9", "206GPa # stiff", "pascals, a number without unit: 206e9"),
+        ("4e-3", "\"4 g\"", "mass = \"4 g\": kilograms, a number without unit: 4e-3"),
+        ("1.0", "\"3.6 km/h\"", "metres per second, a number without unit: 1"),
+        ("[impactor]\nradius = 5e-3", "impactor = { radius = \"5 mm\" }", "radius = \"5 mm\": metres"),
+    ] {
+        let text = SCENE.replacen(from, to, 1);
+        // one line for a table comes before the others
+        let text = if to.starts_with("impactor") {
+            text.replacen("name = \"ball\"\n", &format!("name = \"ball\"\n{to}\n"), 1).replacen(
+                &format!("{to}\n[target]"),
+                "[target]",
+                1,
+            )
+        } else {
+            text
+        };
+        let said = said(&text);
+        assert!(said.contains(hint) && said.lines().count() == 1, "nothing of {hint} in {said}");
+    }
+}
+
+#[test]
+fn a_number_that_is_hardly_meant_is_asked_about() {
+    for (from, to, question) in [
+        ("5e-3", "5", "scene.toml:3:10: impactor.radius = 5 m; did you mean 5e-3?"),
+        ("206e9", "206", "target.youngs_modulus = 206 Pa; did you mean 206e9?"),
+        ("206e9", "206000", "target.youngs_modulus = 206e3 Pa; did you mean 206e9?"),
+        ("300e6", "300", "target.yield_strength = 300 Pa; did you mean 300e6?"),
+        ("300e6", "300e9", "is more than a fifth of youngs_modulus"),
+        ("[target]", "[target]\ndensity = 7.85", "target.density = 7.85 kg/m^3; did you mean 7850?"),
+        ("5e-3", "5e-3\ndensity = 7.85", "impactor.density = 7.85 kg/m^3; did you mean 7850?"),
+    ] {
+        let doubted = doubted(&SCENE.replacen(from, to, 1));
+        assert!(doubted.starts_with("brinell: warning: scene.toml:"), "{doubted}");
+        assert!(doubted.contains(question) && doubted.lines().count() == 1, "nothing of {question} in {doubted}");
+    }
+    for good in ["5e-6", "0.5", "1.0"] {
+        assert_eq!(doubted(&SCENE.replacen("5e-3", good, 1)), "");
+    }
+    assert_eq!(doubted(&SCENE.replacen("[target]", "[target]\nradius = 1e3", 1)), "", "nearly flat");
+    for name in fs::read_dir(scene("x").parent().unwrap()).unwrap() {
+        let path = name.unwrap().path();
+        let folder = empty_folder();
+        assert_eq!(run(folder.path(), ["predict".as_ref(), path.as_os_str()]).with_status(0).err, "", "{path:?}");
+    }
+}
+
+#[test]
+fn a_missing_name_blames_nobody_else() {
+    let said = said(&SCENE.replacen("name = \"ball\"\n", "", 1));
+    assert!(said.contains("missing `name`") && !said.contains("[impactor]"), "{said}");
+}
+
+#[test]
+fn a_typing_mistake_finds_the_word_that_is_meant() {
+    for (from, to, question) in [
+        ("yield_strength = 300e6", "material = \"Mild Steel\"", "did you mean `mild steel`?"),
+        ("yield_strength = 300e6", "material = \"aluminum 6061\"", "did you mean `aluminium 6061-T6`?"),
+        ("yield_strength = 300e6", "yeild_strength = 300e6", "did you mean `yield_strength`?"),
+        ("[impact]", "[law]\nloading = \"brinel\"\n[impact]", "did you mean `brinell`?"),
+        ("[impact]", "[law]\nunloading = \"contact_radius\"\n[impact]", "did you mean `contact-radius`?"),
+        ("[impact]", "[fmu]\noutputs = [\"forse\"]\n[impact]", "did you mean `force`?"),
+        ("[impact]", "[fmu]\nparameters = [\"yield_strength\"]\n[impact]", "did you mean `target.yield_strength`?"),
+        ("[impact]", "[impcat]\nx = 1\n[impact]", "did you mean `impact`?"),
+        ("[target]", "[target]\nsurface = \"Fresh\"", "did you mean `fresh`?"),
+    ] {
+        let said = said(&SCENE.replacen(from, to, 1));
+        assert!(said.contains(question), "nothing of {question} in {said}");
+    }
+}
+
+#[test]
+fn what_there_is_not_is_called_not_supported() {
+    for (from, to) in [
+        ("[target]", "[target]\nfriction = 0.3"),
+        ("[impact]", "[impact]\nangle = 30"),
+        ("[target]", "[target]\ncoating = \"TiN\""),
+        ("[impactor]", "[impactor]\nshape = \"cylinder\""),
+        ("[target]", "[target]\nadhesion = 0.1"),
+        ("[target]", "[target]\nroughness = 1e-6"),
+    ] {
+        let said = said(&SCENE.replacen(from, to, 1));
+        assert!(said.contains("is not supported") && said.contains("see Limits"), "{said}");
+    }
+    let said = said(&SCENE.replacen("[target]", "[target]\nhardness = 200", 1));
+    assert!(said.contains("yield_strength") && said.contains("brinell hardness"), "{said}");
+}
+
+/// A ball of a known density needs no mass; another number overrides that of the material.
+#[test]
+fn an_impactor_takes_a_material_and_a_density() {
+    let folder = empty_folder();
+    let predicted = |impactor: &str, impact: &str| {
+        let text = format!(
+            "name = \"ball\"\n[impactor]\nradius = 5e-3\n{impactor}\n[target]\nmaterial = \"mild steel\"\n{impact}"
+        );
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json()
+    };
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let by_name = predicted("material = \"mild steel\"", "[impact]\nspeed = 2.0");
+    let by_numbers = predicted(
+        "youngs_modulus = 206e9\npoissons_ratio = 0.3",
+        &format!("[impact]\nspeed = 2.0\nmass = {}", by_name["mass"]),
+    );
+    assert_eq!(by_name["laws"], by_numbers["laws"]);
+    let volume = 4.0 / 3.0 * std::f64::consts::PI * 5e-3f64.powi(3);
+    assert!((number(&by_name["mass"]) / (7850.0 * volume) - 1.0).abs() < 1e-12);
+    let lighter = predicted("material = \"mild steel\"\ndensity = 1000.0", "");
+    assert!((number(&lighter["mass"]) / (1000.0 * volume) - 1.0).abs() < 1e-12);
+    let softer = predicted("material = \"mild steel\"\nyoungs_modulus = 1e9", "[impact]\nspeed = 2.0");
+    let force = |answer: &serde_json::Value| number(&answer["laws"][0]["largest_force"]);
+    assert!(force(&softer) < 0.5 * force(&by_name), "{softer}");
+    // rigid
+    let said = said(
+        "name = \"ball\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[impact]\nspeed = 1.0\n",
+    );
+    assert!(said.contains("missing field `mass` in [impact]") && said.contains("density or material"), "{said}");
+}
+
+/// A scene that names one law has that law's own partner, and so has the law when a prediction is asked for it.
+#[test]
+fn a_law_that_is_named_alone_is_the_same_in_a_scene_and_in_a_prediction() {
+    let folder = empty_folder();
+    let write = |name: &str, law: &str| {
+        let text = format!("{SCENE}[law]\n{law}\n");
+        fs::write(folder.path().join(name), text).unwrap();
+    };
+    write("other.toml", "unloading = \"original-radius\"");
+    for (law, _) in brinell::contact::loading::AnyLoading::ALL {
+        write("own.toml", &format!("loading = \"{law}\""));
+        let own = run(folder.path(), ["predict", "own.toml", "--json"]).with_status(0).json();
+        let named = run(folder.path(), ["predict", "own.toml", "--laws", law, "--json"]).with_status(0).json();
+        assert_eq!(own["laws"], named["laws"], "{law}");
+        if law != "big-alabo" {
+            let beside = run(folder.path(), ["predict", "other.toml", "--laws", law, "--json"]).with_status(0).json();
+            assert_eq!(own["laws"], beside["laws"], "{law} beside another law");
+        }
+        let pair = own["laws"][0]["law"].as_str().unwrap();
+        assert!(law == "hertz" || pair.starts_with(&format!("{law}/")), "{pair}");
+    }
+    write("own.toml", "loading = \"brinell\"");
+    let own = run(folder.path(), ["predict", "own.toml", "--json"]).with_status(0).json();
+    assert_eq!(own["laws"][0]["law"], "brinell/brinell");
+}
