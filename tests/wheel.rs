@@ -47,13 +47,11 @@ struct Installed {
 }
 
 impl Installed {
-    /// A call of `program` of the environment that finds nothing on PATH, and has no cache that a unit could be built in.
+    /// A call of `program` of the environment that finds nothing on PATH, and nothing in the user's folder.
     fn command(&self, program: &str) -> Command {
         let mut command = Command::new(self.programs.join(program));
-        command.env("PATH", &self.folder).current_dir(&self.folder);
-        for variable in
-            ["CARGO", "BRINELL", "BRINELL_PREBUILT", "BRINELL_CACHE", "HOME", "XDG_CACHE_HOME", "PYTHONPATH"]
-        {
+        command.env("PATH", &self.folder).env("HOME", &self.folder).current_dir(&self.folder);
+        for variable in ["CARGO", "BRINELL", "BRINELL_PREBUILT", "BRINELL_CACHE", "XDG_CACHE_HOME", "PYTHONPATH"] {
             command.env_remove(variable);
         }
         command
