@@ -5,7 +5,7 @@
 mod python;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
 fn root() -> &'static Path {
@@ -48,14 +48,6 @@ fn have(packages: &[&str], skipped: &str) -> bool {
     missing.is_empty()
 }
 
-/// The folder of pictures: that of the documentation with `BRINELL_WRITE=1`.
-fn pictures() -> PathBuf {
-    match std::env::var_os("BRINELL_WRITE") {
-        Some(_) => root().join("docs/examples"),
-        None => PathBuf::from(env!("CARGO_TARGET_TMPDIR")),
-    }
-}
-
 /// An example with the packages that it needs.
 struct Example {
     name: &'static str,
@@ -73,11 +65,12 @@ const EXAMPLES: [Example; 7] = [
     Example { name: "ball_in_box", packages: &[], animated: false },
 ];
 
-/// Runs an example, which ends with an error if something isn't right, and looks at its pictures. What it printed, and how
-/// long it took [s]; or what is wrong.
+/// Runs an example, which ends with an error if something isn't right, and looks at its pictures, which `BRINELL_WRITE=1`
+/// puts into the documentation. What it printed, and how long it took [s]; or what is wrong.
 fn run(example: &Example) -> Result<(String, f64), String> {
     let name = example.name;
-    let [picture, animation] = ["svg", "gif"].map(|ending| pictures().join(name).with_extension(ending));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let [picture, animation] = ["svg", "gif"].map(|ending| folder.join(name).with_extension(ending));
     let drawn = [Some(&picture), example.animated.then_some(&animation)];
     for path in drawn.into_iter().flatten() {
         let _ = std::fs::remove_file(path);
@@ -96,6 +89,12 @@ fn run(example: &Example) -> Result<(String, f64), String> {
     let moves = |bytes: Vec<u8>| bytes.starts_with(b"GIF89a") && bytes.len() < 500_000;
     if example.animated && !std::fs::read(&animation).is_ok_and(moves) {
         return Err(format!("{name} draws no animation, or a large one"));
+    }
+    if std::env::var_os("BRINELL_WRITE").is_some() {
+        for path in drawn.into_iter().flatten() {
+            let file = path.file_name().expect("a picture has a name");
+            std::fs::copy(path, root().join("docs/examples").join(file)).map_err(|error| error.to_string())?;
+        }
     }
     Ok((text, seconds))
 }
