@@ -75,7 +75,7 @@ def program() -> Path:
         return built
     raise ProgramError(
         "the exporter brinell was not found: build it in the repository (cargo build --release), "
-        "put it on PATH (cargo install --path .), or set the variable BRINELL to its path"
+        "put it on PATH (cargo install --locked --path .), or set BRINELL to its path"
     )
 
 
