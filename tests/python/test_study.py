@@ -367,7 +367,7 @@ def test_a_command_that_is_stopped_says_how_to_go_on(monkeypatch, capsys):
 
     monkeypatch.setattr(line, "study", stopped)
     assert line.main(["study", str(SCENE), "--vary", "speed=1:2"]) == 130
-    assert "the same call goes on" in capsys.readouterr().err
+    assert "the same call continues" in capsys.readouterr().err
 
 
 def test_without_the_packages_of_a_study_the_command_says_what_to_install(monkeypatch, capsys):

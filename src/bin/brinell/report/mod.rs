@@ -16,6 +16,7 @@ mod ways;
 
 use crate::files::{FileError, write_whole};
 use crate::importer::ImportError;
+use crate::layout::paragraph;
 use crate::package::ExportError;
 use crate::scene::Scene;
 use card::Card;
@@ -57,17 +58,11 @@ pub fn run(
     if as_json {
         println!("{}", report.json());
     } else {
-        println!(
-            "{}\n{}",
-            report.lines().iter().map(|line| textwrap::fill(line, WIDTH)).collect::<Vec<_>>().join("\n"),
-            page.display()
-        );
+        report.lines().iter().for_each(|line| print!("{}", paragraph("", line)));
+        println!("{}", page.display());
     }
     Ok(report.all_right)
 }
-
-/// Columns of a terminal that are used.
-const WIDTH: usize = 100;
 
 /// All that was measured.
 pub struct Report {
