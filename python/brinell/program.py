@@ -71,14 +71,9 @@ def program() -> Path:
         if path is not None and Path(path).is_file():
             return Path(path)
     raise ProgramError(
-<<<<<<< HEAD
         "the exporter brinell was not found: install the wheel (pip install brinell), build it in "
-        "the repository (cargo build --release), put it on PATH (cargo install --path .), or set "
+        "the repository (cargo build --release), put it on PATH (cargo install --locked --path .), or set "
         "the variable BRINELL to its path"
-=======
-        "the exporter brinell was not found: build it in the repository (cargo build --release), "
-        "put it on PATH (cargo install --locked --path .), or set BRINELL to its path"
->>>>>>> h8
     )
 
 
