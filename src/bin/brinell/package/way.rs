@@ -6,7 +6,7 @@ use super::rustc::Rustc;
 use super::{ExportError, GUID_TO_COME, hash, identified, sources};
 use crate::plan::Plan;
 use crate::platform::Platform;
-use crate::prebuilt::{PrebuiltError, Unit};
+use crate::prebuilt::{PrebuiltError, StoreError, Unit};
 use crate::{constants, model_description};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
@@ -88,7 +88,11 @@ fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
         }
         Some((unit.library.name(), larger))
     };
-    let other = Unit::of(plan).map_err(|error| error.to_string());
+    let other = Unit::of(plan).map_err(|error| match error {
+        PrebuiltError::Store(StoreError::NoFolder) => "no prebuilt libraries are installed".into(),
+        PrebuiltError::NeedsCompiler(needs) => needs.to_string(),
+        other => other.to_string(),
+    });
     let other = other.and_then(|unit| larger(unit).ok_or_else(|| "there is none for these platforms".into()));
     Ok(Made { guid, description, libraries, how: How { time, by: By::Compiler(other) } })
 }
@@ -112,7 +116,7 @@ impl How {
                 "compiled in {seconds:.1} s; the prebuilt library `{name}` (--prebuilt) would save that, and take {larger} \
                  bytes more"
             ),
-            By::Compiler(Err(reason)) => format!("compiled in {seconds:.1} s, and can't be made without: {reason}"),
+            By::Compiler(Err(reason)) => format!("compiled in {seconds:.1} s; not prebuilt ({reason})"),
             By::Prebuilt(name, saves) => {
                 let saves = saves.map_or("some bytes".into(), |saves| format!("at least {saves} bytes"));
                 format!(
