@@ -76,6 +76,27 @@ pub enum Command {
     Laws(law_list::Arguments),
     /// Compile the libraries from which FMUs are made where there is no compiler
     Prebuild(PrebuildArguments),
+    /// Join FMUs of one scene that were made for different platforms
+    Merge {
+        /// The FMUs
+        #[arg(num_args = 2.., required = true)]
+        fmus: Vec<PathBuf>,
+        /// Where to write the FMU with the libraries of all
+        #[arg(short, long)]
+        output: PathBuf,
+    },
+    /// Fetch a compiler for all platforms, about 100 MB, into a folder of its own; an interrupted download continues
+    Toolchain {
+        /// The folder [default: that of BRINELL_TOOLCHAIN, or `toolchain` in the cache]
+        #[arg(long, value_name = "DIR")]
+        folder: Option<PathBuf>,
+        /// Also fetch what builds whole Rust programs: the source of the standard library, and the library for this machine
+        #[arg(long)]
+        std: bool,
+        /// Where Debian's security updates come from
+        #[arg(long, value_name = "URL", default_value = "https://deb.debian.org/debian-security")]
+        mirror: String,
+    },
     /// List the built-in materials
     Materials,
     /// Print the script that completes the arguments of this program in a shell

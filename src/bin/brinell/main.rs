@@ -23,6 +23,7 @@ mod law_text;
 mod laws;
 mod layout;
 mod materials;
+mod merge;
 mod model;
 mod model_description;
 mod nearest;
@@ -31,6 +32,7 @@ mod nominal;
 mod numbers;
 mod package;
 mod pairing;
+mod parallel;
 mod parameters;
 mod plan;
 mod platform;
@@ -138,6 +140,10 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Hardness(arguments)) => hardness::command::run(arguments, json)?,
         Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
         Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,
+        Some(Command::Merge { fmus, output }) => merge::run(fmus, output, json)?,
+        Some(Command::Toolchain { folder, std, mirror }) => {
+            toolchain::run(&toolchain::Wanted { folder: folder.as_deref(), std: *std, mirror }, json)?;
+        }
         Some(Command::Materials) => materials::run(json),
         Some(Command::Completions { shell }) => about::completions(*shell)?,
         Some(Command::Man { output }) => about::manual(output)?,

@@ -6,12 +6,17 @@ mod error;
 mod folder;
 mod library;
 mod link;
+mod resource;
 mod rustc;
+mod toolchain;
 mod universal;
 mod way;
 
 pub use error::ExportError;
-pub use library::{Source, build as build_library};
+pub use folder::Cache;
+pub use library::{Source, build as build_libraries};
+pub use rustc::Rustc;
+pub use toolchain::Toolchain;
 pub use way::{How, Way};
 
 use crate::files::write_whole;

@@ -79,7 +79,7 @@ fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
     let constants = constants::write(plan, GUID_TO_COME);
     let guid = hash([description.as_str(), &constants].into_iter().chain(sources()));
     let (description, constants) = (identified(&description, &guid), identified(&constants, &guid));
-    let libraries = library::build_all(&Source::Scene { plan, constants: &constants }, platforms)?;
+    let libraries = library::build(&Source::Scene { plan, constants: &constants }, platforms)?;
     let time = begin.elapsed();
     let larger = |unit: Unit| {
         let mut larger = 0;

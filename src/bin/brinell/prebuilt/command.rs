@@ -5,7 +5,7 @@ use super::store::{self, Written};
 use crate::arguments::PrebuildArguments;
 use crate::constants;
 use crate::files::FileError;
-use crate::package::{ExportError, Source, Way, build_library};
+use crate::package::{ExportError, Source, Way, build_libraries};
 use crate::plan::Plan;
 use crate::platform::Platform;
 use crate::symbols;
@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::{fs, thread};
+use std::{fs, slice, thread};
 
 /// The command: builds the libraries that are asked for, for each platform, and writes them into a folder.
 ///
@@ -102,7 +102,7 @@ fn build_all(libraries: &[Library], platform: &Platform) -> Result<Vec<Vec<u8>>,
 /// One prebuilt library.
 fn build(library: &Library, platform: &Platform) -> Result<Vec<u8>, ExportError> {
     let (text, _) = library.source();
-    let bytes = build_library(&Source::Kind { text: &text }, platform)?;
+    let bytes = build_libraries(&Source::Kind { text: &text }, slice::from_ref(platform))?.remove(0);
     let refused = |reason| ExportError::Symbols { platform: platform.folder, reason };
     symbols::check(&bytes, platform, false).map_err(refused)?;
     Ok(bytes)
@@ -119,7 +119,8 @@ fn compiling_saves(
         if !saves.contains_key(library.kind.name) {
             let plan = Plan::of(&library.scene);
             let constants = constants::write(&plan, &"0".repeat(32));
-            let compiled = build_library(&Source::Scene { plan: &plan, constants: &constants }, platform)?;
+            let source = Source::Scene { plan: &plan, constants: &constants };
+            let compiled = build_libraries(&source, slice::from_ref(platform))?.remove(0);
             saves.insert(library.kind.name.to_string(), bytes.len() as i64 - compiled.len() as i64);
         }
     }
