@@ -60,6 +60,27 @@ pub enum Command {
         #[arg(short, long, value_name = "FILE.svg")]
         output: Option<PathBuf>,
     },
+    /// Joins FMUs of one scene that were made for different platforms
+    Merge {
+        /// The FMUs
+        #[arg(num_args = 2.., required = true)]
+        fmus: Vec<PathBuf>,
+        /// Where to write the FMU with the libraries of all
+        #[arg(short, long)]
+        output: PathBuf,
+    },
+    /// Fetches a compiler for all platforms, about 100 MB, into a folder of its own; goes on where an earlier call stopped
+    Toolchain {
+        /// The folder [default: that of BRINELL_TOOLCHAIN, or `toolchain` in the cache]
+        #[arg(long, value_name = "DIR")]
+        folder: Option<PathBuf>,
+        /// Also what builds whole Rust programs: the source of the standard library, and the library for this machine
+        #[arg(long)]
+        std: bool,
+        /// Where Debian's security updates come from
+        #[arg(long, value_name = "URL", default_value = "https://deb.debian.org/debian-security")]
+        mirror: String,
+    },
     /// Lists the built-in materials
     Materials,
     /// Prints the Rust constants of a scene, as they are compiled into its unit

@@ -19,12 +19,14 @@ mod law_list;
 mod law_text;
 mod laws;
 mod materials;
+mod merge;
 mod model;
 mod model_description;
 mod nominal;
 mod numbers;
 mod package;
 mod pairing;
+mod parallel;
 mod parameters;
 mod plan;
 mod platform;
@@ -92,6 +94,10 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Predict(arguments)) => predict::command::run(arguments, json)?,
         Some(Command::Curve(arguments)) => curve::run(arguments)?,
         Some(Command::Laws { output }) => law_list::run(output.as_deref(), json)?,
+        Some(Command::Merge { fmus, output }) => merge::run(fmus, output, json)?,
+        Some(Command::Toolchain { folder, std, mirror }) => {
+            toolchain::run(&toolchain::Wanted { folder: folder.as_deref(), std: *std, mirror }, json)?;
+        }
         Some(Command::Materials) => materials::run(json),
         Some(Command::Constants { scene }) => {
             print!("{}", constants::write(&Plan::of(&Scene::read(scene)?), "unpacked"));

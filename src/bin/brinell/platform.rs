@@ -121,6 +121,17 @@ pub fn here() -> Result<Platform, NoPlatform> {
     Platform::ALL.iter().find(is_here).copied().ok_or(NoPlatform { os, arch })
 }
 
+/// The platforms whose library may run here, the likeliest first.
+///
+/// # Errors
+/// [`NoPlatform`]
+pub fn loadable() -> Result<Vec<Platform>, NoPlatform> {
+    let here = here()?;
+    let others = Platform::ALL.into_iter().chain([Platform::ARM64_IN_LINUX64]);
+    let others = others.filter(|other| *other != here && other.targets.contains(&here.targets[0]));
+    Ok([here].into_iter().chain(others).collect())
+}
+
 /// The platform with this folder.
 ///
 /// # Errors

@@ -81,16 +81,18 @@ impl Archive {
 
     /// Loads the binary for this machine.
     pub fn load(&self) -> Result<Unit, ImportError> {
-        let Platform { folder, extension, .. } = platform::here()?;
-        let name = format!("{}.{extension}", self.description.identifier);
-        let path = self.folder.path().join("binaries").join(folder).join(name);
-        if !path.exists() {
+        let loadable = platform::loadable()?;
+        let path = |platform: &Platform| {
+            let name = format!("{}.{}", self.description.identifier, platform.extension);
+            self.folder.path().join("binaries").join(platform.folder).join(name)
+        };
+        let Some(path) = loadable.iter().map(path).find(|path| path.exists()) else {
             let present = match self.platforms.iter().cloned().collect::<Vec<_>>().join(", ") {
                 none if none.is_empty() => "nor for any other".into(),
                 some => format!("only for {some}"),
             };
-            return Err(ImportError::Binary { wanted: folder.into(), present });
-        }
+            return Err(ImportError::Binary { wanted: loadable[0].folder.into(), present });
+        };
         Unit::load(&path, self.folder.path(), &self.description.guid)
     }
 }

@@ -4,39 +4,32 @@ use super::error::ExportError;
 use super::folder::Cache;
 use super::link::Linker;
 use super::rustc::Rustc;
+use super::toolchain::{Toolchain, help};
 use crate::platform::{System, Target};
-use crate::toolchain::Toolchain;
+use std::cell::OnceCell;
 
 /// The compilers that are there.
-pub struct Compilers {
+pub struct Compilers<'a> {
+    cache: &'a Cache,
     /// The user's, or why there is none.
     own: Result<Rustc, ExportError>,
-    /// That of the toolchain which `brinell toolchain` has fetched.
-    fetched: Option<(Toolchain, Rustc)>,
+    toolchain: Toolchain,
+    /// That of the toolchain, asked for only when it is needed; or why it doesn't work.
+    fetched: OnceCell<Result<Rustc, ExportError>>,
 }
 
-impl Compilers {
-    /// Looks for compilers.
-    ///
-    /// # Errors
-    /// [`ExportError`] if the toolchain that was fetched doesn't work.
-    pub fn find(cache: &Cache) -> Result<Compilers, ExportError> {
+impl Compilers<'_> {
+    /// Looks for the user's compiler.
+    pub fn find(cache: &Cache) -> Compilers<'_> {
         let own = Rustc::find(&cache.folder);
-        let fetched = match Toolchain::existing(&cache.folder) {
-            None => None,
-            Some(toolchain) => {
-                let rustc = Rustc::at(toolchain.rustc(), &cache.folder)?;
-                Some((toolchain, rustc))
-            }
-        };
-        Ok(Compilers { own, fetched })
+        Compilers { cache, own, toolchain: Toolchain::of(&cache.folder), fetched: OnceCell::new() }
     }
 
     /// The compiler and the linker for `target`: the user's, if they can compile for it.
     ///
     /// # Errors
     /// [`ExportError`] that says what is missing and how to get it.
-    pub fn for_target(self: &Compilers, target: &Target) -> Result<(&Rustc, Linker), ExportError> {
+    pub fn for_target(&self, target: &Target) -> Result<(&Rustc, Linker), ExportError> {
         if let Ok(own) = &self.own {
             if target.is_here() && target.system == System::Linux {
                 return Ok((own, Linker::Driver));
@@ -45,27 +38,38 @@ impl Compilers {
                 return Ok((own, Linker::Lld(lld)));
             }
         }
-        if let Some((toolchain, rustc)) = &self.fetched
-            && let (true, Some(lld)) = (rustc.has(target), rustc.lld())
+        if let Some(Ok(fetched)) = self.fetched()
+            && let (true, Some(lld)) = (fetched.has(target), fetched.lld())
         {
             let linker = match target.system {
-                System::Linux => Linker::DriverOf(toolchain.driver()),
+                System::Linux => Linker::DriverOf(self.toolchain.driver()),
                 System::Windows | System::MacOs => Linker::Lld(lld),
             };
-            return Ok((rustc, linker));
+            return Ok((fetched, linker));
         }
         Err(self.missing(target))
     }
 
+    fn fetched(&self) -> Option<&Result<Rustc, ExportError>> {
+        let find = || Rustc::at(self.toolchain.rustc(), &self.cache.folder);
+        self.toolchain.is_whole().then(|| self.fetched.get_or_init(find))
+    }
+
     /// What is missing for `target`.
     fn missing(&self, target: &Target) -> ExportError {
-        let has_target = self.own.as_ref().is_ok_and(|own| own.has(target));
         let triple = target.triple;
-        let reason = match &self.own {
-            Ok(_) if has_target => "the Rust toolchain has no `rust-lld`, which links for other systems".into(),
-            Ok(_) => format!("the Rust toolchain has no target {triple}"),
-            Err(error) => error.to_string(),
+        let reason = match (&self.own, self.fetched()) {
+            (_, Some(Err(error))) => format!("that of {} fails: {error}", self.toolchain.folder.display()),
+            (Err(error), _) => error.to_string(),
+            (Ok(own), _) if own.has(target) => {
+                "the Rust toolchain has no `rust-lld`, which links for other systems".into()
+            }
+            (Ok(_), _) => format!("the Rust toolchain has no target {triple}"),
         };
-        ExportError::NoTarget { triple, reason, help: crate::toolchain::help(triple) }
+        match (&self.own, target.is_here()) {
+            // for this machine the user's compiler is all that is needed
+            (Err(_), true) => ExportError::NoCompiler { reason },
+            _ => ExportError::NoTarget { triple, reason, help: help(target) },
+        }
     }
 }

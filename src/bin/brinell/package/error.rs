@@ -21,6 +21,8 @@ pub enum ExportError {
     BrokenRustc(String),
     #[error("rustc {found} is too old: units need {needed} or newer (`rustup update`)")]
     OldRustc { found: String, needed: &'static str },
+    #[error("{reason}")]
+    NoCompiler { reason: String },
     #[error("no library can be built for {triple}: {reason}; {help}")]
     NoTarget { triple: &'static str, reason: String, help: String },
     #[error("there is no C linker `{linker}`, which rustc makes the library with: {install}")]

@@ -5,14 +5,13 @@ use super::error::ExportError;
 use super::folder::Cache;
 use super::link::{self, Linker};
 use super::rustc::Rustc;
-use super::{LIBM_SOURCE, LIBRARY_SOURCE, hash, universal};
+use super::{LIBM_SOURCE, LIBRARY_SOURCE, hash, resource, universal};
 use crate::files::FileError;
+use crate::parallel;
 use crate::platform::{Platform, System, Target};
 use crate::scene::Scene;
-use std::num::NonZero;
-use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
-use std::{fs, io, slice, thread};
+use std::{fs, io};
 
 /// How everything is compiled. There is nothing to unwind, and one piece of code is optimized as one.
 const SETTINGS: [&str; 4] = ["-Cpanic=abort", "-Ccodegen-units=1", "-Cdebuginfo=0", "--cap-lints=allow"];
@@ -56,22 +55,14 @@ const BYTES: [&str; 6] =
 const BYTES_ROOT: (&str, &str) =
     ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\nmod bytes;\n");
 
-/// Compiles the library of `platform` with `constants` as its scene and gives its bytes.
+/// Compiles the libraries of `platforms` with `constants` as their scene and gives their bytes. What two platforms share is
+/// compiled once, and several targets at the same time.
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn build(scene: &Scene, constants: &str, platform: &Platform) -> Result<Vec<u8>, ExportError> {
-    let mut libraries = build_all(scene, constants, slice::from_ref(platform))?;
-    Ok(libraries.remove(0))
-}
-
-/// The libraries of `platforms`, as of [`build`]. What two platforms share is compiled once, and several targets at the same time.
-///
-/// # Errors
-/// [`ExportError`]
-pub fn build_all(scene: &Scene, constants: &str, platforms: &[Platform]) -> Result<Vec<Vec<u8>>, ExportError> {
+pub fn build(scene: &Scene, constants: &str, platforms: &[Platform]) -> Result<Vec<Vec<u8>>, ExportError> {
     let cache = Cache::open()?;
-    let compilers = Compilers::find(&cache)?;
+    let compilers = Compilers::find(&cache);
     let mut targets: Vec<Target> = Vec::new();
     for target in platforms.iter().flat_map(|platform| platform.targets) {
         if !targets.contains(target) {
@@ -85,17 +76,7 @@ pub fn build_all(scene: &Scene, constants: &str, platforms: &[Platform]) -> Resu
         Ok(Build { cache: &cache, folder: folder.path().join(target.triple), rustc, linker, target: *target })
     });
     let builds = builds.collect::<Result<Vec<_>, ExportError>>()?;
-    let mut slices = Vec::new();
-    for at_once in builds.chunks(thread::available_parallelism().map_or(1, NonZero::get)) {
-        let built: Vec<_> = thread::scope(|scope| {
-            let threads = at_once.iter().map(|build| scope.spawn(|| build.run(scene, constants)));
-            let threads: Vec<_> = threads.collect();
-            threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
-        });
-        for library in built {
-            slices.push(library?);
-        }
-    }
+    let slices = parallel::each(&builds, |build| build.run(scene, constants))?;
     let slice = |target: &Target| {
         let at = targets.iter().position(|other| other == target).expect("every target was built");
         slices[at].as_slice()
@@ -126,7 +107,10 @@ impl Build<'_> {
             let bytes = "bytes.obj";
             let settings = settings.iter().filter(|setting| !setting.starts_with("-Copt-level"));
             rustc.run(folder, settings.chain(&BYTES).chain(&[bytes, BYTES_ROOT.0]), &[])?;
-            objects.push(bytes);
+            let version = "version.res";
+            let path = folder.join(version);
+            fs::write(&path, resource::version(&scene.name)).map_err(FileError::at(&path))?;
+            objects.extend([bytes, version]);
         }
         let library = format!("{}.{}", scene.name, target.system.extension());
         let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library].map(String::from);

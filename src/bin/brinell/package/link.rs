@@ -26,7 +26,7 @@ targets:         [ x86_64-macos, arm64-macos ]
 install-name:    '/usr/lib/libSystem.B.dylib'
 exports:
   - targets:     [ x86_64-macos, arm64-macos ]
-    symbols:     [ _calloc, _free, _memcpy, _memmove, _memset, _memcmp, _bcmp, _bzero, _strlen, dyld_stub_binder ]
+    symbols:     [ _calloc, _free, _memcpy, _memmove, _memset, _memcmp, _bcmp, _bzero, ___bzero, _strlen, dyld_stub_binder ]
 ...
 ",
 );

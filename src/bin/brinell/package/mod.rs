@@ -6,10 +6,15 @@ mod error;
 mod folder;
 mod library;
 mod link;
+mod resource;
 mod rustc;
+mod toolchain;
 mod universal;
 
 pub use error::ExportError;
+pub use folder::Cache;
+pub use rustc::Rustc;
+pub use toolchain::Toolchain;
 
 use crate::files::write_whole;
 use crate::plan::Plan;
@@ -79,7 +84,7 @@ pub fn export(plan: &Plan, platforms: &[Platform], path: &Path) -> Result<Export
 pub fn build(plan: &Plan, platforms: &[Platform]) -> Result<(Vec<u8>, Exported), ExportError> {
     let scene = plan.scene;
     let Identified { guid, description, constants } = Identified::of(plan);
-    let built = library::build_all(scene, &constants, platforms)?;
+    let built = library::build(scene, &constants, platforms)?;
     let mut libraries = Vec::new();
     for (platform, library) in platforms.iter().zip(&built) {
         let refused = |reason| ExportError::Symbols { platform: platform.folder, reason };

@@ -5,8 +5,6 @@ mod linux;
 mod macos;
 mod windows;
 
-pub use macos::{Page, pages};
-
 use crate::platform::{Platform, Processor, System, Target};
 use object::read::NameOrOrdinal;
 use object::read::macho::{FatArch, MachOFatFile32};
@@ -54,8 +52,8 @@ pub const FUNCTIONS: [&str; 34] = [
 /// What an FMU may take from the C library of its process: memory, and what compilers make of loops over it.
 const FROM_C: [&str; 8] = ["calloc", "free", "memcpy", "memmove", "memset", "memcmp", "bcmp", "strlen"];
 
-/// What it may take on macOS beside that: another name of `memset`, and the function that binds the others.
-const FROM_MACOS: [&str; 2] = ["bzero", "dyld_stub_binder"];
+/// What it may take on macOS beside that: `memset` to zero under its names there, and the function that binds the others.
+const FROM_MACOS: [&str; 3] = ["bzero", "__bzero", "dyld_stub_binder"];
 
 /// What it may take on Windows.
 const FROM_KERNEL32: [&str; 3] = ["GetProcessHeap", "HeapAlloc", "HeapFree"];

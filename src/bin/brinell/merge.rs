@@ -1,0 +1,151 @@
+//! `brinell merge`: joins FMUs of one scene that were made for different platforms.
+
+use crate::files::{FileError, write_whole};
+use crate::importer::{Description, ImportError};
+use crate::package::{self, ExportError};
+use crate::platform::Platform;
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::fs;
+use std::io::{self, Cursor, Read};
+use std::path::{Path, PathBuf};
+use zip::ZipArchive;
+
+const DESCRIPTION: &str = "modelDescription.xml";
+const BINARIES: &str = "binaries/";
+
+/// FMUs that can't be joined.
+#[derive(Debug, thiserror::Error)]
+pub enum MergeError {
+    #[error("{0}")]
+    File(#[from] FileError),
+    #[error("{0}")]
+    Export(#[from] ExportError),
+    #[error("{path}: {reason}", path = path.display())]
+    NoFmu { path: PathBuf, reason: ImportError },
+    #[error("{path}: it has two files {name}", path = path.display())]
+    Twice { path: PathBuf, name: String },
+    #[error(
+        "{} and {} are not of one scene: their GUIDs are {} and {}",
+        one.path.display(), other.path.display(), one.guid, other.guid
+    )]
+    Guid { one: Box<Fmu>, other: Box<Fmu> },
+    #[error("{} and {} both have files for {platform}, which differ", one.display(), other.display())]
+    Platform { one: PathBuf, other: PathBuf, platform: String },
+    #[error("{} and {} differ in {name}", one.display(), other.display())]
+    Part { one: PathBuf, other: PathBuf, name: String },
+}
+
+/// An FMU that was read.
+#[derive(Debug)]
+pub struct Fmu {
+    path: PathBuf,
+    guid: String,
+    /// Bytes of its files by name.
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+/// The command: joins the FMUs at `paths` to `output`.
+///
+/// # Errors
+/// [`MergeError`]; nothing is then written.
+pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeError> {
+    let fmus = paths.iter().map(|path| Fmu::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let files = join(fmus)?;
+    let files: Vec<(String, &[u8])> = files.iter().map(|(name, bytes)| (name.clone(), bytes.as_slice())).collect();
+    let archive = package::archive(&files)?;
+    write_whole(output, &archive)?;
+    let mut platforms: Vec<_> = files.iter().filter_map(|(name, _)| platform(name)).collect();
+    platforms.dedup();
+    if as_json {
+        println!("{}", json!({ "fmu": output, "size": archive.len(), "platforms": platforms }));
+    } else {
+        println!("{}\n  {} bytes, for {}", output.display(), archive.len(), platforms.join(", "));
+    }
+    Ok(())
+}
+
+impl Fmu {
+    fn read(path: &Path) -> Result<Fmu, MergeError> {
+        let refused = |reason: ImportError| MergeError::NoFmu { path: path.into(), reason };
+        let bytes = fs::read(path).map_err(FileError::at(path))?;
+        let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| refused(error.into()))?;
+        let mut files = BTreeMap::new();
+        for index in 0..archive.len() {
+            let mut file = archive.by_index(index).map_err(|error| refused(error.into()))?;
+            if file.is_dir() {
+                continue;
+            }
+            let name = file.name().map_err(|error| refused(error.into()))?.into_owned();
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes).map_err(|error| refused(ImportError::Unpack(error)))?;
+            if files.insert(name.clone(), bytes).is_some() {
+                return Err(MergeError::Twice { path: path.into(), name });
+            }
+        }
+        let missing = || ImportError::Part { name: DESCRIPTION, source: io::ErrorKind::NotFound.into() };
+        let text = files.get(DESCRIPTION).ok_or_else(missing).map_err(refused)?;
+        let Description { guid, .. } = Description::parse(&String::from_utf8_lossy(text)).map_err(refused)?;
+        Ok(Fmu { path: path.into(), guid, files })
+    }
+
+    /// The files of a platform by name.
+    fn of_platform(&self, platform: &str) -> Vec<(&String, &Vec<u8>)> {
+        self.files.iter().filter(|(name, _)| self::platform(name) == Some(platform)).collect()
+    }
+}
+
+/// The platform that a file of an FMU is for.
+fn platform(name: &str) -> Option<&str> {
+    let (platform, _) = name.strip_prefix(BINARIES)?.split_once('/')?;
+    Some(platform)
+}
+
+/// The files of all FMUs, in the order in which an export writes them.
+fn join(fmus: Vec<Fmu>) -> Result<Vec<(String, Vec<u8>)>, MergeError> {
+    for (index, other) in fmus.iter().enumerate() {
+        if let Some(one) = fmus[..index].iter().find(|one| one.guid != other.guid) {
+            let copy = |fmu: &Fmu| Fmu { path: fmu.path.clone(), guid: fmu.guid.clone(), files: BTreeMap::new() };
+            return Err(MergeError::Guid { one: copy(one).into(), other: copy(other).into() });
+        }
+        for one in &fmus[..index] {
+            let (one_path, other_path) = (one.path.clone(), other.path.clone());
+            let of_both = other.files.keys().filter_map(|name| platform(name));
+            let differ = |platform: &&str| {
+                let files = one.of_platform(platform);
+                !files.is_empty() && files != other.of_platform(platform)
+            };
+            if let Some(platform) = of_both.into_iter().find(differ) {
+                return Err(MergeError::Platform { one: one_path, other: other_path, platform: platform.into() });
+            }
+        }
+    }
+    let mut all: BTreeMap<String, (Vec<u8>, PathBuf)> = BTreeMap::new();
+    for Fmu { path, files, .. } in fmus {
+        for (name, bytes) in files {
+            match all.entry(name) {
+                Entry::Vacant(place) => drop(place.insert((bytes, path.clone()))),
+                Entry::Occupied(there) if there.get().0 == bytes => {}
+                Entry::Occupied(there) => {
+                    let (name, one) = (there.key().clone(), there.get().1.clone());
+                    return Err(MergeError::Part { one, other: path, name });
+                }
+            }
+        }
+    }
+    let mut files: Vec<_> = all.into_iter().map(|(name, (bytes, _))| (name, bytes)).collect();
+    files.sort_by_key(|(name, _)| rank(name));
+    Ok(files)
+}
+
+/// The place of a file in the archive of an export; equal ones are in the order of their names.
+fn rank(name: &str) -> usize {
+    let known = |folder: &str| Platform::ALL.iter().position(|platform| platform.folder == folder);
+    match (name, platform(name)) {
+        (DESCRIPTION, _) => 0,
+        ("model.png", _) => 1,
+        (_, Some(platform)) => 2 + known(platform).unwrap_or(Platform::ALL.len()),
+        _ => 3 + Platform::ALL.len(),
+    }
+}

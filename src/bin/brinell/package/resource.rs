@@ -1,0 +1,160 @@
+//! The version resource of a Windows library: what the properties of the file show.
+//!
+//! Reference: *Resource File Formats*, *VS_VERSIONINFO* and *VS_FIXEDFILEINFO* of the Windows documentation. The linker makes
+//! the section `.rsrc` of it.
+
+/// Type and name of a version resource: number 16, called 1.
+const RT_VERSION: u16 = 16;
+const NAME: u16 = 1;
+
+/// English of the United States, in UTF-16.
+const LANGUAGE: u16 = 0x0409;
+const CODE_PAGE: u16 = 1200;
+
+const FIXED_SIGNATURE: u32 = 0xFEEF_04BD;
+const FIXED_VERSION: u32 = 0x0001_0000;
+const MASK_OF_FLAGS: u32 = 0x3F;
+const VOS_NT_WINDOWS32: u32 = 0x0004_0004;
+const VFT_DLL: u32 = 2;
+
+/// What a block holds.
+enum Value<'a> {
+    Nothing,
+    Text(&'a str),
+    Bytes(&'a [u8]),
+}
+
+/// A resource file (`.res`) with the version of the library of the scene `name`.
+pub fn version(name: &str) -> Vec<u8> {
+    let version = env!("CARGO_PKG_VERSION");
+    let strings = [
+        ("FileDescription", "FMI 2.0 co-simulation FMU"),
+        ("FileVersion", version),
+        ("InternalName", name),
+        ("OriginalFilename", &format!("{name}.dll")),
+        ("ProductName", "Brinell"),
+        ("ProductVersion", version),
+    ];
+    let strings: Vec<_> = strings.iter().map(|(key, text)| block(key, &Value::Text(text), &[])).collect();
+    let table = block(&format!("{LANGUAGE:04X}{CODE_PAGE:04X}"), &Value::Nothing, &strings);
+    let translation: Vec<u8> = [LANGUAGE, CODE_PAGE].into_iter().flat_map(u16::to_le_bytes).collect();
+    let translation = block("Translation", &Value::Bytes(&translation), &[]);
+    let children =
+        [block("StringFileInfo", &Value::Nothing, &[table]), block("VarFileInfo", &Value::Nothing, &[translation])];
+    let data = block("VS_VERSION_INFO", &Value::Bytes(&fixed(version)), &children);
+    // an empty resource comes first in every resource file
+    [resource(0, 0, 0, &[]), resource(RT_VERSION, NAME, LANGUAGE, &data)].concat()
+}
+
+/// A resource with its header.
+fn resource(kind: u16, name: u16, language: u16, data: &[u8]) -> Vec<u8> {
+    const HEADER_SIZE: u32 = 32;
+    let mut bytes: Vec<u8> = [data.len() as u32, HEADER_SIZE].into_iter().flat_map(u32::to_le_bytes).collect();
+    // type and name are numbers; version of the data; flags; language; version and characteristics
+    let words = [0xFFFF, kind, 0xFFFF, name, 0, 0, 0, language, 0, 0, 0, 0];
+    bytes.extend(words.into_iter().flat_map(u16::to_le_bytes));
+    bytes.extend(data);
+    align(&mut bytes);
+    bytes
+}
+
+/// The numbers of a version: that of the file and that of the product are the same.
+fn fixed(version: &str) -> Vec<u8> {
+    let mut parts = version.split(['.', '-', '+']).map(|part| part.parse::<u32>().unwrap_or(0));
+    let mut next = || parts.next().unwrap_or(0);
+    let (high, low) = (next() << 16 | next(), next() << 16);
+    let flags = 0;
+    let values = [
+        FIXED_SIGNATURE,
+        FIXED_VERSION,
+        high,
+        low,
+        high,
+        low,
+        MASK_OF_FLAGS,
+        flags,
+        VOS_NT_WINDOWS32,
+        VFT_DLL,
+        0,
+        0,
+        0,
+    ];
+    values.into_iter().flat_map(u32::to_le_bytes).collect()
+}
+
+/// A block: its length, that of its value, whether this is text, its key, the value, and the blocks in it.
+fn block(key: &str, value: &Value, children: &[Vec<u8>]) -> Vec<u8> {
+    let utf16 = |text: &str| -> Vec<u8> { text.encode_utf16().chain([0]).flat_map(u16::to_le_bytes).collect() };
+    let (value, length, is_text) = match value {
+        Value::Nothing => (Vec::new(), 0, 1u16),
+        // the length of text counts characters
+        Value::Text(text) => (utf16(text), utf16(text).len() / 2, 1),
+        Value::Bytes(bytes) => (bytes.to_vec(), bytes.len(), 0),
+    };
+    let mut bytes: Vec<u8> = [0, length as u16, is_text].into_iter().flat_map(u16::to_le_bytes).collect();
+    bytes.extend(utf16(key));
+    align(&mut bytes);
+    bytes.extend(value);
+    for child in children {
+        align(&mut bytes);
+        bytes.extend(child);
+    }
+    let length = bytes.len() as u16;
+    bytes[..2].copy_from_slice(&length.to_le_bytes());
+    bytes
+}
+
+/// Everything begins at a multiple of four bytes.
+fn align(bytes: &mut Vec<u8>) {
+    bytes.resize(bytes.len().next_multiple_of(4), 0);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::version;
+
+    fn number(bytes: &[u8], at: usize) -> usize {
+        usize::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]))
+    }
+
+    /// All texts of a block and those in it, read back as Windows does.
+    fn texts(block: &[u8]) -> Vec<(String, String)> {
+        let length = |text: &[u8]| text.chunks(2).position(|pair| pair == [0, 0]).expect("an end");
+        let text = |bytes: &[u8]| {
+            let units = bytes.chunks(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
+            String::from_utf16(&units.collect::<Vec<_>>()).unwrap()
+        };
+        let key = text(&block[6..6 + 2 * length(&block[6..])]);
+        let value = (6 + 2 * key.len() + 2).next_multiple_of(4);
+        let is_text = number(block, 4) == 1;
+        let size = number(block, 2) * if is_text { 2 } else { 1 };
+        let mut found = Vec::new();
+        if is_text && size > 0 {
+            found.push((key, text(&block[value..value + size - 2])));
+        }
+        let mut at = (value + size).next_multiple_of(4);
+        while at < block.len() {
+            let length = number(block, at);
+            found.extend(texts(&block[at..at + length]));
+            at = (at + length).next_multiple_of(4);
+        }
+        found
+    }
+
+    #[test]
+    fn the_blocks_are_read_back() {
+        let file = version("steel_ball");
+        assert_eq!(file.len() % 4, 0);
+        let resource = &file[32..];
+        assert_eq!((number(resource, 0), number(resource, 4)), (resource.len() - 32, 32));
+        let block = &resource[32..];
+        assert_eq!(number(block, 0), block.len());
+        let texts = texts(block);
+        let text =
+            |key: &str| texts.iter().find(|(name, _)| name == key).unwrap_or_else(|| panic!("no {key}")).1.as_str();
+        assert_eq!(text("ProductName"), "Brinell");
+        assert_eq!(text("InternalName"), "steel_ball");
+        assert_eq!(text("OriginalFilename"), "steel_ball.dll");
+        assert_eq!(text("ProductVersion"), env!("CARGO_PKG_VERSION"));
+    }
+}

@@ -1,0 +1,49 @@
+//! Work on several processors.
+
+use std::num::NonZero;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// What `work` gives for each of the `items`, in their order. As many are worked on at once as there are processors.
+///
+/// # Errors
+/// That of the first item which has one.
+pub fn each<T: Sync, R: Send, E: Send>(items: &[T], work: impl Fn(&T) -> Result<R, E> + Sync) -> Result<Vec<R>, E> {
+    let next = AtomicUsize::new(0);
+    let worker = || {
+        let mut done = Vec::new();
+        while let Some((index, item)) =
+            Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|index| Some((index, items.get(index)?)))
+        {
+            done.push((index, work(item)));
+        }
+        done
+    };
+    let processors = thread::available_parallelism().map_or(1, NonZero::get).min(items.len());
+    let mut done: Vec<(usize, Result<R, E>)> = thread::scope(|scope| {
+        let threads: Vec<_> = (0..processors).map(|_| scope.spawn(worker)).collect();
+        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+    });
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::each;
+
+    #[test]
+    fn the_results_come_in_the_order_of_the_items() {
+        let items: Vec<u32> = (0..100).collect();
+        assert_eq!(each(&items, |item| Ok::<_, ()>(2 * item)), Ok(items.iter().map(|item| 2 * item).collect()));
+        assert_eq!(each(&[] as &[u32], |_| Ok::<u32, ()>(0)), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn the_first_error_is_given() {
+        let items: Vec<u32> = (0..100).collect();
+        let odd_ones_fail = |item: &u32| if item % 2 == 1 { Err(*item) } else { Ok(()) };
+        assert_eq!(each(&items, odd_ones_fail), Err(1));
+    }
+}

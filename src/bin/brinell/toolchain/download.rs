@@ -1,0 +1,127 @@
+//! Downloads, by curl: it knows the proxies and the certificates of the system, and goes on with a file that is there in part.
+//!
+//! A library for HTTPS would bring more code than the rest of the program, some of it in C or assembler, for a command that
+//! is used once on a machine.
+
+use super::ToolchainError;
+use super::deb;
+use super::index::Package;
+use crate::files::FileError;
+use indicatif::{ProgressBar, ProgressStyle};
+use sha2::{Digest, Sha256};
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
+
+/// Where files come from, and the folder that they go to.
+pub struct Source<'a> {
+    pub mirror: &'a str,
+    pub folder: &'a Path,
+}
+
+/// How often progress is shown.
+const TICK: Duration = Duration::from_millis(100);
+
+impl Source<'_> {
+    /// The text of a file in xz.
+    ///
+    /// # Errors
+    /// [`ToolchainError`]
+    pub fn index(&self, path: &str) -> Result<String, ToolchainError> {
+        let (url, file) = (self.url(path), self.folder.join("index.xz"));
+        // the one of an earlier call may be old
+        let _ = fs::remove_file(&file);
+        eprintln!("reading {url} ...");
+        curl(&url, &file, |_| {})?;
+        let bytes = fs::read(&file).map_err(FileError::at(&file))?;
+        let text = deb::unxz(&bytes).and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
+        text.map_err(|error| ToolchainError::Package { package: url, reason: error.to_string() })
+    }
+
+    /// Downloads what isn't there yet of the packages; gives their files, of which the hash is right.
+    ///
+    /// # Errors
+    /// [`ToolchainError`]; what has been downloaded stays, unless it is damaged.
+    pub fn packages(&self, packages: &[Package]) -> Result<Vec<PathBuf>, ToolchainError> {
+        let all: u64 = packages.iter().map(|package| package.size).sum();
+        let style = ProgressStyle::with_template("{bar:30} {bytes} of {total_bytes}, {eta} left  {wide_msg}");
+        let bar = ProgressBar::new(all).with_style(style.expect("a good template"));
+        if bar.is_hidden() {
+            eprintln!("downloading {} packages, {} MB ...", packages.len(), all / 1_000_000);
+        }
+        let (mut files, mut before) = (Vec::new(), 0);
+        for package in packages {
+            bar.set_message(package.name.clone());
+            if bar.is_hidden() {
+                eprintln!("downloading {}, {} MB ...", package.name, package.size / 1_000_000);
+            }
+            files.push(self.package(package, |there| bar.set_position(before + there))?);
+            before += package.size;
+        }
+        bar.finish_and_clear();
+        Ok(files)
+    }
+
+    fn package(&self, package: &Package, progress: impl Fn(u64)) -> Result<PathBuf, ToolchainError> {
+        let url = self.url(&package.path);
+        let file = self.folder.join(format!("{}_{}.deb", package.name, &package.sha256));
+        if !file.is_file() {
+            let part = file.with_extension("part");
+            let there = || fs::metadata(&part).map_or(0, |metadata| metadata.len());
+            if there() < package.size {
+                curl(&url, &part, &progress)?;
+            }
+            let found = hash(&part).map_err(FileError::at(&part))?;
+            if found != package.sha256 {
+                let size = there();
+                fs::remove_file(&part).map_err(FileError::at(&part))?;
+                let found = format!("{size} bytes with the hash {found}");
+                let wanted = format!("{} bytes with {}", package.size, package.sha256);
+                return Err(ToolchainError::Damaged { url, found, wanted });
+            }
+            fs::rename(&part, &file).map_err(FileError::at(&file))?;
+        }
+        progress(package.size);
+        Ok(file)
+    }
+
+    fn url(&self, path: &str) -> String {
+        format!("{}/{path}", self.mirror.trim_end_matches('/'))
+    }
+}
+
+/// Downloads `url` to `file`, and goes on with what is there of it.
+fn curl(url: &str, file: &Path, progress: impl Fn(u64)) -> Result<(), ToolchainError> {
+    let mut curl = Command::new("curl");
+    curl.args(["--fail", "--location", "--silent", "--show-error", "--retry", "3", "--connect-timeout", "30"]);
+    // a connection that stands still is cut, and tried again by the user
+    curl.args(["--speed-limit", "1", "--speed-time", "60", "--continue-at", "-", "--output"]).arg(file).arg(url);
+    curl.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = curl.spawn().map_err(ToolchainError::NoCurl)?;
+    while child.try_wait().map_err(ToolchainError::NoCurl)?.is_none() {
+        progress(fs::metadata(file).map_or(0, |metadata| metadata.len()));
+        thread::sleep(TICK);
+    }
+    let output = child.wait_with_output().map_err(ToolchainError::NoCurl)?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    let said = said.lines().last().unwrap_or("curl says nothing").trim().to_string();
+    Err(ToolchainError::Download { url: url.into(), said })
+}
+
+/// SHA-256 of a file, in hexadecimal digits.
+fn hash(path: &Path) -> io::Result<String> {
+    let mut file = File::open(path)?;
+    let (mut hash, mut bytes) = (Sha256::new(), vec![0; 1 << 16]);
+    loop {
+        match file.read(&mut bytes)? {
+            0 => return Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()),
+            count => hash.update(&bytes[..count]),
+        }
+    }
+}

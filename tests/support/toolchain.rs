@@ -1,0 +1,35 @@
+//! The compiler for all platforms, where there is one.
+
+use std::env;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The cache that tests build in, where the toolchain is if no other one is named.
+fn cache() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
+}
+
+/// The folder of the toolchain: that of `BRINELL_TOOLCHAIN`, or the one in the cache of the tests. With `BRINELL_PLATFORMS=all` it is
+/// fetched if it isn't there, about 100 MB. None, with a word that no test runner hides, if there is none.
+pub fn toolchain() -> Option<PathBuf> {
+    let named = env::var_os("BRINELL_TOOLCHAIN").filter(|value| !value.is_empty()).map(PathBuf::from);
+    let folder = named.unwrap_or_else(|| cache().join("toolchain"));
+    if env::var_os("BRINELL_PLATFORMS").is_some_and(|value| value == "all") {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        command.arg("toolchain").arg("--folder").arg(&folder).env("BRINELL_CACHE", cache());
+        let status = command.status().expect("cargo has built the program");
+        assert!(status.success(), "the toolchain can't be fetched");
+    }
+    if folder.join("packages.json").is_file() {
+        return Some(folder);
+    }
+    // written past the capture of the test runner
+    let _ = writeln!(
+        io::stderr(),
+        "SKIPPED: libraries for other platforms, since there is no toolchain in {}. \
+         BRINELL_PLATFORMS=all cargo test --release --test platforms fetches it (100 MB) and tests them.",
+        folder.display()
+    );
+    None
+}
