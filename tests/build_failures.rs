@@ -90,8 +90,20 @@ fn a_linker_that_is_no_program_is_named() {
 #[test]
 fn without_a_rust_toolchain_the_message_says_where_to_get_one() {
     let empty = empty_folder();
-    let message = message(|command| command.env_remove("CARGO").env("PATH", empty.path()));
-    contains(&message, &["rustc can't be started", "Rust toolchain", "rustup.rs"]);
+    let bare = |command: &mut Command| {
+        command.env_remove("CARGO").env("PATH", empty.path()).env("BRINELL_PREBUILT", empty.path());
+    };
+    let parts = ["no Rust toolchain on PATH", "rustup.rs", "no prebuilt libraries in", "BRINELL_PREBUILT"];
+    let any = message(|command| {
+        bare(command);
+        command
+    });
+    contains(&any, &parts);
+    let compiled = message(|command| {
+        bare(command);
+        command.arg("--compile")
+    });
+    contains(&compiled, &["rustc can't be started", "Rust toolchain", "rustup.rs"]);
 }
 
 #[test]

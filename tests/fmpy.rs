@@ -1,38 +1,22 @@
 //! Units in the hands of fmpy, the importer that most Python users have: one test for each file in tests/fmpy/.
 //!
-//! The units are exported by the program as a user would do it. The files can be run alone, too: see [`pytest`].
+//! The units are exported by the program as a user would do it. The files can be run alone, too: see [`pytest::pytest`].
 
+#[path = "support/pytest.rs"]
+mod pytest;
 #[path = "support/python.rs"]
 mod python;
 #[path = "support/unit.rs"]
 mod unit;
 
-use std::collections::HashMap;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 use unit::{export, plain_scenes, scene, scenes, steel_ball_with_regime, write_scene};
 
-/// Runs tests/fmpy/`file` with the units of `scenes`, whose paths it finds as JSON in the variable BRINELL_TEST_UNITS,
-/// by the name of the scene, and the program in BRINELL_TEST_PROGRAM.
+/// Runs tests/fmpy/`file` with the units of `scenes`.
 fn pytest(file: &str, scenes: &[PathBuf]) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmpy");
-    assert!(folder.join(file).is_file(), "there is no tests/fmpy/{file}");
-    let units: HashMap<_, _> =
-        scenes.iter().map(|scene| (scene.file_stem().unwrap().to_string_lossy(), export(scene))).collect();
-    let output = Command::new(python::python())
-        .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
-        .current_dir(folder)
-        .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
-        .env("BRINELL_TEST_PROGRAM", env!("CARGO_BIN_EXE_brinell"))
-        .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
-        // nothing is left behind in the source tree
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .output()
-        .expect("the virtual environment has an interpreter");
-    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{file} failed:\n{text}");
-    println!("{text}");
+    let name = |scene: &PathBuf| scene.file_stem().unwrap().to_string_lossy().into_owned();
+    pytest::pytest(file, &scenes.iter().map(|scene| (name(scene), export(scene))).collect());
 }
 
 fn steel_ball() -> [PathBuf; 1] {

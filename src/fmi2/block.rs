@@ -20,6 +20,7 @@ const _: () = assert!(cfg!(target_endian = "little"));
 
 impl Source for Section {
     #[inline(always)]
+    #[expect(clippy::pointers_in_nomem_asm_block, reason = "there is nothing that could read what it points to")]
     fn block() -> &'static Block {
         let mut block = &raw const BLOCK;
         // SAFETY: nothing is done. But for all that the compiler knows the pointer could be any other afterwards, so that it

@@ -25,6 +25,11 @@ unsafe extern "C" fn logger(_: *mut c_void, _: *const c_char, _: c_int, _: *cons
     MESSAGE.with(|last| *last.borrow_mut() = text);
 }
 
+/// The last message in this thread, once.
+pub fn take_message() -> String {
+    MESSAGE.take()
+}
+
 /// The importer's functions.
 #[repr(C)]
 struct Callbacks {
@@ -54,8 +59,18 @@ fn attribute<'a>(element: &'a str, name: &str) -> &'a str {
 impl Unit {
     /// Exports and loads the unit of `scene`.
     pub fn load(scene: &Path) -> Unit {
-        let path = unit::library(&unit::export(scene));
-        let root = path.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+        Unit::open(&unit::export(scene))
+    }
+
+    /// Loads the unit `fmu`.
+    pub fn open(fmu: &Path) -> Unit {
+        let library = unit::library(fmu);
+        Unit::open_library(&library, &library)
+    }
+
+    /// Loads `library` in the place of the one that was unpacked at `place`.
+    pub fn open_library(library: &Path, place: &Path) -> Unit {
+        let root = place.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
         let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
         let elements = description.split("<ScalarVariable").skip(1);
         let reference = |element| {
@@ -64,7 +79,7 @@ impl Unit {
         };
         Unit {
             // SAFETY: the unit was made by the program under test, and has no initializers
-            library: unsafe { Library::new(&path) }.expect("a library that can be loaded"),
+            library: unsafe { Library::new(library) }.expect("a library that can be loaded"),
             guid: CString::new(attribute(&description, "guid")).expect("plain characters"),
             references: elements.map(reference).collect(),
         }
@@ -78,6 +93,11 @@ impl Unit {
 
     /// A new instance.
     pub fn instantiate(&self) -> Instance<'_> {
+        self.try_to_instantiate().expect("an instance")
+    }
+
+    /// A new instance, if the library makes one.
+    pub fn try_to_instantiate(&self) -> Option<Instance<'_>> {
         type Instantiate = unsafe extern "C" fn(
             *const c_char,
             c_int,
@@ -92,8 +112,7 @@ impl Unit {
         // SAFETY: strings that end with 0, and callbacks that are copied
         let component =
             unsafe { instantiate(c"test".as_ptr(), 1, self.guid.as_ptr(), c"".as_ptr(), &raw const callbacks, 0, 0) };
-        assert!(!component.is_null());
-        Instance { unit: self, component }
+        (!component.is_null()).then_some(Instance { unit: self, component })
     }
 
     /// An instance that is ready for a step from 0 s on.
@@ -159,6 +178,55 @@ impl Instance<'_> {
         unsafe { get(self.component, references.as_ptr(), references.len(), values.as_mut_ptr()) }
     }
 
+    /// Switches all messages on.
+    pub fn log_everything(&mut self) {
+        type Log = unsafe extern "C" fn(*mut c_void, c_int, usize, *const *const c_char) -> c_int;
+        let log = self.unit.function::<Log>("fmi2SetDebugLogging");
+        // SAFETY: the component lives, and no category is named
+        assert_eq!(unsafe { log(self.component, 1, 0, std::ptr::null()) }, OK);
+    }
+
+    /// Sets derivatives of this order of the inputs.
+    pub fn set_derivatives(&mut self, references: &[u32], order: c_int, values: &[f64]) -> c_int {
+        type Set = unsafe extern "C" fn(*mut c_void, *const u32, usize, *const c_int, *const f64) -> c_int;
+        assert_eq!(references.len(), values.len());
+        let orders = vec![order; references.len()];
+        let set = self.unit.function::<Set>("fmi2SetRealInputDerivatives");
+        // SAFETY: the component lives, and the arrays are as long as announced
+        unsafe { set(self.component, references.as_ptr(), references.len(), orders.as_ptr(), values.as_ptr()) }
+    }
+
+    /// Reads derivatives of this order of outputs by time.
+    pub fn output_derivatives(&self, references: &[u32], order: c_int, values: &mut [f64]) -> c_int {
+        type Get = unsafe extern "C" fn(*mut c_void, *const u32, usize, *const c_int, *mut f64) -> c_int;
+        assert_eq!(references.len(), values.len());
+        let orders = vec![order; references.len()];
+        let get = self.unit.function::<Get>("fmi2GetRealOutputDerivatives");
+        // SAFETY: as above
+        unsafe { get(self.component, references.as_ptr(), references.len(), orders.as_ptr(), values.as_mut_ptr()) }
+    }
+
+    /// Derivatives of the variables `unknown` in the direction 1 of `known`.
+    pub fn directional(&self, unknown: &[u32], known: u32, values: &mut [f64]) -> c_int {
+        type Get =
+            unsafe extern "C" fn(*mut c_void, *const u32, usize, *const u32, usize, *const f64, *mut f64) -> c_int;
+        assert_eq!(unknown.len(), values.len());
+        let get = self.unit.function::<Get>("fmi2GetDirectionalDerivative");
+        let (knowns, directions) = ([known], [1.0]);
+        // SAFETY: as above
+        unsafe {
+            get(
+                self.component,
+                unknown.as_ptr(),
+                unknown.len(),
+                knowns.as_ptr(),
+                1,
+                directions.as_ptr(),
+                values.as_mut_ptr(),
+            )
+        }
+    }
+
     pub fn set_one(&mut self, name: &str, value: f64) {
         assert_eq!(self.set(&[self.unit.references[name]], &[value]), OK, "{name}: {}", self.message());
     }
@@ -167,6 +235,13 @@ impl Instance<'_> {
         let mut value = [f64::NAN];
         assert_eq!(self.get(&[self.unit.references[name]], &mut value), OK, "{name}");
         value[0]
+    }
+
+    /// The call `name` that takes nothing but the component; its status.
+    pub fn status_of(&self, name: &str) -> c_int {
+        let function = self.unit.function::<unsafe extern "C" fn(*mut c_void) -> c_int>(name);
+        // SAFETY: the component lives
+        unsafe { function(self.component) }
     }
 
     pub fn integer(&self, name: &str) -> i32 {

@@ -3,6 +3,7 @@
 use std::env;
 
 /// What FMI 2.0 and the operating system call things here.
+#[derive(Clone, Copy)]
 pub struct Platform {
     /// Folder of the binaries in a unit.
     pub folder: &'static str,

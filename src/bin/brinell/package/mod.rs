@@ -60,7 +60,8 @@ pub fn build(plan: &Plan, way: Way) -> Result<(Vec<u8>, Exported), ExportError> 
     let platform = platform::here()?;
     let Platform { folder, extension, .. } = platform;
     let scene = plan.scene;
-    let Made { guid, description, library, how } = make(plan, way, &platform)?;
+    let Made { guid, description, mut libraries, how } = make(plan, way, &[platform])?;
+    let library = libraries.remove(0);
     let imports = symbols::check(&library)?;
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
     let page = documentation::write(plan);

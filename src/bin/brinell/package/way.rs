@@ -6,7 +6,7 @@ use super::rustc::Rustc;
 use super::{ExportError, GUID_TO_COME, hash, identified, sources};
 use crate::plan::Plan;
 use crate::platform::Platform;
-use crate::prebuilt::{PrebuiltError, Unit};
+use crate::prebuilt::{PrebuiltError, StoreError, Unit};
 use crate::{constants, model_description};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
@@ -25,7 +25,8 @@ pub struct Made {
     pub guid: String,
     /// The model description.
     pub description: String,
-    pub library: Vec<u8>,
+    /// The library for each platform.
+    pub libraries: Vec<Vec<u8>>,
     pub how: How,
 }
 
@@ -45,16 +46,16 @@ enum By {
     Prebuilt(String, Option<i64>),
 }
 
-/// Makes the library of the planned unit, and what belongs to it.
+/// Makes the libraries of the planned unit for `platforms`, and what belongs to them.
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn make(plan: &Plan, way: Way, platform: &Platform) -> Result<Made, ExportError> {
+pub fn make(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<Made, ExportError> {
     match way {
-        Way::Compiled => compile(plan, platform),
-        Way::Prebuilt => Ok(fill_in(plan, platform)?),
-        Way::Any if has_compiler() => compile(plan, platform),
-        Way::Any => fill_in(plan, platform).map_err(ExportError::NoCompiler),
+        Way::Compiled => compile(plan, platforms),
+        Way::Prebuilt => Ok(fill_in(plan, platforms)?),
+        Way::Any if has_compiler() => compile(plan, platforms),
+        Way::Any => fill_in(plan, platforms).map_err(ExportError::NoCompiler),
     }
 }
 
@@ -65,31 +66,37 @@ fn has_compiler() -> bool {
 
 /// By the compiler. The GUID is a hash of all that the unit is made of: description, constants, source of the library and of
 /// `libm`.
-fn compile(plan: &Plan, platform: &Platform) -> Result<Made, ExportError> {
+fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
     let begin = Instant::now();
     let description = model_description::write(plan, GUID_TO_COME);
     let constants = constants::write(plan, GUID_TO_COME);
     let guid = hash([description.as_str(), &constants].into_iter().chain(sources()));
     let (description, constants) = (identified(&description, &guid), identified(&constants, &guid));
-    let library = library::build(&Source::Scene { plan, constants: &constants }, platform)?;
+    let source = Source::Scene { plan, constants: &constants };
+    let build = |platform| library::build(&source, platform);
+    let libraries = platforms.iter().map(build).collect::<Result<Vec<_>, _>>()?;
     let time = begin.elapsed();
     let larger = |unit: Unit| {
-        let (size, _) = unit.sizes(platform)?;
-        Some((unit.library.name(), size as i64 - library.len() as i64))
+        let (size, _) = unit.sizes(platforms.first()?)?;
+        Some((unit.library.name(), size as i64 - libraries.first()?.len() as i64))
     };
-    let other = Unit::of(plan).map_err(|error| error.to_string());
+    let other = Unit::of(plan).map_err(|error| match error {
+        PrebuiltError::Store(StoreError::NoFolder { .. }) => "no prebuilt libraries are installed".into(),
+        PrebuiltError::NeedsCompiler(needs) => needs.to_string(),
+        other => other.to_string(),
+    });
     let other = other.and_then(|unit| larger(unit).ok_or_else(|| "there is none for this platform".into()));
-    Ok(Made { guid, description, library, how: How { time, by: By::Compiler(other) } })
+    Ok(Made { guid, description, libraries, how: How { time, by: By::Compiler(other) } })
 }
 
 /// From a prebuilt library.
-fn fill_in(plan: &Plan, platform: &Platform) -> Result<Made, PrebuiltError> {
+fn fill_in(plan: &Plan, platforms: &[Platform]) -> Result<Made, PrebuiltError> {
     let begin = Instant::now();
     let unit = Unit::of(plan)?;
-    let library = unit.library(platform)?;
-    let saves = unit.sizes(platform).and_then(|(_, saves)| saves);
+    let libraries = platforms.iter().map(|platform| unit.library(platform)).collect::<Result<Vec<_>, _>>()?;
+    let saves = platforms.first().and_then(|platform| unit.sizes(platform)?.1);
     let how = How { time: begin.elapsed(), by: By::Prebuilt(unit.library.name(), saves) };
-    Ok(Made { guid: unit.guid, description: unit.description, library, how })
+    Ok(Made { guid: unit.guid, description: unit.description, libraries, how })
 }
 
 impl How {
@@ -101,7 +108,7 @@ impl How {
                 "compiled in {seconds:.1} s; the prebuilt library `{name}` (--prebuilt) would save that, and take {larger} \
                  bytes more"
             ),
-            By::Compiler(Err(reason)) => format!("compiled in {seconds:.1} s, and can't be made without: {reason}"),
+            By::Compiler(Err(reason)) => format!("compiled in {seconds:.1} s; not prebuilt ({reason})"),
             By::Prebuilt(name, saves) => {
                 let saves = saves.map_or("some bytes".into(), |saves| format!("at least {saves} bytes"));
                 format!(

@@ -67,13 +67,16 @@ fn refuse_unknown(what: &str, asked: &[String], known: &[String]) -> Result<(), 
     Err(format!("there is no {what} `{unknown}`, but `{}`", known.join("`, `")))
 }
 
+/// Libraries with their places in a list.
+type Built = Vec<(usize, Vec<u8>)>;
+
 /// The libraries for `platform`, as many at a time as there are processors.
 fn build_all(libraries: &[Library], platform: &Platform) -> Result<Vec<Vec<u8>>, ExportError> {
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
     let progress = ProgressBar::new(libraries.len() as u64);
     let next = AtomicUsize::new(0);
     let work = || {
-        let mut built = Vec::new();
+        let mut built = Built::new();
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(library) = libraries.get(index) else { return Ok(built) };
@@ -86,7 +89,7 @@ fn build_all(libraries: &[Library], platform: &Platform) -> Result<Vec<Vec<u8>>,
             progress.inc(1);
         }
     };
-    let parts: Vec<Result<Vec<(usize, Vec<u8>)>, ExportError>> = thread::scope(|scope| {
+    let parts: Vec<Result<Built, ExportError>> = thread::scope(|scope| {
         let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
         threads.into_iter().map(|thread| thread.join().expect("building doesn't panic")).collect()
     });

@@ -63,6 +63,7 @@ const _: () = assert!(MAGIC != 0 && VERSION != 0);
 /// The libraries in a file: itself, or those of each processor in a universal one.
 fn slices(file: &[u8]) -> Result<Vec<Range<usize>>, object::Error> {
     let range = |(offset, size): (u64, u64)| offset as usize..(offset + size) as usize;
+    let whole = 0..file.len();
     Ok(match FileKind::parse(file)? {
         FileKind::MachOFat32 => {
             MachOFatFile32::parse(file)?.arches().iter().map(|arch| range(arch.file_range())).collect()
@@ -70,7 +71,7 @@ fn slices(file: &[u8]) -> Result<Vec<Range<usize>>, object::Error> {
         FileKind::MachOFat64 => {
             MachOFatFile64::parse(file)?.arches().iter().map(|arch| range(arch.file_range())).collect()
         }
-        _ => vec![0..file.len()],
+        _ => vec![whole],
     })
 }
 

@@ -8,6 +8,8 @@ pub mod command;
 mod fill;
 mod fit;
 mod kinds;
+#[cfg(test)]
+mod macho_tests;
 mod signature;
 mod store;
 

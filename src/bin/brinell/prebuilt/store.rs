@@ -143,6 +143,9 @@ impl Store {
         let path = self.folder.join(platform.folder).with_extension(ARCHIVE);
         let damaged = |reason: &str| StoreError::Damaged { path: path.clone(), reason: reason.into() };
         let archive = fs::read(&path).map_err(FileError::at(&path))?;
+        if !list.archive.is(&archive) {
+            return Err(damaged("it has another hash than its list says"));
+        }
         let (mut at, name) = (0, library.name());
         for stream in &list.streams {
             let end = at + stream.size;

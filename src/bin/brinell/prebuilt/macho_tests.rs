@@ -1,0 +1,139 @@
+//! Filling in libraries for macOS: files built by hand, as small as they can be.
+
+use super::fill::{FillError, fill};
+use super::signature::{SignatureError, check};
+use brinell::scene::prebuilt::block::{Block, Data, GUID};
+use sha2::{Digest, Sha256};
+
+const LIBRARY: u64 = 42;
+const PAGE: usize = 4096;
+
+/// Where the block lies: across a border of pages.
+const BLOCK_AT: usize = 2 * PAGE - 100;
+
+/// The end of what is signed: within the fifth page.
+const END: usize = 4 * PAGE + 16;
+
+fn data() -> Data {
+    // the identity is on the first of the two pages, the GUID on the second
+    Data { identity: 7, guid: [b'7'; GUID], ..Data::EMPTY }
+}
+
+fn bytes_of(block: Block) -> Vec<u8> {
+    block.words().flat_map(u64::to_le_bytes).collect()
+}
+
+/// A library with an empty block, and a signature if it is `signed`.
+fn library(signed: bool) -> Vec<u8> {
+    let mut file = Vec::new();
+    let name = |text: &str| {
+        let mut name = [0; 16];
+        name[..text.len()].copy_from_slice(text.as_bytes());
+        name
+    };
+    // magic, arm64, all, a dynamic library, commands, their size, flags, reserved
+    let commands = if signed { (2, 168) } else { (1, 152) };
+    for word in [0xfeed_facf_u32, 0x0100_000c, 0, 6, commands.0, commands.1, 0, 0] {
+        file.extend(word.to_le_bytes());
+    }
+    // a segment with one section
+    file.extend([0x19_u32, 152].into_iter().flat_map(u32::to_le_bytes));
+    file.extend(name("__TEXT"));
+    file.extend([0, END as u64, 0, END as u64].into_iter().flat_map(u64::to_le_bytes));
+    file.extend([5_u32, 5, 1, 0].into_iter().flat_map(u32::to_le_bytes));
+    file.extend(name("__brinell"));
+    file.extend(name("__TEXT"));
+    file.extend([BLOCK_AT as u64, size_of::<Block>() as u64].into_iter().flat_map(u64::to_le_bytes));
+    file.extend([BLOCK_AT as u32, 3, 0, 0, 0, 0, 0, 0].into_iter().flat_map(u32::to_le_bytes));
+    if signed {
+        file.extend([0x1d_u32, 16, END as u32, 20 + 88 + 5 * 32].into_iter().flat_map(u32::to_le_bytes));
+    }
+    file.resize(END, 0x5a);
+    file[BLOCK_AT..BLOCK_AT + size_of::<Block>()].copy_from_slice(&bytes_of(Block::unfilled(LIBRARY)));
+    if signed {
+        let pages: Vec<_> = file.chunks(PAGE).map(Sha256::digest).collect();
+        assert_eq!(pages.len(), 5);
+        // one blob: the hashes
+        for word in [0xfade_0cc0_u32, 20 + 88 + 5 * 32, 1, 0, 20] {
+            file.extend(word.to_be_bytes());
+        }
+        for word in [0xfade_0c02_u32, 88 + 5 * 32, 0x20400, 0x20002, 88, 88, 0, 5, END as u32] {
+            file.extend(word.to_be_bytes());
+        }
+        file.extend([32, 2, 0, 12]);
+        file.resize(END + 20 + 88, 0);
+        pages.iter().for_each(|hash| file.extend_from_slice(hash));
+    }
+    file
+}
+
+#[test]
+fn a_filled_library_has_the_data_and_the_hashes_of_its_pages() {
+    let empty = library(true);
+    check(&empty).expect("the file built by hand is right");
+    let mut filled = empty.clone();
+    fill(&mut filled, LIBRARY, data()).expect("a good library");
+    check(&filled).expect("every page has its hash");
+    let block = bytes_of(Block::filled(LIBRARY, data()));
+    assert!(filled[BLOCK_AT..].starts_with(&block));
+    // nothing else but the hashes of the two pages is touched
+    let hashes = END + 20 + 88 + 32..END + 20 + 88 + 3 * 32;
+    let others = |place: &usize| !(BLOCK_AT..BLOCK_AT + block.len()).contains(place) && !hashes.contains(place);
+    assert_eq!(filled.len(), empty.len());
+    assert!((0..empty.len()).filter(others).all(|place| filled[place] == empty[place]));
+    assert!(hashes.step_by(32).all(|place| filled[place..place + 32] != empty[place..place + 32]));
+}
+
+#[test]
+fn every_slice_of_a_universal_library_is_filled() {
+    let slice = library(true);
+    let offsets = [PAGE, PAGE + slice.len().next_multiple_of(PAGE)];
+    let mut file: Vec<u8> = [0xcafe_babe_u32, 2].into_iter().flat_map(u32::to_be_bytes).collect();
+    for (offset, processor) in offsets.into_iter().zip([0x0100_0007_u32, 0x0100_000c]) {
+        let words = [processor, 0, offset as u32, slice.len() as u32, 12];
+        file.extend(words.into_iter().flat_map(u32::to_be_bytes));
+    }
+    for offset in offsets {
+        file.resize(offset, 0);
+        file.extend(&slice);
+    }
+    fill(&mut file, LIBRARY, data()).expect("a good library");
+    for offset in offsets {
+        let slice = &file[offset..offset + slice.len()];
+        check(slice).expect("every page has its hash");
+        assert!(slice[BLOCK_AT..].starts_with(&bytes_of(Block::filled(LIBRARY, data()))));
+    }
+}
+
+#[test]
+fn a_library_that_macos_would_not_load_is_refused() {
+    let refused = |mut library: Vec<u8>| fill(&mut library, LIBRARY, data()).unwrap_err();
+    assert!(matches!(refused(library(false)), FillError::Signature(SignatureError::None)));
+    // a byte that is not that of the linker, in each page
+    for page in 0..5 {
+        let mut damaged = library(true);
+        let at = if page == 0 { 300 } else { page * PAGE + 8 };
+        let at = if page == 2 { 3 * PAGE - 1 } else { at };
+        damaged[at] ^= 1;
+        let error = refused(damaged);
+        assert!(
+            matches!(error, FillError::Signature(SignatureError::Wrong(found)) if found == page),
+            "{page}: {error}"
+        );
+    }
+    let mut cut = library(true);
+    cut.truncate(cut.len() - 1);
+    assert!(matches!(refused(cut), FillError::Signature(SignatureError::Unknown(_))));
+    let mut other = library(true);
+    other[END] ^= 1;
+    assert!(matches!(refused(other), FillError::Signature(SignatureError::Unknown(_))));
+}
+
+#[test]
+fn a_library_of_another_kind_or_one_that_is_filled_already_is_refused() {
+    let mut library = library(true);
+    assert!(matches!(fill(&mut library.clone(), LIBRARY + 1, data()), Err(FillError::NotEmpty)));
+    fill(&mut library, LIBRARY, data()).expect("a good library");
+    assert!(matches!(fill(&mut library, LIBRARY, data()), Err(FillError::NotEmpty)));
+    assert!(matches!(fill(&mut [0; 100], LIBRARY, data()), Err(FillError::Unreadable(_))));
+}
