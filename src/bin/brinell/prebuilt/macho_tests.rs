@@ -2,7 +2,7 @@
 
 use super::fill::{FillError, fill};
 use super::signature::{SignatureError, check};
-use brinell::scene::prebuilt::block::{Block, Data};
+use brinell::scene::prebuilt::block::{Block, Data, GUID};
 use sha2::{Digest, Sha256};
 
 const LIBRARY: u64 = 42;
@@ -11,11 +11,12 @@ const PAGE: usize = 4096;
 /// Where the block lies: across a border of pages.
 const BLOCK_AT: usize = 2 * PAGE - 100;
 
-/// The end of what is signed: within the third page but one.
+/// The end of what is signed: within the fifth page.
 const END: usize = 4 * PAGE + 16;
 
 fn data() -> Data {
-    Data { identity: 7, density: 7850.0, ..Data::EMPTY }
+    // the identity is on the first of the two pages, the GUID on the second
+    Data { identity: 7, guid: [b'7'; GUID], ..Data::EMPTY }
 }
 
 fn bytes_of(block: Block) -> Vec<u8> {
