@@ -132,12 +132,14 @@ class Contact:
         **keywords: Numbers,
     ) -> None:
         """Return to the start, at time 0. Parameters that are given replace the previous ones; the
-        others keep their values."""
+        others keep their values. Warnings are logged again."""
         with self._lock:
             self._alive()
             given = self._variables.given(initial_gap, parameters, keywords)
             before, self._given = self._given, self._given | given
             self._instance.call("Reset")
+            # a unit tells each kind of warning once, until it is asked again
+            self._instance.call("SetDebugLogging", True, 0, None)
             try:
                 self._start()
             except ContactError:

@@ -146,8 +146,9 @@ def test_failed_runs_have_a_reason_and_the_others_their_results(unit):
     assert "yield_strength" in table["error"][2] and "speed = 0.0 m/s" in table["error"][1]
 
 
-def test_warnings_belong_to_their_run(unit):
-    table = quick(unit, {"speed": [1.0, 40.0, 1.0, 40.0]})
+@pytest.mark.parametrize("chunk", [1, 2, 4])
+def test_warnings_belong_to_their_run(unit, chunk):
+    table = quick(unit, {"speed": [1.0, 40.0, 1.0, 40.0]}, chunk=chunk)
     assert [bool(text) for text in table["warning"]] == [False, True, False, True]
 
 
