@@ -294,9 +294,9 @@ fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
     refused_with("[law]\nloading = §\"tsuji\"\n", &["needs law.restitution"]);
     refused_with(&format!("{damped}restitution = §0.0\n"), &["restitution = 0.0", "0.001 to 1.0"]);
     refused_with(&format!("{damped}restitution = §1.5\n"), &["restitution = 1.5", "0.001 to 1.0"]);
-    refused_with("[law]\nrestitution = §0.5\n", &["law.restitution is for", "hunt-crossley", "tsuji"]);
+    refused_with("[law]\nrestitution = §0.5\n", &["law.restitution belongs to", "hunt-crossley", "tsuji"]);
     let own = "[law]\nloading = \"kuwabara-kono\"\nrestitution = §0.5\n";
-    refused_with(own, &["law.restitution is for"]);
+    refused_with(own, &["law.restitution belongs to"]);
 }
 
 #[test]
@@ -305,7 +305,7 @@ fn an_impact_without_an_answer_is_refused() {
     refused_with(deep, &["mass = 1e250 kg", "speed = 1000000000.0 m/s", "deeper than the law can be evaluated"]);
     // so light that the damper alone decides
     let endless = "[law]\nloading = \"kuwabara-kono\"\n§[impact]\nmass = 1e-30\nspeed = 1.0\n";
-    refused_with(endless, &["mass = 1e-30 kg", "speed = 1.0 m/s", "damped so much that it has no end"]);
+    refused_with(endless, &["mass = 1e-30 kg", "speed = 1.0 m/s", "damped so strongly that it never ends"]);
 }
 
 #[test]

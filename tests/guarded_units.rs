@@ -80,7 +80,8 @@ fn the_range_that_is_said_ends_where_energy_begins_to_be_lost() {
     let d_y = 0.005 * ratio * ratio;
     let lost = |x: f64| {
         let to = format!("{:e}", x * d_y);
-        let table = run(folder.path(), ["curve", "scene.toml", "--to", &to]).with_status(0).out;
+        run(folder.path(), ["curve", "scene.toml", "--to", &to, "-o", "curve.csv"]).with_status(0);
+        let table = std::fs::read_to_string(folder.path().join("curve.csv")).unwrap();
         let row = table.lines().last().unwrap().split(',').map(|cell| cell.parse().unwrap_or(f64::NAN));
         let row: Vec<f64> = row.collect();
         // the dissipated energy at the end, in F_y d_y with F_y = 1.1 pi S R d_y

@@ -267,7 +267,7 @@ fn the_scenes_own_law_is_compared_with_its_constants_and_others_with_those_of_th
     assert_eq!(found[3], usual[2]);
     let curve = |law: &str| {
         fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
-        run(folder.path(), ["curve", "scene.toml", "--laws", "power", "--to", "1e-5"]).with_status(0).out
+        run(folder.path(), ["curve", "scene.toml", "--laws", "power", "--to", "1e-5", "--json"]).with_status(0).out
     };
     let own = curve("loading = \"power\"\nloading_parameters = { exponent = 1.15 }");
     assert_ne!(own, curve("loading = \"power\""));

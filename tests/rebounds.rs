@@ -111,9 +111,7 @@ fn a_rebound_that_nothing_explains_is_refused_with_what_was_searched() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     let failed = run(folder.path(), ["predict", &scene, "--laws", "hertz", "--restitution", "0.5"]).with_status(1);
-    for part in
-        ["restitution = 0.5", "speed from 1.000e-9 to 1.000e6 m/s", "yield strength from", "1.000000 to 1.000000"]
-    {
+    for part in ["restitution = 0.5", "speed from 1 nm/s to 1e6 m/s", "yield strength from", "restitution is 1 to 1"] {
         assert!(failed.err.contains(part), "nothing of {part:?} in {failed:#?}");
     }
 }
@@ -123,7 +121,7 @@ fn a_number_that_is_no_restitution_is_refused_with_what_is_allowed() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     for value in ["0", "-0.5", "1.0000001", "NaN", "inf"] {
-        let failed = run(folder.path(), ["predict", &scene, &format!("--restitution={value}")]).with_status(1);
+        let failed = run(folder.path(), ["predict", &scene, &format!("--restitution={value}")]).with_status(2);
         let said = format!("restitution = {value} must be above 0 and at most 1");
         assert!(failed.err.contains(&said), "{failed:#?}");
     }

@@ -34,6 +34,7 @@ pub enum Command {
     /// Write a commented scene file to begin with
     New(new::Arguments),
     /// Build the FMU of a scene
+    #[command(next_line_help = true)]
     Export {
         /// The scene file (TOML)
         scene: PathBuf,
@@ -47,18 +48,20 @@ pub enum Command {
     },
     /// Build the FMU of a scene and pack it as a system (SSP 1.0) with its parameters
     Ssp(SspArguments),
-    /// Load an FMU as an importer does, run the impact of its scene and compare it with the prediction
+    /// Load an FMU, run the impact of its scene and compare it with the prediction
+    #[command(next_line_help = true)]
     Check {
         /// The FMU
         fmu: PathBuf,
     },
     /// Predict an impact: largest force and indentation, dent, restitution, contact time
     Predict(predict::command::Arguments),
-    /// Predict a Brinell test: dent, Brinell and Meyer hardness; or find the yield strength from HBW
+    /// Predict a Brinell test: dent and hardness; or find the yield strength from HBW
     Hardness(hardness::command::Arguments),
     /// Draw or tabulate one cycle of loading, unloading and reloading
     Curve(CurveArguments),
-    /// Measure the FMU of a scene: error against run time, stability, extreme cases, laws; on one page
+    /// Measure the FMU of a scene: errors, run times, stability, laws; on one page
+    #[command(next_line_help = true)]
     Report {
         /// The scene file
         scene: PathBuf,
@@ -119,10 +122,11 @@ pub enum Command {
 }
 
 #[derive(clap::Args)]
+#[command(next_line_help = true)]
 pub struct SspArguments {
     /// The scene file (TOML); its FMU is the component `contact` of the system
     pub scene: PathBuf,
-    /// Where to write the system: a name that ends in .ssp [default: NAME.ssp in the current folder]
+    /// Where to write the system, a file .ssp [default: NAME.ssp in the current folder]
     #[arg(short, long)]
     pub output: Option<PathBuf>,
     /// Another FMU of the system, a component with the name of its file; can be repeated
@@ -212,6 +216,7 @@ pub struct PrebuildArguments {
 }
 
 #[derive(clap::Args)]
+#[command(next_line_help = true)]
 pub struct CurveArguments {
     /// The scene file
     pub scene: PathBuf,

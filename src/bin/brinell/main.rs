@@ -84,12 +84,12 @@ const WRONG_CALL: u8 = 2;
 
 /// Help, the version, or what is wrong with the arguments, in the style of every other error.
 fn not_understood(error: &clap::Error) -> ExitCode {
-    let text = error.render();
     if !error.use_stderr() {
-        print!("{}", text.ansi());
+        // a reader that has gone is no error
+        let _ = error.print();
         return ExitCode::SUCCESS;
     }
-    let text = text.to_string();
+    let text = error.render().to_string();
     eprint!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text));
     ExitCode::from(WRONG_CALL)
 }

@@ -13,6 +13,7 @@ const TEMPLATE: &str = include_str!("new_scene.toml");
 
 /// What `brinell new` is asked.
 #[derive(clap::Args)]
+#[command(next_line_help = true)]
 pub struct Arguments {
     /// Name of the contact: letters, digits and `_`
     pub name: String,

@@ -82,10 +82,10 @@ pub fn percent(difference: f64) -> String {
     const LEAST: f64 = 1e-6;
     match difference {
         0.0 => "0 %".into(),
-        difference if difference.abs() < LEAST => format!("below {} %", significant(100.0 * LEAST, 1)),
+        difference if difference.abs() < LEAST => format!("below {} %", rounded(100.0 * LEAST, 1)),
         difference => {
             let sign = if difference > 0.0 { "+" } else { "" };
-            format!("{sign}{} %", significant(100.0 * difference, 2))
+            format!("{sign}{} %", rounded(100.0 * difference, 2))
         }
     }
 }

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 
 /// What `brinell hardness` is asked.
 #[derive(clap::Args)]
-#[command(group = clap::ArgGroup::new("size").required(true))]
+#[command(next_line_help = true, group = clap::ArgGroup::new("size").required(true))]
 pub struct Arguments {
     /// The scene file: ball and target, which must be flat
     pub scene: PathBuf,

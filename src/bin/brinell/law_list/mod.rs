@@ -27,6 +27,7 @@ use std::path::PathBuf;
 
 /// What `brinell laws` is asked.
 #[derive(clap::Args)]
+#[command(next_line_help = true)]
 pub struct Arguments {
     /// A law to show with its formulas, constants, validity and curve [default: list all]
     pub name: Option<String>,

@@ -196,7 +196,7 @@ fn chart(choice: &Choice) -> Option<String> {
     points.extend(loading.into_iter().map(letter('*')));
     let chart = Chart {
         x_title: "indentation / yield indentation".into(),
-        y_title: format!("force / yield force of {}: * loading, - unloading, . finite elements (loading)", choice.laws),
+        y_title: "force / yield force: * loading, - unloading, . finite elements (loading)".into(),
         points,
     };
     Some(chart.text())

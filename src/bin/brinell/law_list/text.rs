@@ -44,13 +44,13 @@ fn is_first_of_its_kind(law: &Rated) -> bool {
 /// How good the loading laws are.
 pub fn measured(laws: &[Measured]) -> String {
     let percent = |value: f64| format!("{:+.1} %", 100.0 * value);
-    let mut rows = vec![["law/unloading", "worst error", "at", "rms", "jump", "energy"].map(String::from).to_vec()];
+    let mut rows = vec![["law/unloading", "worst error", "at d_y", "rms", "jump", "energy"].map(String::from).to_vec()];
     for law in laws {
         let below = law.passive_from_poissons_ratio.map(|ratio| format!(" (nu < {ratio})")).unwrap_or_default();
         rows.push(vec![
             format!("{}/{}", law.name, law.unloading),
             percent(law.worst_error),
-            format!("{} d_y", significant(law.worst_at, 3)),
+            significant(law.worst_at, 3),
             format!("{:.1} %", 100.0 * law.rms_error),
             if law.continuous { "none".into() } else { percent(law.largest_jump) },
             match law.largest_restitution {

@@ -21,6 +21,7 @@ use std::path::{Path, PathBuf};
 
 /// What `brinell predict` is asked.
 #[derive(clap::Args)]
+#[command(next_line_help = true)]
 pub struct Arguments {
     /// The scene file
     pub scene: PathBuf,
@@ -39,7 +40,7 @@ pub struct Arguments {
     /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
     #[arg(long, value_delimiter = ',')]
     pub laws: Vec<String>,
-    /// Vary a quantity, such as speed=0.01:10 or target.yield_strength=200e6:900e6:8; twice: a map
+    /// Vary a quantity, such as speed=0.01:10 or impactor.radius=1e-3:5e-3:8; twice: a map
     #[arg(long, value_name = "NAME=FROM:TO[:COUNT]")]
     pub sweep: Vec<String>,
     /// Write the sweep with all digits: .csv, .svg or .html [default: print a short table]
@@ -48,10 +49,10 @@ pub struct Arguments {
     /// Write force, indentation and speed over time: .csv, .svg or .html
     #[arg(long, value_name = "FILE", conflicts_with_all = ["sweep", "dent", "restitution"])]
     pub time_history: Option<PathBuf>,
-    /// From a measured depth of a dent [m] to the speed and to the yield strength that explain it
+    /// From a measured dent [m] to the speed and the yield strength that explain it
     #[arg(long, value_parser = units::lengths, conflicts_with = "sweep")]
     pub dent: Option<f64>,
-    /// From a measured coefficient of restitution to the speeds and yield strengths that explain it
+    /// From a measured restitution to the speeds and yield strengths that explain it
     #[arg(long, conflicts_with_all = ["sweep", "dent"])]
     pub restitution: Option<f64>,
 }
@@ -128,6 +129,11 @@ impl Question<'_> {
     /// Impacts over one quantity or two, as a table, a picture or a page.
     fn sweep(&self, axes: Vec<Axis>, output: Option<&Path>, format: &str) -> Result<(), Box<dyn Error>> {
         let Question { scene, choices, impact, .. } = *self;
+        // of several laws those without a yield strength have nothing to vary
+        let strength = axes.iter().any(|axis| axis.name == "target.yield_strength") && choices.len() > 1;
+        let yields = |choice: &&Choice| choice.model.elastoplastic().is_some() && choice.laws != "hertz";
+        let choices: Vec<Choice> = choices.iter().filter(|choice| !strength || yields(choice)).cloned().collect();
+        let choices = choices.as_slice();
         // what can't be varied, or not so far, is a mistake in the call; what a law can't do isn't
         let failed = |error: PredictError| -> Box<dyn Error> {
             match error {
