@@ -94,16 +94,17 @@ fn depth_of_force(model: &Model<AnyLoading, AnyUnloading>, force: f64) -> Option
     let at = |depth: f64| model.loading.segment(&model.pair, depth).force(depth);
     // f64 keeps its order when the bits of positive numbers are read as integers
     let (mut low, mut high) = (0, LARGEST_INDENTATION.to_bits());
-    if !(at(LARGEST_INDENTATION) >= force) {
+    let reaches = |depth: f64| at(depth) >= force;
+    if !reaches(LARGEST_INDENTATION) {
         // a fit may have no number there
         high = (model.pair.radius * 1e3).to_bits();
-        if !(at(f64::from_bits(high)) >= force) {
+        if !reaches(f64::from_bits(high)) {
             return None;
         }
     }
     while high - low > 1 {
         let middle = low + (high - low) / 2;
-        *(if at(f64::from_bits(middle)) >= force { &mut high } else { &mut low }) = middle;
+        *(if reaches(f64::from_bits(middle)) { &mut high } else { &mut low }) = middle;
     }
     Some(f64::from_bits(high))
 }

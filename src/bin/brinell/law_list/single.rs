@@ -169,7 +169,7 @@ fn constants(constants: &[Constant]) -> String {
 }
 
 /// The loading curve and an unloading in units of the yield point, with finite elements.
-fn curve_points(choice: &Choice) -> Option<(Vec<(f64, f64)>, Vec<(f64, f64)>)> {
+fn curve_points(choice: &Choice) -> Option<[Vec<(f64, f64)>; 2]> {
     let model = choice.model.elastoplastic()?;
     let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
     let at = |d: f64, force: f64| (d / unit.indentation, force / unit.force);
@@ -184,11 +184,11 @@ fn curve_points(choice: &Choice) -> Option<(Vec<(f64, f64)>, Vec<(f64, f64)>)> {
         let d = dent + (deepest - dent) * part(point);
         at(d, model.unloading_segment(deepest, d).force(d))
     };
-    Some(((0..=POINTS).map(loading).collect(), (0..=POINTS).map(unloading).collect()))
+    Some([(0..=POINTS).map(loading).collect(), (0..=POINTS).map(unloading).collect()])
 }
 
 fn chart(choice: &Choice) -> Option<String> {
-    let (loading, unloading) = curve_points(choice)?;
+    let [loading, unloading] = curve_points(choice)?;
     let dots = truth::loading().into_iter().filter(|point| point.x <= DEEPEST).step_by(8);
     let mut points: Vec<_> = dots.map(|point| (point.x, point.f, '.')).collect();
     let letter = |letter| move |(x, f): (f64, f64)| (x, f, letter);
@@ -203,7 +203,7 @@ fn chart(choice: &Choice) -> Option<String> {
 }
 
 fn curve_json(choice: &Choice) -> Option<Value> {
-    let (loading, unloading) = curve_points(choice)?;
+    let [loading, unloading] = curve_points(choice)?;
     let columns = |points: Vec<(f64, f64)>| {
         let (x, f): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
         json!({ "x": x, "f": f })

@@ -188,6 +188,9 @@ impl Picture {
     }
 }
 
+/// An argument and a value.
+type Point = (f64, f64);
+
 /// A picture over its two axes.
 struct Drawing<'a> {
     picture: &'a Picture,
@@ -233,7 +236,7 @@ impl Drawing<'_> {
     }
 
     /// The series as lines, which `place` puts where they belong.
-    fn lines(&self, place: &dyn Fn(&(f64, f64)) -> (i32, i32)) -> Vec<Line> {
+    fn lines(&self, place: &dyn Fn(&Point) -> (i32, i32)) -> Vec<Line> {
         let Drawing { picture, view, range, .. } = self;
         let placed = |(at, value): clip::Shown| {
             let (x, y) = place(&at);

@@ -33,7 +33,7 @@ pub enum PredictError {
     Beyond { law: String, mass: f64, speed: f64 },
     #[error("{0}")]
     Energy(#[from] NoEnergy),
-    #[error("no {what} from {} to {} explains {name} = {}", quantity(*.low, *.unit), quantity(*.high, *.unit), quantity(*.value, *.of))]
+    #[error("no {what} from {} to {} explains {name} = {}", quantity(*.low, .unit), quantity(*.high, .unit), quantity(*.value, .of))]
     NoSolution {
         what: &'static str,
         unit: &'static str,

@@ -19,8 +19,11 @@ const ROWS: usize = 9;
 /// Values of the quantity in a table with a row for each law.
 pub const GRID_COLUMNS: usize = 6;
 
-/// What such tables and the maps show: names, units, values.
-pub const SHOWN: [(&str, &str, fn(&Prediction) -> f64); 3] = [
+/// The name of a quantity, its unit and its value.
+pub type Shown = (&'static str, &'static str, fn(&Prediction) -> f64);
+
+/// What such tables and the maps show.
+pub const SHOWN: [Shown; 3] = [
     ("restitution", "", |prediction| prediction.restitution),
     ("largest force", "N", |prediction| prediction.max_force),
     ("dent", "m", |prediction| prediction.residual_indentation),
