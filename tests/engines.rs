@@ -152,12 +152,13 @@ fn block<'a>(page: &'a str, language: &str) -> &'a str {
     rest.split("```").next().unwrap_or_default()
 }
 
-/// What docs/notes/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
+/// What docs/guide/tools/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
 fn page(name: &str, packages: &[&str]) {
     if !have(packages, &format!("the page {name}")) {
         return;
     }
-    let read = |name: &str| std::fs::read_to_string(root().join("docs/notes").join(name)).expect("the page is there");
+    let read =
+        |name: &str| std::fs::read_to_string(root().join("docs/guide/tools").join(name)).expect("the page is there");
     let (page, scene) = (read(&format!("{name}.md")), read("mujoco.md"));
     let folder = tempfile::tempdir().expect("a folder for what the page writes");
     std::fs::write(folder.path().join("ball.toml"), block(&scene, "toml")).unwrap();

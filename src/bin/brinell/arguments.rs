@@ -19,7 +19,7 @@ pub struct Arguments {
     /// Print results as JSON: SI units, all digits
     #[arg(long, global = true)]
     pub json: bool,
-    /// Says the versions of program and library, the platform, and which prebuilt libraries there are
+    /// Show the versions of program and library, the platform, and the prebuilt libraries
     #[arg(short = 'V', long)]
     pub version: bool,
 }
@@ -88,7 +88,9 @@ pub enum Command {
         #[arg(short, long)]
         output: PathBuf,
     },
-    /// Fetch a compiler for all platforms, about 100 MB, into a folder of its own; an interrupted download continues
+    /// Fetch a compiler for all platforms into a folder of its own
+    ///
+    /// About 100 MB are downloaded. An interrupted download continues where it stopped.
     Toolchain {
         /// The folder [default: that of BRINELL_TOOLCHAIN, or `toolchain` in the cache]
         #[arg(long, value_name = "DIR")]

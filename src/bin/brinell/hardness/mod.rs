@@ -23,6 +23,9 @@ pub const ADMITTED: (f64, f64) = (0.24, 0.6);
 /// Yield strengths that are looked for, in effective moduli.
 const STRENGTHS: (f64, f64) = (1e-7, 1.0);
 
+/// Steps from the one to the other.
+const STEPS: u32 = 120;
+
 /// What a test has left behind.
 #[derive(Clone, Copy, Debug)]
 pub struct Dent {
@@ -142,12 +145,14 @@ pub fn strength_of(choice: &Choice, load: f64, ball: f64, hardness: f64) -> Resu
         _ => false,
     };
     let modulus = model.pair.modulus;
-    let (mut soft, mut hard) = (STRENGTHS.0 * modulus, STRENGTHS.1 * modulus);
     let none =
         || format!("by the law {} no yield strength of the target explains HBW {hardness} at this load", choice.laws);
-    if is_harder(soft) || !is_harder(hard) {
-        return Err(none());
-    }
+    // a law that is a fit has no number for targets nearly as strong as stiff: the first step up is the one that counts
+    let ratio = STRENGTHS.1 / STRENGTHS.0;
+    let strength = |step: u32| modulus * STRENGTHS.0 * libm::pow(ratio, f64::from(step) / f64::from(STEPS));
+    let harder: Vec<bool> = (0..=STEPS).map(|step| is_harder(strength(step))).collect();
+    let up = harder.windows(2).position(|pair| pair == [false, true]).ok_or_else(none)? as u32;
+    let (mut soft, mut hard) = (strength(up), strength(up + 1));
     while hard > soft.next_up() {
         let middle = (soft * hard).sqrt().clamp(soft.next_up(), hard.next_down());
         *(if is_harder(middle) { &mut hard } else { &mut soft }) = middle;

@@ -54,21 +54,30 @@ pub fn make(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<Made, Expor
     match way {
         Way::Compiled => compile(plan, platforms),
         Way::Prebuilt => Ok(fill_in(plan, platforms)?),
-        Way::Any if has_compiler() => compile(plan, platforms),
-        Way::Any => fill_in(plan, platforms).map_err(ExportError::NoCompiler),
+        Way::Any => match no_compiler() {
+            None => compile(plan, platforms),
+            // a prebuilt library needs neither a compiler nor a folder to build in
+            Some(error) => fill_in(plan, platforms).map_err(|reason| match error {
+                ExportError::NoRustc(_) => ExportError::NoCompiler(reason),
+                other => other,
+            }),
+        },
     }
 }
 
 impl Way {
     /// Whether libraries that are made in this way are compiled.
     pub fn compiles(self) -> bool {
-        self == Way::Compiled || self == Way::Any && has_compiler()
+        self == Way::Compiled || self == Way::Any && no_compiler().is_none()
     }
 }
 
-/// Whether a compiler can be started, be it good or not.
-fn has_compiler() -> bool {
-    !matches!(Cache::open().and_then(|cache| Rustc::find(&cache.folder)), Err(ExportError::NoRustc(_)))
+/// Why no compiler can be started, be it good or not: there is none, or no folder to build in.
+fn no_compiler() -> Option<ExportError> {
+    match Cache::open().and_then(|cache| Rustc::find(&cache.folder)) {
+        Err(error @ (ExportError::NoRustc(_) | ExportError::Folder(_))) => Some(error),
+        _ => None,
+    }
 }
 
 /// By the compiler. The GUID is a hash of all that the unit is made of: description, constants, source of the library and of
@@ -89,7 +98,9 @@ fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
         Some((unit.library.name(), larger))
     };
     let other = Unit::of(plan).map_err(|error| match error {
-        PrebuiltError::Store(StoreError::NoFolder) => "no prebuilt libraries are installed".into(),
+        PrebuiltError::Store(StoreError::NoFolder | StoreError::Empty { .. }) => {
+            "no prebuilt libraries are installed".into()
+        }
         PrebuiltError::NeedsCompiler(needs) => needs.to_string(),
         other => other.to_string(),
     });

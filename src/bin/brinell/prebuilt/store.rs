@@ -19,6 +19,8 @@ use std::path::{Path, PathBuf};
 pub enum StoreError {
     #[error("there are no prebuilt libraries installed with this program: BRINELL_PREBUILT names a folder with them")]
     NoFolder,
+    #[error("there are no prebuilt libraries in {folder}: BRINELL_PREBUILT names the folder where they are", folder = folder.display())]
+    Empty { folder: PathBuf },
     #[error("there are no prebuilt libraries for {platform} in {folder}, only for {known}", folder = folder.display())]
     NoPlatform { folder: PathBuf, platform: &'static str, known: String },
     #[error("the prebuilt libraries in {folder} are from another version of Brinell ({version}): make them anew by `brinell prebuild`", folder = folder.display())]
@@ -101,7 +103,11 @@ impl Store {
     /// [`StoreError::NoFolder`]
     pub fn find() -> Result<Store, StoreError> {
         let found = prebuilt_folder::find().ok_or(StoreError::NoFolder)?;
-        Ok(Store { folder: found.path.clone(), platforms: found.platforms() })
+        let platforms = found.platforms();
+        if platforms.is_empty() {
+            return Err(StoreError::Empty { folder: found.path });
+        }
+        Ok(Store { folder: found.path, platforms })
     }
 
     /// The platforms that there are libraries for.

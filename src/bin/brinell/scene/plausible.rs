@@ -75,7 +75,7 @@ pub fn doubts(file: &File) -> Vec<Mistake> {
             expected.doubt(&format!("{owner}target.{key}"), value.as_ref().filter(|value| !is_flat(value))?)
         }));
         if let (true, Some(strength), Some(modulus)) = (before == doubts.len(), yield_strength, youngs_modulus) {
-            doubts.extend(too_strong(owner, strength, *modulus.get_ref()));
+            doubts.extend(too_strong(owner, strength, modulus));
         }
     };
     bodies("", file.impactor.as_ref().map(Spanned::get_ref), file.target.as_ref().map(Spanned::get_ref));
@@ -103,16 +103,23 @@ impl Expected {
     }
 }
 
-/// The doubt about a yield strength near Young's modulus.
-fn too_strong(owner: &str, strength: &Spanned<f64>, modulus: f64) -> Option<Mistake> {
-    let number = *strength.get_ref();
-    (number > STRENGTH_OVER_MODULUS * modulus && number.is_finite() && modulus > 0.0).then(|| {
-        let (said, modulus) = (quantity(number, "Pa"), quantity(modulus, "Pa"));
-        let message = format!(
-            "{owner}target.yield_strength = {} ({said}) is more than a fifth of youngs_modulus ({modulus}); no material is as \
-             strong as that",
-            plain(number)
-        );
-        Mistake(strength.span(), message)
-    })
+/// The doubt about a yield strength near Young's modulus, or about a modulus that would fit the strength in another unit.
+fn too_strong(owner: &str, strength: &Spanned<f64>, modulus: &Spanned<f64>) -> Option<Mistake> {
+    let (number, of_modulus) = (*strength.get_ref(), *modulus.get_ref());
+    if !(number > STRENGTH_OVER_MODULUS * of_modulus && number.is_finite() && of_modulus > 0.0) {
+        return None;
+    }
+    let fits = |meant: &f64| MODULUS.range.contains(meant) && number <= STRENGTH_OVER_MODULUS * meant;
+    if let Some(meant) = MODULUS.factors.iter().map(|factor| factor * of_modulus).find(fits) {
+        let (said, meant) = (plain(of_modulus), plain(meant));
+        let message = format!("{owner}target.youngs_modulus = {said} Pa; did you mean {meant}? ({})", MODULUS.why);
+        return Some(Mistake(modulus.span(), message));
+    }
+    let (said, modulus) = (quantity(number, "Pa"), quantity(of_modulus, "Pa"));
+    let message = format!(
+        "{owner}target.yield_strength = {} ({said}) is more than a fifth of youngs_modulus ({modulus}); no material is as \
+         strong as that",
+        plain(number)
+    );
+    Some(Mistake(strength.span(), message))
 }
