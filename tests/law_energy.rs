@@ -175,7 +175,7 @@ fn a_unit_says_whether_its_law_may_make_energy_with_any_value_of_its_parameters(
         ("loading = \"big-alabo\"\nloading_parameters = { fully_plastic = 80.0 }", "[]", none),
         ("loading = \"power\"\nloading_parameters = { coefficient = 2.5 }", "[]", "may make energy"),
         (
-            "loading = \"jackson-green\"\nloading_parameters = { hardness_factor = 2.9 }",
+            "loading = \"jackson-green\"\nloading_parameters = { hardness_factor = 2.9 }\nunloading = \"contact-radius\"",
             "[\"impactor.radius\"]",
             "may make energy",
         ),

@@ -206,7 +206,7 @@ fn the_formulas_on_the_page_of_a_unit_have_its_constants_and_what_follows_from_t
     for formula in ["10 &lt;= x &lt; 50: f = 4.5 (x - 10) + 28<", "50 &lt;= x: f = 4 (x - 50) + 208<"] {
         assert!(page.contains(formula), "nothing of {formula} in {page}");
     }
-    assert!(page.contains("speaks of those of the reference"), "{page}");
+    assert!(page.contains("describes those of the reference"), "{page}");
 }
 
 #[test]

@@ -72,7 +72,8 @@ impl Rustc {
     /// As of [`Rustc::find`].
     pub fn at(found: PathBuf, cache: &Path) -> Result<Rustc, ExportError> {
         let root = cache.ancestors().last().unwrap_or(cache);
-        let asked = command(&found).args(["--print", "sysroot"]).current_dir(root).output();
+        // with the user's own environment, in which rustup finds its toolchains
+        let asked = Command::new(&found).args(["--print", "sysroot"]).current_dir(root).output();
         let sysroot = PathBuf::from(answer(&asked.map_err(ExportError::NoRustc)?)?);
         // the compiler itself, where rustup has answered
         let itself = sysroot.join("bin").join(name());
