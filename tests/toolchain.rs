@@ -79,7 +79,7 @@ impl Mirror {
     }
 
     fn package(&self, name: &str) -> PathBuf {
-        self.path("mirror/pool").join(name).with_extension("deb")
+        self.path(&format!("mirror/pool/{name}.deb"))
     }
 
     fn toolchain(&self, more: &[&str]) -> Run {

@@ -30,10 +30,10 @@ impl Run {
     }
 }
 
-/// The program, which will run in `folder` with a cache that is not the user's.
+/// The program, which will run in `folder` with a cache that is not the user's, and without a toolchain that was fetched.
 pub fn brinell(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    command.current_dir(folder).env("BRINELL_CACHE", cache());
+    command.current_dir(folder).env("BRINELL_CACHE", cache()).env("BRINELL_TOOLCHAIN", cache().join("none"));
     command
 }
 
