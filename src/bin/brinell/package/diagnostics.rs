@@ -36,7 +36,7 @@ pub fn cause(output: &Output, folder: &Path) -> ExportError {
     let is_said = |words: &&&str| said.contains(**words) || status.contains(**words);
     if let Some(words) = NO_SPACE.iter().find(is_said) {
         // the place to make room in is not the one unit's, which is gone by now
-        let folder = folder.parent().unwrap_or(folder).into();
+        let folder = folder.ancestors().nth(2).unwrap_or(folder).into();
         return ExportError::NoSpace { folder, said: (*words).into() };
     }
     let Some(first) = errors.first() else {
