@@ -32,7 +32,7 @@ fn a_system_goes_to_the_current_folder_and_says_what_it_has() {
 fn a_wrong_name_or_scene_is_told_and_nothing_is_written() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    let said = run(folder.path(), ["ssp", &scene, "-o", "ball.zip"]).with_status(1);
+    let said = run(folder.path(), ["ssp", &scene, "-o", "ball.zip"]).with_status(2);
     assert_eq!(said.err, "brinell: ball.zip: the name must end in .ssp\n");
     let text = fs::read_to_string(&scene).unwrap().replace("mild steel", "cheese");
     fs::write(folder.path().join("wrong.toml"), text).unwrap();
@@ -78,8 +78,8 @@ fn zip_of(path: &Path) -> std::collections::HashMap<String, Vec<u8>> {
 #[test]
 fn a_wrong_connection_is_told_with_what_there_is() {
     let cases = [
-        ("contact.force", "--connect contact.force: a connection is written as UNIT.OUTPUT=UNIT.INPUT"),
-        ("force=other.force", "a connection is written as UNIT.OUTPUT=UNIT.INPUT"),
+        ("contact.force", "--connect contact.force: write a connection as FMU.OUTPUT=FMU.INPUT"),
+        ("force=other.force", "write a connection as FMU.OUTPUT=FMU.INPUT"),
         ("mass.rate=contact.indentation_rate", "there is no FMU `mass`; the system has contact, other"),
         ("other.left.x=contact.indentation_rate", "other has no output `left.x` of type Real, it has left.force, "),
         ("other.left.regime=contact.indentation_rate", "other has no output `left.regime` of type Real"),
