@@ -4,6 +4,7 @@ mod master;
 mod trial;
 
 use crate::importer::{Archive, Description, ImportError, Instance};
+use crate::layout::paragraph;
 use crate::numbers::quantity;
 use crate::scene::{Scene, SceneError};
 use serde::Serialize;
@@ -139,7 +140,8 @@ impl std::fmt::Display for Outcome {
                 }
                 None => format!("{} steps per contact", self.steps_per_contact),
             };
-            writeln!(f, "  predicted {}, simulated by explicit co-simulation with {steps}", self.prediction)?;
+            let methods = format!("predicted {}, simulated by explicit co-simulation with {steps}", self.prediction);
+            write!(f, "{}", paragraph("  ", &methods))?;
         }
         for trial in trials() {
             write!(f, "{trial}")?;
