@@ -81,9 +81,9 @@ fn a_wrong_connection_is_told_with_what_there_is() {
         ("contact.force", "--connect contact.force: write a connection as FMU.OUTPUT=FMU.INPUT"),
         ("force=other.force", "write a connection as FMU.OUTPUT=FMU.INPUT"),
         ("mass.rate=contact.indentation_rate", "there is no FMU `mass`; the system has contact, other"),
-        ("other.left.x=contact.indentation_rate", "other has no output `left.x` of type Real, it has left.force, "),
+        ("other.left.x=contact.indentation_rate", "other has no output `left.x` of type Real; it has left.force, "),
         ("other.left.regime=contact.indentation_rate", "other has no output `left.regime` of type Real"),
-        ("other.left.force=contact.force", "contact has no input `force` of type Real, it has indentation_rate"),
+        ("other.left.force=contact.force", "contact has no input `force` of type Real; it has indentation_rate"),
     ];
     for (connection, message) in cases {
         let folder = empty_folder();
