@@ -509,7 +509,7 @@ fn libraries_that_are_missing_damaged_or_of_another_version_are_told() {
     let said = refusal(&text, none.path());
     assert!(said.contains("no prebuilt libraries in") && said.contains("BRINELL_PREBUILT"), "{said}");
     let said = refusal(&scene("thornton", &[], ""), store());
-    assert!(said.contains("no prebuilt library `thornton/contact-radius force`"), "{said}");
+    assert!(said.contains("no prebuilt library `thornton/thornton force`"), "{said}");
     type Change<'a> = &'a dyn Fn(Vec<u8>) -> Vec<u8>;
     let copy = |file: &str, change: Change| {
         let folder = empty_folder();

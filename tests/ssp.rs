@@ -94,7 +94,7 @@ fn a_wrong_connection_is_told_with_what_there_is() {
     let folder = empty_folder();
     let twice = ["--connect", "other.left.force=contact.indentation_rate"].repeat(2);
     let said = with_other(folder.path(), &twice).with_status(1);
-    assert!(said.err.contains("the input contact.indentation_rate is connected already"), "{said:#?}");
+    assert!(said.err.contains("the input contact.indentation_rate is already connected"), "{said:#?}");
 }
 
 #[test]
