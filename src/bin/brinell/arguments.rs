@@ -3,7 +3,7 @@
 use crate::package::Way;
 use crate::platform::{self, Platform};
 use crate::prebuilt;
-use crate::{hardness, law_list, new, predict, units};
+use crate::{check, hardness, law_list, new, predict, units};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -50,10 +50,7 @@ pub enum Command {
     Ssp(SspArguments),
     /// Load an FMU, run the impact of its scene and compare it with the prediction
     #[command(next_line_help = true)]
-    Check {
-        /// The FMU
-        fmu: PathBuf,
-    },
+    Check(check::Arguments),
     /// Predict an impact: largest force and indentation, dent, restitution, contact time
     Predict(predict::command::Arguments),
     /// Predict a Brinell test: dent and hardness; or find the yield strength from HBW

@@ -1,9 +1,9 @@
 //! Files that the program writes for its user.
 
-use std::io;
-use std::io::Write;
+use crate::interrupt::{self, Folder};
+use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use tempfile::TempDir;
 
 /// A file that can't be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -20,35 +20,63 @@ impl FileError {
     }
 }
 
-/// Writes a temporary file and renames it: the goal is never half written.
+/// Writes a temporary file and renames it: the goal is never half written. A symbolic link stays, and the file that it leads to is
+/// written. A device or a pipe is written to, not replaced. A new file has the permissions that the umask leaves.
 ///
 /// # Errors
 /// [`FileError`]; the goal is then as it was.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let file_error = FileError::at(path);
-    let folder = folder_of(path);
-    let mut file = tempfile::Builder::new().prefix(".brinell-").tempfile_in(folder).map_err(&file_error)?;
-    file.write_all(bytes).map_err(&file_error)?;
-    #[cfg(unix)]
-    {
-        use std::fs::{Permissions, set_permissions};
-        use std::os::unix::fs::PermissionsExt;
-        let readable = Permissions::from_mode(0o644);
-        set_permissions(file.path(), readable).map_err(&file_error)?;
+    let goal = goal_of(path).map_err(&file_error)?;
+    match &goal {
+        Goal::Stream => fs::OpenOptions::new().write(true).open(path).and_then(|mut stream| stream.write_all(bytes)),
+        Goal::File(file) => interrupt::write_and_rename(&draft(), folder_of(file), file, bytes),
     }
-    file.persist(path).map_err(|error| file_error(error.error))?;
-    Ok(())
+    .map_err(&file_error)
+}
+
+/// How many symbolic links may lead to a file, as on Linux.
+const LINKS: u32 = 40;
+
+/// Where something is written.
+enum Goal {
+    /// A device, a pipe or a socket.
+    Stream,
+    /// A file, or a place where there is nothing yet: no symbolic link.
+    File(PathBuf),
+}
+
+/// Where writing to `path` leads.
+fn goal_of(path: &Path) -> io::Result<Goal> {
+    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+        return Ok(Goal::Stream);
+    }
+    let mut goal = path.to_path_buf();
+    for _ in 0..LINKS {
+        let Ok(target) = fs::read_link(&goal) else { return Ok(Goal::File(goal)) };
+        goal = folder_of(&goal).join(target);
+    }
+    Err(io::Error::other("too many symbolic links lead from here"))
+}
+
+/// A temporary file with the permissions that the umask leaves.
+fn draft() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.prefix(".brinell-");
+    builder
 }
 
 /// A new folder in `parent` with a name that begins with `prefix`. Only its owner can read or write it; dropping it removes it.
 ///
 /// # Errors
 /// [`FileError`]
-pub fn private_folder(prefix: &str, parent: &Path) -> Result<TempDir, FileError> {
+pub fn private_folder(prefix: &str, parent: &Path) -> Result<Folder, FileError> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-    builder.prefix(prefix).tempdir_in(parent).map_err(FileError::at(parent))
+    Folder::new(builder.prefix(prefix), parent)
 }
 
 /// Refuses a goal that can't be written, before any work is done for it: a folder, or a file in a folder that doesn't exist or
@@ -61,13 +89,14 @@ pub fn check_goal(path: &Path) -> Result<(), FileError> {
         let error = io::Error::new(io::ErrorKind::IsADirectory, "this is a folder; a file is written here");
         return Err(FileError::at(path)(error));
     }
-    let folder = folder_of(path);
+    let Goal::File(file) = goal_of(path).map_err(FileError::at(path))? else { return Ok(()) };
+    let folder = folder_of(&file);
     if !folder.is_dir() {
         let error = io::Error::new(io::ErrorKind::NotFound, format!("there is no folder {}", folder.display()));
         return Err(FileError::at(path)(error));
     }
     // the only sure way to find out; the file is gone at once
-    tempfile::Builder::new().prefix(".brinell-").tempfile_in(folder).map_err(FileError::at(path)).map(drop)
+    draft().tempfile_in(folder).map_err(FileError::at(path)).map(drop)
 }
 
 /// Refuses a folder that can't be written into, or can't be made.
@@ -81,7 +110,7 @@ pub fn check_folder(path: &Path) -> Result<(), FileError> {
     }
     // the nearest folder that exists is the one that others are made in
     let there = path.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
-    tempfile::Builder::new().prefix(".brinell-").tempfile_in(there).map_err(FileError::at(path)).map(drop)
+    draft().tempfile_in(there).map_err(FileError::at(path)).map(drop)
 }
 
 /// The folder that `path` is in.

@@ -17,6 +17,7 @@ mod hardness;
 mod html;
 mod importer;
 mod interface;
+mod interrupt;
 mod law_check;
 mod law_list;
 mod law_text;
@@ -24,6 +25,7 @@ mod laws;
 mod layout;
 mod materials;
 mod merge;
+mod messages;
 mod model;
 mod model_description;
 mod nearest;
@@ -56,6 +58,7 @@ mod xml;
 
 use arguments::{Arguments, Command, PlatformArguments};
 use clap::Parser;
+use messages::say;
 use package::Way;
 use plan::Plan;
 use scene::Scene;
@@ -65,6 +68,7 @@ use wrong_call::WrongCall;
 
 fn main() -> ExitCode {
     leave_quietly_when_nobody_reads();
+    interrupt::clean_up_when_interrupted();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return not_understood(&error),
@@ -73,7 +77,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {
-            eprintln!("brinell: {error}");
+            say(format_args!("brinell: {error}"));
             if error.is::<WrongCall>() { ExitCode::from(WRONG_CALL) } else { ExitCode::FAILURE }
         }
     }
@@ -90,7 +94,7 @@ fn not_understood(error: &clap::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let text = error.render().to_string();
-    eprint!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text));
+    say(format_args!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text).trim_end_matches('\n')));
     ExitCode::from(WRONG_CALL)
 }
 
@@ -120,9 +124,9 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         None => {
             let platforms = PlatformArguments::default().chosen(Way::Any)?;
             let unit = export::run(&Scene::default_scene()?, (Way::Any, &platforms), None, json)?;
-            return check::run(&unit, json);
+            return Ok(check::exported(&unit, json)?);
         }
-        Some(Command::Check { fmu }) => return check::run(fmu, json),
+        Some(Command::Check(arguments)) => return Ok(check::run(arguments, json)?),
         Some(Command::Report { scene, output, peer, quick }) => {
             let scene = Scene::read_aloud(scene)?;
             let usual = format!("{}_report", scene.name).into();

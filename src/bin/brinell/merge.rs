@@ -1,14 +1,14 @@
 //! `brinell merge`: joins FMUs of one scene that were made for different platforms.
 
 use crate::files::{FileError, write_whole};
-use crate::importer::{Description, ImportError};
+use crate::importer::{Bound, Description, ImportError};
 use crate::package::{self, ExportError};
 use crate::platform::Platform;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fs;
-use std::io::{self, Cursor, Read};
+use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 use zip::ZipArchive;
 
@@ -72,6 +72,7 @@ impl Fmu {
         let bytes = fs::read(path).map_err(FileError::at(path))?;
         let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| refused(error.into()))?;
         let mut files = BTreeMap::new();
+        let mut bound = Bound::of(&archive).map_err(refused)?;
         for index in 0..archive.len() {
             let mut file = archive.by_index(index).map_err(|error| refused(error.into()))?;
             if file.is_dir() {
@@ -79,7 +80,7 @@ impl Fmu {
             }
             let name = file.name().map_err(|error| refused(error.into()))?.into_owned();
             let mut bytes = Vec::new();
-            file.read_to_end(&mut bytes).map_err(|error| refused(ImportError::Unpack(error)))?;
+            bound.copy(&mut file, &mut bytes).map_err(refused)?;
             if files.insert(name.clone(), bytes).is_some() {
                 return Err(MergeError::Twice { path: path.into(), name });
             }

@@ -1,5 +1,6 @@
 //! The master of a check: it moves the mass against one contact, as a user's own would.
 
+use super::trial::STEPS_PER_CONTACT;
 use crate::importer::{ImportError, Instance};
 use brinell::contact::impact::Impact;
 
@@ -28,6 +29,9 @@ pub struct Master<'a, 'b> {
     /// Whether that unit is made for a master that steps all units at once: its force is then one for the next step.
     pub parallel: bool,
 }
+
+/// After this many steps an impact counts as endless: sixteen times as many as it should take.
+const MOST_STEPS: u32 = 16 * STEPS_PER_CONTACT;
 
 /// Short steps after which a unit has forgotten a long one.
 const FORGOTTEN: u32 = 120;
@@ -71,7 +75,7 @@ impl Master<'_, '_> {
         let (mut max_indentation, mut max_force) = (0.0, 0.0);
         // indentation and force at the ends of the last two steps
         let mut before = [(0.0, 0.0); 2];
-        loop {
+        for _ in 0..MOST_STEPS {
             let start = speed;
             let mut force = self.step(speed + owed, step)?;
             for _ in 0..if self.follows { ITERATIONS } else { 0 } {
@@ -101,7 +105,11 @@ impl Master<'_, '_> {
             if self.mean_force.is_none() {
                 speed -= step * force / impact.mass;
             }
+            if !force.is_finite() {
+                return Err(ImportError::Force { force, time });
+            }
         }
+        Err(ImportError::Endless { steps: MOST_STEPS })
     }
 }
 

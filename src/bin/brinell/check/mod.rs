@@ -1,15 +1,20 @@
 //! `brinell check`: loads an FMU as any importer does and runs the impact of its scene.
 
+mod apart;
 mod master;
 mod trial;
 
+use crate::files::FileError;
 use crate::importer::{Archive, Description, ImportError, Instance};
 use crate::layout::paragraph;
 use crate::numbers::quantity;
 use crate::scene::{Scene, SceneError};
+use apart::Found;
 use serde::Serialize;
-use std::error::Error;
+use std::io;
 use std::path::{Path, PathBuf};
+use std::process::ExitStatus;
+use std::time::Duration;
 use trial::{STEPS_PER_CONTACT, Trial};
 
 /// Largest relative difference between prediction and simulation.
@@ -24,17 +29,60 @@ pub enum CheckError {
     NoScene(PathBuf),
     #[error("{}: its scene can't be read: {source}", path.display())]
     Scene { path: PathBuf, source: SceneError },
+    #[error("{0}")]
+    File(#[from] FileError),
+    #[error("the process that loads FMUs can't be started: {0}")]
+    NoProcess(io::Error),
+    #[error("{}: the FMU ended the process that loaded it ({status}){said}", path.display())]
+    Ended { path: PathBuf, status: ExitStatus, said: String },
+    #[error("{}: no answer within {limit} s (--time-limit)", path.display())]
+    Hangs { path: PathBuf, limit: u64 },
+    #[error("{0}")]
+    Said(String),
 }
 
-/// The command: checks the FMU at `path` and prints the outcome; gives whether it passed.
-pub fn run(path: &Path, as_json: bool) -> Result<bool, Box<dyn Error>> {
-    let outcome = check(path)?;
-    if as_json {
-        println!("{}", serde_json::to_string(&outcome)?);
-    } else {
-        print!("{outcome}");
+/// How long a check may take [s], unless the user says otherwise. That of 100,000 contacts takes a tenth of it.
+const TIME_LIMIT: u64 = 600;
+
+/// What to check.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The FMU
+    fmu: PathBuf,
+    /// How long the FMU may take [s]
+    #[arg(long, value_name = "SECONDS", default_value_t = TIME_LIMIT, value_parser = clap::value_parser!(u64).range(1..))]
+    time_limit: u64,
+    /// Check in this process, and write what is found to this file
+    #[arg(long, hide = true)]
+    found: Option<PathBuf>,
+}
+
+/// The command: checks an FMU and prints the outcome; gives whether it passed.
+pub fn run(arguments: &Arguments, as_json: bool) -> Result<bool, CheckError> {
+    let Some(file) = &arguments.found else {
+        return in_own_process(&arguments.fmu, as_json, Duration::from_secs(arguments.time_limit));
+    };
+    let found = match check(&arguments.fmu) {
+        Ok(outcome) => Found::Outcome { text: outcome.text(as_json), passed: outcome.passed },
+        Err(error) => Found::Error(error.to_string()),
+    };
+    found.write(file)?;
+    Ok(true)
+}
+
+/// Checks the FMU that was just exported to `path`.
+pub fn exported(path: &Path, as_json: bool) -> Result<bool, CheckError> {
+    in_own_process(path, as_json, Duration::from_secs(TIME_LIMIT))
+}
+
+fn in_own_process(path: &Path, as_json: bool, limit: Duration) -> Result<bool, CheckError> {
+    match apart::check(path, as_json, limit)? {
+        Found::Outcome { text, passed } => {
+            print!("{text}");
+            Ok(passed)
+        }
+        Found::Error(said) => Err(CheckError::Said(said)),
     }
-    Ok(outcome.passed)
 }
 
 /// What came out.
@@ -120,6 +168,17 @@ fn wrong_starts(instance: &mut Instance, description: &Description) -> Result<Ve
     }
     wrong.sort();
     Ok(wrong)
+}
+
+impl Outcome {
+    /// As it is printed.
+    fn text(&self, as_json: bool) -> String {
+        if as_json {
+            serde_json::to_string(self).expect("an outcome has no map with other keys than text") + "\n"
+        } else {
+            self.to_string()
+        }
+    }
 }
 
 impl std::fmt::Display for Outcome {

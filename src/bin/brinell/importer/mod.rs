@@ -2,16 +2,19 @@
 
 #![allow(unsafe_code, reason = "units are called through the C interface")]
 
+mod bounded;
 mod description;
 mod unit;
 
 use crate::files::private_folder;
+use crate::interrupt::Folder;
 use crate::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
 use std::ffi::c_int;
 use std::path::Path;
 use std::{env, fs, io};
 
+pub use bounded::Bound;
 pub use description::Description;
 pub use unit::{Instance, Unit};
 
@@ -24,6 +27,8 @@ pub enum ImportError {
     Part { name: &'static str, source: io::Error },
     #[error("it can't be unpacked: {0}")]
     Unpack(io::Error),
+    #[error("it is larger than {} MB when unpacked, which no FMU needs", bounded::LARGEST / 1_000_000)]
+    TooLarge,
     #[error("it is no zip archive: {0}")]
     Zip(#[from] zip::result::ZipError),
     #[error("modelDescription.xml can't be read: {0}")]
@@ -42,6 +47,10 @@ pub enum ImportError {
     Call { function: &'static str, status: c_int, message: String },
     #[error("there is no variable {0}")]
     Variable(String),
+    #[error("the force is {force} after {time} s")]
+    Force { force: f64, time: f64 },
+    #[error("the impact hasn't ended after {steps} steps")]
+    Endless { steps: u32 },
 }
 
 /// An error with what caused it.
@@ -54,7 +63,7 @@ fn chain(error: &dyn std::error::Error) -> String {
 
 /// An archive, unpacked.
 pub struct Archive {
-    folder: tempfile::TempDir,
+    folder: Folder,
     pub description: Description,
     /// Platforms with a binary.
     pub platforms: BTreeSet<String>,
@@ -69,7 +78,7 @@ impl Archive {
         // the library in it is going to be loaded: nobody else may put one there
         let folder =
             private_folder("brinell-check-", &env::temp_dir()).map_err(|error| ImportError::Unpack(error.source))?;
-        archive.extract(folder.path())?;
+        bounded::unpack(&mut archive, folder.path())?;
         let names = archive.file_names().map(|name| Ok(name?.into_owned())).collect::<Result<Vec<_>, ImportError>>()?;
         let platform = |name: &String| Some(name.strip_prefix("binaries/")?.split('/').next()?.to_string());
         let description_path = folder.path().join("modelDescription.xml");

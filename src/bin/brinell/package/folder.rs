@@ -3,11 +3,11 @@
 
 use super::error::{ExportError, FolderError};
 use crate::files::{FileError, private_folder};
+use crate::interrupt::Folder;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use std::{env, fs, io};
-use tempfile::TempDir;
 
 /// The user's folder for what can be made again.
 pub struct Cache {
@@ -38,7 +38,7 @@ impl Cache {
     ///
     /// # Errors
     /// [`FileError`]
-    pub fn build_folder(&self) -> Result<TempDir, FileError> {
+    pub fn build_folder(&self) -> Result<Folder, FileError> {
         self.sweep();
         private_folder(BUILD, &self.folder)
     }

@@ -3,6 +3,7 @@
 use super::diagnostics;
 use super::error::ExportError;
 use crate::files::FileError;
+use crate::interrupt;
 use crate::platform::Target;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -73,12 +74,12 @@ impl Rustc {
     pub fn at(found: PathBuf, cache: &Path) -> Result<Rustc, ExportError> {
         let root = cache.ancestors().last().unwrap_or(cache);
         // with the user's own environment, in which rustup finds its toolchains
-        let asked = Command::new(&found).args(["--print", "sysroot"]).current_dir(root).output();
+        let asked = interrupt::output(Command::new(&found).args(["--print", "sysroot"]).current_dir(root));
         let sysroot = PathBuf::from(answer(&asked.map_err(ExportError::NoRustc)?)?);
         // the compiler itself, where rustup has answered
         let itself = sysroot.join("bin").join(name());
         let program = if itself.is_file() { itself } else { found };
-        let asked = command(&program).arg("-vV").current_dir(root).output();
+        let asked = interrupt::output(command(&program).arg("-vV").current_dir(root));
         let says = answer(&asked.map_err(ExportError::NoRustc)?)?;
         let line = |key: &str| says.lines().find_map(|line| line.strip_prefix(key)).unwrap_or_default();
         let (version, host) = (line("release: "), line("host: ").into());
@@ -124,7 +125,7 @@ impl Rustc {
         for name in ["TMPDIR", "TEMP", "TMP"] {
             command.env(name, &temporary);
         }
-        let output = command.output().map_err(ExportError::NoRustc)?;
+        let output = interrupt::output(&mut command).map_err(ExportError::NoRustc)?;
         if output.status.success() { Ok(()) } else { Err(diagnostics::cause(&output, folder)) }
     }
 }

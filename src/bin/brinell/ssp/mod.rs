@@ -11,6 +11,7 @@ use crate::arguments::SspArguments;
 use crate::files::{check_goal, ending, write_whole};
 use crate::interface::Entry;
 use crate::layout::paragraph;
+use crate::messages::say;
 use crate::package::{self, Exported};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -48,7 +49,7 @@ pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>
     let wiring = Wiring::read(&plan, with, connect)?;
     let path = output.map_or_else(|| format!("{}.ssp", scene.name).into(), Path::to_path_buf);
     check_goal(&path)?;
-    eprintln!("building {} ...", path.display());
+    say(format_args!("building {} ...", path.display()));
     let (unit, exported) = package::build(&plan, way, &platforms)?;
     let files = Files::of(&plan);
     let structure = document(|xml| structure::write(xml, &plan, &files, &wiring));

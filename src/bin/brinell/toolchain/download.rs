@@ -7,6 +7,8 @@ use super::ToolchainError;
 use super::deb;
 use super::index::Package;
 use crate::files::FileError;
+use crate::interrupt;
+use crate::messages::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use sha2::{Digest, Sha256};
 use std::fs::{self, File};
@@ -34,7 +36,7 @@ impl Source<'_> {
         let (url, file) = (self.url(path), self.folder.join("index.xz"));
         // the one of an earlier call may be old
         let _ = fs::remove_file(&file);
-        eprintln!("reading {url} ...");
+        say(format_args!("reading {url} ..."));
         curl(&url, &file, |_| {})?;
         let bytes = fs::read(&file).map_err(FileError::at(&file))?;
         let text = deb::unxz(&bytes).and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
@@ -50,13 +52,13 @@ impl Source<'_> {
         let style = ProgressStyle::with_template("{bar:30} {bytes} of {total_bytes}, {eta} left  {wide_msg}");
         let bar = ProgressBar::new(all).with_style(style.expect("a good template"));
         if bar.is_hidden() {
-            eprintln!("downloading {} packages, {} MB ...", packages.len(), all / 1_000_000);
+            say(format_args!("downloading {} packages, {} MB ...", packages.len(), all / 1_000_000));
         }
         let (mut files, mut before) = (Vec::new(), 0);
         for package in packages {
             bar.set_message(package.name.clone());
             if bar.is_hidden() {
-                eprintln!("downloading {}, {} MB ...", package.name, package.size / 1_000_000);
+                say(format_args!("downloading {}, {} MB ...", package.name, package.size / 1_000_000));
             }
             files.push(self.package(package, |there| bar.set_position(before + there))?);
             before += package.size;
@@ -100,16 +102,19 @@ fn curl(url: &str, file: &Path, progress: impl Fn(u64)) -> Result<(), ToolchainE
     // a connection that stands still is cut, and tried again by the user
     curl.args(["--speed-limit", "1", "--speed-time", "60", "--continue-at", "-", "--output"]).arg(file).arg(url);
     curl.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
-    let mut child = curl.spawn().map_err(ToolchainError::NoCurl)?;
+    let child = interrupt::Child::spawn(&mut curl).map_err(ToolchainError::NoCurl)?;
     while child.try_wait().map_err(ToolchainError::NoCurl)?.is_none() {
         progress(fs::metadata(file).map_or(0, |metadata| metadata.len()));
         thread::sleep(TICK);
     }
-    let output = child.wait_with_output().map_err(ToolchainError::NoCurl)?;
-    if output.status.success() {
+    if child.wait().map_err(ToolchainError::NoCurl)?.success() {
         return Ok(());
     }
-    let said = String::from_utf8_lossy(&output.stderr);
+    let mut said = String::new();
+    if let Some(mut stderr) = child.take_stderr() {
+        // what isn't text says nothing
+        let _ = stderr.read_to_string(&mut said);
+    }
     let said = said.lines().last().unwrap_or("curl says nothing").trim().to_string();
     Err(ToolchainError::Download { url: url.into(), said })
 }

@@ -2,6 +2,7 @@
 
 use super::ToolchainError;
 use crate::files::FileError;
+use crate::messages::say;
 use crate::package::{Rustc, Toolchain};
 use crate::parallel;
 use crate::platform::Target;
@@ -44,7 +45,7 @@ pub fn build(toolchain: &Toolchain, cache: &Path) -> Result<(), ToolchainError> 
     bar.enable_steady_tick(Duration::from_millis(200));
     parallel::each(&Target::ALL, |target| {
         if bar.is_hidden() {
-            eprintln!("compiling core for {} ...", target.triple);
+            say(format_args!("compiling core for {} ...", target.triple));
         }
         let compiled = compile(toolchain, &rustc, &library, target);
         bar.inc(1);

@@ -1,0 +1,65 @@
+//! The process in which the library of an FMU is loaded: one that crashes, hangs or ends the process is a failed check.
+
+use super::CheckError;
+use crate::files::{private_folder, write_whole};
+use crate::interrupt;
+use serde::{Deserialize, Serialize};
+use std::io;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::time::Duration;
+use std::{env, fs};
+
+/// What the process has found.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Found {
+    /// The outcome as it is printed.
+    Outcome { text: String, passed: bool },
+    /// Why the FMU couldn't be checked.
+    Error(String),
+}
+
+/// The file that it is written to.
+const FOUND: &str = "found.json";
+
+/// Checks the FMU at `path` in a process of its own, which may take `limit`.
+///
+/// # Errors
+/// [`CheckError`]
+pub fn check(path: &Path, as_json: bool, limit: Duration) -> Result<Found, CheckError> {
+    // the temporary files of a process that crashes stay in here
+    let folder = private_folder("brinell-check-", &env::temp_dir())?;
+    let file = folder.path().join(FOUND);
+    let mut command = Command::new(env::current_exe().map_err(CheckError::NoProcess)?);
+    command.arg("check").arg(path).arg("--found").arg(&file);
+    for name in ["TMPDIR", "TEMP", "TMP"] {
+        command.env(name, folder.path());
+    }
+    if as_json {
+        command.arg("--json");
+    }
+    let Some(output) = interrupt::output_within(&mut command, Some(limit)).map_err(CheckError::NoProcess)? else {
+        return Err(CheckError::Hangs { path: path.into(), limit: limit.as_secs() });
+    };
+    let found = fs::read(&file).and_then(|text| serde_json::from_slice(&text).map_err(io::Error::other));
+    found.map_err(|_| ended(path, &output))
+}
+
+/// The process has ended before it found anything.
+fn ended(path: &Path, output: &Output) -> CheckError {
+    let said = String::from_utf8_lossy(&output.stderr);
+    let last = said.lines().rev().find(|line| !line.trim().is_empty());
+    let said = last.map(|line| format!("; its last line was: {}", line.trim())).unwrap_or_default();
+    CheckError::Ended { path: path.into(), status: output.status, said }
+}
+
+impl Found {
+    /// Writes it to `file`.
+    ///
+    /// # Errors
+    /// [`CheckError::File`]
+    pub fn write(&self, file: &Path) -> Result<(), CheckError> {
+        let text = serde_json::to_string(self).expect("two strings and a truth value");
+        Ok(write_whole(file, text.as_bytes())?)
+    }
+}

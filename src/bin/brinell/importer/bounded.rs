@@ -1,0 +1,60 @@
+//! Reading archives of strangers: what comes out of one is bounded.
+
+use super::ImportError;
+use std::fs::{self, File};
+use std::io::{self, Read, Seek, Write};
+use std::path::Path;
+use zip::ZipArchive;
+
+/// The largest size of an unpacked archive [bytes]. An FMU of 100,000 contacts with all outputs takes a fourth of it.
+pub const LARGEST: u64 = 1 << 30;
+
+/// What is left of the bound.
+pub struct Bound {
+    left: u64,
+}
+
+impl Bound {
+    /// The whole bound, for an archive that doesn't announce more.
+    ///
+    /// # Errors
+    /// [`ImportError::TooLarge`]
+    pub fn of<R: Read + Seek>(archive: &ZipArchive<R>) -> Result<Bound, ImportError> {
+        match archive.decompressed_size() {
+            Some(size) if size > u128::from(LARGEST) => Err(ImportError::TooLarge),
+            _ => Ok(Bound { left: LARGEST }),
+        }
+    }
+
+    /// Copies all of `from`, whatever size it has announced.
+    ///
+    /// # Errors
+    /// [`ImportError::TooLarge`], [`ImportError::Unpack`]
+    pub fn copy(&mut self, from: &mut impl Read, to: &mut impl Write) -> Result<(), ImportError> {
+        let copied = io::copy(&mut from.take(self.left.saturating_add(1)), to).map_err(ImportError::Unpack)?;
+        self.left = self.left.checked_sub(copied).ok_or(ImportError::TooLarge)?;
+        Ok(())
+    }
+}
+
+/// Unpacks `archive` into `folder`: files only, and only such as stay in the folder.
+///
+/// # Errors
+/// [`ImportError::TooLarge`], [`ImportError::Unpack`], [`ImportError::Zip`]
+pub fn unpack<R: Read + Seek>(archive: &mut ZipArchive<R>, folder: &Path) -> Result<(), ImportError> {
+    let mut bound = Bound::of(archive)?;
+    for index in 0..archive.len() {
+        let mut file = archive.by_index(index)?;
+        if file.is_dir() {
+            continue;
+        }
+        let Some(inside) = file.enclosed_name() else {
+            let name = String::from_utf8_lossy(file.name_raw()).into_owned();
+            return Err(ImportError::Unpack(io::Error::other(format!("the name {name:?} leads out of the archive"))));
+        };
+        let goal = folder.join(inside);
+        let made = fs::create_dir_all(goal.parent().unwrap_or(folder)).and_then(|()| File::create(&goal));
+        bound.copy(&mut file, &mut made.map_err(ImportError::Unpack)?)?;
+    }
+    Ok(())
+}

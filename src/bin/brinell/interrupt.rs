@@ -1,0 +1,190 @@
+//! Cleaning up when somebody interrupts the program: SIGINT, SIGTERM or SIGHUP, Ctrl-C or Ctrl-Break on Windows.
+//!
+//! Temporary files and child processes are registered here as long as they exist. The handler stops the children and removes the
+//! files. It keeps the register locked, so that nothing new can appear while the process ends.
+
+use crate::files::FileError;
+use shared_child::SharedChild;
+use std::io::{self, Read};
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use std::{fs, thread};
+use tempfile::{Builder, NamedTempFile, TempDir};
+
+/// The exit status after an interruption: 128 and the number of SIGINT, as shells have it.
+pub const INTERRUPTED: i32 = 130;
+
+/// How often a folder is removed in which a stopped child's own children may still write.
+const REMOVALS: u32 = 20;
+
+/// What must not survive the process.
+struct Register {
+    paths: Vec<PathBuf>,
+    children: Vec<Arc<SharedChild>>,
+}
+
+static REGISTER: Mutex<Register> = Mutex::new(Register { paths: Vec::new(), children: Vec::new() });
+
+fn register() -> MutexGuard<'static, Register> {
+    // a panic in another thread leaves both lists usable
+    REGISTER.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Installs the handler. Without it an interruption leaves temporary files, and nothing else goes wrong.
+pub fn clean_up_when_interrupted() {
+    let _ = ctrlc::set_handler(|| {
+        let register = register();
+        for child in &register.children {
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+        for path in &register.paths {
+            remove(path);
+        }
+        std::process::exit(INTERRUPTED);
+    });
+}
+
+/// Removes a file or a folder, as far as possible.
+fn remove(path: &Path) {
+    for _ in 0..REMOVALS {
+        if fs::remove_file(path).is_ok() || fs::remove_dir_all(path).is_ok() || fs::symlink_metadata(path).is_err() {
+            return;
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// A temporary folder. Dropping it removes it, and so does an interruption.
+pub struct Folder {
+    folder: Option<TempDir>,
+    path: PathBuf,
+}
+
+impl Folder {
+    /// Makes a folder in `parent` as `builder` says.
+    ///
+    /// # Errors
+    /// [`FileError`]
+    pub fn new(builder: &Builder<'_, '_>, parent: &Path) -> Result<Folder, FileError> {
+        let mut register = register();
+        let folder = builder.tempdir_in(parent).map_err(FileError::at(parent))?;
+        let path = folder.path().to_path_buf();
+        register.paths.push(path.clone());
+        Ok(Folder { folder: Some(folder), path })
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let mut register = register();
+        drop(self.folder.take());
+        register.paths.retain(|path| *path != self.path);
+    }
+}
+
+/// Writes `bytes` to a temporary file in `parent` that `builder` names, and renames it to `goal`.
+///
+/// # Errors
+/// That of the file system; the temporary file is then gone.
+pub fn write_and_rename(builder: &Builder<'_, '_>, parent: &Path, goal: &Path, bytes: &[u8]) -> io::Result<()> {
+    let file = {
+        let mut register = register();
+        let file = builder.tempfile_in(parent)?;
+        register.paths.push(file.path().to_path_buf());
+        file
+    };
+    let path = file.path().to_path_buf();
+    let result = fill_and_rename(file, goal, bytes);
+    register().paths.retain(|registered| *registered != path);
+    result
+}
+
+fn fill_and_rename(mut file: NamedTempFile, goal: &Path, bytes: &[u8]) -> io::Result<()> {
+    io::Write::write_all(&mut file, bytes)?;
+    // a file that is replaced keeps its permissions
+    if let Ok(before) = fs::metadata(goal) {
+        fs::set_permissions(file.path(), before.permissions())?;
+    }
+    file.persist(goal)?;
+    Ok(())
+}
+
+/// A child process. An interruption stops it.
+pub struct Child(Arc<SharedChild>);
+
+impl Child {
+    /// Starts `command`.
+    ///
+    /// # Errors
+    /// [`io::Error`] if it can't be started.
+    pub fn spawn(command: &mut Command) -> io::Result<Child> {
+        let mut register = register();
+        let child = Arc::new(SharedChild::spawn(command)?);
+        register.children.push(Arc::clone(&child));
+        Ok(Child(child))
+    }
+}
+
+impl Deref for Child {
+    type Target = SharedChild;
+
+    fn deref(&self) -> &SharedChild {
+        &self.0
+    }
+}
+
+impl Drop for Child {
+    fn drop(&mut self) {
+        register().children.retain(|other| !Arc::ptr_eq(other, &self.0));
+    }
+}
+
+/// Runs `command` without input and gives what it prints; an interruption stops it.
+///
+/// # Errors
+/// [`io::Error`] if it can't be started.
+pub fn output(command: &mut Command) -> io::Result<Output> {
+    Ok(output_within(command, None)?.expect("without a limit it ends by itself"))
+}
+
+/// The same; `None` if it was stopped because it took longer than `limit`.
+///
+/// # Errors
+/// [`io::Error`] if it can't be started.
+pub fn output_within(command: &mut Command, limit: Option<Duration>) -> io::Result<Option<Output>> {
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = Child::spawn(command)?;
+    let (stdout, stderr) = (child.take_stdout(), child.take_stderr());
+    thread::scope(|scope| {
+        let stdout = scope.spawn(|| read(stdout));
+        let stderr = scope.spawn(|| read(stderr));
+        let status = match limit.and_then(|limit| Instant::now().checked_add(limit)) {
+            None => child.wait().map(Some),
+            Some(deadline) => child.wait_deadline(deadline),
+        };
+        if !matches!(status, Ok(Some(_))) {
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+        let joined = |text: thread::ScopedJoinHandle<'_, Vec<u8>>| text.join().unwrap_or_default();
+        let (stdout, stderr) = (joined(stdout), joined(stderr));
+        Ok(status?.map(|status| Output { status, stdout, stderr }))
+    })
+}
+
+/// All that comes through a pipe; what was read before an error counts.
+fn read(pipe: Option<impl Read>) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    if let Some(mut pipe) = pipe {
+        let _ = pipe.read_to_end(&mut bytes);
+    }
+    bytes
+}
