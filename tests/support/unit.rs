@@ -8,10 +8,10 @@ use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::{LazyLock, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 
 /// What has been made in this process, by what it was made from.
-static MADE: LazyLock<Mutex<HashMap<PathBuf, PathBuf>>> = LazyLock::new(Mutex::default);
+static MADE: LazyLock<Mutex<HashMap<PathBuf, Arc<OnceLock<PathBuf>>>>> = LazyLock::new(Mutex::default);
 
 /// The folder for everything that tests export; cargo keeps it inside the target folder.
 fn folder() -> PathBuf {
@@ -19,17 +19,37 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("units").join(env!("CARGO_CRATE_NAME"))
 }
 
-/// What `make` makes from `source`, made once per process.
+/// What `make` makes from `source`, made once per process. Others wait for it, and make other things in the meantime. A failed
+/// export leaves nothing, so that the next test fails with its own message.
 fn once(source: PathBuf, make: impl FnOnce(&Path) -> PathBuf) -> PathBuf {
-    // the lock is held while something is made: a second test that asks for it waits. A failed export leaves nothing
-    // in the table, so that the next test fails with its own message instead of "poisoned".
-    let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(result) = made.get(&source) {
-        return result.clone();
+    let made = Arc::clone(MADE.lock().unwrap_or_else(PoisonError::into_inner).entry(source.clone()).or_default());
+    made.get_or_init(|| make(&source)).clone()
+}
+
+/// The folder of what this program exports from `scene`: other test programs may have made it before. It doesn't exist unless
+/// all of it does.
+fn shared_folder(scene: &Path) -> PathBuf {
+    static PROGRAM: LazyLock<String> = LazyLock::new(|| {
+        let program = fs::read(env!("CARGO_BIN_EXE_brinell")).expect("cargo has built the program");
+        hash_of(&[&program])
+    });
+    let text = fs::read(scene).expect("a scene file");
+    let name = scene.file_name().expect("a scene file has a name").as_encoded_bytes();
+    let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join("exported");
+    let ours = all.join(&*PROGRAM);
+    if !ours.exists() {
+        // what another program has exported is of no use any more
+        let _ = fs::remove_dir_all(&all);
+        fs::create_dir_all(&ours).expect("the target folder can be written to");
     }
-    let result = make(&source);
-    made.insert(source, result.clone());
-    result
+    ours.join(hash_of(&[name, &text]))
+}
+
+/// 16 digits that tell these bytes from others.
+fn hash_of(parts: &[&[u8]]) -> String {
+    let mut hash = DefaultHasher::new();
+    parts.hash(&mut hash);
+    format!("{:016x}", hash.finish())
 }
 
 /// A scene file of the project by its name without `.toml`.
@@ -76,35 +96,48 @@ pub fn write_scene(name: &str, text: &str) -> PathBuf {
 pub fn export(scene: &Path) -> PathBuf {
     let scene = scene.canonicalize().unwrap_or_else(|error| panic!("{}: {error}", scene.display()));
     once(scene, |scene| {
-        // two scenes of the same file name don't share a file
-        let mut hash = DefaultHasher::new();
-        scene.hash(&mut hash);
-        let folder = folder().join(format!("{:016x}", hash.finish()));
-        fs::create_dir_all(&folder).expect("the target folder can be written to");
-        let unit = folder.join(scene.file_stem().expect("a scene file has a name")).with_extension("fmu");
-        let output = Command::new(env!("CARGO_BIN_EXE_brinell"))
-            .arg("export")
-            .arg(scene)
-            .arg("-o")
-            .arg(&unit)
-            // the user's own cache stays as it is
-            .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
-            .output()
-            .expect("cargo has built the program");
-        assert!(
-            output.status.success(),
-            "export of {} failed:\n{}",
-            scene.display(),
-            String::from_utf8_lossy(&output.stderr)
-        );
-        unit
+        let shared = shared_folder(scene);
+        let unit = Path::new(scene.file_stem().expect("a scene file has a name")).with_extension("fmu");
+        if !shared.exists() {
+            let draft = shared.with_extension(format!("{}-{:?}", std::process::id(), std::thread::current().id()));
+            fs::create_dir_all(&draft).expect("the target folder can be written to");
+            build(scene, &draft.join(&unit));
+            // another test program may have been faster
+            if fs::rename(&draft, &shared).is_err() {
+                let _ = fs::remove_dir_all(&draft);
+            }
+        }
+        shared.join(unit)
     })
+}
+
+/// Exports `scene` to `unit`.
+fn build(scene: &Path, unit: &Path) {
+    let output = Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .arg("export")
+        .arg(scene)
+        .arg("-o")
+        .arg(unit)
+        // the user's own cache stays as it is
+        .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
+        .output()
+        .expect("cargo has built the program");
+    assert!(
+        output.status.success(),
+        "export of {} failed:\n{}",
+        scene.display(),
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 /// The library inside a unit, unpacked beside it.
 pub fn library(fmu: &Path) -> PathBuf {
     once(fmu.to_path_buf(), |fmu| {
-        let folder = fmu.with_extension("");
+        // what is unpacked may be changed, what is shared not
+        let mut hash = DefaultHasher::new();
+        fmu.hash(&mut hash);
+        let folder = folder().join(format!("{:016x}", hash.finish()));
+        let _ = fs::remove_dir_all(&folder);
         let output = Command::new("python3")
             .args(["-m", "zipfile", "-e"])
             .args([fmu, &folder])

@@ -1,0 +1,88 @@
+//! What must hold for the values of every FMU, whatever was called.
+
+use crate::face::Face;
+use std::collections::HashMap;
+
+/// What was seen of an instance after its last call.
+#[derive(Clone, Debug, Default)]
+pub struct Seen {
+    /// The heat of each contact [J], by the prefix of its variables.
+    dissipated: HashMap<String, f64>,
+}
+
+/// Relative error that rounding may leave in a balance of energies, and between a step and its parts.
+const TOLERANCE: f64 = 1e-12;
+
+/// The prefixes of the contacts' variables.
+fn contacts(face: &Face) -> impl Iterator<Item = &str> {
+    face.named
+        .keys()
+        .filter_map(|name| name.strip_suffix("force"))
+        .filter(|prefix| prefix.is_empty() || prefix.ends_with('.'))
+}
+
+/// Checks the values of all Real outputs, in the order of `face.outputs`; `before` is what a step began with.
+///
+/// # Errors
+/// What is wrong.
+pub fn check_values(face: &Face, values: &[f64], before: &Seen) -> Result<Seen, String> {
+    let by_reference: HashMap<u32, f64> = face.outputs.iter().copied().zip(values.iter().copied()).collect();
+    for (name, reference) in &face.named {
+        let value = by_reference[reference];
+        if !value.is_finite() {
+            return Err(format!("{name} is {value}"));
+        }
+    }
+    let mut seen = Seen::default();
+    for prefix in contacts(face) {
+        let value = |name: &str| face.named.get(&format!("{prefix}{name}")).map(|reference| by_reference[reference]);
+        let force = value("force").expect("every contact has a force");
+        if force < 0.0 {
+            return Err(format!("{prefix}force is {force:e} N"));
+        }
+        if let Some(indentation) = value("indentation")
+            && indentation < 0.0
+            && force != 0.0
+        {
+            return Err(format!("{prefix}force is {force:e} N at an indentation of {indentation:e} m"));
+        }
+        let energies = (value("work"), value("elastic_energy"), value("dissipated_energy"));
+        if let (Some(work), Some(elastic), Some(dissipated)) = energies {
+            let scale = work.abs().max(elastic.abs()).max(dissipated.abs());
+            let rest = work - elastic - dissipated;
+            if rest.abs() > TOLERANCE * scale {
+                return Err(format!("{prefix}work {work:e} J isn't {elastic:e} J + {dissipated:e} J"));
+            }
+            if let Some(earlier) = before.dissipated.get(prefix)
+                && dissipated < earlier - TOLERANCE * scale
+            {
+                return Err(format!("{prefix}dissipated_energy falls from {earlier:e} J to {dissipated:e} J"));
+            }
+            seen.dissipated.insert(prefix.to_string(), dissipated);
+        }
+    }
+    Ok(seen)
+}
+
+/// Outputs that belong to the last step, and not to its end.
+const OF_THE_STEP: [&str; 3] = ["mean_force", "impulse", "predicted_force"];
+
+/// Checks that a step and its parts have ended at the same values.
+///
+/// # Errors
+/// The first variable that differs.
+pub fn same_values(face: &Face, whole: &[f64], pieces: &[f64]) -> Result<(), String> {
+    for (name, reference) in &face.named {
+        if OF_THE_STEP.iter().any(|other| name.ends_with(other)) {
+            continue;
+        }
+        let place = face.outputs.iter().position(|other| other == reference).expect("it is an output");
+        let (one, other) = (whole[place], pieces[place]);
+        // stiffness jumps where the branch changes, which rounding moves
+        let jumps = name.ends_with("stiffness");
+        if !jumps && (one - other).abs() > 1e-9 * one.abs().max(other.abs()) && (one - other).abs() > 1e-15 {
+            return Err(format!("{name} is {one:e} after a step, and {other:e} after its parts"));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,227 @@
+//! Random calls of the C interface with hostile arguments: no crash, no hang, no NaN, no force while apart, and energies that
+//! balance.
+//!
+//! Each FMU runs its scripts in a process of its own. A script is a number: it is the same on every machine. What a script has
+//! found is shrunk to the calls that matter, and printed.
+//!
+//! `cargo test --release --test fuzz` makes some 100,000 calls. `BRINELL_FUZZ=1e8 cargo test --release --test fuzz` makes as many
+//! as it says; `BRINELL_FUZZ_SEED` begins with another script.
+#![cfg(target_os = "linux")]
+
+#[path = "../support/functions.rs"]
+mod functions;
+#[path = "../support/unit.rs"]
+mod unit;
+
+mod call;
+mod face;
+mod judge;
+mod run;
+
+use call::{Call, script};
+use face::Face;
+use run::Runner;
+use std::env;
+use std::fmt::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus};
+use std::time::{Duration, Instant};
+
+/// Calls over all FMUs in a usual run.
+const CALLS: u64 = 100_000;
+
+/// Calls of a script, beside those that begin it.
+const LENGTH: usize = 80;
+
+/// The longest time that a process may take for some thousand calls [s].
+const LIMIT: Duration = Duration::from_secs(120);
+
+/// Scripts that run in one process.
+const CHUNK: u64 = 2000;
+
+/// The variables that tell a process what to do.
+const LIBRARY: &str = "BRINELL_FUZZ_LIBRARY";
+const FIRST: &str = "BRINELL_FUZZ_FIRST";
+const COUNT: &str = "BRINELL_FUZZ_COUNT";
+/// Which calls of the script to make, by their numbers; all, if it isn't set.
+const KEPT: &str = "BRINELL_FUZZ_KEPT";
+/// The file for the number of the script that runs.
+const PROGRESS: &str = "BRINELL_FUZZ_PROGRESS";
+
+/// A number from the environment; `1e8` is one.
+fn number(name: &str) -> Option<u64> {
+    let text = env::var(name).ok()?;
+    let value: f64 = text.parse().unwrap_or_else(|_| panic!("{name}={text} is no number"));
+    Some(value as u64)
+}
+
+/// The part of a process: runs scripts, and ends with the message of the first that fails.
+#[test]
+#[ignore = "the tests below start it in processes of their own"]
+fn worker() {
+    let Ok(library) = env::var(LIBRARY) else { return };
+    let face = Face::load(Path::new(&library));
+    let (first, count) = (number(FIRST).expect("a number"), number(COUNT).expect("a number"));
+    let kept: Option<Vec<usize>> =
+        env::var(KEPT).ok().map(|text| text.split(',').filter_map(|number| number.parse().ok()).collect());
+    let progress = env::var(PROGRESS).expect("a file");
+    let mut calls = 0;
+    for seed in first..first + count {
+        std::fs::write(&progress, seed.to_string()).expect("the target folder can be written to");
+        let mut calls_of_it = script(seed, &face, LENGTH);
+        if let Some(kept) = &kept {
+            calls_of_it = kept.iter().filter_map(|&number| calls_of_it.get(number).cloned()).collect();
+        }
+        let mut runner = Runner::new(&face);
+        let result = runner.run(&calls_of_it);
+        calls += runner.calls;
+        drop(runner);
+        if let Err(wrong) = result {
+            panic!("{wrong}");
+        }
+    }
+    std::fs::write(&progress, format!("made {calls}")).expect("the target folder can be written to");
+}
+
+/// An FMU under test.
+struct Target {
+    name: String,
+    library: PathBuf,
+}
+
+/// How a process ended that didn't do its work.
+enum Failure {
+    Hang,
+    Ended { status: ExitStatus, said: String },
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Hang => write!(f, "no end within {LIMIT:?}"),
+            Failure::Ended { status, said } => write!(f, "{status}\n{said}"),
+        }
+    }
+}
+
+impl Target {
+    /// Runs `count` scripts from `first` on; gives the number of calls, or the script that failed.
+    fn run(&self, first: u64, count: u64, kept: Option<&[usize]>) -> Result<u64, (u64, Failure)> {
+        let progress = self.library.with_extension("progress");
+        let program = env::current_exe().expect("a test program");
+        let mut command = Command::new(program);
+        command.args(["worker", "--exact", "--ignored", "--nocapture"]);
+        command.env(LIBRARY, &self.library).env(FIRST, first.to_string()).env(COUNT, count.to_string());
+        command.env(PROGRESS, &progress).env("RUST_BACKTRACE", "0");
+        if let Some(kept) = kept {
+            command.env(KEPT, kept.iter().map(usize::to_string).collect::<Vec<_>>().join(","));
+        }
+        let log = self.library.with_extension("log");
+        let file = std::fs::File::create(&log).expect("the target folder can be written to");
+        command.stdout(file.try_clone().expect("a file")).stderr(file);
+        let mut child = command.spawn().expect("a test program can be started");
+        let begin = Instant::now();
+        let failure = loop {
+            match child.try_wait().expect("a child") {
+                Some(status) if status.success() => break None,
+                Some(status) => {
+                    let said = std::fs::read(&log).map(|text| String::from_utf8_lossy(&text).into_owned());
+                    break Some(Failure::Ended { status, said: said.unwrap_or_default() });
+                }
+                None if begin.elapsed() > LIMIT => {
+                    let _ = child.kill();
+                    let _ = child.wait();
+                    break Some(Failure::Hang);
+                }
+                None => std::thread::sleep(Duration::from_millis(2)),
+            }
+        };
+        let reached = std::fs::read_to_string(&progress).unwrap_or_default();
+        match failure {
+            None => Ok(reached.strip_prefix("made ").and_then(|calls| calls.parse().ok()).expect("a number of calls")),
+            Some(failure) => Err((reached.parse().unwrap_or(first), failure)),
+        }
+    }
+
+    /// The numbers of the calls without which the script of `seed` doesn't fail.
+    fn shrink(&self, seed: u64) -> Vec<Call> {
+        let face = Face::load(&self.library);
+        let whole = script(seed, &face, LENGTH);
+        let mut kept: Vec<usize> = (0..whole.len()).collect();
+        let mut size = kept.len() / 2;
+        while size > 0 {
+            let mut begin = 0;
+            while begin < kept.len() {
+                let end = (begin + size).min(kept.len());
+                let fewer: Vec<usize> = kept[..begin].iter().chain(&kept[end..]).copied().collect();
+                match self.run(seed, 1, Some(&fewer)) {
+                    Err(_) => kept = fewer,
+                    Ok(_) => begin = end,
+                }
+            }
+            size /= 2;
+        }
+        kept.into_iter().map(|number| whole[number].clone()).collect()
+    }
+
+    /// Some `calls` calls, from the script `first` on.
+    fn fuzz(&self, first: u64, calls: u64) -> u64 {
+        let (mut made, mut seed) = (0, first);
+        while made < calls {
+            // a script makes at least as many calls as it is long, but for those that have no instance
+            let count = ((calls - made) / LENGTH as u64 + 1).min(CHUNK);
+            match self.run(seed, count, None) {
+                Ok(calls) => made += calls,
+                Err((seed, failure)) => {
+                    let mut text =
+                        format!("{}: the script {seed} fails: {failure}\nits calls that matter:\n", self.name);
+                    for call in self.shrink(seed) {
+                        let _ = writeln!(text, "    {call:?}");
+                    }
+                    panic!("{text}");
+                }
+            }
+            seed += count;
+        }
+        made
+    }
+}
+
+/// All FMUs: of the project's own scenes, and of laws and keys that these don't have.
+fn targets() -> Vec<Target> {
+    let own = [
+        ("fresh", "brinell", "brinell", "surface = \"fresh\"\n", ""),
+        ("guarded", "jackson-green", "contact-radius", "", "passivity_guard = true\n"),
+        ("thornton", "thornton", "thornton", "", ""),
+    ];
+    let own = own.map(|(name, loading, unloading, target, law)| {
+        let text = format!(
+            "name = \"{name}\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n{target}[law]\n\
+             loading = \"{loading}\"\nunloading = \"{unloading}\"\n{law}[fmu]\noutputs = [\"indentation\", \"work\", \
+             \"elastic_energy\", \"dissipated_energy\", \"impulse\", \"predicted_force\", \"regime\"]\n"
+        );
+        unit::write_scene(name, &text)
+    });
+    // a thousand contacts are as two, and take longer
+    let plain = unit::scenes().into_iter().filter(|scene| !scene.ends_with("many_contacts.toml"));
+    let scenes = plain.chain(own);
+    let target = |scene: PathBuf| Target {
+        name: scene.file_stem().expect("a name").to_string_lossy().into_owned(),
+        library: unit::library(&unit::export(&scene)),
+    };
+    scenes.map(target).collect()
+}
+
+#[test]
+fn no_call_crashes_hangs_or_makes_numbers_that_are_none() {
+    let targets = targets();
+    let calls = number("BRINELL_FUZZ").unwrap_or(CALLS) / targets.len() as u64 + 1;
+    let first = number("BRINELL_FUZZ_SEED").unwrap_or(1);
+    let mut all = 0;
+    for target in &targets {
+        let made = target.fuzz(first, calls);
+        println!("{}: {made} calls", target.name);
+        all += made;
+    }
+    println!("{all} calls of {} FMUs", targets.len());
+}

@@ -1,0 +1,585 @@
+//! Runs a script: makes the calls, and judges what they answer.
+
+use crate::call::{Call, INSTANCES, Kind, STATES, Simple, Wrong};
+use crate::face::Face;
+use crate::judge::{Seen, check_values, same_values};
+use brinell::fmi2::abi::*;
+use std::ffi::{CString, c_char, c_int, c_void};
+use std::ptr::{null, null_mut};
+
+const OK: c_int = 0;
+const WARNING: c_int = 1;
+const DISCARD: c_int = 2;
+const ERROR: c_int = 3;
+
+/// The states of the standard that an instance of a synchronous unit has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    Instantiated,
+    Initialization,
+    Step,
+    Terminated,
+    Error,
+}
+
+/// An instance, and what an importer knows of it.
+struct Instance {
+    component: fmi2Component,
+    phase: Phase,
+    has_experiment: bool,
+    time: f64,
+    seen: Seen,
+}
+
+/// A saved state, and what was known of the instance.
+struct State {
+    pointer: fmi2FMUstate,
+    phase: Phase,
+    has_experiment: bool,
+    time: f64,
+    seen: Seen,
+}
+
+/// A script that runs. Dropping it frees what it has made.
+pub struct Runner<'a> {
+    face: &'a Face,
+    instances: [Option<Instance>; INSTANCES],
+    states: [Option<State>; STATES],
+    /// The last serialized state, and what it was of.
+    bytes: Option<(Vec<c_char>, State)>,
+    /// Calls of the C interface.
+    pub calls: u64,
+}
+
+unsafe extern "C" fn logger(
+    _: *mut c_void,
+    name: *const c_char,
+    status: c_int,
+    category: *const c_char,
+    text: *const c_char,
+) {
+    assert!(!name.is_null() && !category.is_null() && !text.is_null() && (0..=4).contains(&status));
+    // SAFETY: messages end with 0
+    let text = unsafe { std::ffi::CStr::from_ptr(text) }.to_str().expect("messages are UTF-8");
+    // every % of a message is doubled: it is a format
+    assert!(text.replace("%%", "").find('%').is_none(), "{text:?} has a format of printf");
+}
+
+/// A logger as the standard has it; this one looks at no further arguments.
+fn variadic(
+    function: unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
+) -> fmi2CallbackLogger {
+    // SAFETY: a function without further arguments is called in the same way on the platforms of the tests
+    unsafe { std::mem::transmute(function) }
+}
+
+fn callbacks() -> fmi2CallbackFunctions {
+    fmi2CallbackFunctions {
+        logger: Some(variadic(logger)),
+        allocateMemory: None,
+        freeMemory: None,
+        stepFinished: None,
+        componentEnvironment: null_mut(),
+    }
+}
+
+impl<'a> Runner<'a> {
+    pub fn new(face: &'a Face) -> Runner<'a> {
+        Runner { face, instances: [None, None], states: [None, None, None], bytes: None, calls: 0 }
+    }
+
+    /// Runs all calls; the error says which one went wrong, and how.
+    pub fn run(&mut self, script: &[Call]) -> Result<(), String> {
+        for (number, call) in script.iter().enumerate() {
+            self.make(call).map_err(|wrong| format!("call {number}, {call:?}: {wrong}"))?;
+        }
+        Ok(())
+    }
+
+    fn make(&mut self, call: &Call) -> Result<(), String> {
+        match call {
+            Call::Instantiate { at, wrong, logging } => self.instantiate(*at, *wrong, *logging),
+            Call::Free { at } => {
+                self.free(*at);
+                Ok(())
+            }
+            Call::Save { at, state } => self.save(*at, *state),
+            Call::Restore { at, state } => self.restore(*at, *state),
+            Call::FreeState { at, state } => self.free_state(*at, *state),
+            Call::Serialize { at, state, short_by } => self.serialize(*at, *state, *short_by),
+            Call::Deserialize { at, state, flip, length } => self.deserialize(*at, *state, *flip, *length),
+            Call::Split { at, step, parts } => self.split(*at, *step, *parts),
+            Call::Setup { at, .. }
+            | Call::Simple { at, .. }
+            | Call::Get { at, .. }
+            | Call::Set { at, .. }
+            | Call::InputDerivatives { at, .. }
+            | Call::OutputDerivatives { at, .. }
+            | Call::Directional { at, .. }
+            | Call::Step { at, .. }
+            | Call::Status { at, .. }
+            | Call::Log { at, .. } => {
+                let Some(mut instance) = self.instances[*at].take() else { return Ok(()) };
+                let result = self.call(&mut instance, call);
+                self.instances[*at] = Some(instance);
+                result
+            }
+        }
+    }
+
+    fn instantiate(&mut self, at: usize, wrong: Option<Wrong>, logging: bool) -> Result<(), String> {
+        if self.instances[at].is_some() {
+            return Ok(());
+        }
+        let functions = &self.face.functions;
+        let (empty, name) = (CString::default(), CString::new("100 %s # Größe").expect("no zero"));
+        let other = CString::new("{another}").expect("no zero");
+        let (mut name_pointer, mut guid, mut kind) = (name.as_ptr(), self.face.guid.as_ptr(), 1);
+        let callbacks = callbacks();
+        let mut callbacks_pointer = &raw const callbacks;
+        match wrong {
+            None => {}
+            Some(Wrong::NoName) => name_pointer = null(),
+            Some(Wrong::EmptyName) => name_pointer = empty.as_ptr(),
+            Some(Wrong::NoGuid) => guid = null(),
+            Some(Wrong::Guid) => guid = other.as_ptr(),
+            Some(Wrong::Type) => kind = 0,
+            Some(Wrong::NoCallbacks) => callbacks_pointer = null(),
+        }
+        self.calls += 1;
+        // SAFETY: strings that end with 0 or null, callbacks that live or null
+        let component = unsafe {
+            (functions.instantiate)(name_pointer, kind, guid, null(), callbacks_pointer, 0, c_int::from(logging))
+        };
+        match (component.is_null(), wrong) {
+            (true, None) => Err("no instance".into()),
+            (false, Some(_)) => Err("an instance in spite of a wrong argument".into()),
+            (true, Some(_)) => Ok(()),
+            (false, None) => {
+                let phase = Phase::Instantiated;
+                let seen = Seen::default();
+                self.instances[at] = Some(Instance { component, phase, has_experiment: false, time: 0.0, seen });
+                Ok(())
+            }
+        }
+    }
+
+    fn free(&mut self, at: usize) {
+        if let Some(instance) = self.instances[at].take() {
+            self.calls += 1;
+            // SAFETY: it isn't used again
+            unsafe { (self.face.functions.free_instance)(instance.component) };
+        }
+    }
+
+    /// Any call on one instance.
+    fn call(&mut self, instance: &mut Instance, call: &Call) -> Result<(), String> {
+        self.calls += 1;
+        let functions = &self.face.functions;
+        let c = instance.component;
+        let before = instance.phase;
+        let (status, allowed) = match call {
+            Call::Setup { start, stop, tolerance, .. } => {
+                let (defined, stop_time) = (c_int::from(stop.is_some()), stop.unwrap_or(0.0));
+                let tolerance_defined = c_int::from(tolerance.is_some());
+                // SAFETY: the component lives, here and below
+                let status = unsafe {
+                    (functions.setup_experiment)(
+                        c,
+                        tolerance_defined,
+                        tolerance.unwrap_or(0.0),
+                        *start,
+                        defined,
+                        stop_time,
+                    )
+                };
+                if status == OK {
+                    (instance.has_experiment, instance.time) = (true, *start);
+                }
+                (status, before == Phase::Instantiated)
+            }
+            Call::Simple { which, .. } => simple(self.face, instance, *which),
+            Call::Get { kind, references, null, .. } => {
+                let status = self.get(c, *kind, references, *null)?;
+                (status, !matches!(before, Phase::Instantiated))
+            }
+            Call::Set { kind, references, values, null, .. } => {
+                let status = self.set(c, *kind, references, values, *null);
+                (status, matches!(before, Phase::Instantiated | Phase::Initialization | Phase::Step))
+            }
+            Call::InputDerivatives { references, orders, values, .. } => {
+                // SAFETY: arrays as long as announced
+                let status = unsafe {
+                    let (references, count) = (references.as_ptr(), references.len());
+                    (functions.set_real_input_derivatives)(c, references, count, orders.as_ptr(), values.as_ptr())
+                };
+                (status, matches!(before, Phase::Instantiated | Phase::Initialization | Phase::Step))
+            }
+            Call::OutputDerivatives { references, orders, .. } => {
+                let mut values = vec![f64::NAN; references.len()];
+                // SAFETY: arrays as long as announced
+                let status = unsafe {
+                    let (references, count) = (references.as_ptr(), references.len());
+                    (functions.get_real_output_derivatives)(c, references, count, orders.as_ptr(), values.as_mut_ptr())
+                };
+                finite(status, &values)?;
+                (status, !matches!(before, Phase::Instantiated))
+            }
+            Call::Directional { unknowns, knowns, direction, .. } => {
+                let (directions, mut values) = (vec![*direction; knowns.len()], vec![f64::NAN; unknowns.len()]);
+                // SAFETY: arrays as long as announced
+                let status = unsafe {
+                    (functions.get_directional_derivative)(
+                        c,
+                        unknowns.as_ptr(),
+                        unknowns.len(),
+                        knowns.as_ptr(),
+                        knowns.len(),
+                        directions.as_ptr(),
+                        values.as_mut_ptr(),
+                    )
+                };
+                if direction.is_finite() && direction.abs() < 1e100 {
+                    finite(status, &values)?;
+                }
+                (status, !matches!(before, Phase::Instantiated))
+            }
+            Call::Step { late, step, .. } => {
+                // SAFETY: the component lives
+                let status = unsafe { (functions.do_step)(c, instance.time + late, *step, 1) };
+                if status <= WARNING {
+                    if !(*step > 0.0 && step.is_finite() && (instance.time + late).is_finite()) {
+                        return Err(format!("a step of {step:e} s from {:e} s succeeds", instance.time + late));
+                    }
+                    instance.time += late + step;
+                }
+                (status, before == Phase::Step)
+            }
+            Call::Status { which, kind, .. } => (ask(self.face, c, *which, *kind), true),
+            Call::Log { on, categories, .. } => {
+                let texts: Vec<CString> = categories.iter().map(|text| CString::new(*text).expect("no zero")).collect();
+                let pointers: Vec<_> = texts.iter().map(|text| text.as_ptr()).collect();
+                // SAFETY: strings that live during the call
+                let status =
+                    unsafe { (functions.set_debug_logging)(c, c_int::from(*on), pointers.len(), pointers.as_ptr()) };
+                (status, true)
+            }
+            _ => unreachable!("calls on states are made elsewhere"),
+        };
+        if !(OK..=ERROR).contains(&status) {
+            return Err(format!("status {status}"));
+        }
+        if !allowed && status <= WARNING {
+            return Err(format!("status {status} in the phase {before:?}, where it isn't allowed"));
+        }
+        if status == ERROR {
+            instance.phase = Phase::Error;
+        }
+        self.judge(instance, call, status)
+    }
+
+    /// Looks at the values after a call, where they can be read.
+    fn judge(&mut self, instance: &mut Instance, call: &Call, status: c_int) -> Result<(), String> {
+        if instance.phase == Phase::Instantiated {
+            instance.seen = Seen::default();
+            return Ok(());
+        }
+        let values = self.values(instance)?;
+        let steps = matches!(call, Call::Step { .. });
+        // parameters may change until the first step, and some between steps
+        let before = if steps && status <= WARNING { instance.seen.clone() } else { Seen::default() };
+        instance.seen = check_values(self.face, &values, &before)?;
+        Ok(())
+    }
+
+    /// All Real outputs.
+    fn values(&mut self, instance: &Instance) -> Result<Vec<f64>, String> {
+        self.calls += 1;
+        let references = &self.face.outputs;
+        let mut values = vec![f64::NAN; references.len()];
+        // SAFETY: arrays as long as announced
+        let status = unsafe {
+            (self.face.functions.get_real)(instance.component, references.as_ptr(), values.len(), values.as_mut_ptr())
+        };
+        if status != OK {
+            return Err(format!("status {status} of fmi2GetReal in the phase {:?}", instance.phase));
+        }
+        Ok(values)
+    }
+
+    fn get(&self, c: fmi2Component, kind: Kind, references: &[u32], no_array: bool) -> Result<c_int, String> {
+        let functions = &self.face.functions;
+        let count = references.len();
+        let (mut reals, mut integers) = (vec![0.0; count], vec![0; count]);
+        let mut strings: Vec<fmi2String> = vec![null(); count];
+        let references = references.as_ptr();
+        // SAFETY: arrays as long as announced, or null
+        let status = unsafe {
+            match kind {
+                Kind::Real => (functions.get_real)(c, references, count, or_null(&mut reals, no_array)),
+                Kind::Integer => (functions.get_integer)(c, references, count, or_null(&mut integers, no_array)),
+                Kind::Boolean => (functions.get_boolean)(c, references, count, or_null(&mut integers, no_array)),
+                Kind::String => (functions.get_string)(c, references, count, or_null(&mut strings, no_array)),
+            }
+        };
+        if no_array && count > 0 && status <= WARNING {
+            return Err("success without an array".into());
+        }
+        finite(status, &reals)?;
+        Ok(status)
+    }
+
+    fn set(&self, c: fmi2Component, kind: Kind, references: &[u32], values: &[f64], no_array: bool) -> c_int {
+        let functions = &self.face.functions;
+        let count = references.len();
+        let mut reals = values.to_vec();
+        let mut integers: Vec<c_int> = values.iter().map(|value| *value as c_int).collect();
+        let text = CString::default();
+        let mut strings: Vec<fmi2String> = vec![text.as_ptr(); count];
+        let references = references.as_ptr();
+        // SAFETY: arrays as long as announced, or null
+        unsafe {
+            match kind {
+                Kind::Real => (functions.set_real)(c, references, count, or_null(&mut reals, no_array)),
+                Kind::Integer => (functions.set_integer)(c, references, count, or_null(&mut integers, no_array)),
+                Kind::Boolean => (functions.set_boolean)(c, references, count, or_null(&mut integers, no_array)),
+                Kind::String => (functions.set_string)(c, references, count, or_null(&mut strings, no_array)),
+            }
+        }
+    }
+
+    fn save(&mut self, at: usize, place: usize) -> Result<(), String> {
+        let Some(instance) = &self.instances[at] else { return Ok(()) };
+        self.calls += 1;
+        let mut pointer = self.states[place].take().map_or(null_mut(), |state| state.pointer);
+        // SAFETY: the component lives, and the state, if it isn't null
+        let status = unsafe { (self.face.functions.get_fmu_state)(instance.component, &raw mut pointer) };
+        if status != OK || pointer.is_null() {
+            return Err(format!("status {status} in the phase {:?}", instance.phase));
+        }
+        self.states[place] = Some(State::of(pointer, instance));
+        Ok(())
+    }
+
+    fn restore(&mut self, at: usize, place: usize) -> Result<(), String> {
+        let (Some(instance), Some(state)) = (&mut self.instances[at], &self.states[place]) else { return Ok(()) };
+        self.calls += 1;
+        // SAFETY: component and state live
+        let status = unsafe { (self.face.functions.set_fmu_state)(instance.component, state.pointer) };
+        if status != OK {
+            return Err(format!("status {status}"));
+        }
+        state.give(instance);
+        Ok(())
+    }
+
+    fn free_state(&mut self, at: usize, place: usize) -> Result<(), String> {
+        let Some(instance) = &self.instances[at] else { return Ok(()) };
+        let mut pointer = self.states[place].take().map_or(null_mut(), |state| state.pointer);
+        self.calls += 1;
+        // SAFETY: it isn't used again
+        let status = unsafe { (self.face.functions.free_fmu_state)(instance.component, &raw mut pointer) };
+        if status == OK && pointer.is_null() { Ok(()) } else { Err(format!("status {status}, {pointer:?} remains")) }
+    }
+
+    fn serialize(&mut self, at: usize, place: usize, short_by: usize) -> Result<(), String> {
+        let (Some(instance), Some(state)) = (&mut self.instances[at], &self.states[place]) else { return Ok(()) };
+        self.calls += 2;
+        let (functions, mut size) = (&self.face.functions, 0);
+        // SAFETY: component and state live
+        let status = unsafe { (functions.serialized_fmu_state_size)(instance.component, state.pointer, &raw mut size) };
+        if status != OK || size == 0 {
+            return Err(format!("status {status}, {size} bytes"));
+        }
+        let mut bytes = vec![0; size.saturating_sub(short_by)];
+        // SAFETY: the same, and the array is as long as announced
+        let status = unsafe {
+            (functions.serialize_fmu_state)(instance.component, state.pointer, bytes.as_mut_ptr(), bytes.len())
+        };
+        match (status, short_by) {
+            (OK, 0) => {
+                self.bytes = Some((bytes, State { pointer: null_mut(), seen: state.seen.clone(), ..*state }));
+                Ok(())
+            }
+            (ERROR, 1..) => {
+                instance.phase = Phase::Error;
+                Ok(())
+            }
+            _ => Err(format!("status {status} with {short_by} bytes too few")),
+        }
+    }
+
+    fn deserialize(
+        &mut self,
+        at: usize,
+        place: usize,
+        flip: Option<usize>,
+        length: Option<usize>,
+    ) -> Result<(), String> {
+        let (Some(instance), Some((bytes, of))) = (&mut self.instances[at], &self.bytes) else { return Ok(()) };
+        let mut changed = bytes.clone();
+        if let Some(bit) = flip {
+            let bit = bit % (8 * changed.len());
+            changed[bit / 8] ^= (1u8 << (bit % 8)).cast_signed();
+        }
+        if let Some(length) = length {
+            changed.resize(length, 0);
+        }
+        let mut pointer = null_mut();
+        self.calls += 1;
+        // SAFETY: the component lives, and the array is as long as announced
+        let status = unsafe {
+            let (bytes, count) = (changed.as_ptr(), changed.len());
+            (self.face.functions.deserialize_fmu_state)(instance.component, bytes, count, &raw mut pointer)
+        };
+        if changed != *bytes {
+            if status != ERROR || !pointer.is_null() {
+                return Err(format!("status {status} with damaged bytes"));
+            }
+            instance.phase = Phase::Error;
+            return Ok(());
+        }
+        if status != OK || pointer.is_null() {
+            return Err(format!("status {status} with good bytes"));
+        }
+        let state = State { pointer, seen: of.seen.clone(), ..*of };
+        if let Some(mut old) = self.states[place].replace(state) {
+            // SAFETY: it isn't used again
+            unsafe { (self.face.functions.free_fmu_state)(instance.component, &raw mut old.pointer) };
+        }
+        Ok(())
+    }
+
+    /// A step from one state, whole and in parts. An FMU that moves the bodies itself takes the rate for that at the start of a
+    /// step: its parts would need other rates.
+    fn split(&mut self, at: usize, step: f64, parts: u32) -> Result<(), String> {
+        let Some(mut instance) = self.instances[at].take() else { return Ok(()) };
+        let moves_bodies = self.face.named.keys().any(|name| name.ends_with("mean_force"));
+        let result = if instance.phase == Phase::Step && !moves_bodies {
+            self.split_of(&mut instance, step, parts)
+        } else {
+            Ok(())
+        };
+        self.instances[at] = Some(instance);
+        result
+    }
+
+    fn split_of(&mut self, instance: &mut Instance, step: f64, parts: u32) -> Result<(), String> {
+        let functions = &self.face.functions;
+        let (c, mut start) = (instance.component, null_mut());
+        // times that add up without rounding: parts of a power of two of the step
+        let part = step / f64::from(parts);
+        // SAFETY: component and state live
+        let (whole, pieces) = unsafe {
+            (functions.get_fmu_state)(c, &raw mut start);
+            let whole = (functions.do_step)(c, instance.time, step, 1);
+            let whole = if whole <= WARNING { Some(self.values(instance)?) } else { None };
+            (functions.set_fmu_state)(c, start);
+            let mut status = OK;
+            for index in 0..parts {
+                status = status.max((functions.do_step)(c, instance.time + f64::from(index) * part, part, 1));
+            }
+            let pieces = if status <= WARNING { Some(self.values(instance)?) } else { None };
+            (functions.set_fmu_state)(c, start);
+            (functions.free_fmu_state)(c, &raw mut start);
+            (whole, pieces)
+        };
+        self.calls += u64::from(parts) + 5;
+        match (whole, pieces) {
+            (Some(whole), Some(pieces)) => same_values(self.face, &whole, &pieces),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl State {
+    fn of(pointer: fmi2FMUstate, instance: &Instance) -> State {
+        let Instance { phase, has_experiment, time, ref seen, .. } = *instance;
+        State { pointer, phase, has_experiment, time, seen: seen.clone() }
+    }
+
+    /// Makes `instance` as it was.
+    fn give(&self, instance: &mut Instance) {
+        (instance.phase, instance.has_experiment, instance.time) = (self.phase, self.has_experiment, self.time);
+        instance.seen = self.seen.clone();
+    }
+}
+
+/// A call that takes nothing but the component; its status, and whether it is allowed.
+fn simple(face: &Face, instance: &mut Instance, which: Simple) -> (c_int, bool) {
+    let functions = &face.functions;
+    let (function, allowed, then) = match which {
+        Simple::Enter => (
+            functions.enter_initialization_mode,
+            instance.phase == Phase::Instantiated && instance.has_experiment,
+            Phase::Initialization,
+        ),
+        Simple::Exit => (functions.exit_initialization_mode, instance.phase == Phase::Initialization, Phase::Step),
+        Simple::Terminate => (
+            functions.terminate,
+            // wider than the standard, as importers need it
+            matches!(instance.phase, Phase::Instantiated | Phase::Step | Phase::Terminated),
+            // an instance that was never initialized has nothing to end
+            if instance.phase == Phase::Step { Phase::Terminated } else { instance.phase },
+        ),
+        Simple::Reset => (functions.reset, true, Phase::Instantiated),
+        // nothing runs that could be cancelled
+        Simple::Cancel => (functions.cancel_step, false, instance.phase),
+    };
+    // SAFETY: the component lives
+    let status = unsafe { function(instance.component) };
+    if status <= WARNING {
+        instance.phase = then;
+        if which == Simple::Reset {
+            instance.has_experiment = false;
+        }
+    }
+    (status, allowed)
+}
+
+/// Asks for a status of this kind.
+fn ask(face: &Face, c: fmi2Component, which: u8, kind: c_int) -> c_int {
+    let functions = &face.functions;
+    let (mut integer, mut real, mut text) = (0, 0.0, null());
+    // SAFETY: component and values live
+    unsafe {
+        match which {
+            0 => (functions.get_status)(c, kind, &raw mut integer),
+            1 => (functions.get_real_status)(c, kind, &raw mut real),
+            2 => (functions.get_integer_status)(c, kind, &raw mut integer),
+            3 => (functions.get_boolean_status)(c, kind, &raw mut integer),
+            _ => (functions.get_string_status)(c, kind, &raw mut text),
+        }
+    }
+}
+
+/// The array, or null.
+fn or_null<T>(values: &mut [T], is_null: bool) -> *mut T {
+    if is_null { null_mut() } else { values.as_mut_ptr() }
+}
+
+/// No value of a call that succeeds is infinite or NaN.
+fn finite(status: c_int, values: &[f64]) -> Result<(), String> {
+    let _ = DISCARD;
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(value) if status <= WARNING => Err(format!("{value} with status {status}")),
+        _ => Ok(()),
+    }
+}
+
+impl Drop for Runner<'_> {
+    fn drop(&mut self) {
+        // states first: freeing one needs an instance
+        let states = self.states.iter_mut().filter_map(Option::take).map(|state| state.pointer).collect::<Vec<_>>();
+        if !states.is_empty() && self.instances.iter().all(Option::is_none) {
+            let _ = self.instantiate(0, None, false);
+        }
+        if let Some(instance) = self.instances.iter().flatten().next() {
+            for mut state in states {
+                // SAFETY: it isn't used again
+                unsafe { (self.face.functions.free_fmu_state)(instance.component, &raw mut state) };
+            }
+        }
+        (0..INSTANCES).for_each(|at| self.free(at));
+    }
+}
