@@ -28,6 +28,8 @@ struct Instance {
     phase: Phase,
     has_experiment: bool,
     time: f64,
+    /// Whether an input has a derivative in the next step: it ends with that step, so that parts of it differ from the whole.
+    has_course: bool,
     seen: Seen,
 }
 
@@ -37,6 +39,8 @@ struct State {
     phase: Phase,
     has_experiment: bool,
     time: f64,
+    /// Whether an input has a derivative in the next step: it ends with that step, so that parts of it differ from the whole.
+    has_course: bool,
     seen: Seen,
 }
 
@@ -158,7 +162,8 @@ impl<'a> Runner<'a> {
             (false, None) => {
                 let phase = Phase::Instantiated;
                 let seen = Seen::default();
-                self.instances[at] = Some(Instance { component, phase, has_experiment: false, time: 0.0, seen });
+                self.instances[at] =
+                    Some(Instance { component, phase, has_experiment: false, time: 0.0, has_course: false, seen });
                 Ok(())
             }
         }
@@ -213,6 +218,7 @@ impl<'a> Runner<'a> {
                     let (references, count) = (references.as_ptr(), references.len());
                     (functions.set_real_input_derivatives)(c, references, count, orders.as_ptr(), values.as_ptr())
                 };
+                instance.has_course = true;
                 (status, matches!(before, Phase::Instantiated | Phase::Initialization | Phase::Step))
             }
             Call::OutputDerivatives { references, orders, .. } => {
@@ -252,6 +258,7 @@ impl<'a> Runner<'a> {
                         return Err(format!("a step of {step:e} s from {:e} s succeeds", instance.time + late));
                     }
                     instance.time += late + step;
+                    instance.has_course = false;
                 }
                 (status, before == Phase::Step)
             }
@@ -455,7 +462,7 @@ impl<'a> Runner<'a> {
     fn split(&mut self, at: usize, step: f64, parts: u32) -> Result<(), String> {
         let Some(mut instance) = self.instances[at].take() else { return Ok(()) };
         let moves_bodies = self.face.named.keys().any(|name| name.ends_with("mean_force"));
-        let result = if instance.phase == Phase::Step && !moves_bodies {
+        let result = if instance.phase == Phase::Step && !moves_bodies && !instance.has_course {
             self.split_of(&mut instance, step, parts)
         } else {
             Ok(())
@@ -494,13 +501,14 @@ impl<'a> Runner<'a> {
 
 impl State {
     fn of(pointer: fmi2FMUstate, instance: &Instance) -> State {
-        let Instance { phase, has_experiment, time, ref seen, .. } = *instance;
-        State { pointer, phase, has_experiment, time, seen: seen.clone() }
+        let Instance { phase, has_experiment, time, has_course, ref seen, .. } = *instance;
+        State { pointer, phase, has_experiment, time, has_course, seen: seen.clone() }
     }
 
     /// Makes `instance` as it was.
     fn give(&self, instance: &mut Instance) {
         (instance.phase, instance.has_experiment, instance.time) = (self.phase, self.has_experiment, self.time);
+        instance.has_course = self.has_course;
         instance.seen = self.seen.clone();
     }
 }
@@ -531,7 +539,7 @@ fn simple(face: &Face, instance: &mut Instance, which: Simple) -> (c_int, bool) 
     if status <= WARNING {
         instance.phase = then;
         if which == Simple::Reset {
-            instance.has_experiment = false;
+            (instance.has_experiment, instance.has_course) = (false, false);
         }
     }
     (status, allowed)
