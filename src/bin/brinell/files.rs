@@ -1,11 +1,11 @@
-//! Files that the program writes for its user.
+//! Reading and writing of files for the user.
 
 use std::io;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// A file that can't be read or written.
+/// A file that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[error("{path}: {source}", path = path.display())]
 pub struct FileError {
@@ -14,16 +14,16 @@ pub struct FileError {
 }
 
 impl FileError {
-    /// For `map_err`: what went wrong at `path`.
+    /// For `map_err`: the error at `path`.
     pub fn at(path: &Path) -> impl Fn(io::Error) -> FileError {
         move |source| FileError { path: path.into(), source }
     }
 }
 
-/// Writes a temporary file and renames it: the goal is never half written.
+/// Writes a temporary file and renames it. The target is never incomplete.
 ///
 /// # Errors
-/// [`FileError`]; the goal is then as it was.
+/// [`FileError`]; the target is then unchanged.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let file_error = FileError::at(path);
     let folder = folder_of(path);
@@ -40,7 +40,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     Ok(())
 }
 
-/// A new folder in `parent` with a name that begins with `prefix`. Only its owner can read or write it; dropping it removes it.
+/// A new folder in `parent` whose name begins with `prefix`. Only its owner can read or write it. It is removed when dropped.
 ///
 /// # Errors
 /// [`FileError`]
@@ -51,8 +51,8 @@ pub fn private_folder(prefix: &str, parent: &Path) -> Result<TempDir, FileError>
     builder.prefix(prefix).tempdir_in(parent).map_err(FileError::at(parent))
 }
 
-/// Refuses a goal that can't be written, before any work is done for it: a folder, or a file in a folder that doesn't exist or
-/// can't be written to.
+/// Rejects a target that cannot be written, before any work is done: a folder, or a file in a folder that does not exist or
+/// cannot be written to.
 ///
 /// # Errors
 /// [`FileError`]
@@ -66,11 +66,11 @@ pub fn check_goal(path: &Path) -> Result<(), FileError> {
         let error = io::Error::new(io::ErrorKind::NotFound, format!("there is no folder {}", folder.display()));
         return Err(FileError::at(path)(error));
     }
-    // the only sure way to find out; the file is gone at once
+    // only creating a file shows whether it is possible; the file is deleted immediately
     tempfile::Builder::new().prefix(".brinell-").tempfile_in(folder).map_err(FileError::at(path)).map(drop)
 }
 
-/// Refuses a folder that can't be written into, or can't be made.
+/// Rejects a folder that cannot be written to or created.
 ///
 /// # Errors
 /// [`FileError`]
@@ -79,12 +79,12 @@ pub fn check_folder(path: &Path) -> Result<(), FileError> {
         let error = io::Error::new(io::ErrorKind::NotADirectory, "this is a file; a folder is written here");
         return Err(FileError::at(path)(error));
     }
-    // the nearest folder that exists is the one that others are made in
+    // a missing folder is created in its nearest existing ancestor
     let there = path.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
     tempfile::Builder::new().prefix(".brinell-").tempfile_in(there).map_err(FileError::at(path)).map(drop)
 }
 
-/// The folder that `path` is in.
+/// The folder that contains `path`.
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -92,7 +92,7 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Prints `text`, or writes it where the user wants it.
+/// Prints `text`, or writes it to the user's file.
 ///
 /// # Errors
 /// [`FileError`]
@@ -106,10 +106,10 @@ pub fn deliver(text: &str, output: Option<&Path>) -> Result<(), FileError> {
     }
 }
 
-/// The ending of the file that `output` names, one of `allowed`; without a file the first of them.
+/// The extension of the file `output`, which must be one of `allowed`; without a file, the first of them.
 ///
 /// # Errors
-/// What is allowed.
+/// A sentence with the allowed extensions.
 pub fn ending(output: Option<&Path>, allowed: &[&'static str]) -> Result<&'static str, String> {
     let Some(path) = output else { return Ok(allowed[0]) };
     let given = path.extension().and_then(|extension| extension.to_str());

@@ -1,4 +1,4 @@
-//! `brinell check`: loads an FMU as any importer does and runs the impact of its scene.
+//! `brinell check`: loads an FMU like any importer and runs the impact of its scene.
 
 mod master;
 mod trial;
@@ -12,10 +12,10 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use trial::{STEPS_PER_CONTACT, Trial};
 
-/// Largest relative difference between prediction and simulation.
+/// Largest allowed relative difference between prediction and simulation.
 const TOLERANCE: f64 = 1e-3;
 
-/// A unit that couldn't be checked.
+/// An FMU that could not be checked.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
     #[error("{}: {source}", path.display())]
@@ -26,7 +26,7 @@ pub enum CheckError {
     Scene { path: PathBuf, source: SceneError },
 }
 
-/// The command: checks the FMU at `path` and prints the outcome; gives whether it passed.
+/// The command: checks the FMU at `path` and prints the result. Returns whether it passed.
 pub fn run(path: &Path, as_json: bool) -> Result<bool, Box<dyn Error>> {
     let outcome = check(path)?;
     if as_json {
@@ -37,7 +37,7 @@ pub fn run(path: &Path, as_json: bool) -> Result<bool, Box<dyn Error>> {
     Ok(outcome.passed)
 }
 
-/// What came out.
+/// The result of a check.
 #[derive(Debug, Serialize)]
 pub struct Outcome {
     pub fmu: PathBuf,
@@ -45,16 +45,16 @@ pub struct Outcome {
     pub variables: usize,
     pub impact: ImpactNumbers,
     pub impact_is_assumed: bool,
-    /// How the predicted numbers were found.
+    /// The method of the prediction.
     pub prediction: &'static str,
     pub steps_per_contact: u32,
-    /// Of a unit whose variables have plain names.
+    /// For an FMU with plain variable names.
     #[serde(flatten)]
     pub plain: Option<Trial>,
-    /// Of a unit with named contacts: the first of each group.
+    /// For an FMU with named contacts: the first contact of each group.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<Trial>,
-    /// Start values whose binary differs from the model description.
+    /// Start values that differ between the model description and the binary.
     pub wrong_starts: Vec<String>,
     pub passed: bool,
 }
@@ -62,16 +62,16 @@ pub struct Outcome {
 /// The impact that was run.
 #[derive(Debug, Serialize)]
 pub struct ImpactNumbers {
-    /// [kg]
+    /// Mass [kg].
     pub mass: f64,
-    /// [m/s]
+    /// Closing speed [m/s].
     pub speed: f64,
 }
 
-/// Loads the unit at `path` and runs the impact of its scene.
+/// Loads the FMU at `path` and runs the impact of its scene.
 ///
 /// # Errors
-/// [`CheckError`] if it can't be loaded or a call fails; numbers that differ are in the outcome.
+/// [`CheckError`] if it cannot be loaded or a call fails. Numbers that differ are part of the result.
 fn check(path: &Path) -> Result<Outcome, CheckError> {
     let import_error = |source| CheckError::Import { path: path.into(), source };
     let archive = Archive::open(path).map_err(import_error)?;
@@ -106,7 +106,7 @@ fn try_out(archive: &Archive, scene: &Scene, path: &Path) -> Result<Outcome, Imp
     })
 }
 
-/// Start values in the XML that aren't those of the binary.
+/// Start values in the XML that differ from those of the binary.
 fn wrong_starts(instance: &mut Instance, description: &Description) -> Result<Vec<String>, ImportError> {
     let mut wrong = Vec::new();
     instance.setup_experiment(0.0)?;
