@@ -84,9 +84,7 @@ impl File {
 {parts}{follow}{guard}{methods}}}
 "
         );
-        let text = format!(
-            "\n/// The scene of the FMU.\npub struct Exported;\n{items}\n{implementation}"
-        );
+        let text = format!("\n/// The scene of the FMU.\npub struct Exported;\n{items}\n{implementation}");
         format!("{HEAD}\n{}{text}", uses(&text))
     }
 }
