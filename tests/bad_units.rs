@@ -1,4 +1,4 @@
-//! `brinell check` on what is no unit, or a unit that somebody has changed: it ends with 1 and says what is wrong.
+//! `brinell check` on files that are not FMUs and on modified FMUs: it ends with status 1 and an error message.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -12,7 +12,7 @@ use std::path::Path;
 use std::process::Command;
 use tempfile::TempDir;
 
-/// Copies a unit member by member; `change` is a Python expression of `name` and `data`, None leaves the member out.
+/// Copies an FMU member by member. `change` is a Python expression of `name` and `data`; None removes the member.
 const REPACK: &str = "
 import sys, zipfile
 source, goal, change = sys.argv[1:]
@@ -23,7 +23,7 @@ with zipfile.ZipFile(source) as old, zipfile.ZipFile(goal, 'w', zipfile.ZIP_DEFL
             new.writestr(name, data)
 ";
 
-/// The unit of the default scene, changed.
+/// The FMU of the default scene, modified.
 fn changed(change: &str) -> TempDir {
     let folder = empty_folder();
     let source = unit::export(&unit::scene("steel_ball"));
@@ -42,7 +42,7 @@ fn refused(folder: &Path) -> Run {
     run
 }
 
-/// The message for a unit that can't be loaded; it begins with the unit's path, and there are no results.
+/// The message about an FMU that cannot be loaded. It begins with the path of the FMU, and there are no results.
 #[track_caller]
 fn message(folder: &TempDir) -> String {
     let run = refused(folder.path());
@@ -57,7 +57,7 @@ fn contains(message: &str, parts: &[&str]) {
     }
 }
 
-/// Otherwise the tests below could fail for the packing alone.
+/// Otherwise the tests below could fail just because of the repacking.
 #[test]
 fn a_unit_packed_again_without_change_is_still_good() {
     run(changed("data").path(), ["check", "unit.fmu"]).with_status(0);
@@ -104,7 +104,7 @@ fn a_model_description_that_is_no_xml_is_refused() {
     contains(&message(&changed(change)), &["modelDescription.xml can't be read"]);
 }
 
-/// Control characters, and the two numbers that are no characters, as they are and as references: no other reader takes them.
+/// Control characters and the two non-characters, literally and as references: other XML parsers reject them.
 #[test]
 fn a_character_that_xml_cannot_have_is_told_with_its_place() {
     let description = "description=\"5 mm steel ball on a mild-steel block";
@@ -126,7 +126,7 @@ fn a_character_that_xml_cannot_have_is_told_with_its_place() {
     }
 }
 
-/// There is a folder for each platform; without any, the sentence must not end in the air.
+/// There is a folder for each platform; without any, the message must still be a complete sentence.
 #[test]
 fn a_unit_without_library_says_so() {
     let message = message(&changed("None if name.startswith('binaries/') else data"));
@@ -172,7 +172,7 @@ fn a_guid_other_than_the_librarys_is_refused() {
     contains(&message(&changed(change)), &["fmi2Instantiate", "fmuGUID", "modelDescription.xml"]);
 }
 
-/// The library has the start values compiled in: an editor that changes the XML changes nothing in the simulation.
+/// The start values are compiled into the library: a change in the XML does not change the simulation.
 #[test]
 fn a_start_value_changed_in_the_xml_is_told_with_both_numbers() {
     let change = "data.replace(b'start=\"0.005\"', b'start=\"0.006\"') if name.endswith('.xml') else data";

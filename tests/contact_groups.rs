@@ -1,4 +1,4 @@
-//! Units with several contacts: what export says of them, and how they are checked.
+//! FMUs with several contacts: the summary of an export, and their check.
 
 #[path = "support/command.rs"]
 mod command;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 const STEEL: &str = "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
 const IMPACT: &str = "[impact]\nmass = 4e-3\nspeed = 1.0\n";
 
-/// What a scene exports and how its check went.
+/// The summary of the export of a scene, and the result of its check.
 #[track_caller]
 fn exported(scene: &Path) -> (Value, Value) {
     let folder = empty_folder();
@@ -69,7 +69,7 @@ fn the_impact_meets_the_first_contact_of_every_group() {
     assert!(contacts.iter().all(|contact| contact["rows"].as_array().unwrap().len() == 5), "{check}");
 }
 
-/// Each with its own bodies: the largest force is that of the plain scene with the numbers of the contact.
+/// Each contact has its own bodies: the largest force is that of the plain scene with the numbers of the contact.
 #[test]
 fn the_contacts_of_a_unit_have_their_own_bodies() {
     let (_, check) = exported(&scene("two_contacts"));
@@ -89,7 +89,7 @@ fn the_contacts_of_a_unit_have_their_own_bodies() {
     assert_ne!(check["contacts"][0]["rows"], check["contacts"][1]["rows"]);
 }
 
-/// A gap that can't be set is crossed first; a contact that starts pressed in stays as it is.
+/// A gap that cannot be set is crossed first; a contact that starts indented is not moved.
 #[test]
 fn contacts_with_constant_gaps_are_checked_too() {
     let folder = empty_folder();
@@ -106,7 +106,7 @@ fn contacts_with_constant_gaps_are_checked_too() {
     assert!(check["contacts"][2]["skipped"].as_str().unwrap().contains("pressed in"), "{check}");
 }
 
-/// The guard acts on each contact's bodies; what is told of the unit covers them all.
+/// The guard acts on the bodies of each contact; the text about the FMU covers all of them.
 #[test]
 fn a_guarded_unit_tells_where_the_guard_acts_on_each_contact() {
     let folder = empty_folder();
@@ -128,7 +128,7 @@ fn a_guarded_unit_tells_where_the_guard_acts_on_each_contact() {
     assert!(all.is_sorted() && all.windows(2).all(|pair| pair[0].1 < pair[1].0), "{all:?}");
 }
 
-/// No scene says which bodies two contacts have in common.
+/// No scene specifies which bodies two contacts share.
 #[test]
 fn contacts_whose_bodies_the_unit_moves_come_with_a_word_on_shared_bodies() {
     let folder = tempfile::tempdir().unwrap();
@@ -166,7 +166,7 @@ fn what_each_contact_has_for_itself_is_told_and_checked() {
         assert!(variables.contains(&json!(name)), "no {name} in {variables:?}");
     }
     assert_eq!(export["variable_count"], 3 * 13 + 2 * 12);
-    // the impact on the light one is that of its mass
+    // the impact on the light contact is with its own mass
     assert_eq!(check["passed"], true, "{check}");
     let forces = [0, 1].map(|index| check["contacts"][index]["rows"][0]["predicted"].as_f64().unwrap());
     assert!(forces[1] < 0.7 * forces[0], "{check}");

@@ -1,6 +1,6 @@
-//! Units in the hands of fmpy, the importer that most Python users have: one test for each file in tests/fmpy/.
+//! FMUs in fmpy, the importer of most Python users: one test for each file in tests/fmpy/.
 //!
-//! The units are exported by the program as a user would do it. The files can be run alone, too: see [`pytest::pytest`].
+//! The program exports the FMUs like for a user. The files can also be run alone: see [`pytest::pytest`].
 
 #[path = "support/pytest.rs"]
 mod pytest;
@@ -13,7 +13,7 @@ use std::fs;
 use std::path::PathBuf;
 use unit::{export, plain_scenes, scene, scenes, steel_ball_with_regime, write_scene};
 
-/// Runs tests/fmpy/`file` with the units of `scenes`.
+/// Runs tests/fmpy/`file` with the FMUs of `scenes`.
 fn pytest(file: &str, scenes: &[PathBuf]) {
     let name = |scene: &PathBuf| scene.file_stem().unwrap().to_string_lossy().into_owned();
     pytest::pytest(file, &scenes.iter().map(|scene| (name(scene), export(scene))).collect());
@@ -126,10 +126,10 @@ fn with_bodies_of_coupled(name: &str, more: &str) -> PathBuf {
     write_scene(name, &format!("name = \"{name}\"\n{bodies}[impact]\nmass = 4e-3\nspeed = 1.0\n{more}\n"))
 }
 
-/// What can be an input of a unit that knows the mass.
+/// The possible additional inputs of an FMU that knows the mass.
 const BOTH_INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
 
-/// The contact of scenes/mass_known.toml for this kind of master, with these inputs and more outputs.
+/// The contact of scenes/mass_known.toml for this kind of importer, with these inputs and more outputs.
 fn for_master(name: &str, master: &str, inputs: &[&str]) -> PathBuf {
     let text = fs::read_to_string(scene("mass_known")).expect("a scene file");
     let text = text.replacen("\"mass_known\"", &format!("\"{name}\""), 1);

@@ -1,4 +1,4 @@
-//! Units with the passivity guard: what is said of it, and that they do what is predicted.
+//! FMUs with the passivity guard: their texts, and their agreement with the prediction.
 
 #[path = "support/command.rs"]
 mod command;
@@ -16,7 +16,7 @@ fn write(folder: &Path, loading: &str, guard: &str) {
     fs::write(folder.join("scene.toml"), scene).unwrap();
 }
 
-/// A file inside the unit.
+/// A file inside the FMU.
 fn inside(folder: &Path, path: &str) -> String {
     let script = "import sys, zipfile; sys.stdout.write(zipfile.ZipFile('unit.fmu').read(sys.argv[1]).decode())";
     command::output(std::process::Command::new("python3").args(["-c", script, path]).current_dir(folder))

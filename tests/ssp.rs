@@ -1,4 +1,4 @@
-//! `brinell ssp` as a user calls it; tests/fmpy/test_ssp.py has what is in the packages.
+//! `brinell ssp` from the user's point of view; tests/fmpy/test_ssp.py examines the packages.
 
 #[path = "support/command.rs"]
 mod command;
@@ -41,7 +41,7 @@ fn a_wrong_name_or_scene_is_told_and_nothing_is_written() {
     assert_eq!(contents(folder.path()), ["wrong.toml"]);
 }
 
-/// `brinell ssp` of the ball that knows its mass, with a unit `other` of two contacts beside it.
+/// `brinell ssp` of the ball that knows its mass, together with an FMU `other` of two contacts.
 fn with_other(folder: &Path, arguments: &[&str]) -> Run {
     fs::copy(unit::export(&unit::scene("two_contacts")), folder.join("other.fmu")).unwrap();
     let scene = scene("mass_known").display().to_string();
@@ -61,7 +61,7 @@ fn other_units_stand_beside_the_contact_and_are_connected_with_it() {
         r#"startElement="contact" startConnector="force" endElement="other" endConnector="right.indentation_rate""#;
     assert!(text.contains(from) && text.contains(to), "{text}");
     assert_eq!(text.matches("<ssd:Connection ").count(), 2);
-    // what isn't connected of the other unit isn't shown
+    // variables of the other FMU that are not connected are not listed
     assert!(!text.contains("right.force"), "{text}");
     assert_eq!(archive["resources/other.fmu"], fs::read(folder.path().join("other.fmu")).unwrap());
 }

@@ -1,4 +1,4 @@
-//! Units for tests: a scene exported by the program itself, as a user would, and the library inside it.
+//! FMUs for tests: a scene exported by the program like for a user, and the library in it.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use std::collections::HashMap;
@@ -10,19 +10,19 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-/// What has been made in this process, by what it was made from.
+/// The results in this process, by their source.
 static MADE: LazyLock<Mutex<HashMap<PathBuf, PathBuf>>> = LazyLock::new(Mutex::default);
 
 /// The folder for everything that tests export; cargo keeps it inside the target folder.
 fn folder() -> PathBuf {
-    // test programs may run at the same time, so each has its own
+    // test programs may run at the same time, so each has its own folder
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("units").join(env!("CARGO_CRATE_NAME"))
 }
 
-/// What `make` makes from `source`, made once per process.
+/// The result of `make` for `source`, computed once per process.
 fn once(source: PathBuf, make: impl FnOnce(&Path) -> PathBuf) -> PathBuf {
-    // the lock is held while something is made: a second test that asks for it waits. A failed export leaves nothing
-    // in the table, so that the next test fails with its own message instead of "poisoned".
+    // the lock is held during the computation, so that a second test waits for the result. A failed export leaves nothing in
+    // the table, so the next test fails with its own message instead of "poisoned".
     let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(result) = made.get(&source) {
         return result.clone();
@@ -37,7 +37,7 @@ pub fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml")
 }
 
-/// The default scene with the output `regime`, which it hasn't got: some importers can't read an enumeration.
+/// The default scene with the output `regime`, which it does not have because some importers cannot read an enumeration.
 pub fn steel_ball_with_regime() -> PathBuf {
     let text = fs::read_to_string(scene("steel_ball")).expect("a scene file");
     write_scene("steel_ball", &text.replacen("outputs = [", "outputs = [\"regime\", ", 1))
@@ -54,7 +54,7 @@ pub fn scenes() -> Vec<PathBuf> {
     scenes
 }
 
-/// Those with one contact, whose variables have plain names.
+/// The scenes with one contact, whose variables have plain names.
 pub fn plain_scenes() -> Vec<PathBuf> {
     let is_plain = |path: &PathBuf| !fs::read_to_string(path).expect("a scene file").contains("[[contact]]");
     scenes().into_iter().filter(is_plain).collect()
@@ -65,18 +65,18 @@ pub fn write_scene(name: &str, text: &str) -> PathBuf {
     let folder = folder().join("scenes");
     fs::create_dir_all(&folder).expect("the target folder can be written to");
     let path = folder.join(name).with_extension("toml");
-    // another test may be reading the same scene: it is never half written
+    // another test may be reading the same scene: it is written atomically
     let draft = path.with_extension(format!("{:?}", std::thread::current().id()));
     fs::write(&draft, text).expect("the target folder can be written to");
     fs::rename(&draft, &path).expect("the target folder can be written to");
     path
 }
 
-/// The unit of a scene file: `brinell export SCENE -o FILE`.
+/// The FMU of a scene file: `brinell export SCENE -o FILE`.
 pub fn export(scene: &Path) -> PathBuf {
     let scene = scene.canonicalize().unwrap_or_else(|error| panic!("{}: {error}", scene.display()));
     once(scene, |scene| {
-        // two scenes of the same file name don't share a file
+        // two scenes with the same file name must not share a file
         let mut hash = DefaultHasher::new();
         scene.hash(&mut hash);
         let folder = folder().join(format!("{:016x}", hash.finish()));
@@ -87,7 +87,7 @@ pub fn export(scene: &Path) -> PathBuf {
             .arg(scene)
             .arg("-o")
             .arg(&unit)
-            // the user's own cache stays as it is
+            // the user's own cache does not change
             .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
             .output()
             .expect("cargo has built the program");
@@ -101,7 +101,7 @@ pub fn export(scene: &Path) -> PathBuf {
     })
 }
 
-/// The library inside a unit, unpacked beside it.
+/// The library in an FMU, unpacked beside it.
 pub fn library(fmu: &Path) -> PathBuf {
     once(fmu.to_path_buf(), |fmu| {
         let folder = fmu.with_extension("");
