@@ -48,7 +48,7 @@ fn the_scene_that_the_tests_alter_is_good() {
 }
 
 #[test]
-fn an_unknown_key_of_a_contact_is_refused_with_those_there_are() {
+fn an_unknown_key_of_a_contact_is_refused_with_the_known_ones() {
     let keys = [
         "`colour`",
         "`name`",
@@ -87,7 +87,7 @@ fn two_contacts_of_one_name_are_refused() {
 
 /// `target.force` next to `target.radius` would belong to no contact.
 #[test]
-fn a_contact_called_like_a_variable_is_refused_with_the_names_that_are_taken() {
+fn a_contact_named_like_a_variable_is_refused_with_the_names_in_use() {
     for name in ["target", "impactor", "initial_gap", "force", "regime"] {
         let said = format!("name = \"{name}\" belongs to a variable");
         refused("\"left\"", &format!("§\"{name}\""), &[&said, "`target`", "`impactor`", "`initial_gap`"]);
@@ -105,7 +105,7 @@ fn a_count_out_of_range_is_refused_with_the_range() {
 }
 
 #[test]
-fn more_contacts_in_all_than_there_may_be_are_refused() {
+fn too_many_contacts_in_total_are_refused() {
     let scene = SCENE.replacen("\"left\"", "\"left\"\ncount = 60000", 1);
     let scene =
         scene.replacen("[[contact]]\nname = \"right\"\ncount = 3", "§[[contact]]\nname = \"right\"\ncount = 40001", 1);
@@ -143,7 +143,7 @@ fn a_number_of_the_scene_that_every_contact_replaces_is_checked_too() {
 }
 
 #[test]
-fn what_a_contact_needs_and_nobody_gives_is_named_with_the_contact() {
+fn a_missing_property_of_a_contact_is_named_with_the_contact() {
     let marked = SCENE.replacen("[[contact]]", "§[[contact]]", 1);
     let without = |table: &str| marked.replacen(table, "", 1);
     let radius = without("[impactor]\nradius = 5e-3\n");
@@ -246,7 +246,7 @@ fn parameters_per_contact_are_parameters_of_the_contact() {
 }
 
 #[test]
-fn a_mass_of_a_contact_is_refused_where_the_unit_does_not_know_it() {
+fn a_mass_of_a_contact_is_refused_where_the_fmu_does_not_know_it() {
     refused_in_left("effective_mass = §2e-3", &["contact `left`", "effective_mass", "[coupling]"]);
     for mass in ["0.0", "-1.0", "1e31", "nan"] {
         let coupling = "\n[coupling]\neffective_mass = 4e-3\n\n[[contact]]\nname = \"left\"\n";

@@ -69,7 +69,7 @@ fn an_unknown_table_is_refused() {
 }
 
 #[test]
-fn an_unknown_name_is_refused_with_the_names_there_are() {
+fn an_unknown_name_is_refused_with_the_known_ones() {
     refused("yield_strength = 300e6", "material = §\"cheese\"", &["material", "`cheese`", "`mild steel`"]);
     refused_with("[law]\nloading = §\"kelvin\"", &["law.loading", "`kelvin`", "`hertz`", "`big-alabo`"]);
     refused_with("[law]\nunloading = §\"kelvin\"", &["law.unloading", "`kelvin`", "`contact-radius`", "`thornton`"]);
@@ -125,7 +125,7 @@ fn a_name_that_is_no_identifier_is_refused() {
 
 /// `nul.dll` can't be unpacked on Windows.
 #[test]
-fn a_name_that_windows_keeps_for_a_device_is_refused() {
+fn a_name_reserved_for_a_device_on_windows_is_refused() {
     for name in ["con", "NUL", "Aux", "prn", "com1", "LPT9", "com0"] {
         refused("\"ball\"", &format!("§{name:?}"), &["name = ", name, "device on Windows"]);
     }
@@ -243,7 +243,7 @@ fn an_impact_too_hard_for_the_law_is_refused_with_its_numbers() {
 }
 
 #[test]
-fn a_file_that_is_no_toml_is_refused() {
+fn a_file_that_is_not_toml_is_refused() {
     refused("= 206e9", "=§= 206e9", &["="]);
     refused("\"ball\"", "\"ball§", &["\""]);
     refused_with("radius§", &["="]);
@@ -289,7 +289,7 @@ fn laws_that_do_not_go_together_are_refused_with_the_reason() {
 }
 
 #[test]
-fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
+fn a_missing_wrong_or_useless_restitution_is_refused() {
     let damped = "[law]\nloading = \"tsuji\"\n";
     refused_with("[law]\nloading = §\"tsuji\"\n", &["needs law.restitution"]);
     refused_with(&format!("{damped}restitution = §0.0\n"), &["restitution = 0.0", "0.001 to 1.0"]);
@@ -315,7 +315,7 @@ fn an_unloading_law_for_a_contact_that_leaves_no_dent_is_refused() {
 }
 
 #[test]
-fn a_constant_that_a_law_has_not_got_is_refused_with_those_that_it_has() {
+fn a_constant_that_a_law_does_not_have_is_refused_with_those_that_it_has() {
     refused_with(
         "[law]\nloading = \"power\"\nloading_parameters = { coefficient = 2.0, §exponnet = 1.15 }",
         &["unknown parameter of law.loading = \"power\" `exponnet`", "`coefficient`", "`exponent`"],
@@ -405,7 +405,7 @@ fn constants_of_two_laws_that_contradict_each_other_are_refused() {
 }
 
 #[test]
-fn a_mass_to_be_known_that_is_none_is_refused() {
+fn an_invalid_effective_mass_is_refused() {
     let mass = |value: &str| format!("[coupling]\neffective_mass = §{value}");
     for (value, said) in [("0.0", "0.0"), ("-0.0", "-0.0"), ("-4e-3", "-0.004"), ("nan", "NaN"), ("inf", "inf")] {
         refused_with(&mass(value), &[&format!("coupling.effective_mass = {said}")]);
@@ -421,7 +421,7 @@ fn a_law_that_follows_the_rate_can_not_know_the_mass() {
 }
 
 #[test]
-fn a_coupling_that_there_is_not_is_refused() {
+fn an_unknown_coupling_is_refused() {
     let with = |more: &str| format!("[coupling]\neffective_mass = 1e-3\n{more}");
     refused_with(&with("§colour = 1"), &["`colour`", "`effective_mass`", "`master`", "`inputs`"]);
     refused_with(&with("master = §\"jacobi\""), &["`jacobi`", "`serial`", "`parallel`"]);

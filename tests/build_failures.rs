@@ -73,7 +73,7 @@ fn the_words_of_a_linker_are_found_behind_its_warnings() {
 }
 
 #[test]
-fn a_linker_that_dies_or_says_nothing_is_told_so() {
+fn a_linker_that_crashes_or_prints_nothing_is_reported() {
     let silent = program("cc", "exit 7");
     contains(&message(|command| command.env("PATH", silent.path())), &["`cc` fails (exit status: 7): it says nothing"]);
     let killed = program("cc", "kill -9 $$");
@@ -107,7 +107,7 @@ fn without_a_rust_toolchain_the_message_says_where_to_get_one() {
 }
 
 #[test]
-fn a_compiler_that_is_too_old_is_told_with_the_version_that_is_needed() {
+fn a_compiler_that_is_too_old_is_reported_with_the_version_that_is_needed() {
     let script = "case $1 in --print) echo /no/sysroot;; *) echo 'rustc 1.70.0'; echo 'release: 1.70.0';; esac";
     let old = program("rustc", script);
     let message = message(|command| command.env_remove("CARGO").env("PATH", old.path()));
@@ -125,7 +125,7 @@ fn a_compiler_that_does_not_answer_is_quoted() {
 
 /// The toolchain of another C library or system: the real message of the compiler for a target that no test has.
 #[test]
-fn a_missing_standard_library_is_told_with_what_to_install() {
+fn a_missing_standard_library_is_reported_with_what_to_install() {
     let script = format!(
         "case $1 in --print) echo /no/sysroot;; -vV) exec {0} -vV;; *) \
          for word do shift; case $word in x86_64-unknown-linux-gnu|aarch64-unknown-linux-gnu) word=s390x-unknown-linux-gnu;; esac; \
@@ -160,7 +160,7 @@ fn in_shell(before: &str, cache: &Path) -> Option<String> {
 /// No file can exceed this number of blocks of 512 bytes. First not even the sources can be written, then the output of the
 /// compiler.
 #[test]
-fn a_file_that_cannot_grow_is_told_with_the_folder() {
+fn a_file_that_cannot_grow_is_reported_with_the_folder() {
     for (blocks, ignored) in [(1, "trap '' XFSZ"), (20, "trap '' XFSZ"), (1000, "trap '' XFSZ"), (1000, "true")] {
         let cache = empty_folder();
         let message = in_shell(&format!("{ignored}; ulimit -f {blocks}"), cache.path()).expect("too little room");
@@ -171,7 +171,7 @@ fn a_file_that_cannot_grow_is_told_with_the_folder() {
 
 /// A file system of this number of kilobytes, if one can be created.
 #[test]
-fn a_full_disk_is_told_with_the_folder() {
+fn a_full_disk_is_reported_with_the_folder() {
     let can_mount = Command::new("unshare").args(["-rm", "true"]).status().is_ok_and(|status| status.success());
     if !can_mount {
         println!("skipped: no file system can be mounted");

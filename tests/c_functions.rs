@@ -123,7 +123,7 @@ fn choose_default() {
 
 /// States of two FMUs may have the same length: each must recognize its own.
 #[test]
-fn a_state_of_another_unit_is_refused_even_if_it_is_as_long() {
+fn a_state_of_another_fmu_is_refused_even_if_it_is_as_long() {
     choose_default();
     let (one, massive) = (Made::<WithAcceleration>::ready(), Made::<WithMass>::ready());
     let state = one.save();
@@ -245,7 +245,7 @@ fn a_component_lives_from_instantiation_to_its_end_through_the_c_functions() {
 /// Proof that the sanitizer is active if `SANITIZER=address` is set, and that debug assertions are: the same program, when it
 /// reads beyond an array, must end with the sanitizer's report.
 #[test]
-fn the_sanitizer_and_debug_assertions_are_on_where_they_are_said_to_be() {
+fn the_sanitizer_and_debug_assertions_are_active_where_required() {
     if std::env::var("SANITIZER").as_deref() != Ok("address") {
         println!("skipped: not run with SANITIZER=address");
         return;

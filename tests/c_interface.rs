@@ -106,7 +106,7 @@ fn valgrind_finds_no_wrong_access_and_no_leak() {
 
 /// Every scene of the project, each rate-dependent law, and a law without segments, with every output, in a host that traps.
 #[test]
-fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_unit() {
+fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_fmu() {
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("exceptions");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/c/exceptions.c");
     let mut compiler = Command::new("cc");

@@ -101,7 +101,7 @@ fn a_curve_goes_in_out_in_again_and_out_and_its_energies_add_up() {
 }
 
 #[test]
-fn laws_says_how_far_each_law_is_from_the_truth() {
+fn laws_prints_the_error_of_each_law_against_finite_elements() {
     let folder = empty_folder();
     let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
     let law = |name: &str| {
@@ -153,7 +153,7 @@ fn laws_lists_constants_validity_and_reference_of_every_law() {
 }
 
 #[test]
-fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
+fn a_wrong_command_line_is_reported_and_nothing_is_written() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     let cases: [(&[&str], &[&str]); 22] = [
@@ -195,7 +195,7 @@ fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
 
 /// It fails before the work, not after it.
 #[test]
-fn a_goal_that_cannot_be_written_is_refused_before_the_work() {
+fn an_output_that_cannot_be_written_is_refused_before_the_work() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     fs::create_dir(folder.path().join("there.csv")).unwrap();
@@ -361,7 +361,7 @@ fn one_law_is_shown_with_formulas_constants_validity_and_curve() {
 }
 
 #[test]
-fn rate_dependent_laws_stand_beside_the_others_and_are_asked_for_the_same_restitution() {
+fn rate_dependent_laws_are_listed_with_the_others_for_the_same_restitution() {
     let both = predicted(&["--laws", "big-alabo,hunt-crossley,hunt-crossley/lee-wang"]);
     let restitution = |law: usize| number(&both["laws"][law]["restitution"]);
     close(restitution(1), restitution(0), 1e-9);

@@ -27,7 +27,7 @@ fn scene(name: &str) -> PathBuf {
 }
 
 #[test]
-fn every_group_is_told_with_what_it_has_of_its_own() {
+fn every_group_is_listed_with_its_own_values() {
     let (export, _) = exported(&scene("many_contacts"));
     let edge = json!({ "impactor.radius": 3e-3, "impactor.youngs_modulus": 4e11, "impactor.poissons_ratio": 0.29 });
     assert_eq!(
@@ -47,7 +47,7 @@ fn every_group_is_told_with_what_it_has_of_its_own() {
 }
 
 #[test]
-fn a_unit_with_many_contacts_is_told_in_few_lines() {
+fn an_fmu_with_many_contacts_is_summarized_in_few_lines() {
     let folder = empty_folder();
     let told = run(folder.path(), ["export", scene("many_contacts").to_str().unwrap()]).with_status(0).out;
     assert!(told.lines().count() < 30 && told.len() < 3000, "{told}");
@@ -71,7 +71,7 @@ fn the_impact_meets_the_first_contact_of_every_group() {
 
 /// Each contact has its own bodies: the largest force is that of the plain scene with the numbers of the contact.
 #[test]
-fn the_contacts_of_a_unit_have_their_own_bodies() {
+fn the_contacts_of_an_fmu_have_their_own_bodies() {
     let (_, check) = exported(&scene("two_contacts"));
     assert_eq!(check["passed"], true, "{check}");
     let ball = "[impactor]\nradius = 5e-3\nyoungs_modulus = 210e9\npoissons_ratio = 0.3\n[target]\nmaterial = ";
@@ -108,7 +108,7 @@ fn contacts_with_constant_gaps_are_checked_too() {
 
 /// The guard acts on the bodies of each contact; the text about the FMU covers all of them.
 #[test]
-fn a_guarded_unit_tells_where_the_guard_acts_on_each_contact() {
+fn a_guarded_fmu_states_where_the_guard_acts_on_each_contact() {
     let folder = empty_folder();
     let scene = format!(
         "{STEEL}[law]\nloading = \"ghaednia\"\nunloading = \"contact-radius\"\n\
@@ -130,7 +130,7 @@ fn a_guarded_unit_tells_where_the_guard_acts_on_each_contact() {
 
 /// No scene specifies which bodies two contacts share.
 #[test]
-fn contacts_whose_bodies_the_unit_moves_come_with_a_word_on_shared_bodies() {
+fn contacts_whose_bodies_the_fmu_moves_come_with_a_note_on_shared_bodies() {
     let folder = tempfile::tempdir().unwrap();
     let bodies = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
     let coupling = "[coupling]\neffective_mass = 4e-3\n";
@@ -150,7 +150,7 @@ fn contacts_whose_bodies_the_unit_moves_come_with_a_word_on_shared_bodies() {
 }
 
 #[test]
-fn what_each_contact_has_for_itself_is_told_and_checked() {
+fn values_of_each_contact_are_listed_and_checked() {
     let folder = empty_folder();
     let scene = format!(
         "{STEEL}[fmu]\nparameters = []\n[coupling]\neffective_mass = 4e-3\n[[contact]]\nname = \"bead\"\ncount = 12\n\

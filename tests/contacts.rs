@@ -28,7 +28,7 @@ fn same(all: &str, own: &str, plain: &str) {
 const BALL: &str = "[impactor]\nradius = 5e-3\n";
 
 #[test]
-fn a_contact_has_what_the_scene_gives_to_all() {
+fn a_contact_has_the_common_values_of_the_scene() {
     let scene = format!("{BALL}[target]\nmaterial = \"mild steel\"\n");
     same(&scene, "", &scene);
 }
@@ -53,7 +53,7 @@ fn a_contact_has_the_whole_of_its_own_material() {
 }
 
 #[test]
-fn a_number_of_a_contact_stands_before_its_own_material() {
+fn a_number_of_a_contact_overrides_its_own_material() {
     let target = "material = \"aluminium 6061-T6\", yield_strength = 5e8";
     same(
         &format!("{BALL}[target]\nmaterial = \"mild steel\"\n"),

@@ -57,7 +57,7 @@ fn each_hunt_crossley_factor_gives_the_restitution_of_the_table() {
 }
 
 #[test]
-fn the_exact_factor_is_that_of_the_table_and_gives_what_was_asked_for() {
+fn the_exact_factor_is_that_of_the_table_and_gives_the_required_restitution() {
     let table = [9.998159398, 4.919166716, 3.087081981, 1.432750533, 0.634828281, 0.166481951];
     for (asked, chi) in ASKED.into_iter().zip(table) {
         assert!((DampingFactor::Exact.chi(asked) - chi).abs() < 1e-9, "{asked}: {}", DampingFactor::Exact.chi(asked));
@@ -281,7 +281,7 @@ fn a_contact_that_starts_pressed_in_counts_its_first_closing_rate_as_the_touch()
 }
 
 #[test]
-fn what_is_not_refused_is_finite_and_nothing_physical_is_refused() {
+fn accepted_values_are_finite_and_nothing_physical_is_refused() {
     for (name, law) in every_law() {
         let model = model_of(law, 0.3);
         for depth in logarithmic(1e-300, 1e99, 120) {

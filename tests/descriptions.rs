@@ -43,7 +43,7 @@ const MASS_KNOWN: &str =
     "fmu = { outputs = [\"mean_force\", \"predicted_force\"] }\ncoupling = { effective_mass = 4e-3 }\n";
 
 #[test]
-fn a_unit_that_knows_the_mass_does_not_say_that_the_rate_is_held() {
+fn an_fmu_that_knows_the_mass_does_not_state_that_the_rate_is_held() {
     let (xml, page) = texts(&scene("mass_words", MASS_KNOWN));
     assert!(!xml.contains("held over a step"), "{}", variable(&xml, "indentation_rate"));
     assert!(!page.contains("held over a step"), "{page}");
@@ -53,7 +53,7 @@ fn a_unit_that_knows_the_mass_does_not_say_that_the_rate_is_held() {
 }
 
 #[test]
-fn a_unit_that_knows_the_mass_says_what_mean_force_and_the_derivative_are_for() {
+fn an_fmu_that_knows_the_mass_describes_the_use_of_mean_force_and_the_derivative() {
     let (xml, page) = texts(&scene("mass_words", MASS_KNOWN));
     for text in [variable(&xml, "mean_force"), row(&page, "mean_force")] {
         assert!(text.contains("applied to the bodies over that step"), "{text}");
@@ -64,7 +64,7 @@ fn a_unit_that_knows_the_mass_says_what_mean_force_and_the_derivative_are_for() 
 }
 
 #[test]
-fn a_plain_unit_says_that_the_rate_is_held_or_follows_its_derivatives() {
+fn a_plain_fmu_states_that_the_rate_is_held_or_follows_its_derivatives() {
     let (xml, page) = texts(&scene("plain_words", ""));
     for text in [variable(&xml, "indentation_rate"), row(&page, "indentation_rate")] {
         assert!(text.contains("held over a step, or a polynomial in time"), "{text}");
@@ -73,7 +73,7 @@ fn a_plain_unit_says_that_the_rate_is_held_or_follows_its_derivatives() {
 }
 
 #[test]
-fn a_rate_dependent_unit_which_takes_no_derivatives_does_not_speak_of_them() {
+fn a_rate_dependent_fmu_without_derivatives_does_not_mention_them() {
     let law = "law = { loading = \"tsuji\", restitution = 0.5 }\n";
     let (xml, page) = texts(&scene("damped_words", law));
     let rate = variable(&xml, "indentation_rate");
@@ -84,7 +84,7 @@ fn a_rate_dependent_unit_which_takes_no_derivatives_does_not_speak_of_them() {
 
 /// Stronge's law is above Hertz's just after yield, and returns more energy than it took.
 #[test]
-fn dissipated_energy_is_said_never_to_fall_only_where_it_does_not() {
+fn the_claim_that_dissipated_energy_never_falls_is_made_only_where_it_holds() {
     let outputs = "fmu = { outputs = [\"dissipated_energy\", \"indentation\"] }\n";
     let makes_energy = scene("energy_made", &format!("{outputs}law = {{ loading = \"stronge\" }}\n"));
     let (xml, page) = texts(&makes_energy);
@@ -114,7 +114,7 @@ fn dissipated_energy_is_said_never_to_fall_only_where_it_does_not() {
 
 /// The library has a derivative for every pair of output and input.
 #[test]
-fn every_kind_of_unit_provides_directional_derivatives() {
+fn every_kind_of_fmu_provides_directional_derivatives() {
     let kinds = ["", MASS_KNOWN, "law = { loading = \"tsuji\", restitution = 0.5 }\n"];
     for (name, more) in ["plain_words", "mass_words", "damped_words"].into_iter().zip(kinds) {
         let (xml, _) = texts(&scene(name, more));
@@ -124,7 +124,7 @@ fn every_kind_of_unit_provides_directional_derivatives() {
 
 /// Bodies given only by a contact were described as a rigid sphere and a half-space, and their constants were missing.
 #[test]
-fn the_page_of_a_unit_knows_the_bodies_and_constants_of_each_contact() {
+fn the_page_of_an_fmu_knows_the_bodies_and_constants_of_each_contact() {
     let text = "name = \"own_bodies\"\ntarget = { material = \"mild steel\" }\nfmu = { parameters = [] }\n\
                 [[contact]]\nname = \"left\"\nimpactor = { radius = 4e-3, youngs_modulus = 7e10, poissons_ratio = 0.22 }\n\
                 [[contact]]\nname = \"bead\"\ncount = 3\nimpactor = { radius = 2e-3 }\ntarget = { radius = -0.5 }\n";
@@ -156,7 +156,7 @@ fn listed(xml: &str, output: &str) -> BTreeSet<String> {
 
 /// A damping that begins at the first touch is zero before the first step, but the prediction extends beyond the touch.
 #[test]
-fn initial_unknowns_of_rate_dependent_units_name_restitution_and_mass_just_where_they_count() {
+fn initial_unknowns_of_rate_dependent_fmus_list_restitution_and_mass_only_where_they_matter() {
     let outputs = ["force", "mean_pressure", "stiffness", "predicted_force", "mean_force", "elastic_energy"];
     for (name, law) in [
         ("touched", "loading = \"hunt-crossley\", restitution = 0.5"),

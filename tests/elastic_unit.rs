@@ -41,7 +41,7 @@ fn contains(bytes: &[u8], part: &[u8]) -> bool {
 }
 
 #[test]
-fn every_output_of_an_elastic_unit_is_right() {
+fn every_output_of_an_elastic_fmu_is_right() {
     let folder = empty_folder();
     let elastic = unit::export(&scene(false));
     let check = run(folder.path(), ["check", elastic.to_str().unwrap(), "--json"]).with_status(0).json();
@@ -52,7 +52,7 @@ fn every_output_of_an_elastic_unit_is_right() {
 }
 
 #[test]
-fn an_elastic_unit_has_no_yield_strength_in_its_description() {
+fn an_elastic_fmu_has_no_yield_strength_in_its_description() {
     let description = |scene: &Path| {
         let library = unit::library(&unit::export(scene));
         let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY").to_path_buf();
@@ -64,7 +64,7 @@ fn an_elastic_unit_has_no_yield_strength_in_its_description() {
 
 /// The constants of a law are in the library as eight bytes each, or they are not.
 #[test]
-fn an_elastic_unit_has_no_constant_of_a_plastic_law() {
+fn an_elastic_fmu_has_no_constant_of_a_plastic_law() {
     let text = constants(&scene(true));
     let law = text.split("const LOADING").nth(1).unwrap().split("};").next().unwrap();
     let numbers = law.lines().filter_map(|line| line.trim().trim_end_matches(',').split(": ").nth(1)?.parse().ok());
@@ -79,7 +79,7 @@ fn an_elastic_unit_has_no_constant_of_a_plastic_law() {
 }
 
 #[test]
-fn an_elastic_unit_is_smaller_by_what_it_leaves_out() {
+fn an_elastic_fmu_is_smaller_by_the_omitted_code() {
     let [plastic, elastic] = [true, false].map(|yields| library(&scene(yields)).len());
     assert!(elastic + 3000 < plastic, "{elastic} against {plastic} bytes");
 }
@@ -136,7 +136,7 @@ fn law_files(kind: &str) -> BTreeSet<String> {
 
 /// The FMU contains no line of the program for a law that yields, or for unloading from a dent.
 #[test]
-fn an_elastic_unit_has_no_code_of_a_plastic_law() {
+fn an_elastic_fmu_has_no_code_of_a_plastic_law() {
     // one at a time: both are built in the same folder
     let plastic = with_names(&scene(true));
     let elastic = with_names(&scene(false));

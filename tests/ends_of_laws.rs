@@ -37,7 +37,7 @@ fn check(what: &str, history: &History, model: &AnyModel) {
 }
 
 #[test]
-fn a_contact_shows_numbers_or_is_refused_for_any_bodies_and_depth() {
+fn a_contact_has_finite_outputs_or_is_refused_for_any_bodies_and_depth() {
     let mut random = Random(2015);
     let (mut shown, mut refused) = (0, 0);
     for _ in 0..400 {

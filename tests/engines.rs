@@ -195,7 +195,7 @@ fn the_page_on_fmpy_prints_what_it_shows() {
 }
 
 #[test]
-fn studies_are_run_whole_and_resumed() {
+fn studies_run_completely_and_are_resumed() {
     if !have(&["scipy", "pyarrow", "tqdm", "matplotlib"], "studies") {
         return;
     }

@@ -7,7 +7,7 @@ use command::{empty_folder, run};
 use std::fs;
 
 #[test]
-fn every_law_runs_inside_a_unit_that_has_no_other() {
+fn every_law_runs_inside_an_fmu_that_has_no_other() {
     let folder = empty_folder();
     let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
     let laws = laws["loading"].as_array().unwrap();
@@ -34,7 +34,7 @@ fn every_law_runs_inside_a_unit_that_has_no_other() {
 }
 
 #[test]
-fn every_rate_dependent_law_runs_inside_a_unit_with_nothing_plastic() {
+fn every_rate_dependent_law_runs_inside_an_fmu_with_nothing_plastic() {
     let folder = empty_folder();
     let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
     let laws = laws["damped"].as_array().unwrap();

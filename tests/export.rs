@@ -65,7 +65,7 @@ fn every_scene_is_exported_and_agrees_with_its_prediction() {
 
 /// Every feature is either included or omitted.
 #[test]
-fn what_a_unit_has_and_what_was_left_out_of_it_is_everything_there_is() {
+fn every_feature_is_listed_as_included_or_omitted() {
     let folder = empty_folder();
     let list =
         |value: &serde_json::Value| -> BTreeSet<String> { serde_json::from_value(value.clone()).expect("names") };
@@ -138,7 +138,7 @@ fn the_constants_in_the_source_are_those_of_the_default_scene() {
 }
 
 #[test]
-fn a_unit_is_written_to_the_place_asked_for_and_replaces_an_older_one() {
+fn an_fmu_is_written_to_the_requested_path_and_replaces_an_older_one() {
     let folder = empty_folder();
     fs::create_dir(folder.path().join("units")).unwrap();
     fs::write(folder.path().join("units/ball.fmu"), "an older unit").unwrap();

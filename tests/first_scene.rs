@@ -45,7 +45,7 @@ fn every_comment_of_a_new_scene_that_is_a_key_can_be_taken_in() {
 }
 
 #[test]
-fn a_name_that_is_none_is_refused_and_nothing_is_written() {
+fn an_invalid_name_is_refused_and_nothing_is_written() {
     let folder = empty_folder();
     for name in ["4ball", "steel ball", "a\"b", "../ball"] {
         let refused = run(folder.path(), ["new", name]).with_status(2);
@@ -84,7 +84,7 @@ speed = 1.0
 ";
 
 #[test]
-fn a_number_with_a_unit_says_the_number_that_is_meant() {
+fn the_message_about_a_number_with_an_fmu_gives_the_number_in_si() {
     for (from, to, hint) in [
         ("radius = 5e-3", "radius = 5mm", "scene.toml:3:10: radius = 5mm: metres, a number without unit: 5e-3"),
         ("radius = 5e-3", "radius = \"5 mm\"", "radius = \"5 mm\": metres, a number without unit: 5e-3"),
@@ -111,7 +111,7 @@ fn a_number_with_a_unit_says_the_number_that_is_meant() {
 }
 
 #[test]
-fn a_number_that_is_hardly_meant_is_asked_about() {
+fn an_implausible_number_causes_a_question() {
     for (from, to, question) in [
         ("5e-3", "5", "scene.toml:3:10: impactor.radius = 5 m; did you mean 5e-3?"),
         ("206e9", "206", "target.youngs_modulus = 206 Pa; did you mean 206e9?"),
@@ -161,7 +161,7 @@ fn a_typing_mistake_finds_the_word_that_is_meant() {
 }
 
 #[test]
-fn what_there_is_not_is_called_not_supported() {
+fn missing_features_are_called_not_supported() {
     for (from, to) in [
         ("[target]", "[target]\nfriction = 0.3"),
         ("[impact]", "[impact]\nangle = 30"),

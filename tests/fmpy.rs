@@ -73,7 +73,7 @@ fn a_prescribed_history_gives_the_tabulated_forces() {
 }
 
 #[test]
-fn a_contact_that_has_opened_closes_again_where_its_surface_says() {
+fn a_contact_that_has_opened_closes_again_according_to_its_surface() {
     let scenes =
         [reference_case("dented", "contact-radius", "dented"), reference_case("fresh", "contact-radius", "fresh")];
     pytest("test_contact_closes_again.py", &scenes);
@@ -161,7 +161,7 @@ fn each_way_of_coupling_has_its_error_and_order() {
 }
 
 #[test]
-fn derivatives_and_momentum_mean_what_the_standard_says() {
+fn derivatives_and_momentum_have_the_meaning_of_the_standard() {
     let all_outputs = r#"
 name = "all_outputs"
 impactor = { radius = 10e-3, youngs_modulus = 210e9, poissons_ratio = 0.3 }
@@ -201,7 +201,7 @@ fn messages_are_complete_and_only_where_something_is_wrong() {
 }
 
 #[test]
-fn the_passivity_guard_is_told_when_it_first_acts() {
+fn the_passivity_guard_is_logged_when_it_first_acts() {
     let text = r#"
 name = "guarded"
 impactor = { radius = 5e-3 }
@@ -222,7 +222,7 @@ fn with_unknown_density(name: &str, law: &str, more: &str) -> PathBuf {
 }
 
 #[test]
-fn what_leaves_the_validity_of_the_law_is_told_once() {
+fn leaving_the_validity_of_the_law_is_logged_once() {
     let target = |surface: &str| {
         let numbers = "youngs_modulus = 206e9, poissons_ratio = 0.3, yield_strength = 300e6";
         format!("target = {{ {numbers}, surface = \"{surface}\" }}\n")
@@ -289,6 +289,6 @@ fn simulate_fmu_runs_with_its_defaults() {
 }
 
 #[test]
-fn systems_are_valid_and_run_as_their_unit_does() {
+fn systems_are_valid_and_run_like_their_fmu() {
     pytest("test_ssp.py", &scenes());
 }

@@ -82,7 +82,7 @@ fn a_load_has_a_unit_or_is_in_newtons() {
 }
 
 #[test]
-fn a_dent_too_wide_for_the_law_is_told() {
+fn a_dent_too_wide_for_the_law_causes_a_warning() {
     let warnings = |load: &str| tested(BALL, &["--load", load])["laws"][0]["warnings"].clone();
     let wide = warnings("29.4kN").to_string();
     assert!(wide.contains("a/R = 0.6") && wide.contains("ends at 0.3") && wide.contains("0.24 to 0.6"), "{wide}");
@@ -110,7 +110,7 @@ fn several_laws_are_rows_and_fit_a_terminal() {
 }
 
 #[test]
-fn what_is_no_brinell_test_is_refused() {
+fn scenes_that_are_not_brinell_tests_are_refused() {
     let folder = empty_folder();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("curved.toml", &BALL.replace("[target]", "[target]\nradius = -0.1"));

@@ -267,7 +267,7 @@ fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitutio
 
 /// The table can fail: with the FMU for the other kind of importer, the ball has a large error.
 #[test]
-fn a_unit_for_the_other_kind_of_master_is_seen_in_the_table() {
+fn an_fmu_for_the_other_order_of_execution_shows_in_the_table() {
     let (folder, forces, restitution) = (folder("swapped", true), reference(), predicted());
     let result = run(&DRIVERS[0], &folder).unwrap_or_else(|reason| panic!("{reason}"));
     let rows: Vec<_> = importer_table::rows(&result, &forces, restitution).collect();

@@ -101,7 +101,7 @@ fn a_course_that_keeps_its_direction_has_one_motion() {
 
 /// A measure of the work without a clock: the law is evaluated only where a branch is left.
 #[test]
-fn the_law_is_asked_only_where_a_branch_is_left() {
+fn the_law_is_evaluated_only_where_a_branch_is_left() {
     let (loading, unloading) = (loading::BigAlabo::REFERENCE, unloading::ContactRadius);
     let model = Model { pair: mild(), loading, unloading, surface: Surface::Dented };
     let d_y = unit(&mild()).indentation;

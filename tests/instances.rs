@@ -151,7 +151,7 @@ fn a_refused_step_of_several_contacts_moves_none_of_them() {
 }
 
 #[test]
-fn rates_and_times_beyond_all_reason_are_refused_by_name() {
+fn unreasonable_rates_and_times_are_refused_by_name() {
     choose(some_pairings()[0].1);
     let mut instance = ready::<One>();
     for rate in [1.1 * FASTEST, -1e300, f64::MAX] {
@@ -187,7 +187,7 @@ fn rates_and_times_beyond_all_reason_are_refused_by_name() {
 }
 
 #[test]
-fn the_fastest_rates_over_the_longest_steps_show_numbers_or_are_refused() {
+fn the_fastest_rates_over_the_longest_steps_give_finite_outputs_or_are_refused() {
     for (name, choice) in every_pairing() {
         choose(choice);
         for rate in [FASTEST, -FASTEST, 1e-300, -1e-300, 5e-324, 1e20] {

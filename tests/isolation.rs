@@ -17,14 +17,14 @@ fn the_same_scene_gives_the_same_bytes() {
 }
 
 #[test]
-fn the_cache_does_not_show_in_the_unit() {
+fn the_cache_does_not_affect_the_fmu() {
     let other = empty_folder();
     let new = other.path().join("new");
     assert_same(&exported(|command| command), &exported(|command| command.env("BRINELL_CACHE", new)));
 }
 
 #[test]
-fn the_folder_of_temporary_files_does_not_show_in_the_unit() {
+fn the_folder_of_temporary_files_does_not_affect_the_fmu() {
     let other = empty_folder();
     assert_same(&exported(|command| command), &exported(|command| command.env("TMPDIR", other.path())));
     assert!(contents(other.path()).is_empty(), "temporary files were left");
@@ -33,7 +33,7 @@ fn the_folder_of_temporary_files_does_not_show_in_the_unit() {
 /// Users who build for their own processor, or without optimization, mean their own programs and not FMUs. A linker, a wrapper
 /// or a target would fail at once, because these names do not exist. The registry is not needed.
 #[test]
-fn no_setting_in_the_environment_shows_in_the_unit() {
+fn no_setting_in_the_environment_affects_the_fmu() {
     let settings = [
         ("RUSTFLAGS", "-Ctarget-cpu=native -Cdebuginfo=2"),
         ("CARGO_ENCODED_RUSTFLAGS", "-Copt-level=0"),
@@ -132,7 +132,7 @@ impl Home {
 
 /// On a shared machine, everybody can write to the folder of temporary files: a foreign linker once ran as the exporting user.
 #[test]
-fn no_file_above_the_build_changes_the_unit_or_is_run() {
+fn no_file_above_the_build_changes_the_fmu_or_is_run() {
     let (plain, hostile) = (Home::new(false), Home::new(true));
     assert_same(&plain.exported(), &hostile.exported());
     assert!(!hostile.ran.exists(), "a program that a configuration names was run");
@@ -154,7 +154,7 @@ fn exports_of_one_scene_at_the_same_time_do_not_disturb_each_other() {
 
 /// An FMU has some ten kilobytes, but every change of a parameter creates a new one.
 #[test]
-fn units_do_not_pile_up_in_the_cache() {
+fn fmus_do_not_accumulate_in_the_cache() {
     let own = empty_folder();
     for _ in 0..2 {
         exported(|command| command.env("BRINELL_CACHE", own.path()));
@@ -165,7 +165,7 @@ fn units_do_not_pile_up_in_the_cache() {
 
 /// An export that was killed cannot clean up.
 #[test]
-fn what_a_stopped_export_has_left_goes_after_a_day() {
+fn files_of_a_killed_export_are_removed_after_a_day() {
     let own = empty_folder();
     for (name, hours) in [("build-old", 48), ("build-new", 1), ("other", 48)] {
         let path = own.path().join(name);
@@ -180,7 +180,7 @@ fn what_a_stopped_export_has_left_goes_after_a_day() {
 }
 
 #[test]
-fn the_folder_that_units_are_built_in_is_made_for_its_owner_alone() {
+fn only_the_owner_can_access_the_build_folder() {
     let home = empty_folder();
     exported(|command| command.env_remove("BRINELL_CACHE").env("XDG_CACHE_HOME", home.path().join("new/cache")));
     let mode = |path: &str| fs::metadata(home.path().join(path)).unwrap().permissions().mode() & 0o777;
@@ -198,7 +198,7 @@ fn refused(cache: &OsStr) -> String {
 }
 
 #[test]
-fn a_folder_that_others_can_write_to_is_not_built_in() {
+fn a_folder_that_others_can_write_to_is_not_used_for_the_build() {
     let folder = empty_folder();
     for mode in [0o777, 0o1777, 0o770, 0o702] {
         fs::set_permissions(folder.path(), fs::Permissions::from_mode(mode)).unwrap();
@@ -211,7 +211,7 @@ fn a_folder_that_others_can_write_to_is_not_built_in() {
 
 /// Only the superuser can give a folder to another user, so this is tried only if the tests run as superuser.
 #[test]
-fn a_folder_or_link_of_somebody_else_is_not_built_in() {
+fn a_folder_or_link_of_another_user_is_not_used_for_the_build() {
     let folder = empty_folder();
     let (theirs, link) = (folder.path().join("theirs"), folder.path().join("link"));
     fs::create_dir(&theirs).unwrap();

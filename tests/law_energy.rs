@@ -71,7 +71,7 @@ fn partners(loading: &str) -> impl Iterator<Item = (&'static str, AnyUnloading)>
 }
 
 #[test]
-fn laws_that_are_said_to_be_passive_are_it_for_any_bodies() {
+fn laws_listed_as_passive_are_passive_for_any_bodies() {
     let mut random = Random(2005);
     let (mut passive, mut others) = (0, 0);
     for (name, loading) in AnyLoading::ALL {
@@ -94,7 +94,7 @@ fn laws_that_are_said_to_be_passive_are_it_for_any_bodies() {
 }
 
 #[test]
-fn laws_that_are_not_said_to_be_passive_make_energy_below_where_they_are() {
+fn laws_not_listed_as_passive_gain_energy_below_their_limit() {
     for (name, loading) in AnyLoading::ALL {
         for (unloading_name, unloading) in partners(name) {
             let from = passive_from(name, unloading_name).unwrap_or(0.5);
@@ -113,7 +113,7 @@ fn laws_that_are_not_said_to_be_passive_make_energy_below_where_they_are() {
 }
 
 #[test]
-fn the_largest_restitution_with_the_own_unloading_law_is_the_one_that_is_said() {
+fn the_largest_restitution_with_the_own_unloading_law_is_the_listed_one() {
     let mut random = Random(1997);
     for (name, loading) in AnyLoading::ALL {
         let law = entry("loading", name);
@@ -151,7 +151,7 @@ fn said(law: &str, parameters: &str) -> String {
 }
 
 #[test]
-fn a_unit_says_whether_its_law_may_make_energy_with_any_value_of_its_parameters() {
+fn an_fmu_states_whether_its_law_may_gain_energy_for_any_value_of_its_parameters() {
     let none = "make no energy: dissipated energy never falls";
     // law, settable parameters, statement
     let cases = [
@@ -187,7 +187,7 @@ fn a_unit_says_whether_its_law_may_make_energy_with_any_value_of_its_parameters(
 }
 
 #[test]
-fn laws_are_listed_with_what_was_measured_of_them() {
+fn laws_are_listed_with_their_measurements() {
     let folder = empty_folder();
     let list = run(folder.path(), ["laws", "--json"]).with_status(0).json();
     for law in list["loading"].as_array().unwrap() {

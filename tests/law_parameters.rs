@@ -101,7 +101,7 @@ fn every_reference_constant_is_a_number_within_its_limits() {
 }
 
 #[test]
-fn every_loading_law_says_where_it_holds() {
+fn every_loading_law_states_its_validity() {
     for (told, _) in told_and_own("loading") {
         assert!(text(&told, "validity").len() > 20, "{}", text(&told, "name"));
     }
@@ -163,7 +163,7 @@ fn where_a_published_law_falls_its_constants_can_still_be_given() {
 }
 
 #[test]
-fn a_scenes_constants_are_those_of_its_unit_and_the_unit_agrees_with_the_prediction() {
+fn a_scenes_constants_are_those_of_its_fmu_and_the_fmu_agrees_with_the_prediction() {
     let folder = empty_folder();
     let law = "loading = \"power\"\nloading_parameters = { exponent = 1.15, coefficient = 2 }";
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
@@ -199,7 +199,7 @@ fn page(law: &str) -> String {
 }
 
 #[test]
-fn the_formulas_on_the_page_of_a_unit_have_its_constants_and_what_follows_from_them() {
+fn the_formulas_on_the_page_of_an_fmu_contain_its_constants_and_derived_numbers() {
     let law = "loading = \"big-alabo\"\nloading_parameters = { second_region = 10.0, fully_plastic = 50.0, plastic_slope = 4.0 }";
     // computed by hand: k_l = 1.5 sqrt(9) = 4.5, f_tep = 9^1.5 + 1 = 28, f_p = 4.5 * 40 + 28 = 208
     let page = page(law);
@@ -232,7 +232,7 @@ fn the_texts_of_every_law_have_numbers_in_place_of_names() {
 }
 
 #[test]
-fn the_page_of_a_unit_has_its_constants() {
+fn the_page_of_an_fmu_has_its_constants() {
     let law = "loading = \"johnson\"\nloading_parameters = { plastic_pressure_factor = 3.0 }\nunloading = \"walton-braun\"\n\
                unloading_parameters = { stiffness_ratio = 6.25 }";
     let page = page(law);

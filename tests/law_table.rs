@@ -36,7 +36,7 @@ fn every_law_that_an_entry_names_is_one_and_has_the_constants_that_are_tied() {
 }
 
 #[test]
-fn the_laws_that_are_above_hertz_and_no_other_are_said_to_be() {
+fn exactly_the_laws_above_hertz_are_listed_as_such() {
     let mut random = Random(1882);
     for (name, loading) in AnyLoading::ALL {
         // a law without an elastic part is skipped: it can only be combined with its own unloading law
@@ -56,7 +56,7 @@ fn the_laws_that_are_above_hertz_and_no_other_are_said_to_be() {
 }
 
 #[test]
-fn the_laws_whose_force_jumps_and_no_other_are_said_to() {
+fn exactly_the_laws_whose_force_jumps_are_listed_as_such() {
     let mut random = Random(2002);
     for (name, loading) in AnyLoading::ALL {
         let jumps = (0..60).any(|_| {
@@ -71,7 +71,7 @@ fn the_laws_whose_force_jumps_and_no_other_are_said_to() {
 }
 
 #[test]
-fn the_laws_whose_normalised_curve_depends_on_the_moduli_and_no_other_are_said_to() {
+fn exactly_the_laws_whose_normalised_curve_depends_on_the_moduli_are_listed_as_such() {
     for (name, _) in AnyLoading::ALL {
         let forces = |ratio: f64| {
             let model = Model { pair: pair_of(0.005, 2e11, 2e11 / ratio), ..of(name) };

@@ -67,7 +67,7 @@ fn with_outputs(name: &str, outputs: &str) -> PathBuf {
 
 /// The code of an output is in the library only if the scene requests the output.
 #[test]
-fn an_output_that_is_not_asked_for_is_not_in_the_library() {
+fn an_output_that_is_not_requested_is_not_in_the_library() {
     let size = |library: PathBuf| fs::metadata(library).unwrap().len();
     let force_alone = size(with_outputs("force_alone", ""));
     let work = size(with_outputs("with_work", "\"work\""));
@@ -135,7 +135,7 @@ fn it_holds_no_path_of_the_machine_that_built_it() {
 
 /// Features that a scene does not request are neither in the XML nor in the binary.
 #[test]
-fn an_elastic_unit_has_nothing_plastic() {
+fn an_elastic_fmu_has_nothing_plastic() {
     let [elastic, plastic] = ["elastic", "steel_ball"].map(|name| unit::library(&unit::export(&unit::scene(name))));
     let size = |library: &Path| fs::metadata(library).unwrap().len() as f64;
     assert!(size(&elastic) < 0.9 * size(&plastic), "{} against {} bytes", size(&elastic), size(&plastic));

@@ -68,7 +68,7 @@ fn the_libraries_of_both_are_in_one() {
 }
 
 #[test]
-fn different_guids_are_told() {
+fn different_guids_are_reported() {
     assert_refused(
         &format!(
             "{MOVED}\nimport re\nfiles['modelDescription.xml'] = \
@@ -79,7 +79,7 @@ fn different_guids_are_told() {
 }
 
 #[test]
-fn different_descriptions_with_the_same_guid_are_told() {
+fn different_descriptions_with_the_same_guid_are_reported() {
     assert_refused(
         &format!(
             "{MOVED}\nfiles['modelDescription.xml'] = files['modelDescription.xml'].replace(b'max=', b'nominal=', 1) + b' '"
@@ -89,19 +89,19 @@ fn different_descriptions_with_the_same_guid_are_told() {
 }
 
 #[test]
-fn two_libraries_for_one_platform_are_told() {
+fn two_libraries_for_one_platform_are_reported() {
     assert_refused("files[library] += b'x'", &["both have files for", "which differ"]);
     // not just another name of the library
     assert_refused("files[library + '.so'] = files.pop(library)", &["both have files for", "which differ"]);
 }
 
 #[test]
-fn another_file_that_differs_is_told() {
+fn another_file_that_differs_is_reported() {
     assert_refused(&format!("{MOVED}\nfiles['resources/scene.toml'] += b'#'"), &["differ in resources/scene.toml"]);
 }
 
 #[test]
-fn what_is_no_fmu_is_told_by_its_name() {
+fn a_file_that_is_not_an_fmu_is_reported_by_name() {
     let folder = empty_folder();
     fs::copy(unit::export(&unit::scene("steel_ball")), folder.path().join("a.fmu")).unwrap();
     fs::write(folder.path().join("text.fmu"), "text").unwrap();

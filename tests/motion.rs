@@ -184,7 +184,7 @@ fn bounces_that_lose_nothing_are_followed_for_as_long_as_their_phase_is_known() 
 }
 
 #[test]
-fn a_step_with_more_bounces_than_can_be_followed_is_refused() {
+fn a_step_with_too_many_bounces_is_refused() {
     // the motion of bodies that yield less and less approaches a lossless one
     for (loading, unloading) in [("brinell", "brinell"), ("thornton", "thornton"), ("vu-quoc-zhang", "vu-quoc-zhang")] {
         let model = AnyModel { surface: Surface::Fresh, ..model(loading, unloading) };

@@ -93,7 +93,7 @@ fn beside(row: &Unit, single: &Unit, count: usize, own: &[(&str, f64, f64)], ste
 }
 
 #[test]
-fn contacts_with_parameters_of_their_own_are_units_of_one_contact_to_the_last_bit() {
+fn contacts_with_parameters_of_their_own_are_fmus_of_one_contact_to_the_last_bit() {
     let damped = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.6\n";
     let with_mass = "[law]\nloading = \"tsuji\"\nrestitution = 0.6\n[impact]\nmass = 4e-3\nspeed = 1.0\n";
     let fit = "[law]\nloading = \"brinell\"\nunloading = \"brinell\"\n";
@@ -117,7 +117,7 @@ const COUPLING: &str = "[coupling]\neffective_mass = 4e-3\n";
 
 /// One step contains the whole impact of each contact, as in a study.
 #[test]
-fn a_thousand_impacts_in_one_step_are_those_of_a_thousand_units() {
+fn a_thousand_impacts_in_one_step_are_those_of_a_thousand_fmus() {
     const COUNT: usize = 1000;
     let own = [OWN[0], OWN[3], MASS];
     let row = load("thousand_row", &format!("{COUPLING}{}", table("row", COUNT, &own)));

@@ -276,7 +276,7 @@ fn a_history_comes_back_from_its_words() {
 }
 
 #[test]
-fn words_that_are_no_history_are_refused() {
+fn words_that_are_not_a_history_are_refused() {
     let model = model("big-alabo", "contact-radius");
     let words = words_of(&pressed(&model, on_grid(20.0)));
     assert!(of_words(&words, &model).is_some());

@@ -90,7 +90,7 @@ fn the_platform_of_this_machine_is_the_default() {
 }
 
 #[test]
-fn a_platform_that_does_not_exist_is_told_with_those_that_do() {
+fn an_unknown_platform_is_reported_with_the_known_ones() {
     let folder = empty_folder();
     for platforms in ["win32", "linux64,win32", ""] {
         let said = run(folder.path(), ["export", scene("steel_ball").to_str().unwrap(), "--platforms", platforms]);
@@ -107,7 +107,7 @@ fn a_platform_that_does_not_exist_is_told_with_those_that_do() {
 /// A compiler for its own target only: each message says what to install, and nothing is written.
 #[test]
 #[cfg(target_os = "linux")]
-fn a_platform_that_cannot_be_built_is_told_with_how_to_get_it() {
+fn a_platform_that_cannot_be_built_is_reported_with_how_to_get_it() {
     let folder = empty_folder();
     let compiler = folder.path().join("bin");
     let script = "#!/bin/sh\ncase $1 in --print) echo /no/sysroot;; *) echo 'release: 1.99.0';; esac\n";

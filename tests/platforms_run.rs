@@ -87,7 +87,7 @@ fn assert_standalone_alone_runs(host: &Host, name: &str) {
 
 /// The old C library is that of Debian 11, the release before the last but one.
 #[test]
-fn units_run_on_an_old_c_library() {
+fn fmus_run_on_an_old_c_library() {
     let packages = match debian::packages("bullseye", "bullseye", &["libc6", "libc6-dev", "linux-libc-dev"], false) {
         Ok(packages) => packages,
         Err(why) => return skipped("units on glibc 2.31", &why),
@@ -120,7 +120,7 @@ fn units_run_on_an_old_c_library() {
 }
 
 #[test]
-fn units_run_on_musl() {
+fn fmus_run_on_musl() {
     let packages = match debian::packages("musl", "bookworm", &["musl", "musl-dev"], false) {
         Ok(packages) => packages,
         Err(why) => return skipped("units on musl", &why),
@@ -138,13 +138,13 @@ fn units_run_on_musl() {
 
 /// Like importers that isolate FMUs: libraries of the process are not visible there.
 #[test]
-fn standalone_units_run_in_a_namespace_of_their_own() {
+fn standalone_fmus_run_in_a_namespace_of_their_own() {
     let program = compile("namespace", "host.c", Loading::IntoNamespace, &cc(), &["-ldl"]);
     assert_standalone_alone_runs(&Host::program(program.unwrap_or_else(|why| panic!("{why}"))), "glibc ");
 }
 
 #[test]
-fn standalone_units_run_in_a_host_that_is_linked_statically() {
+fn standalone_fmus_run_in_a_host_that_is_linked_statically() {
     // a warning of the linker about dlopen is not a failure
     match compile("static", "host.c", Loading::BySystem, &cc(), &["-static", "-ldl"]) {
         Ok(program) => assert_standalone_alone_runs(&Host::program(program), "glibc "),
@@ -154,7 +154,7 @@ fn standalone_units_run_in_a_host_that_is_linked_statically() {
 
 /// Like a program for a device without a dynamic linker.
 #[test]
-fn standalone_units_run_in_a_host_that_loads_them_by_itself() {
+fn standalone_fmus_run_in_a_host_that_loads_them_by_itself() {
     let program = compile("by-hand", "host.c", Loading::ByHand, &cc(), &[]).unwrap_or_else(|why| panic!("{why}"));
     assert_standalone_alone_runs(&Host::program(program), "no dynamic linker");
 }

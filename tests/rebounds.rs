@@ -36,7 +36,7 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn every_solution_rebounds_as_was_asked() {
+fn every_solution_has_the_requested_rebound() {
     let folder = empty_folder();
     // the number of solutions: counted in the curves of restitution over speed
     let cases = [
@@ -107,7 +107,7 @@ fn a_value_that_restitution_jumps_past_is_no_solution() {
 }
 
 #[test]
-fn a_rebound_that_nothing_explains_is_refused_with_what_was_searched() {
+fn a_rebound_without_explanation_is_refused_with_the_searched_range() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     let failed = run(folder.path(), ["predict", &scene, "--laws", "hertz", "--restitution", "0.5"]).with_status(1);
@@ -117,7 +117,7 @@ fn a_rebound_that_nothing_explains_is_refused_with_what_was_searched() {
 }
 
 #[test]
-fn a_number_that_is_no_restitution_is_refused_with_what_is_allowed() {
+fn an_invalid_restitution_is_refused_with_the_allowed_range() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     for value in ["0", "-0.5", "1.0000001", "NaN", "inf"] {

@@ -77,7 +77,7 @@ fn references(first: usize, count: usize) -> Vec<u32> {
 }
 
 #[test]
-fn two_different_contacts_are_two_units_to_the_last_bit() {
+fn two_different_contacts_are_two_fmus_to_the_last_bit() {
     let (both, left, right) = (two(), single("left", PLAIN, 0.0), single("right", OTHER, 2e-6));
     let (mut both, mut left, mut right) = (both.ready(), left.ready(), right.ready());
     for step in 0..200 {
@@ -95,7 +95,7 @@ fn two_different_contacts_are_two_units_to_the_last_bit() {
 }
 
 #[test]
-fn a_thousand_contacts_are_a_thousand_units_to_the_last_bit() {
+fn a_thousand_contacts_are_a_thousand_fmus_to_the_last_bit() {
     const COUNT: usize = 1000;
     let (all, one) = (counted(COUNT), single("one_of_many", PLAIN, 0.0));
     let mut all = all.ready();

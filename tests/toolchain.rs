@@ -184,7 +184,7 @@ fn a_download_goes_on_where_it_stopped() {
 }
 
 #[test]
-fn a_damaged_package_is_told_and_removed() {
+fn a_damaged_package_is_reported_and_removed() {
     let Some(mirror) = Mirror::new() else { return };
     let package = mirror.package("lld-77");
     let whole = fs::read(&package).unwrap();
@@ -202,7 +202,7 @@ fn a_damaged_package_is_told_and_removed() {
 }
 
 #[test]
-fn what_the_index_has_not_got_is_named() {
+fn packages_missing_from_the_index_are_named() {
     let Some(mirror) = Mirror::new() else { return };
     let index = mirror.path("mirror/dists/bookworm-security/main/binary-amd64/Packages.xz");
     let script = "import lzma, sys; path = sys.argv[1]; text = lzma.open(path).read().replace(b'Package: lld-77', b'Package: lld-7'); \

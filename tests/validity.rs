@@ -91,7 +91,7 @@ fn predict_warns_of_an_impact_beyond_the_validity_and_of_no_other() {
 }
 
 #[test]
-fn the_density_is_a_constant_of_the_unit_and_no_variable() {
+fn the_density_is_a_constant_of_the_fmu_and_not_a_variable() {
     let folder = empty_folder();
     let constants = |scene: &str| {
         fs::write(folder.path().join("scene.toml"), scene).unwrap();

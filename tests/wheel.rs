@@ -172,7 +172,7 @@ fn the_same_program_makes_the_same_wheel_and_archive() {
 
 #[test]
 #[cfg(unix)]
-fn the_archive_is_a_program_with_what_belongs_to_it() {
+fn the_archive_contains_the_program_and_its_files() {
     let folder = empty_folder();
     let mut tar = Command::new("tar");
     output(tar.arg("-xzf").arg(file(&INSTALLED.folder, ".tar.gz")).arg("-C").arg(folder.path())).with_status(0);
@@ -183,7 +183,7 @@ fn the_archive_is_a_program_with_what_belongs_to_it() {
 }
 
 #[test]
-fn a_first_export_takes_no_compiler_and_fmpy_runs_the_unit() {
+fn a_first_export_needs_no_compiler_and_fmpy_runs_the_fmu() {
     if PREBUILT.is_none() {
         // past the harness, which hides the output of a test that passes
         let _ = writeln!(std::io::stderr(), "NOT RUN: an export without a compiler; the program has no `prebuild`");

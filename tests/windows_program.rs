@@ -118,7 +118,7 @@ fn what_it_writes_is_the_same() {
 
 #[test]
 #[ignore = "takes Wine and the archive for Windows"]
-fn it_exports_the_same_unit_and_checks_it() {
+fn it_exports_the_same_fmu_and_checks_it() {
     if !UNPACKED.join("share/brinell/prebuilt/win64.json").is_file() {
         eprintln!("NOT RUN: the archive was made without prebuilt libraries for win64");
         return;
