@@ -83,7 +83,7 @@ unsafe fn make<S: Scene>(
     }
     if kind != fmi2CoSimulation {
         return Err(Complaint::BadInstance {
-            reason: "fmuType must be fmi2CoSimulation: this unit has no model exchange",
+            reason: "fmuType must be fmi2CoSimulation: this FMU has no model exchange",
         });
     }
     if !fits {

@@ -105,7 +105,7 @@ pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
                 .integer(reference);
             return;
         }
-        Complaint::Unsupported => "this unit doesn't have this capability (see its model description)",
+        Complaint::Unsupported => "this FMU doesn't have this capability (see its model description)",
         Complaint::Unavailable => "not available: every step is complete when its call returns",
         Complaint::UnknownCategory => {
             "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll"
@@ -201,14 +201,14 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         }
         Fault::NoDerivative { of } => {
             words[0] = of;
-            "there are derivatives of @ only"
+            "only derivatives of @ exist"
         }
-        Fault::DerivativeNotFinite => "the derivative is beyond all numbers",
-        Fault::NotAnInput => "there are derivatives by indentation_rate only",
+        Fault::DerivativeNotFinite => "the derivative is not finite",
+        Fault::NotAnInput => "only derivatives by indentation_rate exist",
         Fault::NoInputDerivatives if S::has_input(Real::ExternalAcceleration) => {
-            "inputs of this unit have no derivatives: external_acceleration is the input for the acceleration"
+            "inputs of this FMU have no derivatives: external_acceleration is the input for the acceleration"
         }
-        Fault::NoInputDerivatives => "inputs of this unit have no derivatives: its law depends on the rate",
+        Fault::NoInputDerivatives => "inputs of this FMU have no derivatives: its law depends on the rate",
     }
 }
 

@@ -55,7 +55,7 @@ impl<S: Scene> Snapshot<S> {
         if snapshot.mark == Self::mark() {
             Ok(snapshot)
         } else {
-            Err(Complaint::BadState { reason: "it was not made by this unit" })
+            Err(Complaint::BadState { reason: "it was not made by this FMU" })
         }
     }
 
@@ -126,7 +126,7 @@ impl<S: Scene> Snapshot<S> {
         let bad = |reason| Err(Complaint::BadState { reason });
         let (words, rest) = bytes.as_chunks();
         if words.len() != Self::CHECKSUM_AT + 1 || !rest.is_empty() {
-            return bad("it doesn't have the length of a state of this unit");
+            return bad("it doesn't have the length of a state of this FMU");
         }
         let known =
             [(0, u64::from_le_bytes(MAGIC)), (IDENTITY_AT, S::identity()), (COUNT_AT, Instance::<S>::WORDS as u64)];
