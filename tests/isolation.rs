@@ -152,7 +152,7 @@ fn exports_of_one_scene_at_the_same_time_do_not_disturb_each_other() {
     });
 }
 
-/// An FMU has some ten kilobytes, but every change of a parameter creates a new one.
+/// An FMU has some tens of kilobytes, but every change of a parameter creates a new one.
 #[test]
 fn fmus_do_not_accumulate_in_the_cache() {
     let own = empty_folder();

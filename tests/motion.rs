@@ -232,7 +232,7 @@ fn evaluations_of_an_impact(model: &AnyModel, steps: u32) -> u32 {
 
 #[test]
 fn cutting_an_impact_into_steps_costs_little_for_each() {
-    // the number when this was written, plus some hundredths for other roundings
+    // the number when this was written, plus a few hundredths for other roundings
     for (loading, unloading, most) in [
         ("big-alabo", "contact-radius", [(1, 135), (2, 158), (32, 595), (1000, 9200)]),
         ("hertz", "contact-radius", [(1, 63), (2, 91), (32, 595), (1000, 6300)]),

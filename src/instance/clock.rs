@@ -34,7 +34,7 @@ pub const LATEST: f64 = 1e50;
 /// `start + i h`; both are within rounding of the last end. Half a step off is a mistake.
 const TIME_TOLERANCE: f64 = 0.1;
 
-/// How far a step may end beyond the stop time, in steps. This allows for the rounding of some thousand sums, and is far below
+/// How far a step may end beyond the stop time, in steps. This allows for the rounding of a few thousand sums, and is far below
 /// a hundredth of a step, which would be a mistake.
 const STOP_TOLERANCE: f64 = 1e-3;
 

@@ -124,7 +124,7 @@ fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<Row> {
             regime: i32::from(force > 0.0),
         });
     });
-    // the method takes some thousand steps; this leaves as many points as the other laws have
+    // the method takes a few thousand steps; this leaves as many points as the other laws have
     let every = rows.len().div_ceil(4 * POINTS as usize).max(1);
     rows.into_iter().step_by(every).collect()
 }

@@ -20,7 +20,7 @@ pub struct State {
 /// Largest error of a step, relative to the largest indentation and to the incoming speed.
 const TOLERANCE: f64 = 1e-13;
 
-/// More steps than any contact needs: with this tolerance it takes some thousands.
+/// More steps than any contact needs: with this tolerance it takes a few thousand.
 const MOST_STEPS: u32 = 1_000_000;
 
 /// The impact `impact` on an untouched contact. The energy balance depends on the path, so the motion `m d'' = -F(d, d')` is

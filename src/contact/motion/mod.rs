@@ -1,6 +1,6 @@
 //! The motion of bodies of known mass under the contact force.
 //!
-//! An impact takes some ten microseconds, a step of a multibody tool about a millisecond. This module solves `m x'' = m a -
+//! An impact takes some tens of microseconds, a step of a multibody tool about a millisecond. This module solves `m x'' = m a -
 //! F(x)` within the step, however many times the bodies touch in it: from event to event (`bodies`), in flight (`flight`) and
 //! on the smooth pieces of the law (`stretch`). There is no time stepping: between two events, the speed is a function of the
 //! position (`field`, `turning`), and the time is an integral over the position (`travel`). A `short` motion on one segment
@@ -71,8 +71,8 @@ impl From<TooDeep> for NoMotion {
     }
 }
 
-/// Largest number of evaluations of the force in a step. This takes some hundredths of a second for laws with segments and at
-/// most half a second for others. An impact takes some hundred evaluations, with laws without segments some thousand.
+/// Largest number of evaluations of the force in a step. This takes a few hundredths of a second for laws with segments and at
+/// most half a second for others. An impact takes a few hundred evaluations, with laws without segments a few thousand.
 pub const MOST_EVALUATIONS: u32 = 1_000_000;
 
 /// The number of evaluations that one evaluation of a law without segments counts for.

@@ -27,7 +27,7 @@ struct Callbacks {
     environment: *mut c_void,
 }
 
-// What a unit written in C may ask its importer for.
+// The functions that an FMU written in C may get from its importer.
 unsafe extern "C" {
     fn calloc(count: usize, size: usize) -> *mut c_void;
     fn free(memory: *mut c_void);

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
-/// Largest number of contacts of an FMU. The model description then has some hundred megabytes.
+/// Largest number of contacts of an FMU. The model description then has a few hundred megabytes.
 const MOST_CONTACTS: i64 = 100_000;
 
 /// Largest number of values of parameters that each contact has for itself. Restoring a state from bytes puts them on the
