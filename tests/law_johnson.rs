@@ -94,9 +94,10 @@ fn just_beyond_yield_an_impact_gains_energy_as_documented() {
 }
 
 /// Fully plastic, `a^2 = 2 R d` from the surface on: the limit of Johnson's section 11.5, with tables computed from it.
-/// In units of `F_y d_y`, the work of the present curve beyond the boundary `u_p` is `(c/p_Y) u^2/4 + K` with `K = 0.15 -
-/// (u_p^2 - u_2^2)/(24 p_Y)`; that of the limit is the same without `K`. At a given energy `W`, `u` therefore differs by the
-/// factor `s = (1 - K/W)^(1/2)`, which describes how the limit is approached: `K` is -24600 for `c = 2.8`, `W = 0.4 (v/v_y)^2`.
+/// In units of `F_y d_y`, the work of the present curve beyond the boundary `u_p` is `(c/p_Y) u^2/4 + K` with
+/// `K = 0.15 - (u_p^2 - u_2^2)/(24 p_Y)`; that of the limit is the same without `K`. At a given energy `W`, `u` therefore
+/// differs by the factor `s = (1 - K/W)^(1/2)`, which describes how the limit is approached: `K` is -24600 for `c = 2.8`,
+/// `W = 0.4 (v/v_y)^2`.
 #[test]
 fn fast_impacts_approach_the_fully_plastic_limit_as_its_asymptotics_say() {
     // speeds [m/s], restitution, largest force [N], largest indentation [m] of the limit

@@ -54,8 +54,8 @@ pub const POINTS: usize = 16;
 /// Nodes and weights of the Gauss-Legendre rule with sixteen points, and the weights of the coefficients of `P_14` and `P_15`.
 /// By symmetry, half of them are enough.
 ///
-/// Reference: Abramowitz and Stegun, as for [`gauss`]. A coefficient is `(k + 1/2)` times the sum that the rule gives for `P_k
-/// f`.
+/// Reference: Abramowitz and Stegun, as for [`gauss`]. A coefficient is `(k + 1/2)` times the sum that the rule gives for
+/// `P_k f`.
 const RULE: [(f64, f64, f64, f64); POINTS / 2] = [
     (0.095_012_509_837_637_44, 0.189_450_610_455_068_5, -0.109_041_815_957_682_07, -0.593_615_928_942_801_8),
     (0.281_603_550_779_258_9, 0.182_603_415_044_923_58, 0.305_833_437_439_604, 0.561_746_144_829_279_1),

@@ -25,8 +25,8 @@ fn similarity(asked: &str, name: &str) -> f64 {
     strsim::jaro_winkler(asked, name).max(if is_part { SIMILAR } else { 0.0 })
 }
 
-/// The message about a name that does not exist: `unknown material `Mild Steel`; did you mean `mild steel`? Expected one of
-/// ...`.
+/// The message about a name that does not exist, such as: unknown material `Mild Steel`; did you mean `mild steel`? Expected
+/// one of ...
 pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
     let guess = nearest(asked, names.iter().copied());

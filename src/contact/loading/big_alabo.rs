@@ -47,8 +47,8 @@ impl BigAlabo {
     ///
     /// `x_p = 82.5` is the point of full plasticity of Stronge (*Impact Mechanics*, 2000, section 6.3). At 13.93 (unrounded:
     /// 13.938), a line with continuous slope begins that meets Stronge's plastic line at `x_p`. The paper's introduction does
-    /// not give `k_p`. It follows from a constant pressure of 2.8 S on an area `pi R d_y (2x - 1)`: `k_p = 2 * 2.8/1.1 =
-    /// 5.0909`.
+    /// not give `k_p`. It follows from a constant pressure of 2.8 S on an area `pi R d_y (2x - 1)`:
+    /// `k_p = 2 * 2.8/1.1 = 5.0909`.
     pub const REFERENCE: BigAlabo = BigAlabo {
         yield_pressure_factor: 1.1,
         plastic_pressure_factor: 2.8,

@@ -17,12 +17,13 @@ use libm::{atan, sqrt};
 ///
 /// Yield follows von Mises: `d_y = R (pi p_0/(2 E*))^2`, with `p_0` of [`first_yield`]. Force and slope are continuous
 /// everywhere. This project reconstructed the law from descriptions of the paper, in two variants. In
-/// [`TANGENT`](Brake2012::TANGENT), the plastic line begins where Hertz's curve has the slope of the line, `d_p = R (pi
-/// p_H/E*)^2`: the curve is Hertz's followed by its tangent, except that the cubic is up to 4 % below Hertz's in between (nu =
-/// 0.3). In [`LINE`](Brake2012::LINE), the line begins where Hertz's mean pressure is the hardness, `d_p = R (3 pi p_H/(4
-/// E*))^2`: the curve bends upwards there, above Hertz's, and the closure [`Thornton`](crate::contact::unloading::Thornton)
-/// gives negative dents. With that closure neither variant is passive: for a Poisson's ratio of 0 or more, the restitution
-/// reaches 1.009 and 1.093. The descriptions do not give the contact radius; `a^2 = R d` is this project's choice.
+/// [`TANGENT`](Brake2012::TANGENT), the plastic line begins where Hertz's curve has the slope of the line,
+/// `d_p = R (pi p_H/E*)^2`: the curve is Hertz's followed by its tangent, except that the cubic is up to 4 % below Hertz's in
+/// between (nu = 0.3). In [`LINE`](Brake2012::LINE), the line begins where Hertz's mean pressure is the hardness,
+/// `d_p = R (3 pi p_H/(4 E*))^2`: the curve bends upwards there, above Hertz's, and the closure
+/// [`Thornton`](crate::contact::unloading::Thornton) gives negative dents. With that closure neither variant is passive: for a
+/// Poisson's ratio of 0 or more, the restitution reaches 1.009 and 1.093. The descriptions do not give the contact radius;
+/// `a^2 = R d` is this project's choice.
 ///
 /// Reference: M. R. W. Brake, *Int. J. Solids Struct.* 49 (2012) 3129-3141.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,10 +18,10 @@ use libm::{exp, log, sqrt};
 ///
 /// From Johnson come yield at 1.1 S, the pressure of the expanding cavity (an incompressible core under the sphere), and full
 /// plasticity at about 3 S on an area `a^2 = 2 R d`, without pile-up. He connects them only as pressure against `z`. This
-/// project chose two things. The first is the geometry `a^2 = R d_y u`, which continues Hertz's `R d` at yield and tends to `2
-/// R d`. The second is the plateau at 1.1 S from `z = 2.59` to 5.75 (`x = 2.96`), where the cavity formula is still below 1.1
-/// S. The boundaries 4.916 and 806.3 follow from the pressures. The formula does not reach 2.8 S before `z = 73.6` (`x =
-/// 403.7`), and 3.0 S at `z = 99.3`; according to the book, full plasticity begins at 30 to 40.
+/// project chose two things. The first is the geometry `a^2 = R d_y u`, which continues Hertz's `R d` at yield and tends to
+/// `2 R d`. The second is the plateau at 1.1 S from `z = 2.59` to 5.75 (`x = 2.96`), where the cavity formula is still below
+/// 1.1 S. The boundaries 4.916 and 806.3 follow from the pressures. The formula reaches 2.8 S only at `z = 73.6`
+/// (`x = 403.7`) and 3.0 S at `z = 99.3`; according to the book, full plasticity begins at 30 to 40.
 ///
 /// Force, work and contact radius are continuous. The slope jumps from 1.5 up to 2 at yield and from 2 up to 2.606 at the end
 /// of the plateau, and falls from 5.697 to 5.091 at the last boundary.
@@ -44,8 +44,8 @@ impl Johnson {
     /// Yield at 1.1 S; full plasticity at 2.8 S as in the other laws. Johnson's formula for the restitution uses 3.0.
     pub const REFERENCE: Johnson = Johnson { yield_pressure_factor: 1.1, plastic_pressure_factor: 2.8 };
 
-    /// `u` where the cavity pressure reaches `factor` yield strengths, from `z = 3 exp(1.5 factor - 1)` and `z = (3 pi/4) p_Y
-    /// sqrt(u)`. For the pressure at yield, `u` is always above 1.
+    /// `u` where the cavity pressure reaches `factor` yield strengths, from `z = 3 exp(1.5 factor - 1)` and
+    /// `z = (3 pi/4) p_Y sqrt(u)`. For the pressure at yield, `u` is always above 1.
     fn cavity_border(&self, factor: f64) -> f64 {
         let root = 4.0 / (PI * self.yield_pressure_factor) * exp(1.5 * factor - 1.0);
         root * root

@@ -34,8 +34,8 @@ pub struct Luding {
 }
 
 impl Luding {
-    /// `k_1` as for [`WaltonBraun`] and `k_2 = 4 k_1` are this project's choice; the original leaves them to the user. `phi =
-    /// 0.05` is the example of the paper.
+    /// `k_1` as for [`WaltonBraun`] and `k_2 = 4 k_1` are this project's choice; the original leaves them to the user.
+    /// `phi = 0.05` is the example of the paper.
     pub const REFERENCE: Luding =
         Luding { yield_pressure_factor: 1.1, stiffness_factor: 1.0, stiffness_ratio: 4.0, limit_depth: 0.05 };
 

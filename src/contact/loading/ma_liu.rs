@@ -19,9 +19,9 @@ use libm::{log, sqrt};
 /// restitution falls monotonically.
 ///
 /// The value of `X` in the paper is not known to this project. The reference value `exp(2 (q - 1))` is the smallest with which
-/// the curve stays below Hertz's. The curvature is then continuous at yield too, and full plasticity begins at `E* a/(S R) =
-/// 32`, within Johnson's range of 30 to 40. The paper's own unloading law and contact radius are not known either. `a^2 = R d`
-/// is this project's choice; with it the closures `contact-radius` and `thornton` are identical.
+/// the curve stays below Hertz's. The curvature is then continuous at yield too, and full plasticity begins at
+/// `E* a/(S R) = 32`, within Johnson's range of 30 to 40. The paper's own unloading law and contact radius are not known
+/// either. `a^2 = R d` is this project's choice; with it the closures `contact-radius` and `thornton` are identical.
 ///
 /// Reference: D. Ma, C. S. Liu, *J. Appl. Mech.* 82 (2015) 121006.
 #[derive(Clone, Copy, Debug, PartialEq)]

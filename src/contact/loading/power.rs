@@ -14,9 +14,9 @@ use libm::{pow, sqrt};
 /// | elastoplastic | `1 <= x` | `1 + k (x - 1)^n` |
 ///
 /// In SI units, `F = F_y + k F_y ((d - d_y)/d_y)^n`. The constants are fitted to a finite-element model or a test. `a^2 = R d`
-/// is this project's choice. The force is continuous at yield. The slope drops to zero there for `n > 1`, and is `k` for `n =
-/// 1`; `n < 1` is not allowed, because the slope would be infinite. The law is finite up to the largest indentation for `n` up
-/// to 1.8.
+/// is this project's choice. The force is continuous at yield. The slope drops to zero there for `n > 1`, and is `k` for
+/// `n = 1`; `n < 1` is not allowed, because the slope would be infinite. The law is finite up to the largest indentation for
+/// `n` up to 1.8.
 ///
 /// Not every pair of `k` and `n` is passive: the curve must stay below Hertz's.
 #[derive(Clone, Copy, Debug, PartialEq)]

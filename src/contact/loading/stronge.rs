@@ -14,9 +14,9 @@ use libm::{exp, log, sqrt};
 /// | elastoplastic | `1 <= x < x_p` | `u (1 + c ln u)` |
 /// | fully plastic | `x_p <= x` | `(p_P/p_Y) u` |
 ///
-/// `p_Y = 1.1` and `p_P = 2.8` are the mean pressures over the yield strength. Beyond yield, `a^2 = R d_y u`. `x_p = (1 + exp(3
-/// (p_P - p_Y)))/2 = 82.511` follows from the pressures, so the force is continuous; the published value of 84 would leave a
-/// jump of 0.2 %.
+/// `p_Y = 1.1` and `p_P = 2.8` are the mean pressures over the yield strength. Beyond yield, `a^2 = R d_y u`.
+/// `x_p = (1 + exp(3 (p_P - p_Y)))/2 = 82.511` follows from the pressures, so the force is continuous; the published value of
+/// 84 would leave a jump of 0.2 %.
 ///
 /// **Not passive.** The slope jumps from 1.5 up to 2.606 at yield (and falls from 5.697 to 5.091 at `x_p`), and the curve is
 /// above Hertz's for `1 < x < 15.4`. With the recovery from the contact radius, an impact of up to 7.95 yield speeds returns

@@ -34,8 +34,8 @@ struct Power {
 
 /// A motion that starts at a height of one.
 ///
-/// With the height `1 + y` and its root `1 + e`: `y = 2 e + e^2`, and `y'' = net - p y - q ((1 + y) (1 + e) - 1) - r (2 y +
-/// y^2)`. Each power of the time follows from those before it.
+/// With the height `1 + y` and its root `1 + e`: `y = 2 e + e^2`, and
+/// `y'' = net - p y - q ((1 + y) (1 + e) - 1) - r (2 y + y^2)`. Each power of the time follows from those before it.
 pub struct Curve {
     /// `p`, `q` and `r`.
     force: [f64; 3],

@@ -1,10 +1,10 @@
 //! The motion of bodies of known mass under the contact force.
 //!
-//! An impact takes some tens of microseconds, a step of a multibody tool about a millisecond. This module solves `m x'' = m a -
-//! F(x)` within the step, however many times the bodies touch in it: from event to event (`bodies`), in flight (`flight`) and
-//! on the smooth pieces of the law (`stretch`). There is no time stepping: between two events, the speed is a function of the
-//! position (`field`, `turning`), and the time is an integral over the position (`travel`). A `short` motion on one segment
-//! needs no integral: it is a sine and a cosine on a `line`, and a power series in time on a `curve`.
+//! An impact takes some tens of microseconds, a step of a multibody tool about a millisecond. This module solves
+//! `m x'' = m a - F(x)` within the step, however many times the bodies touch in it: from event to event (`bodies`), in flight
+//! (`flight`) and on the smooth pieces of the law (`stretch`). There is no time stepping: between two events, the speed is a
+//! function of the position (`field`, `turning`), and the time is an integral over the position (`travel`). A `short` motion on
+//! one segment needs no integral: it is a sine and a cosine on a `line`, and a power series in time on a `curve`.
 
 mod bodies;
 mod curve;

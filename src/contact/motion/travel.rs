@@ -9,9 +9,9 @@ use libm::{fabs, sqrt};
 
 /// A motion between two places, at one of which it is slow, on a scale `s` on which time is smooth.
 ///
-/// From the slow end on, the bodies move roughly as under a constant force: the root is a parabola, `t = length (2 k s + (1 - 2
-/// k) s^2)`. If the bodies turn at the slow end, or turned just before it, `k` is zero and the scale begins at the turning
-/// point.
+/// From the slow end on, the bodies move roughly as under a constant force: the root is a parabola,
+/// `t = length (2 k s + (1 - 2 k) s^2)`. If the bodies turn at the slow end, or turned just before it, `k` is zero and the
+/// scale begins at the turning point.
 pub struct Travel<'a, const N: usize> {
     field: Field<'a>,
     start: Place<N>,

@@ -55,8 +55,8 @@ impl Dent {
     }
 }
 
-/// The Brinell number of a dent of this `diameter` [m] from a ball of diameter `ball` [m] under `load` [N]: `HBW = 0.102 * 2 F
-/// / (pi D (D - sqrt(D^2 - d^2)))`, with lengths in millimetres. `None` if the dent is wider than the ball.
+/// The Brinell number of a dent of this `diameter` [m] from a ball of diameter `ball` [m] under `load` [N]:
+/// `HBW = 0.102 * 2 F / (pi D (D - sqrt(D^2 - d^2)))`, with lengths in millimetres. `None` if the dent is wider than the ball.
 ///
 /// Reference: ISO 6506-1, section 4.
 pub fn brinell_number(load: f64, ball: f64, diameter: f64) -> Option<f64> {
