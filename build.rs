@@ -1,5 +1,5 @@
-//! The lists of laws, from the table of laws; and what the program carries inside itself: the source of the library
-//! and of `libm`, which is all that a unit is made of, and the C header of its functions.
+//! Generates the lists of laws from the table of laws, the C header, and the sources that the program embeds: those of the
+//! library and of `libm`, which together make up an FMU.
 
 use std::env;
 use std::path::PathBuf;
@@ -30,7 +30,7 @@ mod exporter {
     /// The file with the exported functions.
     const INTERFACE: &str = "src/fmi2/exports.rs";
 
-    /// The exporter's own files, and those that it writes anew for every library.
+    /// The exporter's own files, and the files that it generates for every library.
     const NOT_EMBEDDED: [&str; 3] = ["src/bin", "src/scene/exported.rs", "src/scene/kind.rs"];
 
     pub fn prepare(root: &Path, out: &Path) {
@@ -41,8 +41,8 @@ mod exporter {
         fs::write(out.join("library_source.rs"), text).expect("OUT_DIR can be written");
     }
 
-    /// Where cargo keeps the `libm` of `Cargo.lock`: in its registry, or among vendored sources. A package that needs nothing else
-    /// is asked for it, so that nothing has to be fetched: this program itself needs `libm`.
+    /// The folder of the `libm` of `Cargo.lock`: in cargo's registry, or among vendored sources. It is found through a package
+    /// that depends on `libm` only. Nothing has to be downloaded, because this program itself needs `libm`.
     fn libm(root: &Path, folder: &Path) -> PathBuf {
         let lock = fs::read_to_string(root.join("Cargo.lock")).expect("Cargo.lock stands beside build.rs");
         let entry = lock.split("[[package]]").find(|entry| entry.contains("\nname = \"libm\"\n"));
@@ -61,16 +61,17 @@ mod exporter {
         for (name, text) in files {
             fs::write(folder.join(name), text).expect("OUT_DIR can be written");
         }
-        // installed without its lock file the program may have been compiled with a newer libm: then this one is fetched
+        // if the program was installed without its lock file, it may have been compiled with a newer libm; the locked one is
+        // then downloaded
         let found = metadata(root, folder, &["--offline"]).or_else(|_| metadata(root, folder, &[]));
         found.unwrap_or_else(|error| panic!("cargo doesn't say where libm {version} is:\n{error}"))
     }
 
-    /// The folder of `libm`, as `cargo metadata` has it for the package in `folder`.
+    /// The folder of `libm` according to `cargo metadata` for the package in `folder`.
     fn metadata(root: &Path, folder: &Path, more: &[&str]) -> Result<PathBuf, String> {
         let mut cargo = Command::new(env::var_os("CARGO").expect("cargo sets it"));
         cargo.args(["metadata", "--format-version=1", "--locked"]).args(more);
-        // settings in folders above the project hold for it, too
+        // cargo settings in folders above the project also apply
         let output = cargo.arg("--manifest-path").arg(folder.join("Cargo.toml")).current_dir(root).output();
         let output = output.map_err(|error| error.to_string())?;
         if !output.status.success() {
@@ -83,8 +84,8 @@ mod exporter {
         Ok(manifest.parent().ok_or("libm has no folder")?.into())
     }
 
-    /// The prototypes of the 34 functions. A C program that includes the standard's header and then this one compiles
-    /// only if every signature agrees; `tests/abi.rs` does that.
+    /// The prototypes of the 34 functions. A C program that includes the standard's header and then this one compiles only if
+    /// every signature agrees; `tests/abi.rs` checks this.
     fn write_header(root: &Path, header: &Path) {
         let config = cbindgen::Config {
             language: cbindgen::Language::C,
@@ -101,8 +102,8 @@ mod exporter {
         builder.generate().expect("the interface has a C header").write_to_file(header);
     }
 
-    /// A constant of this `name`: path, behind `prefix`, and text of every file of the library in `root`, and of the `files` that
-    /// stand for some of them.
+    /// A constant of this `name` with the path (after `prefix`) and the text of every file of the library in `root`. `files`
+    /// replace some of them.
     fn sources(name: &str, root: &Path, prefix: &str, mut files: Vec<(String, PathBuf)>) -> String {
         collect(&root.join("src"), root, &mut files);
         files.sort();

@@ -11,10 +11,10 @@ use std::time::Duration;
 type Steel = Model<BigAlabo, ContactRadius>;
 type Output = (&'static str, fn(&History, &Steel) -> f64);
 
-/// A step [m] so small that no number of samples leaves the branch, and still larger than the rounding of the sum.
+/// A step [m] so small that no number of samples leaves the branch, but larger than the rounding error of the sum.
 const TINY: f64 = 1e-18;
 
-/// Where the loading ends, in yield indentations: beyond `x_p`, so that all four regimes have been passed.
+/// The end of the loading, in yield indentations: beyond `x_p`, so that all four regimes have been passed.
 const PEAK: f64 = 200.0;
 
 /// A rigid ball on steel.

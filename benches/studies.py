@@ -1,10 +1,10 @@
-"""How fast studies are, and where their time goes.
+"""Speed of studies, and where their time is spent.
 
     python benches/studies.py [--runs 4000] [--repeat 5] [--skip-dask]
 
-It takes the package `brinell` with what its studies need, the exporter, and Rust. Times are the best of some repetitions:
-another process on the machine makes single ones longer, never shorter. Beside wall time stands the time of the processor
-(user and system) of a run, its children included, which other processes change less.
+It needs the package `brinell` with the packages for studies, the exporter, and Rust. Times are the best of several repetitions:
+other processes on the machine can make a run longer, but never shorter. The table also shows the processor time (user and
+system) of a run, including its children, which other processes affect less.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ parameters_per_contact = ["target.yield_strength", "effective_mass"]
 
 
 def processor() -> float:
-    """Time of the processor that this process and those that it waited for have taken [s]."""
+    """Processor time of this process and its finished children [s]."""
     both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return sum(usage.ru_utime + usage.ru_stime for usage in both)
 
 
 def best(repeat: int, work) -> tuple[float, float]:
-    """Wall time and processor time of `work`, each the best [s]."""
+    """The best wall time and the best processor time of `work` [s]."""
     times = []
     for _ in range(repeat):
         began, used = time.perf_counter(), processor()
@@ -51,7 +51,7 @@ def best(repeat: int, work) -> tuple[float, float]:
 
 
 def runs(count: int) -> np.ndarray:
-    """Speed [m/s], mass [kg] and yield strength [Pa] of so many impacts, evenly spread."""
+    """Speed [m/s], mass [kg] and yield strength [Pa] of `count` impacts, evenly distributed."""
     part = np.modf(np.outer(np.arange(1, count + 1), [0.7548776662, 0.5698402910]))[0]
     return np.column_stack(
         [10.0 ** (2.0 * part[:, 0] - 1.0), np.full(count, 4e-3), 200e6 + 700e6 * part[:, 1]]
@@ -62,7 +62,7 @@ NAMES = ("speed", "mass", "target.yield_strength")
 
 
 def one_process(unit: Path, rows: np.ndarray, repeat: int) -> None:
-    """A chunk in this process: what a run costs without anything around it."""
+    """A chunk in this process: the cost of a run without overhead."""
     impacts.run(unit, NAMES, rows[:10])
     wall, used = best(repeat, lambda: impacts.run(unit, NAMES, rows))
     tell("a run, in one process", wall / len(rows), used / len(rows), 1.0 / used * len(rows))
@@ -71,7 +71,7 @@ def one_process(unit: Path, rows: np.ndarray, repeat: int) -> None:
 
 
 def loading(unit: Path, repeat: int) -> None:
-    """What a process pays once: reading, unpacking and loading the unit."""
+    """The cost per process: reading, unpacking and loading the FMU."""
     code = (
         "import sys, time; import brinell; from brinell.library import Library; began = time.perf_counter(); "
         "library = Library.of(sys.argv[1]); print(time.perf_counter() - began)"
@@ -84,7 +84,7 @@ def loading(unit: Path, repeat: int) -> None:
 
 
 def sizes(unit: Path, rows: np.ndarray, folder: Path, repeat: int) -> None:
-    """What goes from process to process and to the disk."""
+    """The data between processes and to the disk."""
     table = impacts.run(unit, NAMES, rows)
     data = pickle.dumps(table)
     print(f"{'result of a run, pickled':<58}{len(data) / len(rows):>12.1f} bytes")
@@ -106,7 +106,7 @@ def sizes(unit: Path, rows: np.ndarray, folder: Path, repeat: int) -> None:
 
 
 def studies(unit: Path, rows: np.ndarray, repeat: int, schedulers: list[str | None]) -> None:
-    """Whole studies over one and two workers."""
+    """Complete studies with one and two workers."""
     vary = {"speed": rows[:, 0].tolist(), "target.yield_strength": [300e6]}
     for scheduler in schedulers:
         for workers in (1, 2):
@@ -122,7 +122,7 @@ def studies(unit: Path, rows: np.ndarray, repeat: int, schedulers: list[str | No
 
 
 def tasks(repeat: int, count: int = 2000) -> None:
-    """What Dask needs for a task that does nothing."""
+    """The overhead of Dask for a task that does nothing."""
     from dask.distributed import Client
 
     with Client(n_workers=1, threads_per_worker=1, dashboard_address=None) as client:
@@ -134,7 +134,7 @@ def tasks(repeat: int, count: int = 2000) -> None:
 
 
 def vectorised(folder: Path, repeat: int) -> None:
-    """The same impacts by one unit with a thousand contacts, each with its own strength and mass."""
+    """The same impacts with one FMU of a thousand contacts, each with its own strength and mass."""
     text = (SCENES / "mass_known.toml").read_text(encoding="utf-8") + ROW.format(count=CONTACTS)
     path = folder / "row.toml"
     path.write_text(text, encoding="utf-8")
@@ -170,7 +170,7 @@ def vectorised(folder: Path, repeat: int) -> None:
 
 
 def tell(name: str, wall: float, used: float = float("nan"), rate: float = float("nan")) -> None:
-    """A line of the table: microseconds, and runs per second."""
+    """A row of the table: microseconds, and runs per second."""
     def cell(value: float, factor: float = 1e6) -> str:
         return f"{factor * value:>12.1f}" if value == value else " " * 12
 

@@ -1,16 +1,16 @@
-//! The lists of laws in Rust, from `modelDescription/laws.toml`: a law is its `.rs` file and its entry there.
+//! Generates the lists of laws in Rust from `modelDescription/laws.toml`. A law consists of its `.rs` file and its entry there.
 //!
-//! Of each entry the lines `name`, `rust` and `guarded` are read, by a reader that knows no more of TOML than that: whoever
-//! builds the physics alone then needs nothing but `libm`. A test reads the same file with a real reader, and compares.
+//! A small reader extracts only the lines `name`, `rust` and `guarded` of each entry, so that the physics alone depends on
+//! nothing but `libm`. A test reads the same file with a complete TOML parser and compares.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Where the table is, below the root.
+/// Path of the table, relative to the root.
 pub const TABLE: &str = "modelDescription/laws.toml";
 
-/// The kinds of laws, by the name of their folder and of their entries.
+/// The kinds of laws, named after their folders and their entries.
 const KINDS: [Kind; 3] = [
     Kind { name: "loading", title: "A loading law", law: LAW_OF_LOADING, others: &["mod", "any"] },
     Kind { name: "unloading", title: "An unloading law", law: LAW_OF_UNLOADING, others: &["mod", "any", "guarded"] },
@@ -24,9 +24,9 @@ const LAW_OF_DAMPED: (&str, &str) = ("pub fn law(&self) -> &dyn Damped", "The la
 struct Kind {
     name: &'static str,
     title: &'static str,
-    /// Signature and description of the function that gives the law.
+    /// Signature and description of the function that returns the law.
     law: (&'static str, &'static str),
-    /// Files in the folder that are no laws; empty: any may be.
+    /// Files in the folder that are not laws. If empty, the folder is not checked.
     others: &'static [&'static str],
 }
 
@@ -49,19 +49,19 @@ impl Kind {
 /// A variant of the enum of all laws of a kind.
 struct Variant {
     name: String,
-    /// The type inside of it.
+    /// The type that it contains.
     holds: String,
-    /// The type that says more.
+    /// The type to which its documentation refers.
     see: String,
 }
 
 /// A law of the table.
 struct Law {
-    /// As scenes call it.
+    /// Name in scenes.
     name: String,
-    /// The law with its reference constants, as Rust writes it: "BigAlabo::REFERENCE".
+    /// The law with its reference constants as Rust code: "BigAlabo::REFERENCE".
     rust: String,
-    /// Whether the unloading law has a form with the passivity guard.
+    /// Whether the unloading law exists with the passivity guard.
     guarded: bool,
 }
 
@@ -71,7 +71,7 @@ impl Law {
         self.rust.split("::").next().unwrap_or_default()
     }
 
-    /// The file of the law: `Brake2012` stands in `brake_2012.rs`.
+    /// The module of the law: `Brake2012` is in `brake_2012.rs`.
     fn module(&self) -> String {
         let mut module = String::new();
         let mut before = '_';
@@ -87,7 +87,7 @@ impl Law {
     }
 }
 
-/// Writes the lists to `out`, for the project at `root` itself.
+/// Writes the lists to `out` for the project itself at `root`.
 pub fn write(root: &Path, out: &Path) {
     println!("cargo::rerun-if-changed={TABLE}");
     println!("cargo::rerun-if-changed=build");
@@ -102,8 +102,8 @@ pub fn write(root: &Path, out: &Path) {
     }
 }
 
-/// The folders' `mod.rs` for a unit, by their paths below the root: the laws as plain modules, since a unit is compiled
-/// without this program, and without the enums, since a unit names its law.
+/// The `mod.rs` of each folder for an FMU, with paths relative to the root. The laws are plain modules without the enums: an
+/// FMU is compiled without this program, and its scene names the law.
 #[cfg(feature = "exporter")]
 pub fn write_for_units(root: &Path, out: &Path) -> Vec<(String, PathBuf)> {
     let write = |kind: &Kind| {
@@ -118,7 +118,7 @@ pub fn write_for_units(root: &Path, out: &Path) -> Vec<(String, PathBuf)> {
     KINDS.iter().map(write).collect()
 }
 
-/// Whether a file, by its path below the root, is of no use to a unit.
+/// Whether a file, given by its path relative to the root, is not needed in an FMU.
 #[cfg(feature = "exporter")]
 pub fn is_left_out_of_units(name: &str) -> bool {
     KINDS.iter().any(|kind| name == format!("src/contact/{}/any.rs", kind.name))
@@ -153,7 +153,7 @@ fn read(root: &Path, kind: &Kind) -> Vec<Law> {
     laws
 }
 
-/// A law's file without entry would silently be no law.
+/// Fails if a law has a file but no entry; it would be ignored silently.
 fn check_files(root: &Path, kind: &Kind, laws: &[Law]) {
     let modules: BTreeSet<_> = laws.iter().map(Law::module).collect();
     if kind.others.is_empty() {
@@ -167,7 +167,7 @@ fn check_files(root: &Path, kind: &Kind, laws: &[Law]) {
     }
 }
 
-/// The modules of the laws, each made public with its law; `attributes` stand before a module.
+/// The modules of the laws, each made public with its law, and with the `attributes` of each module.
 fn modules(laws: &[Law], attributes: impl Fn(&str) -> String) -> String {
     let both: BTreeSet<_> = laws.iter().map(|law| (law.module(), law.type_name())).collect();
     let module =
@@ -180,7 +180,7 @@ fn list(kind: &Kind, laws: &[Law]) -> String {
     let any = kind.any();
     let mut variants: Vec<Variant> = Vec::new();
     for law in laws {
-        // one type may be two laws
+        // one type may implement two laws
         if variants.iter().all(|variant| variant.name != law.type_name()) {
             variants.push(Variant {
                 name: law.type_name().into(),
@@ -200,11 +200,11 @@ fn list(kind: &Kind, laws: &[Law]) -> String {
     let named = |law: &Law| format!("        ({:?}, {any}::{}({})),\n", law.name, law.type_name(), law.rust);
     let (signature, description) = kind.law;
     let text = format!(
-        "/// {} chosen while the program runs. The FMU doesn't need it: a scene names its law.\n\
+        "/// {} chosen while the program runs. An FMU does not contain it: its scene names the law.\n\
          #[derive(Clone, Copy, Debug, PartialEq)]\n\
          #[cfg_attr(feature = \"exporter\", derive(serde::Serialize, serde::Deserialize))]\n\
          pub enum {any} {{\n{}}}\n\nimpl {any} {{\n    \
-         /// Every law under the name it has in a scene, with its reference constants.\n    \
+         /// All laws with their names in a scene and their reference constants.\n    \
          pub const ALL: [(&'static str, {any}); {}] = [\n{}    ];\n\n    \
          /// {description}\n    {signature} {{\n        match self {{\n{}        }}\n    }}\n}}\n",
         kind.title,
@@ -216,20 +216,20 @@ fn list(kind: &Kind, laws: &[Law]) -> String {
     text + &guarding(&any, &guarded)
 }
 
-/// The way from a law to its guarded form, where a kind has some.
+/// The function from a law to its guarded form, for a kind that has guarded laws.
 fn guarding(any: &str, guarded: &[&str]) -> String {
     if guarded.is_empty() {
         return String::new();
     }
     let arm = |law: &&str| format!("            {any}::{law}(law) => Some({any}::Guarded{law}(Guarded(law))),\n");
     format!(
-        "\nimpl {any} {{\n    /// The law with the passivity guard; none for a law that has no guarded form.\n    \
+        "\nimpl {any} {{\n    /// The law with the passivity guard; `None` for a law that has no guarded form.\n    \
          pub fn guarded(self) -> Option<{any}> {{\n        match self {{\n{}            _ => None,\n        }}\n    }}\n}}\n",
         guarded.iter().map(arm).collect::<String>()
     )
 }
 
-/// Writes what has changed only, so that nothing is compiled anew for nothing.
+/// Writes a file only if it has changed, to avoid unnecessary compilation.
 fn write_file(path: &Path, text: &str) {
     if fs::read_to_string(path).is_ok_and(|old| old == text) {
         return;

@@ -4,7 +4,7 @@ steps of a millisecond.
     pip install matplotlib ./python
     python examples/ball_in_box.py [PICTURE.svg]
 
-After an impact the place comes from the wall that was hit; the other walls are told by the gap.
+After an impact, the position comes from the wall that was hit; the other walls get it as their gap.
 """
 
 import brinell
@@ -23,7 +23,7 @@ def gaps(place):
 
 
 def fly(path, h):
-    """Times, places and speeds."""
+    """Times, positions and speeds."""
     place, speed, rows = START.copy(), SPEED.copy(), []
     with brinell.Contact(path, initial_gap=gaps(place)) as contact:
         balances = [judge.Balance(contact, name) for name in contact.contacts]

@@ -72,7 +72,7 @@ class Unit:
         self.calls, self.time = 0, 0.0
 
     def set_rate(self, rate, *derivatives):
-        """The closing speed [m/s] at the beginning of the next step, and how it changes within it."""
+        """The closing speed [m/s] at the start of the next step, and its derivatives in it."""
         self._value[0] = rate
         self.slave.fmi2SetReal(self.slave.component, self._vr["indentation_rate"], 1, self._value)
         self.calls += 1
@@ -108,7 +108,7 @@ class Unit:
 # closing speed; at the end it is negative, and the force is zero.
 
 def parallel(unit, mass, speed, step):
-    """All FMUs step at once: the force that acts on the bodies is that of the beginning of the step."""
+    """All FMUs step at once: the force on the bodies is that at the start of the step."""
     force = 0.0
     while force > 0.0 or speed > 0.0:
         unit.set_rate(speed)

@@ -3,10 +3,10 @@
     pip install mujoco pillow ./python
     python examples/cradle.py [PICTURE.svg [ANIMATION.gif]]
 
-An impact takes 70 us, so that a wave of four impacts crosses the row within one step. In each step
-the contacts take their turns in the order in which they touch. A contact runs through its impact in
-one call. Its neighbours first run up to the moment of that impact, with the speeds from before it.
-This is exact if the impacts of a ball don't overlap, which a gap of 20 um is enough for.
+An impact takes 70 us, so a wave of four impacts crosses the row within one step. In each step, the
+contacts run in the order in which they touch. A contact computes its whole impact in one call. Its
+neighbours first run up to the time of that impact, with the speeds before it. This is exact if the
+impacts of a ball do not overlap; a gap of 20 um is enough for this.
 """
 
 import brinell
@@ -20,20 +20,20 @@ PIECE = 1e-4  # s; longer than an impact, but shorter pieces for balls that touc
 
 
 def pull(place):
-    """The accelerations by gravity [m/s^2], at places along the arcs [m]."""
+    """The accelerations by gravity [m/s^2] at positions along the arcs [m]."""
     return -GRAVITY * np.sin(place / LENGTH)
 
 
 def swing(path, gap=GAP, piece=PIECE, end=END):
-    """Times, places along the arcs and speeds; the first ball is lifted."""
-    # in a step balls fly along lines: `place` is where a line begins, also if it holds only later
+    """Times, positions along the arcs and speeds; the first ball is lifted."""
+    # within a step the balls move along lines: `place` is the start of a line, even if it is valid only later
     place, speed, done, rows = np.zeros(5), np.zeros(5), np.zeros(4), []
     place[0] = -LIFT
     contacts = [brinell.Contact(path, initial_gap=gap - place[index]) for index in range(4)]
     balances = [judge.Balance(contact) for contact in contacts]
 
     def run(index, until):
-        """Runs a contact up to `until` [s] within the step, and gives its impulse to both balls."""
+        """Runs a contact up to `until` [s] within the step, and applies its impulse to both balls."""
         if not (0 <= index < 4 and until > done[index]):
             return
         h, closing = until - done[index], speed[index] - speed[index + 1]
@@ -41,7 +41,7 @@ def swing(path, gap=GAP, piece=PIECE, end=END):
         change = h * force / MASS
         balances[index].step(h, MASS / 2.0, force, closing, closing - 2.0 * change)
         if force > 0.0:
-            # the unit knows the distance at the end; the centre of the two has flown on
+            # the FMU knows the distance at the end; the centre of the two has moved on
             apart = until * (closing - 2.0 * change) - contacts[index]["indentation"] - gap
             way = (place[index + 1] - place[index] - apart) / 2.0
             for neighbour in (index - 1, index + 1):
@@ -65,7 +65,7 @@ def swing(path, gap=GAP, piece=PIECE, end=END):
 
 
 def soft():
-    """Times and places by MuJoCo's own contact, as it is without a setting."""
+    """Times and positions with MuJoCo's own contact and default settings."""
     ball = (
         '<body pos="{} 0 0"><joint axis="0 -1 0" pos="0 0 {}"/>'
         '<geom size="10e-3" mass="{}" condim="1"/></body>'
@@ -84,7 +84,7 @@ def soft():
 
 
 def drawn(place):
-    """From pivot to ball, of all balls at all times, for the animation."""
+    """The lines from pivot to ball for all balls and times, for the animation."""
     pivot = np.arange(5) * (20e-3 + GAP) + np.zeros((place.shape[1], 1))
     x, z = pivot + LENGTH * np.sin(place.T / LENGTH), -LENGTH * np.cos(place.T / LENGTH)
     return np.stack([np.stack([pivot, x], -1), np.stack([np.zeros_like(z), z], -1)], -1)

@@ -1,11 +1,11 @@
-"""A ball falls onto a plate in Drake: the unit is a LeafSystem in a Diagram, in steps of a
+"""A ball falls onto a plate in Drake: the FMU is a LeafSystem in a Diagram, in steps of a
 millisecond.
 
     pip install drake ./python
     python examples/drake_ball.py [PICTURE.svg]
 
-Drake may ask for an output more than once, and gives a system its state: the unit's state is saved
-in it and restored.
+Drake may evaluate an output more than once, and manages the state of a system. The state of the FMU
+is therefore saved in it and restored.
 """
 
 import brinell
@@ -17,7 +17,7 @@ MASS, RADIUS, HEIGHT, STEP, END, GRAVITY = 4e-3, 5e-3, 0.05, 1e-3, 0.6, 9.81
 
 
 class Plate(drake.LeafSystem):
-    """State of the ball in, force of the plate over the next step out."""
+    """Input: the state of the ball; output: the force of the plate over the next step."""
 
     def __init__(self, contact):
         drake.LeafSystem.__init__(self)
@@ -44,7 +44,7 @@ def ball(plant):
 
 
 def fall(path):
-    """Height and speed in the engine, with the unit as the plate."""
+    """Height and speed in the engine, with the FMU as the plate."""
     builder, rows = drake.DiagramBuilder(), [(0.0, HEIGHT, 0.0)]
     plant = builder.AddSystem(drake.MultibodyPlant(STEP))
     ball(plant)
@@ -59,9 +59,9 @@ def fall(path):
         balance = judge.Balance(contact)
         for time in STEP * np.arange(1, round(END / STEP) + 1):
             simulator.AdvanceTo(time)
-            # the contact is where the last step of either kind has left it: at the end of this one
+            # the contact is at the end of this step, whichever of the two functions made it
             if (force := contact["mean_force"]) > 0.0:
-                # the engine can't know when within the step the ball has turned
+                # the engine cannot know when within the step the ball turned
                 plant.SetPositions(context, [-contact["indentation"]])
             rows.append((time, *plant.GetPositionsAndVelocities(context)))
             balance.step(STEP, MASS, force, -rows[-2][2], -rows[-1][2] - GRAVITY * STEP, GRAVITY)
@@ -70,7 +70,7 @@ def fall(path):
 
 
 def soft():
-    """Height by the engine's own contact."""
+    """Height with the engine's own contact."""
     builder = drake.DiagramBuilder()
     plant, _ = drake.AddMultibodyPlantSceneGraph(builder, STEP)
     body = ball(plant)

@@ -1,11 +1,11 @@
-"""A ball falls onto a plate in Exudyn and bounces to rest, by an explicit and an implicit
+"""A ball falls onto a plate in Exudyn and bounces to rest, with an explicit and an implicit
 integrator, in steps of a millisecond.
 
     pip install exudyn ./python
     python examples/exudyn_ball.py [PICTURE.svg]
 
-The impulse goes into the velocity before the step. As a force, an implicit integrator would spread
-it over two steps.
+The impulse is added to the velocity before the step. As a force, an implicit integrator would
+spread it over two steps.
 """
 
 import brinell
@@ -41,7 +41,7 @@ def simulate(system, solver):
 
 
 def fall(path, solver):
-    """Height and speed in the engine, with the unit as the plate."""
+    """Height and speed in the engine, with the FMU as the plate."""
     system, _ = ball()
     rows = []
     with brinell.Contact(path, initial_gap=HEIGHT) as contact:
@@ -51,7 +51,7 @@ def fall(path, solver):
             state = system.systemData
             place, speed = state.GetODE2Coordinates(), state.GetODE2Coordinates_t()
             if rows and rows[-1][3] > 0.0:
-                # the engine can't know when within the last step the ball has turned
+                # the engine cannot know when within the last step the ball turned
                 place[2] = -contact["indentation"]
                 state.SetODE2Coordinates(place)
             force = contact.step(STEP, -speed[2], GRAVITY)
@@ -68,8 +68,8 @@ def fall(path, solver):
 
 
 def soft():
-    """Height by the engine's own contact: a spring with a damper, so soft that steps of a
-    millisecond carry it."""
+    """Height with the engine's own contact: a spring with a damper, soft enough for steps of a
+    millisecond."""
     system, number = ball()
     ground = system.AddNode(items.NodePointGround())
     ends = [

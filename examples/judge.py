@@ -1,4 +1,4 @@
-"""What the examples with multibody engines share: the unit, the judgement, the picture."""
+"""Common code of the examples with multibody engines: the FMU, the checks, the picture."""
 
 import sys
 import tempfile
@@ -15,21 +15,21 @@ from matplotlib import pyplot
 FOLDER = Path(__file__).parent
 UNITS = tempfile.TemporaryDirectory()
 BALANCE = (
-    1e-6  # largest error of the energy of an impact, over the kinetic energy that it begins with
+    1e-6  # largest error of the energy of an impact, relative to its initial kinetic energy
 )
 
 
 def unit(name):
-    """The unit of the scene `name` beside the examples."""
+    """The FMU of the scene `name` in the folder of the examples."""
     return brinell.export(FOLDER / f"{name}.toml", Path(UNITS.name) / f"{name}.fmu")
 
 
 class Balance:
-    """Whether the kinetic energy that the impulse of a contact takes from the bodies of an engine
-    is what its elastic and dissipated energy change by, in every step in which there is a force.
+    """Checks that the kinetic energy which the impulse of a contact takes from the bodies of an engine
+    equals the change of its elastic and dissipated energy, in every step with a force.
 
-    During an impact the other forces work, too: `acceleration` times the mass over the way that the
-    contact has gone.
+    During an impact the other forces also do work: `acceleration` times the mass over the distance
+    that the contact has moved.
     """
 
     def __init__(self, contact, name=""):
@@ -55,7 +55,7 @@ class Balance:
         self.worst = max(self.worst, abs(taken - stored) / kinetic)
 
     def told(self, *others):
-        """Prints the result, the worst of this and others; ends the example if it isn't right."""
+        """Prints the result, the worst of this and others; ends the example if it is wrong."""
         worst = max(it.worst for it in (self, *others))
         impacts = sum(it.impacts for it in (self, *others))
         print(
@@ -67,7 +67,7 @@ class Balance:
 
 
 def alone(path, height, gravity, mass, end, h):
-    """The dropped ball by the unit alone, in steps of `h` [s]: times [s], heights [m] and speeds
+    """The dropped ball with the FMU alone, in steps of `h` [s]: times [s], heights [m] and speeds
     upwards [m/s]."""
     rows, speed = [(0.0, height, 0.0)], 0.0
     with brinell.Contact(path, initial_gap=height) as contact:
@@ -80,7 +80,7 @@ def alone(path, height, gravity, mass, end, h):
 
 def ball(engine, motion, reference, own, error):
     """Judges the dropped ball and draws it: times [s], heights [m] and speeds [m/s] in the engine and
-    by the unit alone, and times and heights by the engine's own contact. Heights may differ by
+    with the FMU alone, and times and heights with the engine's own contact. Heights may differ by
     `error` [m]."""
     time, height, speed = motion
     agree("speed, engine against the unit alone [m/s]", speed, reference[2], 1e-9)
@@ -97,14 +97,14 @@ def ball(engine, motion, reference, own, error):
 
 
 def second_flight(height, own):
-    """Prints the largest height [m] between first and second impact, by the unit and by an engine's
+    """Prints the largest height [m] between first and second impact, with the FMU and with an engine's
     own contact; rows are milliseconds apart."""
     unit, engine = (1e3 * rows[150:190].max() for rows in (height, own))
     print(f"second flight: {unit:.2f} mm; by the engine's own contact {engine:.2f} mm")
 
 
 def agree(name, found, expected, limit):
-    """Prints how far two results are apart; ends the example if it is more than `limit`."""
+    """Prints the difference of two results; ends the example if it exceeds `limit`."""
     error = np.max(np.abs(np.asarray(found) - np.asarray(expected)))
     print(f"{name}: {error:.1e} (allowed {limit:g})")
     if not error <= limit:
@@ -112,14 +112,14 @@ def agree(name, found, expected, limit):
 
 
 def picture(title, lines, x="time [s]", y="height [mm]"):
-    """Draws `lines`, a list of (x, y, label, style), into the file that the command line names, if
-    it names one."""
+    """Draws `lines`, a list of (x, y, label, style), to the file on the command line, if
+    there is one."""
     if len(sys.argv) < 2:
         return
     matplotlib.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9})
     figure, axes = pyplot.subplots(figsize=(7.2, 3.6), layout="constrained")
     for abscissa, ordinate, label, style in lines:
-        # as many points as can be seen
+        # no more points than are visible
         every = max(1, len(abscissa) // 700)
         axes.plot(
             abscissa[::every], ordinate[::every], style, label=label, linewidth=1.1, markersize=3
@@ -133,14 +133,14 @@ def picture(title, lines, x="time [s]", y="height [mm]"):
 def row(path, start, gap, mass, pull, h):
     """Places [m] and speeds [m/s] of a row of balls, 2 ms after those of `start`.
 
-    All contacts go on together in steps of `h` [s], by units that don't know the mass."""
+    All contacts move together in steps of `h` [s], with FMUs that do not know the mass."""
     scene = (FOLDER / f"{path.stem}.toml").read_text(encoding="utf-8").split("[coupling]")[0]
     loose = path.with_name("loose.toml")
     loose.write_text(scene, encoding="utf-8")
     unit = brinell.export(loose, path.with_name("loose.fmu"))
     place, speed = np.split(np.array(start), 2)
     contacts = [brinell.Contact(unit, initial_gap=distance) for distance in gap + np.diff(place)]
-    # nothing pushes from outside
+    # no external forces
     force, mean = np.zeros((2, len(place) + 1))
     for _ in range(round(2e-3 / h)):
         rates, others = -np.diff(speed), np.diff(np.diff(force)) / mass
@@ -154,11 +154,11 @@ def row(path, start, gap, mass, pull, h):
 
 
 def animation(panels, seconds, slower=1.0, still=None, size=9, rate=20):
-    """Draws `panels`, a list of (title, strokes), into the second file that the command line names,
-    if it names one.
+    """Draws `panels`, a list of (title, strokes), to the second file on the command line,
+    if there is one.
 
-    `strokes` has the points of each stroke at each millisecond: time, stroke, point, (x, y). A
-    stroke ends in a ball of `size` [points]; `still` is a line that doesn't move."""
+    `strokes` contains the points of each stroke at each millisecond: time, stroke, point, (x, y). A
+    stroke ends in a ball of `size` [points]; `still` is a line that does not move."""
     if len(sys.argv) < 3:
         return
     ends = np.concatenate([strokes.reshape(-1, 2) for _, strokes in panels])

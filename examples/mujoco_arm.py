@@ -3,8 +3,8 @@
     pip install mujoco ./python
     python examples/mujoco_arm.py [PICTURE.svg]
 
-What the force at the fingertip moves depends on the pose: the effective mass comes from the
-engine's mass matrix in every step.
+The effective mass at the fingertip depends on the pose. It is computed from the engine's mass
+matrix in every step.
 """
 
 import brinell
@@ -16,7 +16,7 @@ STEP, END, RADIUS = 1e-3, 2.0, 5e-3  # s, s, m
 
 
 def start(soft):
-    """The engine with the arm raised; `soft` switches its own contact with the stop on."""
+    """The engine with the arm raised; `soft` enables its own contact with the stop."""
     spec = mujoco.MjSpec.from_file(__file__.replace("mujoco_arm.py", "arm.xml"))
     spec.geom("stop").contype = soft
     model = spec.compile()
@@ -32,8 +32,8 @@ def gap(data):
 
 
 def swing(path, fixed=None, end=END):
-    """Times, distances from the stop, effective masses and joint angles; and of each blow time, speed,
-    restitution and effective mass. `fixed` [kg] instead of the mass of the pose goes wrong."""
+    """Times, distances from the stop, effective masses and joint angles; for each blow, time, speed,
+    restitution and effective mass. `fixed` [kg] instead of the mass of the pose gives wrong results."""
     model, data = start(soft=0)
     jacobian, change, response = np.zeros((3, 2)), np.zeros((3, 2)), np.zeros((1, 2))
     rows, blows, finger = [], [], model.body("finger").id
@@ -43,7 +43,7 @@ def swing(path, fixed=None, end=END):
             mujoco.mj_forward(model, data)
             mujoco.mj_jacSite(model, data, jacobian, None, 0)
             mujoco.mj_jacDot(model, data, change, None, data.site("tip").xpos, finger)
-            away = jacobian[:1]  # how the distance follows the joints
+            away = jacobian[:1]  # derivative of the distance by the joint angles
             mujoco.mj_solveM(model, data, response, away)
             mass = 1.0 / (away @ response.T).item()
             rows.append((data.time, gap(data), mass, *data.qpos))
@@ -55,7 +55,7 @@ def swing(path, fixed=None, end=END):
             balance.step(STEP, mass, force, closing, after, pull)
             mujoco.mj_step(model, data)
             if force > 0.0:
-                # the engine can't know when within the step the finger has turned
+                # the engine cannot know when within the step the finger turned
                 mujoco.mj_kinematics(model, data)
                 data.qpos += response[0] * mass * (-contact["indentation"] - gap(data))
                 blows.append((data.time, closing, -(after + STEP * pull) / closing, mass))
@@ -65,7 +65,7 @@ def swing(path, fixed=None, end=END):
 
 
 def soft():
-    """Distances by the engine's own contact, as it is without a setting."""
+    """Distances with the engine's own contact and default settings."""
     model, data = start(soft=1)
     rows = []
     while data.time < END:

@@ -3,8 +3,8 @@
     pip install mujoco ./python
     python examples/mujoco_ball.py [PICTURE.svg]
 
-An impact takes 30 us. The unit knows the mass and computes it exactly within the step; the engine
-gets its impulse.
+An impact takes 30 us. The FMU knows the mass and computes the impact exactly within the step; the
+engine gets its impulse.
 """
 
 import brinell
@@ -44,7 +44,7 @@ def fall(path):
 
 
 def soft():
-    """Height by the engine's own contact, with its default settings."""
+    """Height with the engine's own contact and default settings."""
     model = mujoco.MjModel.from_xml_string(MODEL.format(soft=1))
     data = mujoco.MjData(model)
     data.qpos[0] = HEIGHT

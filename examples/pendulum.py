@@ -4,8 +4,8 @@ millisecond.
     pip install matplotlib ./python
     python examples/pendulum.py [PICTURE.svg]
 
-What the force at the head moves is the moment of inertia over the square of the arm; the harder the
-anvil, the higher the rebound. Every blow meets an untouched spot.
+The effective mass at the head is the moment of inertia over the square of the arm. The harder the
+anvil, the higher the rebound. Every blow hits an untouched spot.
 """
 
 from math import cos, pi, sin
@@ -49,7 +49,7 @@ def swing(path, strength, h):
 
 
 def swung(angle, speed, h):
-    """Angle and speed of the head after a free swing of `h` [s], by the classical Runge-Kutta
+    """Angle and speed of the head after a free swing of `h` [s], with the classical Runge-Kutta
     method."""
 
     def slope(state):
@@ -73,7 +73,7 @@ if __name__ == "__main__":
         print(f"{strength / 1e6:.0f} MPa: {before[blow]:.4f} m/s, restitution {restitution:.6f}")
         judge.agree("speed of the first blow against the fall [m/s]", before[blow], fall**0.5, 1e-4)
         with brinell.Contact(path, effective_mass=MASS, target_yield_strength=strength) as alone:
-            # the same blow by the FMU alone, in one step
+            # the same blow with the FMU alone, in one step
             speed = before[blow]
             expected = 1e-3 * alone.step(1e-3, speed) / MASS / speed - 1.0
         judge.agree("restitution against the unit alone", restitution, expected, 1e-4)

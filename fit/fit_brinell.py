@@ -1,4 +1,4 @@
-"""Finds the constants of the contact law `brinell` in the finite-element curves of ../truth and checks the law.
+"""Fits the constants of the contact law `brinell` to the finite-element curves in ../truth, and checks the law.
 
     python -m venv venv && venv/bin/pip install -r requirements.txt && venv/bin/python fit_brinell.py
 
@@ -8,16 +8,16 @@ the checks (an assertion fails if one does) and test numbers.
 Everything is normalised: x = d/d_y, f = F/F_y, area = a^2/(R d_y), radius = a/a_y, r = (d_m - d_f)/d_y,
 w = W/(F_y d_y).
 
-Loading.  f = area = Hertz (x^1.5, x) below x = 1. Above, the slopes df/dx and d(area)/dx are continuous and linear in
-sqrt(x) between knots, constant beyond the last, so that every segment is c0 + c1 x + c2 x^1.5, of which Hertz is one.
-Force and area end linear: the mean pressure is constant there, fully plastic.
-The segments take their origin at x = 0: with z = x - knot the curvature would be infinite behind every knot, and the
-force would first rise above Hertz behind yield, which costs passivity.
+Loading. Below x = 1, f and area are Hertz's (x^1.5, x). Above, the slopes df/dx and d(area)/dx are continuous, linear in
+sqrt(x) between knots, and constant beyond the last knot. Every segment then has the form c0 + c1 x + c2 x^1.5, of which
+Hertz's law is a special case. Force and area end linearly: the mean pressure is constant there, the fully plastic regime.
+The origin of all segments is x = 0. With z = x - knot, the curvature would be infinite just above every knot, and the
+force would rise above Hertz's just after yield, so that the law would not be passive.
 
-Unloading from x_m.  f = f_m ((1+g) s^1.5 - g s^2), s = (x - x_f)/r, r = x_m - x_f. The initial slope is the elastic
+Unloading from x_m. f = f_m ((1+g) s^1.5 - g s^2), s = (x - x_f)/r, r = x_m - x_f. The initial slope is the elastic
 2 E* a_m, hence r = (1 - g/3) f_m / radius_m. g depends on the lag behind Hertz, psi = 1 - f_m/x_m^1.5:
 g = height psi (1 - decline psi^3) / (psi + onset)^(3/4), zero with zero slope at yield like psi.
-As elastic unloading has the slope 2 E* a at every point, the radius on the way is
+Elastic unloading has the slope 2 E* a at every point, so the radius during unloading is
 a_m (3 (1+g) sqrt(s) - 4 g s) / (3 - g), within 2.2 % of a_m in the truth for s > 0.05.
 """
 import json
@@ -30,16 +30,16 @@ HERE = Path(__file__).parent
 TRUTH = HERE.parent / "truth"
 DEPTHS = ("3", "10", "30", "82.5", "200")
 
-YIELD_PRESSURE = 1.1      # mean pressure / S at x = 1: the normalisation of the truth
-PLASTIC_PRESSURE = 3.0    # mean pressure / S the truth settles at (2.97 to 3.00 from x = 500 on)
+YIELD_PRESSURE = 1.1      # mean pressure / S at x = 1: the normalisation of the curves
+PLASTIC_PRESSURE = 3.0    # limit of mean pressure / S in the finite-element curves (2.97 to 3.00 from x = 500 on)
 PLASTIC_AREA = 2.86       # a^2/(R d) of the rigid, perfectly plastic similarity solution, 2 c^2 with c^2 = 1.43
-# Both make the last slope, 7.8. A fit that leaves it free finds 7.9 (printed), so the truth agrees.
+# Both determine the last slope, 7.8. A fit with this slope free gives 7.9 (printed), in agreement.
 PLASTIC_SLOPE = PLASTIC_PRESSURE * PLASTIC_AREA / YIELD_PRESSURE
-# Hertz ends at x = 1: von Mises' first yield is at 0.956, but the truth stays within 0.02 % of Hertz up to 1.05.
-# More knots than these would fit the truth's own error.
+# Hertz's law ends at x = 1: von Mises' first yield is at 0.956, but the curves stay within 0.02 % of Hertz's up to 1.05.
+# More knots than these would fit the numerical error of the curves.
 KNOTS = np.array([1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 2000.0])
-# g falls again at deep dents, where unloading yields in reverse. Only x_m = 200 speaks about it: fixed, not fitted
-# (0.6 to 0.8 do as well); fitted, it would cost the interpolation between the depths and near yield.
+# g decreases again for deep dents, where unloading causes reverse yielding. Only x_m = 200 shows this, so the constant is
+# fixed and not fitted (0.6 to 0.8 work as well). A fit would worsen the interpolation between the depths and near yield.
 DECLINE = 0.7
 DECIMALS = 4
 
@@ -126,8 +126,8 @@ def read_loading(name="loading.csv"):
 
 
 def read_unloadings(x, f):
-    """Per depth: the unloading path from x_m down to zero force, its work, and the loading work up to x_m."""
-    ratio = CubicSpline(np.r_[0, x], np.r_[1, f / x**1.5])  # smooth, where the force itself starts like x^1.5
+    """For each depth: the unloading path from x_m down to zero force, its work, and the loading work up to x_m."""
+    ratio = CubicSpline(np.r_[0, x], np.r_[1, f / x**1.5])  # smooth, whereas the force itself starts like x^1.5
     truth = {}
     for name in DEPTHS:
         rows = (TRUTH / f"unloading_from_{name}.csv").read_text().splitlines()
@@ -139,12 +139,12 @@ def read_unloadings(x, f):
 
 
 def force_error(x):
-    """The truth's own error, which weights the fit (README of the truth)."""
+    """The error of the curves, which weights the fit (see ../truth/README.md)."""
     return np.interp(np.log(x), np.log([50, 82.5, 150, 500, 1000]), [0.001, 0.002, 0.004, 0.004, 0.007])
 
 
 def fit_chain(x, y, error, power, last):
-    """Slopes at the knots by least squares on the relative error; the first is Hertz's, the last given or free."""
+    """Slopes at the knots by least squares of the relative error. The first is Hertz's, the last is given or free."""
     x, y, weight = x[x > 1], y[x > 1], 1 / (error * y)[x > 1]
     units = np.eye(len(KNOTS))
     columns = np.array([Chain(unit, power)(x) - 1 for unit in units]).T * weight[:, None]
@@ -158,7 +158,7 @@ def fit_chain(x, y, error, power, last):
 
 
 def fit_shape(force_slopes, area_slopes, truth):
-    """height and onset of g, from recovery (0.3 %), recovered work (0.15 %) and the path (0.3 % of F_m, as one)."""
+    """height and onset of g, from recovery (0.3 %), recovered work (0.15 %) and the whole path (0.3 % of F_m)."""
     def residuals(shape):
         law, out = Law(force_slopes, area_slopes, shape), []
         for x_m, t in truth.items():
@@ -200,7 +200,7 @@ def report(law, x, f, a, truth):
 
 
 def check(law):
-    """What the law promises at every depth, from yield to 1e8 yield indentations."""
+    """Checks the properties of the law at every depth, from yield to 1e8 yield indentations."""
     x = 1 + np.geomspace(1e-4, 1e8, 400_001)
     f, r, slope, w, w_rec = law.force(x), law.recovery(x), law.force.slope(x), law.force.work(x), law.recovered_work(x)
     x_f, g, radius = x - r, law.g(x), np.sqrt(law.area(x))

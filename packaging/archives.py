@@ -1,4 +1,4 @@
-"""Wheels and archives as files by name: reading, writing the same bytes for the same files, checking."""
+"""Reads, writes and checks wheels and archives. Equal files give archives with equal bytes."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from pathlib import Path
 from platforms import Platform
 
 Files = dict[str, bytes]
-"""The bytes of each file by its path, with slashes."""
+"""The contents of each file by its path, with slashes."""
 
 # Programs are in one of these folders.
 _PROGRAMS = ("bin", "scripts")
 
-# Times that mean nothing: the least that a zip archive can have.
+# A time without meaning: the earliest that a zip archive can have.
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
 
@@ -30,13 +30,13 @@ def _mode(name: str) -> int:
 
 
 def read_folder(folder: Path, prefix: str) -> Files:
-    """The files of `folder` and below, with `prefix` before their paths."""
+    """The files in `folder` and its subfolders, with `prefix` before their paths."""
     paths = [path for path in sorted(folder.rglob("*")) if path.is_file()]
     return {f"{prefix}/{path.relative_to(folder).as_posix()}": path.read_bytes() for path in paths}
 
 
 def read_zip(path: Path) -> Files:
-    """The files of a zip archive; a wheel is one."""
+    """The files of a zip archive, such as a wheel."""
     with zipfile.ZipFile(path) as archive:
         return {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
 
@@ -70,7 +70,7 @@ def _digest(data: bytes) -> str:
 
 
 def with_record(files: Files, record: str) -> Files:
-    """The files of a wheel in order, with the list of them, named `record`, at the end."""
+    """The files of a wheel in order, followed by their list with the name `record`."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     ordered = {name: files[name] for name in sorted(files) if name != record}
@@ -80,7 +80,7 @@ def with_record(files: Files, record: str) -> Files:
 
 
 def check_wheel(path: Path, platform: Platform, version: str) -> None:
-    """Refuses a wheel that isn't one of this platform and version, or isn't whole."""
+    """Rejects a wheel for another platform or version, or an incomplete one."""
     files = read_zip(path)
     info = f"brinell-{version}.dist-info"
     listed = {name: digest for name, digest, _ in csv.reader(files[f"{info}/RECORD"].decode().splitlines())}
@@ -104,7 +104,7 @@ def check_wheel(path: Path, platform: Platform, version: str) -> None:
 
 
 def check_program(name: str, program: bytes, platform: Platform) -> None:
-    """Refuses a program of another operating system or processor."""
+    """Rejects a program for another operating system or processor."""
     offset, machine = platform.machine
     if platform.magic == b"MZ":
         (start,) = struct.unpack_from("<I", program, 0x3C)

@@ -1,4 +1,4 @@
-"""The platforms that wheels and archives are made for, and what the program is built with for each."""
+"""The platforms of wheels and archives, and the build settings of the program for each."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ ROOT = Path(__file__).resolve().parents[1]
 
 @dataclass(frozen=True)
 class Platform:
-    """A platform that the exporter runs on."""
+    """A platform for the exporter."""
 
     machine_names: tuple[str, str]
-    """What Python calls operating system and processor."""
+    """Python's names of the operating system and the processor."""
     target: str
-    """What rustc calls it."""
+    """The target name of rustc."""
     magic: bytes
-    """How a program begins."""
+    """The first bytes of a program."""
     machine: tuple[int, bytes]
-    """Where in the header the processor is, and how it is written; on Windows behind `PE`."""
+    """Offset and bytes of the processor type in the header; on Windows, after `PE`."""
     zig: bool = True
-    """Whether zig links, with headers and libraries of its own."""
+    """Whether zig links, with its own headers and libraries."""
     oldest_macos: str | None = None
 
 
@@ -69,26 +69,26 @@ def here() -> str:
 
 @dataclass(frozen=True)
 class Tools:
-    """Folders of unpacked Debian packages; None where the installed programs are used."""
+    """Folders of unpacked Debian packages; None to use the installed programs."""
 
     toolchain: Path | None
     """rustc-web with the source of the standard library."""
     mingw: Path | None
-    """gcc-mingw-w64-x86-64-win32 and what it needs."""
+    """gcc-mingw-w64-x86-64-win32 and its dependencies."""
 
 
-# The programs of mingw-w64 that rustc calls, and what Debian's packages call them.
+# The programs of mingw-w64 that rustc calls, with their names in Debian's packages.
 _MINGW = "x86_64-w64-mingw32-"
 _MINGW_PROGRAMS = {"gcc": "gcc-win32", "dlltool": "dlltool"}
 
 
 def environment(it: Platform, tools: Tools, scratch: Path) -> dict[str, str]:
-    """The variables that maturin and cargo build with for a platform."""
+    """The environment variables of maturin and cargo for a platform."""
     programs = scratch / "bin"
     programs.mkdir(parents=True, exist_ok=True)
     path = [str(programs), str(scratch / "venv" / "bin"), os.environ["PATH"]]
     cargo = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo"))
-    # the program has the paths of sources in its messages, and they would be those of this machine
+    # the program contains the paths of sources in its messages; without this option they would be those of this machine
     remapped = {cargo / "registry" / "src": "registry", ROOT: "brinell"}
     if tools.toolchain is not None:
         remapped[tools.toolchain.resolve()] = "toolchain"

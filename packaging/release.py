@@ -26,7 +26,7 @@ VERSION = tomllib.loads((ROOT / "Cargo.toml").read_text())["package"]["version"]
 INFO = f"brinell-{VERSION}.dist-info"
 DATA = f"brinell-{VERSION}.data"
 
-# Where a shell looks for completions below `share`. PowerShell looks nowhere: its user calls the file in a profile.
+# Folders below `share` in which shells look for completions. PowerShell has none: its users call the file in a profile.
 COMPLETIONS = {
     "bash": "bash-completion/completions/brinell",
     "zsh": "zsh/site-functions/_brinell",
@@ -84,13 +84,13 @@ def _arguments() -> argparse.Namespace:
 
 
 def _built_program() -> Path:
-    """The program for this machine, which writes its manual and completions."""
+    """The program for this machine, which generates the manual and the completions."""
     subprocess.run(["cargo", "build", "--release", "--locked"], cwd=ROOT, check=True)
     return ROOT / "target" / "release" / ("brinell.exe" if os.name == "nt" else "brinell")
 
 
 def _manual_and_completions(program: Path) -> Files:
-    """What belongs to every installed program, below `share`."""
+    """The files below `share` of every installation."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([program.resolve(), "man", "-o", folder], check=True)
         files = archives.read_folder(Path(folder), "share/man/man1")
@@ -101,7 +101,7 @@ def _manual_and_completions(program: Path) -> Files:
 
 
 def _maturin(scratch: Path, *requirements: str) -> Path:
-    """The pinned maturin, in an environment of its own that is made when it is first needed."""
+    """The pinned maturin, in its own environment, which is created on first use."""
     folder = scratch / "venv"
     programs = folder / ("Scripts" if os.name == "nt" else "bin")
     for name in requirements:
@@ -116,12 +116,12 @@ def _maturin(scratch: Path, *requirements: str) -> Path:
 
 
 def _maturins_wheel(name: str, tools: Tools, scratch: Path) -> tuple[str, Files]:
-    """Tag and files of the wheel that maturin makes for the platform `name`. With zig a program for
+    """Tag and files of maturin's wheel for the platform `name`. Linked with zig, a program for
     Linux runs with glibc 2.17 and newer, which maturin checks."""
     it = PLATFORMS[name]
     more = ["requirements-zig.txt"] if it.zig else []
     command = [_maturin(scratch, "requirements.txt", *more), "build", "--release", "--locked"]
-    # the linker signs a program for macOS: nothing may strip it afterwards
+    # the linker signs a program for macOS: it must not be stripped afterwards
     command += ["--strip", "false" if it.oldest_macos else "true", "--target", it.target]
     if it.zig:
         command.append("--zig")
@@ -136,7 +136,7 @@ def _maturins_wheel(name: str, tools: Tools, scratch: Path) -> tuple[str, Files]
 
 
 def _plain_wheel(program: Path, scratch: Path) -> tuple[str, Files]:
-    """The same for a program that is there: it runs on systems as new as this one."""
+    """The same for an existing program, which runs on systems as new as this one."""
     maturin = _maturin(scratch, "requirements.txt")
     with tempfile.TemporaryDirectory() as folder:
         command = [maturin, "pep517", "write-dist-info", "--compatibility", "linux"]

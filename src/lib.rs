@@ -9,13 +9,13 @@
 //! - *unloading* follows the curve of an [unloading law](contact::unloading) down to the dent that remains; reloading
 //!   follows it back up, and continues along the loading curve.
 //!
-//! Work, elastic and dissipated energy are functions of the state; nothing is accumulated. With the rate held over a step,
-//! the result does not depend on how time is divided.
+//! Work, elastic and dissipated energy are functions of the state; nothing is accumulated. At a constant rate over a step, the
+//! result does not depend on how the time is divided into steps.
 //!
 //! # Validity
-//! Quasi-static, frictionless normal contact of a paraboloid: `a/R` up to about 0.3, contact long compared with the travel
-//! of elastic waves, no hardening, no strain-rate effects. [`contact::validity`] has the limits in numbers; an FMU logs a
-//! warning when it leaves them.
+//! The model is a quasi-static, frictionless normal contact of a paraboloid: `a/R` up to about 0.3, a contact time that is long
+//! compared with the travel time of elastic waves, no hardening, no strain-rate effects. [`contact::validity`] gives the limits
+//! as numbers; an FMU logs a warning when it leaves them.
 //!
 //! # Units
 //! SI throughout: m, kg, s, N, Pa, J. The documentation of each public item states its unit.
@@ -39,10 +39,10 @@
 //! ```
 //!
 //! # Modules
-//! | module | what it has |
+//! | module | content |
 //! |---|---|
 //! | [`contact`] | the physics, independent of FMI |
-//! | [`scene`] | which contacts, laws and variables there are: a trait, and the scene of an exported FMU |
+//! | [`scene`] | the contacts, laws and variables: a trait, and the scene of an exported FMU |
 //! | [`instance`] | co-simulation as safe Rust: phase, time, variables, step, reset |
 //! | `fmi2` (feature `c-interface`) | the C interface, and the only `unsafe` of the library |
 //!

@@ -1,7 +1,7 @@
-//! The C interface is that of the standard: signatures, types, values and callbacks, judged by a C compiler.
+//! The C interface is that of the standard: a C compiler checks signatures, types, values and callbacks.
 //!
-//! A function of the wrong type would still link and still load; it would read its arguments from the wrong registers.
-//! So the header made from the Rust source is compiled together with the standard's own.
+//! A function of the wrong type would still link and load, but read its arguments from the wrong registers. The header
+//! generated from the Rust source is therefore compiled together with the standard's own.
 
 #[path = "support/python.rs"]
 mod python;
@@ -16,7 +16,7 @@ const PROOF: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/c/abi.c");
 const HEADER: &str = include_str!(concat!(env!("OUT_DIR"), "/brinell.h"));
 const ABI: &str = include_str!("../src/fmi2/abi.rs");
 
-/// The folder of the standard's headers: fmpy brings them.
+/// The folder of the standard's headers, which are part of fmpy.
 static STANDARD: LazyLock<PathBuf> = LazyLock::new(|| {
     let program = "import fmpy, os; print(os.path.join(os.path.dirname(fmpy.__file__), 'c-code'))";
     let output = Command::new(python::python()).args(["-c", program]).output().expect("python can be started");
@@ -26,7 +26,7 @@ static STANDARD: LazyLock<PathBuf> = LazyLock::new(|| {
     folder
 });
 
-/// Compiles `source` with `compiler`, without output, as strictly as it can.
+/// Compiles `source` with `compiler`, without output, with the strictest settings.
 fn compile(compiler: &str, language: &str, source: &Path, header: &Path) -> Output {
     Command::new(compiler)
         .args([language, "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I"])
@@ -37,14 +37,14 @@ fn compile(compiler: &str, language: &str, source: &Path, header: &Path) -> Outp
         .unwrap_or_else(|error| panic!("{compiler}: {error}"))
 }
 
-/// Compiles the proof with `header`; gives the compiler's words if it is refused.
+/// Compiles the proof with `header`; returns the compiler's messages if it fails.
 fn prove(compiler: &str, language: &str, header: &str) -> Result<(), String> {
     let folder = tempfile::tempdir().expect("a folder for temporary files");
     let path = folder.path().join("brinell.h");
     fs::write(&path, header).expect("a temporary file");
     let mut source = PathBuf::from(PROOF);
     if compiler == "c++" {
-        // a C++ compiler takes a file for what its name says
+        // a C++ compiler chooses the language by the extension
         source = folder.path().join("abi.cpp");
         fs::copy(PROOF, &source).expect("a temporary file");
     }
@@ -72,7 +72,7 @@ fn every_signature_is_the_standards_in_cpp() {
     prove("c++", "-std=c++11", HEADER).unwrap();
 }
 
-/// The proof above is worth something only if it fails for a header that is wrong.
+/// The proof above is meaningful only if it fails for a wrong header.
 #[test]
 fn a_header_with_one_wrong_signature_is_refused() {
     let alterations = [
@@ -101,7 +101,7 @@ fn the_header_has_the_34_functions_of_co_simulation() {
     let exchange = declared(model_exchange);
     let wanted: BTreeSet<_> = declared(common).union(&declared(co_simulation)).copied().collect();
     assert_eq!((wanted.len(), exchange.len()), (34, 10), "{wanted:?} {exchange:?}");
-    // a declaration begins at the beginning of its line; comments and further arguments don't
+    // a declaration starts at the beginning of its line; comments and further arguments do not
     let declarations = HEADER.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_alphabetic()));
     let heads = declarations.filter_map(|line| line.split_once('(')).map(|(head, _)| head);
     let found: Vec<_> = heads.filter_map(|head| head.rsplit([' ', '*']).next()).collect();
@@ -109,7 +109,7 @@ fn the_header_has_the_34_functions_of_co_simulation() {
     assert_eq!(BTreeSet::from_iter(found), wanted);
 }
 
-/// The header names types such as `fmi2Real` without saying what they are in Rust. Here that is said in C: a second
+/// The header uses types such as `fmi2Real` but does not define them. The definitions of Rust are repeated here in C: a second
 /// `typedef` must agree with the first, and a value with the standard's.
 #[test]
 fn types_values_and_callbacks_of_the_abi_module_are_the_standards() {
@@ -141,7 +141,7 @@ fn compile_types(proof: &str) -> Result<(), String> {
     if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
 }
 
-/// A C program that says what the Rust module `abi` says.
+/// A C program with the definitions of the Rust module `abi`.
 fn proof_of_types(abi: &str) -> String {
     let mut proof = String::from("#include <stddef.h>\n#include \"fmi2Functions.h\"\n");
     let mut place = 0;
@@ -172,12 +172,12 @@ fn type_line(name: &str, rust: &str) -> String {
         "f64" => "double",
         "f32" => "float",
         "*const fmi2Char" => "const fmi2Char *",
-        // the logger's type is compiled, and called, by the C driver of the interface tests
+        // the C driver of the interface tests compiles and calls the logger's type
         function if function.is_empty() || function.contains("fn(") => return String::new(),
         other => panic!("{name} = {other}: no C type is known for it"),
     };
     if ["fmi2Status", "fmi2Type", "fmi2StatusKind"].contains(&name) {
-        // an enumeration in C: `int` in Rust, since C may pass any value
+        // an enumeration in C is an `int` in Rust, because C may pass any value
         return format!("_Static_assert(sizeof({name}) == sizeof({c}), \"sizeof(enum {name})\");\n");
     }
     format!("typedef {c} {name};\n")

@@ -1,4 +1,4 @@
-//! A scene of several contacts that can't be used: which contact is meant, where, and what would be allowed.
+//! Errors in scenes of several contacts: the message names the contact, the place and the allowed values.
 
 #[path = "support/command.rs"]
 mod command;
@@ -9,7 +9,7 @@ use command::{empty_folder, run};
 use refusal::refused_text;
 use std::fs;
 
-/// Two contacts with nothing wrong in them.
+/// Two contacts without errors.
 const SCENE: &str = "\
 name = \"vice\"
 
@@ -48,7 +48,7 @@ fn the_scene_that_the_tests_alter_is_good() {
 }
 
 #[test]
-fn an_unknown_key_of_a_contact_is_refused_with_those_there_are() {
+fn an_unknown_key_of_a_contact_is_refused_with_the_known_ones() {
     let keys = [
         "`colour`",
         "`name`",
@@ -85,9 +85,9 @@ fn two_contacts_of_one_name_are_refused() {
     refused("\"right\"", "§\"left\"", &["name = \"left\" is taken by another contact"]);
 }
 
-/// `target.force` beside `target.radius` would be no contact's.
+/// `target.force` next to `target.radius` would belong to no contact.
 #[test]
-fn a_contact_called_like_a_variable_is_refused_with_the_names_that_are_taken() {
+fn a_contact_named_like_a_variable_is_refused_with_the_names_in_use() {
     for name in ["target", "impactor", "initial_gap", "force", "regime"] {
         let said = format!("name = \"{name}\" belongs to a variable");
         refused("\"left\"", &format!("§\"{name}\""), &[&said, "`target`", "`impactor`", "`initial_gap`"]);
@@ -105,7 +105,7 @@ fn a_count_out_of_range_is_refused_with_the_range() {
 }
 
 #[test]
-fn more_contacts_in_all_than_there_may_be_are_refused() {
+fn too_many_contacts_in_total_are_refused() {
     let scene = SCENE.replacen("\"left\"", "\"left\"\ncount = 60000", 1);
     let scene =
         scene.replacen("[[contact]]\nname = \"right\"\ncount = 3", "§[[contact]]\nname = \"right\"\ncount = 40001", 1);
@@ -134,7 +134,7 @@ fn a_number_of_a_contact_out_of_range_is_refused_with_its_variable_and_the_range
     }
 }
 
-/// Also where no contact takes it: a mistake stays one.
+/// Even if no contact uses it.
 #[test]
 fn a_number_of_the_scene_that_every_contact_replaces_is_checked_too() {
     let scene = "name = \"unit\"\n[impactor]\nradius = §-1.0\n[target]\nmaterial = \"mild steel\"\n[[contact]]\n\
@@ -143,14 +143,14 @@ fn a_number_of_the_scene_that_every_contact_replaces_is_checked_too() {
 }
 
 #[test]
-fn what_a_contact_needs_and_nobody_gives_is_named_with_the_contact() {
+fn a_missing_property_of_a_contact_is_named_with_the_contact() {
     let marked = SCENE.replacen("[[contact]]", "§[[contact]]", 1);
     let without = |table: &str| marked.replacen(table, "", 1);
     let radius = without("[impactor]\nradius = 5e-3\n");
     refused_text(&radius, &["contact `left`", "impactor.radius is missing", "[impactor]"]);
     let target = without("[target]\nmaterial = \"mild steel\"\n");
     refused_text(&target, &["contact `left`", "`youngs_modulus` and `poissons_ratio`", "`material`", "`mild steel`"]);
-    // half of a target is not enough, and the other half of another contact doesn't help
+    // half a target is not enough, and the other half in another contact does not help
     let half = target.replacen("\"right\"", "\"right\"\ntarget = { material = \"mild steel\" }", 1);
     refused_text(&half, &["contact `left`", "`material`"]);
 }
@@ -167,7 +167,7 @@ fn half_an_elastic_impactor_of_a_contact_is_refused() {
 fn a_target_that_the_impactor_of_a_contact_does_not_fit_is_refused() {
     let said = ["contact `left`", "target.radius = -0.004 does not fit impactor.radius = 0.005", "wider"];
     refused_in_left("target = { radius = §-4e-3 }", &said);
-    // the socket is everybody's, the ball is not
+    // all contacts share the socket, but not the ball
     let socket = SCENE.replacen("[target]", "[target]\nradius = §-6e-3", 1);
     let scene = socket.replacen("count = 3", "impactor = { radius = 7e-3 }", 1);
     refused_text(&scene, &["contact `right`", "target.radius = -0.006 does not fit impactor.radius = 0.007"]);
@@ -198,7 +198,7 @@ fn an_impact_too_hard_for_one_contact_is_refused_with_its_name() {
 
 #[test]
 fn constants_of_a_law_are_tried_on_the_bodies_of_every_contact() {
-    // on mild steel these make a law, on what is a hundred times as hard they don't
+    // on mild steel this is a valid law, but not on a material a hundred times as hard
     let law = "[law]\nloading = \"ghaednia\"\nloading_parameters = §{ hardness_loss = 1.4 }\n";
     let scene = SCENE.replacen("count = 3", "target = { yield_strength = 3e10 }", 1);
     let parts = ["contact `right`", "with these parameters the loading force falls at"];
@@ -218,7 +218,7 @@ fn a_settable_parameter_is_one_of_all_contacts_or_of_one_with_its_name() {
     }
 }
 
-/// A parameter of all contacts that none of them takes is no parameter of the unit.
+/// A parameter of all contacts that every contact overrides is not a parameter of the FMU.
 #[test]
 fn a_parameter_that_every_contact_replaces_cannot_be_settable() {
     let scene = SCENE.replacen("\"left\"", "\"left\"\ninitial_gap = 1e-3", 1);
@@ -246,7 +246,7 @@ fn parameters_per_contact_are_parameters_of_the_contact() {
 }
 
 #[test]
-fn a_mass_of_a_contact_is_refused_where_the_unit_does_not_know_it() {
+fn a_mass_of_a_contact_is_refused_where_the_fmu_does_not_know_it() {
     refused_in_left("effective_mass = §2e-3", &["contact `left`", "effective_mass", "[coupling]"]);
     for mass in ["0.0", "-1.0", "1e31", "nan"] {
         let coupling = "\n[coupling]\neffective_mass = 4e-3\n\n[[contact]]\nname = \"left\"\n";

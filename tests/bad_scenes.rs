@@ -1,4 +1,4 @@
-//! A scene that can't be used: the message says where, what and what would be allowed, and no file is touched.
+//! Errors in scenes: the message gives the place, the error and the allowed values, and no file changes.
 
 #[path = "support/command.rs"]
 mod command;
@@ -9,7 +9,7 @@ use command::{contents, empty_folder, run};
 use refusal::{message_of, refused_text};
 use std::fs;
 
-/// A scene with nothing wrong in it, to be altered.
+/// A scene without errors, to be modified.
 const SCENE: &str = "\
 name = \"ball\"
 
@@ -29,7 +29,7 @@ fn refused(from: &str, to: &str, parts: &[&str]) {
     refused_text(&SCENE.replacen(from, to, 1), parts);
 }
 
-/// Exports the good scene with `more` at its end.
+/// Exports the good scene with `more` appended.
 #[track_caller]
 fn refused_with(more: &str, parts: &[&str]) {
     refused_text(&format!("{SCENE}\n{more}"), parts);
@@ -69,7 +69,7 @@ fn an_unknown_table_is_refused() {
 }
 
 #[test]
-fn an_unknown_name_is_refused_with_the_names_there_are() {
+fn an_unknown_name_is_refused_with_the_known_ones() {
     refused("yield_strength = 300e6", "material = §\"cheese\"", &["material", "`cheese`", "`mild steel`"]);
     refused_with("[law]\nloading = §\"kelvin\"", &["law.loading", "`kelvin`", "`hertz`", "`big-alabo`"]);
     refused_with("[law]\nunloading = §\"kelvin\"", &["law.unloading", "`kelvin`", "`contact-radius`", "`thornton`"]);
@@ -82,7 +82,7 @@ fn an_unknown_surface_is_refused_with_its_key() {
     refused("[target]", "[target]\nsurface = §\"old\"", &["`old`", "`dented`", "`fresh`", "surface"]);
 }
 
-/// A rigid impactor has no modulus, a flat target no radius: nothing that could be set.
+/// A rigid impactor has no modulus and a flat target has no radius that could be set.
 #[test]
 fn a_parameter_that_the_scene_has_not_got_cannot_be_settable() {
     refused_with("[fmu]\nparameters = [§\"target.radius\"]", &["`target.radius`", "`impactor.radius`"]);
@@ -99,7 +99,7 @@ fn a_wrong_type_is_refused_with_its_key() {
     refused_with("[impact]\nmass = §\"4 g\"\nspeed = 1", &["mass", "\"4 g\""]);
 }
 
-/// `f64` is a word of the program's language, not of the scene's.
+/// `f64` is a term of Rust, not of scene files.
 #[test]
 fn a_wrong_type_is_refused_in_the_words_of_the_user() {
     let message = message_of(SCENE.replacen("5e-3", "\"5 mm\"", 1).as_bytes());
@@ -125,13 +125,13 @@ fn a_name_that_is_no_identifier_is_refused() {
 
 /// `nul.dll` can't be unpacked on Windows.
 #[test]
-fn a_name_that_windows_keeps_for_a_device_is_refused() {
+fn a_name_reserved_for_a_device_on_windows_is_refused() {
     for name in ["con", "NUL", "Aux", "prn", "com1", "LPT9", "com0"] {
         refused("\"ball\"", &format!("§{name:?}"), &["name = ", name, "device on Windows"]);
     }
 }
 
-/// The unit was exported and checked, and no reader of XML could read it.
+/// Such an FMU was exported and passed the check, but no XML parser could read it.
 #[test]
 fn a_character_that_xml_cannot_have_is_refused_by_its_key() {
     for (escape, said) in [
@@ -190,7 +190,7 @@ fn a_target_that_the_impactor_does_not_fit_is_refused() {
     refused("[target]", "[target]\nradius = §inf", &["target.radius = inf", "allowed is"]);
 }
 
-/// Radii are limited to 1e-12 m for the impactor; a target of 1e-300 m ended the program in a panic.
+/// Radii of the impactor are limited to 1e-12 m; a target of 1e-300 m caused a panic.
 #[test]
 fn a_target_of_no_size_is_refused() {
     refused("[target]", "[target]\nradius = §1e-300", &["target.radius = 1e-300"]);
@@ -230,7 +230,7 @@ fn an_impact_without_motion_or_mass_is_refused() {
     }
 }
 
-/// The law was blamed: "drives the bodies deeper than the law can be evaluated".
+/// The message blamed the law: "drives the bodies deeper than the law can be evaluated".
 #[test]
 fn an_impact_with_next_to_no_energy_is_refused_without_blaming_the_law() {
     let parts = ["kinetic energy", "mass = 1e-30 kg", "speed = 1e-150 m/s", "can't be computed with"];
@@ -243,7 +243,7 @@ fn an_impact_too_hard_for_the_law_is_refused_with_its_numbers() {
 }
 
 #[test]
-fn a_file_that_is_no_toml_is_refused() {
+fn a_file_that_is_not_toml_is_refused() {
     refused("= 206e9", "=§= 206e9", &["="]);
     refused("\"ball\"", "\"ball§", &["\""]);
     refused_with("radius§", &["="]);
@@ -289,7 +289,7 @@ fn laws_that_do_not_go_together_are_refused_with_the_reason() {
 }
 
 #[test]
-fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
+fn a_missing_wrong_or_useless_restitution_is_refused() {
     let damped = "[law]\nloading = \"tsuji\"\n";
     refused_with("[law]\nloading = §\"tsuji\"\n", &["needs law.restitution"]);
     refused_with(&format!("{damped}restitution = §0.0\n"), &["restitution = 0.0", "0.001 to 1.0"]);
@@ -303,7 +303,7 @@ fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
 fn an_impact_without_an_answer_is_refused() {
     let deep = "[law]\nloading = \"jackson-green\"\n§[impact]\nmass = 1e250\nspeed = 1e9\n";
     refused_with(deep, &["mass = 1e250 kg", "speed = 1000000000.0 m/s", "deeper than the law can be evaluated"]);
-    // so light that the damper alone decides
+    // so light that only the damper matters
     let endless = "[law]\nloading = \"kuwabara-kono\"\n§[impact]\nmass = 1e-30\nspeed = 1.0\n";
     refused_with(endless, &["mass = 1e-30 kg", "speed = 1.0 m/s", "damped so strongly that it never ends"]);
 }
@@ -315,7 +315,7 @@ fn an_unloading_law_for_a_contact_that_leaves_no_dent_is_refused() {
 }
 
 #[test]
-fn a_constant_that_a_law_has_not_got_is_refused_with_those_that_it_has() {
+fn a_constant_that_a_law_does_not_have_is_refused_with_those_that_it_has() {
     refused_with(
         "[law]\nloading = \"power\"\nloading_parameters = { coefficient = 2.0, §exponnet = 1.15 }",
         &["unknown parameter of law.loading = \"power\" `exponnet`", "`coefficient`", "`exponent`"],
@@ -374,7 +374,7 @@ fn constants_out_of_order_are_refused() {
 
 #[test]
 fn constants_that_leave_no_law_are_refused_with_the_place_on_the_curve() {
-    // each within its limits; the second region begins below the first one's end
+    // each is within its limits, but the second region begins before the end of the first one
     refused_with(
         "[law]\nloading = \"kogut-etsion\"\nunloading = \"contact-radius\"\n\
          loading_parameters = §{ second_factor = 0.5 }",
@@ -384,7 +384,7 @@ fn constants_that_leave_no_law_are_refused_with_the_place_on_the_curve() {
         "[law]\nloading = \"ghaednia\"\nloading_parameters = §{ hardness_factor = 1.5, hardness_loss = 1.4 }",
         &["with these parameters the loading"],
     );
-    // above Hertz's curve, which can't be lowered to it
+    // above Hertz's curve, which cannot be lowered to it
     refused_with(
         "[law]\nloading = \"power\"\nunloading = \"hertz-shift\"\nloading_parameters = §{ coefficient = 9.0 }",
         &["with these parameters the unloading from", "yield indentations begins with", "instead of"],
@@ -405,7 +405,7 @@ fn constants_of_two_laws_that_contradict_each_other_are_refused() {
 }
 
 #[test]
-fn a_mass_to_be_known_that_is_none_is_refused() {
+fn an_invalid_effective_mass_is_refused() {
     let mass = |value: &str| format!("[coupling]\neffective_mass = §{value}");
     for (value, said) in [("0.0", "0.0"), ("-0.0", "-0.0"), ("-4e-3", "-0.004"), ("nan", "NaN"), ("inf", "inf")] {
         refused_with(&mass(value), &[&format!("coupling.effective_mass = {said}")]);
@@ -421,7 +421,7 @@ fn a_law_that_follows_the_rate_can_not_know_the_mass() {
 }
 
 #[test]
-fn a_coupling_that_there_is_not_is_refused() {
+fn an_unknown_coupling_is_refused() {
     let with = |more: &str| format!("[coupling]\neffective_mass = 1e-3\n{more}");
     refused_with(&with("§colour = 1"), &["`colour`", "`effective_mass`", "`master`", "`inputs`"]);
     refused_with(&with("master = §\"jacobi\""), &["`jacobi`", "`serial`", "`parallel`"]);
@@ -429,7 +429,7 @@ fn a_coupling_that_there_is_not_is_refused() {
         &with("inputs = [\"effective_mass\", §\"gravity\"]"),
         &["input", "`gravity`", "`external_acceleration`", "`effective_mass`"],
     );
-    // an input is no parameter
+    // an input is not a parameter
     let both =
         "[fmu]\nparameters = [§\"effective_mass\"]\n[coupling]\neffective_mass = 1e-3\ninputs = [\"effective_mass\"]";
     refused_with(both, &["parameter", "`effective_mass`", "`target.yield_strength`"]);

@@ -1,4 +1,4 @@
-//! `brinell check` on what is no unit, or a unit that somebody has changed: it ends with 1 and says what is wrong.
+//! `brinell check` on files that are not FMUs and on modified FMUs: it ends with status 1 and an error message.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -12,7 +12,7 @@ use std::path::Path;
 use std::process::Command;
 use tempfile::TempDir;
 
-/// Copies a unit member by member; `change` is a Python expression of `name` and `data`, None leaves the member out.
+/// Copies an FMU member by member. `change` is a Python expression of `name` and `data`; None removes the member.
 const REPACK: &str = "
 import sys, zipfile
 source, goal, change = sys.argv[1:]
@@ -23,7 +23,7 @@ with zipfile.ZipFile(source) as old, zipfile.ZipFile(goal, 'w', zipfile.ZIP_DEFL
             new.writestr(name, data)
 ";
 
-/// The unit of the default scene, changed.
+/// The FMU of the default scene, modified.
 fn changed(change: &str) -> TempDir {
     let folder = empty_folder();
     let source = unit::export(&unit::scene("steel_ball"));
@@ -42,7 +42,7 @@ fn refused(folder: &Path) -> Run {
     run
 }
 
-/// The message for a unit that can't be loaded; it begins with the unit's path, and there are no results.
+/// The message about an FMU that cannot be loaded. It begins with the path of the FMU, and there are no results.
 #[track_caller]
 fn message(folder: &TempDir) -> String {
     let run = refused(folder.path());
@@ -57,9 +57,9 @@ fn contains(message: &str, parts: &[&str]) {
     }
 }
 
-/// Otherwise the tests below could fail for the packing alone.
+/// Otherwise the tests below could fail just because of the repacking.
 #[test]
-fn a_unit_packed_again_without_change_is_still_good() {
+fn an_fmu_packed_again_without_change_is_still_good() {
     run(changed("data").path(), ["check", "unit.fmu"]).with_status(0);
 }
 
@@ -85,7 +85,7 @@ fn an_empty_file_is_no_archive() {
 }
 
 #[test]
-fn half_a_unit_is_no_archive() {
+fn half_an_fmu_is_not_an_archive() {
     let folder = changed("data");
     let path = folder.path().join("unit.fmu");
     let bytes = fs::read(&path).unwrap();
@@ -94,19 +94,19 @@ fn half_a_unit_is_no_archive() {
 }
 
 #[test]
-fn an_archive_without_model_description_is_no_unit() {
+fn an_archive_without_model_description_is_not_an_fmu() {
     contains(&message(&changed("data if name == 'model.png' else None")), &["modelDescription.xml"]);
 }
 
 #[test]
-fn a_model_description_that_is_no_xml_is_refused() {
+fn a_model_description_that_is_not_xml_is_refused() {
     let change = "b'<fmiModelDescription' if name == 'modelDescription.xml' else data";
     contains(&message(&changed(change)), &["modelDescription.xml can't be read"]);
 }
 
-/// Control characters, and the two numbers that are no characters, as they are and as references: no other reader takes them.
+/// Control characters and the two non-characters, literally and as references: other XML parsers reject them.
 #[test]
-fn a_character_that_xml_cannot_have_is_told_with_its_place() {
+fn a_character_that_xml_cannot_have_is_reported_with_its_place() {
     let description = "description=\"5 mm steel ball on a mild-steel block";
     for (bytes, said) in
         [("\\x01", "U+0001"), ("\\x0b", "U+000B"), ("\\xef\\xbf\\xbe", "U+FFFE"), ("\\xef\\xbf\\xbf", "U+FFFF")]
@@ -126,16 +126,16 @@ fn a_character_that_xml_cannot_have_is_told_with_its_place() {
     }
 }
 
-/// There is a folder for each platform; without any, the sentence must not end in the air.
+/// There is a folder for each platform; without any, the message must still be a complete sentence.
 #[test]
-fn a_unit_without_library_says_so() {
+fn an_fmu_without_library_says_so() {
     let message = message(&changed("None if name.startswith('binaries/') else data"));
     contains(&message, &["no binary for this platform", "64"]);
     assert!(!message.trim_end().ends_with("there is"), "{message}");
 }
 
 #[test]
-fn a_unit_for_another_platform_says_for_which() {
+fn an_fmu_for_another_platform_says_for_which() {
     let folder = empty_folder();
     let source = unit::export(&unit::scene("steel_ball"));
     let move_binary = "
@@ -172,16 +172,16 @@ fn a_guid_other_than_the_librarys_is_refused() {
     contains(&message(&changed(change)), &["fmi2Instantiate", "fmuGUID", "modelDescription.xml"]);
 }
 
-/// The library has the start values compiled in: an editor that changes the XML changes nothing in the simulation.
+/// The start values are compiled into the library: a change in the XML does not change the simulation.
 #[test]
-fn a_start_value_changed_in_the_xml_is_told_with_both_numbers() {
+fn a_start_value_changed_in_the_xml_is_reported_with_both_numbers() {
     let change = "data.replace(b'start=\"0.005\"', b'start=\"0.006\"') if name.endswith('.xml') else data";
     let run = refused(changed(change).path());
     contains(&run.out, &["impactor.radius", "0.006 in the XML", "0.005 in the binary"]);
 }
 
 #[test]
-fn a_start_value_changed_by_its_last_bit_is_told() {
+fn a_start_value_changed_by_its_last_bit_is_reported() {
     let change =
         "data.replace(b'start=\"0.005\"', b'start=\"0.0050000000000000010\"') if name.endswith('.xml') else data";
     contains(&refused(changed(change).path()).out, &["impactor.radius", "0.005 in the binary"]);
@@ -204,7 +204,7 @@ fn a_scene_other_than_the_librarys_does_not_agree() {
 }
 
 #[test]
-fn a_unit_without_scene_says_that_there_is_no_impact_to_run() {
+fn an_fmu_without_scene_says_that_there_is_no_impact_to_run() {
     contains(&message(&changed("None if name.endswith('scene.toml') else data")), &["resources/scene.toml"]);
 }
 

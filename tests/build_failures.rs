@@ -1,4 +1,4 @@
-//! An export whose tools are missing, broken, or out of space: one line says why and what helps, and no file is touched.
+//! Exports with missing or broken tools, or without disk space: one line gives the reason and a remedy, and no file changes.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -11,7 +11,7 @@ use std::process::Command;
 use std::{env, fs};
 use tempfile::TempDir;
 
-/// The one line that a failing export prints beside "building".
+/// The line that a failing export prints after "building".
 #[track_caller]
 fn message(circumstances: impl FnOnce(&mut Command) -> &mut Command) -> String {
     let folder = empty_folder();
@@ -32,7 +32,7 @@ fn contains(message: &str, parts: &[&str]) {
     }
 }
 
-/// A folder with a program of this name, to be put on PATH.
+/// A folder with a program of this name, for PATH.
 fn program(name: &str, script: &str) -> TempDir {
     let folder = empty_folder();
     let path = folder.path().join(name);
@@ -41,13 +41,13 @@ fn program(name: &str, script: &str) -> TempDir {
     folder
 }
 
-/// The compiler that the tests are compiled with.
+/// The compiler of the tests.
 fn rustc() -> String {
     let cargo = env::var("CARGO").expect("cargo runs this test");
     Path::new(&cargo).with_file_name("rustc").display().to_string()
 }
 
-/// The user read "could not compile due to 1 previous error" and nothing else.
+/// The user saw only "could not compile due to 1 previous error".
 #[test]
 fn a_missing_linker_is_named_with_what_to_install() {
     let empty = empty_folder();
@@ -73,7 +73,7 @@ fn the_words_of_a_linker_are_found_behind_its_warnings() {
 }
 
 #[test]
-fn a_linker_that_dies_or_says_nothing_is_told_so() {
+fn a_linker_that_crashes_or_prints_nothing_is_reported() {
     let silent = program("cc", "exit 7");
     contains(&message(|command| command.env("PATH", silent.path())), &["`cc` fails (exit status: 7): it says nothing"]);
     let killed = program("cc", "kill -9 $$");
@@ -107,14 +107,14 @@ fn without_a_rust_toolchain_the_message_says_where_to_get_one() {
 }
 
 #[test]
-fn a_compiler_that_is_too_old_is_told_with_the_version_that_is_needed() {
+fn a_compiler_that_is_too_old_is_reported_with_the_version_that_is_needed() {
     let script = "case $1 in --print) echo /no/sysroot;; *) echo 'rustc 1.70.0'; echo 'release: 1.70.0';; esac";
     let old = program("rustc", script);
     let message = message(|command| command.env_remove("CARGO").env("PATH", old.path()));
     contains(&message, &["rustc 1.70.0 is too old", "need 1.89 or newer", "rustup update"]);
 }
 
-/// As of rustup without a default toolchain.
+/// Like rustup without a default toolchain.
 #[test]
 fn a_compiler_that_does_not_answer_is_quoted() {
     let script = "echo 'error: rustup could not choose a version of rustc to run' >&2; exit 1";
@@ -123,9 +123,9 @@ fn a_compiler_that_does_not_answer_is_quoted() {
     contains(&message, &["rustc is there and doesn't work", "rustup could not choose a version of rustc to run"]);
 }
 
-/// The toolchain of another C library, or another system: real words of the compiler, for a target that no test has.
+/// The toolchain of another C library or system: the real message of the compiler for a target that no test has.
 #[test]
-fn a_missing_standard_library_is_told_with_what_to_install() {
+fn a_missing_standard_library_is_reported_with_what_to_install() {
     let script = format!(
         "case $1 in --print) echo /no/sysroot;; -vV) exec {0} -vV;; *) \
          for word do shift; case $word in x86_64-unknown-linux-gnu|aarch64-unknown-linux-gnu) word=s390x-unknown-linux-gnu;; esac; \
@@ -142,7 +142,7 @@ fn a_missing_standard_library_is_told_with_what_to_install() {
     );
 }
 
-/// The export in a shell that has this done before, with a cache of its own; its message, or none if there was room enough.
+/// The message of an export in a shell after `before`, with its own cache; `None` if there was enough space.
 fn in_shell(before: &str, cache: &Path) -> Option<String> {
     let folder = empty_folder();
     let program = brinell(folder.path()).get_program().to_owned();
@@ -157,9 +157,10 @@ fn in_shell(before: &str, cache: &Path) -> Option<String> {
     Some(run.err.lines().last().unwrap_or_default().into())
 }
 
-/// No file can grow beyond so many blocks of 512 bytes: first not even the sources can be written, then what the compiler makes.
+/// No file can exceed this number of blocks of 512 bytes. First not even the sources can be written, then the output of the
+/// compiler.
 #[test]
-fn a_file_that_cannot_grow_is_told_with_the_folder() {
+fn a_file_that_cannot_grow_is_reported_with_the_folder() {
     for (blocks, ignored) in [(1, "trap '' XFSZ"), (20, "trap '' XFSZ"), (1000, "trap '' XFSZ"), (1000, "true")] {
         let cache = empty_folder();
         let message = in_shell(&format!("{ignored}; ulimit -f {blocks}"), cache.path()).expect("too little room");
@@ -168,9 +169,9 @@ fn a_file_that_cannot_grow_is_told_with_the_folder() {
     }
 }
 
-/// A file system of so many kilobytes, where one can be made.
+/// A file system of this number of kilobytes, if one can be created.
 #[test]
-fn a_full_disk_is_told_with_the_folder() {
+fn a_full_disk_is_reported_with_the_folder() {
     let can_mount = Command::new("unshare").args(["-rm", "true"]).status().is_ok_and(|status| status.success());
     if !can_mount {
         println!("skipped: no file system can be mounted");

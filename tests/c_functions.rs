@@ -1,4 +1,4 @@
-//! The C functions, called for scenes that no library was exported for: states, derivatives, phases.
+//! The C functions for scenes without an exported library: states, derivatives, phases.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -17,7 +17,7 @@ use std::ptr::null_mut;
 const OK: fmi2Status = 0;
 const ERROR: fmi2Status = 3;
 
-/// An instance behind its C pointer, freed at the end.
+/// An instance behind its C pointer, which is freed at the end.
 struct Made<S: Scene> {
     c: fmi2Component,
     scene: PhantomData<S>,
@@ -33,7 +33,7 @@ impl<S: Scene> Made<S> {
             componentEnvironment: null_mut(),
         };
         let guid = std::ffi::CString::new(S::guid()).unwrap();
-        // SAFETY: strings that end, and callbacks that live during the call.
+        // SAFETY: null-terminated strings, and callbacks that live during the call.
         let c =
             unsafe { lifecycle::instantiate::<S>(c"one".as_ptr(), 1, guid.as_ptr(), c"".as_ptr(), &callbacks, 0, 0) };
         assert!(!c.is_null());
@@ -84,14 +84,14 @@ impl<S: Scene> Made<S> {
     }
 
     fn free(&self, mut state: fmi2FMUstate) {
-        // SAFETY: the state is one of this scene's, and not used again.
+        // SAFETY: the state belongs to this scene, and is not used again.
         assert_eq!(unsafe { states::free_fmu_state::<S>(self.c, &mut state) }, OK);
         assert!(state.is_null());
     }
 
     fn bytes(&self, state: fmi2FMUstate) -> Vec<i8> {
         let mut size = 0;
-        // SAFETY: the state lives, and the buffer is as long as asked for.
+        // SAFETY: the state lives, and the buffer has the requested length.
         unsafe {
             assert_eq!(states::serialized_fmu_state_size::<S>(self.c, state, &mut size), OK);
             let mut bytes = vec![0i8; size];
@@ -103,14 +103,14 @@ impl<S: Scene> Made<S> {
 
 impl<S: Scene> Drop for Made<S> {
     fn drop(&mut self) {
-        // SAFETY: nobody uses it again.
+        // SAFETY: it is not used again.
         unsafe { lifecycle::free_instance::<S>(self.c) };
     }
 }
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Massive1 = Chosen<Massive, 1, Present>;
-// as long as each other
+// states of equal length
 type WithAcceleration = Chosen<Massive<Coupled<Absent, Present, Absent>>, 1, Present>;
 type WithMass = Chosen<Massive<Coupled<Absent, Absent, Present>>, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Absent>;
@@ -121,16 +121,16 @@ fn choose_default() {
     choose(Choice::of(model.loading, model.unloading));
 }
 
-/// A state of two units may be of one length: each must know its own.
+/// States of two FMUs may have the same length: each must recognize its own.
 #[test]
-fn a_state_of_another_unit_is_refused_even_if_it_is_as_long() {
+fn a_state_of_another_fmu_is_refused_even_if_it_is_as_long() {
     choose_default();
     let (one, massive) = (Made::<WithAcceleration>::ready(), Made::<WithMass>::ready());
     let state = one.save();
     let bytes = one.bytes(state);
     let own = massive.save();
     assert_eq!(massive.bytes(own).len(), bytes.len(), "the two must not be told apart by their length");
-    // SAFETY: states of two units of one layout, and bytes as long as announced.
+    // SAFETY: states of two FMUs with the same layout, and bytes of the given length.
     unsafe {
         assert_eq!(states::set_fmu_state::<WithMass>(massive.c, state), ERROR);
         let mut made = null_mut();
@@ -142,7 +142,7 @@ fn a_state_of_another_unit_is_refused_even_if_it_is_as_long() {
     one.free(state);
 }
 
-/// By the standard the pointer is only written: it need not be anything before.
+/// According to the standard the pointer is only written: its old value may be invalid.
 #[test]
 fn deserializing_does_not_read_the_pointer_that_it_writes() {
     choose_default();
@@ -151,7 +151,7 @@ fn deserializing_does_not_read_the_pointer_that_it_writes() {
     let bytes = made.bytes(live);
     for before in [null_mut(), 0x10 as fmi2FMUstate, usize::MAX as fmi2FMUstate, live] {
         let mut state = before;
-        // SAFETY: bytes as long as announced.
+        // SAFETY: bytes of the given length.
         let status =
             unsafe { states::deserialize_fmu_state::<Several>(made.c, bytes.as_ptr().cast(), bytes.len(), &mut state) };
         assert_eq!(status, OK);
@@ -163,7 +163,7 @@ fn deserializing_does_not_read_the_pointer_that_it_writes() {
     made.free(live);
 }
 
-/// Every pair of output and input answers, zeros included.
+/// Every pair of output and input has a derivative, including zeros.
 #[test]
 fn directional_derivatives_answer_for_every_pair_in_every_phase_of_the_standard() {
     fn check<S: Scene>() {
@@ -181,7 +181,7 @@ fn directional_derivatives_answer_for_every_pair_in_every_phase_of_the_standard(
                 }
             }
         };
-        // the standard doesn't allow it before Initialization Mode
+        // the standard does not allow it before Initialization Mode
         assert_eq!(Made::<S>::new().directional(contacts, 0).0, ERROR);
         let made = Made::<S>::new();
         // SAFETY: the component lives.
@@ -201,7 +201,7 @@ fn directional_derivatives_answer_for_every_pair_in_every_phase_of_the_standard(
         // SAFETY: the component lives.
         assert_eq!(unsafe { lifecycle::terminate::<S>(made.c) }, OK);
         ask(&made, true);
-        // by a parameter or an output there is none
+        // there are no derivatives with respect to a parameter or an output
         let refused = Made::<S>::ready();
         assert_eq!(refused.directional(contacts, contacts).0, ERROR);
         // in the error state outputs can still be read
@@ -242,10 +242,10 @@ fn a_component_lives_from_instantiation_to_its_end_through_the_c_functions() {
     assert_eq!(unsafe { lifecycle::reset::<Several>(made.c) }, OK);
 }
 
-/// Proof that the sanitizer is on where `SANITIZER=address` says so, and that debug assertions are: the same program, told to
-/// read beyond an array, must end with the sanitizer's report.
+/// Proof that the sanitizer is active if `SANITIZER=address` is set, and that debug assertions are: the same program, when it
+/// reads beyond an array, must end with the sanitizer's report.
 #[test]
-fn the_sanitizer_and_debug_assertions_are_on_where_they_are_said_to_be() {
+fn the_sanitizer_and_debug_assertions_are_active_where_required() {
     if std::env::var("SANITIZER").as_deref() != Ok("address") {
         println!("skipped: not run with SANITIZER=address");
         return;
@@ -263,7 +263,7 @@ fn the_sanitizer_and_debug_assertions_are_on_where_they_are_said_to_be() {
 #[ignore = "it is a mistake, made for the test above"]
 fn a_read_beyond_an_array() {
     let numbers = std::hint::black_box(vec![1u8; 16]);
-    // SAFETY: there is none: the sanitizer must say so.
+    // SAFETY: none; the sanitizer must report it.
     let beyond = unsafe { std::ptr::read_volatile(numbers.as_ptr().add(16)) };
     println!("{beyond}");
 }

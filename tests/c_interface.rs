@@ -1,7 +1,7 @@
-//! The unit under a C program that is compiled against the standard's headers: see `tests/c/driver.c`.
+//! The FMU called by a C program that is compiled against the standard's headers: see `tests/c/driver.c`.
 //!
-//! What a C importer can do wrong, and what it may rely on, is said best in C; this file compiles the program, runs it
-//! on the unit of the default scene, and reads its list of checks.
+//! Misuse by a C importer, and guarantees to it, are best tested in C. This file compiles the program, runs it on the FMU of
+//! the default scene, and reads its list of checks.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
 #[path = "support/python.rs"]
@@ -17,16 +17,16 @@ use std::sync::LazyLock;
 /// The files of the program.
 const SOURCES: [&str; 5] = ["driver.c", "null_pointers.c", "instances.c", "memory.c", "counting.c"];
 
-/// Checks that the program makes at least: fewer would mean that it ended early, or that a part isn't called.
+/// Least number of checks by the program: fewer would mean that it ended early, or that a part is not called.
 const CHECKS: usize = 130;
 
-/// Those of them that count allocations.
+/// Number of those that count allocations.
 const COUNTS: usize = 8;
 
-/// The status that valgrind gives for an error of its own.
+/// The exit status of valgrind for its own errors.
 const VALGRIND_ERROR: i32 = 9;
 
-/// The folder of the standard's headers: fmpy brings them.
+/// The folder of the standard's headers, which are part of fmpy.
 fn headers() -> String {
     let program = "import fmpy, os; print(os.path.join(os.path.dirname(fmpy.__file__), 'c-code'))";
     let output = Command::new(python::python()).args(["-c", program]).output().expect("python can be started");
@@ -34,13 +34,13 @@ fn headers() -> String {
     String::from_utf8_lossy(&output.stdout).trim().into()
 }
 
-/// Compiles the program as `name`, with `options` of its own.
+/// Compiles the program as `name` with additional `options`.
 fn compile(name: &str, options: &[&str]) -> PathBuf {
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/c");
     let mut compiler = Command::new("cc");
     compiler.args(["-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-pthread"]);
-    // no function of the program may be replaced by what the compiler knows of calloc and free
+    // the compiler must not replace functions of the program by its knowledge of calloc and free
     compiler.args(["-rdynamic", "-fno-builtin-malloc", "-fno-builtin-calloc", "-fno-builtin-free", "-I"]);
     compiler.arg(headers()).args(options).arg("-o").arg(&program);
     compiler.args(SOURCES.map(|source| folder.join(source))).args(["-ldl", "-lm"]);
@@ -70,7 +70,7 @@ fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
     element.split_once(&format!(" {name}=\""))?.1.split('"').next()
 }
 
-/// Looks through the list of checks; gives their number.
+/// Verifies the list of checks; returns their number.
 #[track_caller]
 fn assert_good(output: &Output) -> usize {
     let list = String::from_utf8_lossy(&output.stdout);
@@ -104,9 +104,9 @@ fn valgrind_finds_no_wrong_access_and_no_leak() {
     assert!(checks >= CHECKS - 2 * COUNTS, "only {checks} checks:\n{}", String::from_utf8_lossy(&output.stdout));
 }
 
-/// Every scene of the project, and each rate-dependent law and a law without segments with every output, in a host that traps.
+/// Every scene of the project, each rate-dependent law, and a law without segments, with every output, in a host that traps.
 #[test]
-fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_unit() {
+fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_fmu() {
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("exceptions");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/c/exceptions.c");
     let mut compiler = Command::new("cc");
@@ -139,7 +139,7 @@ fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_unit() {
         let outputs = outputs.filter_map(|element| attribute(element, "valueReference").map(str::to_string));
         let derivatives = description.contains("canInterpolateInputs=\"true\"");
         let mut run = Command::new(&program);
-        // the rates come first; other inputs are left as they are
+        // the rates come first; other inputs keep their values
         let rates = of("input").filter(|element| element.contains("indentation_rate\"")).count();
         run.arg(&library).arg(attribute(&description, "guid").unwrap()).arg(rates.to_string());
         run.arg(if derivatives { "d" } else { "-" }).args(outputs.take(40));
@@ -148,7 +148,7 @@ fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_unit() {
     }
 }
 
-/// The program must be able to fail: here the library is another one than its arguments say.
+/// The program must be able to fail: here its arguments do not match the library.
 #[test]
 fn the_c_program_fails_for_a_wrong_guid_and_a_wrong_reference() {
     let program = compile("driver-that-fails", &[]);

@@ -36,7 +36,7 @@ fn predict_gives_the_impact_of_the_scene() {
     close(number(&law["dent"]), 9.4661023e-6, 1e-4);
     close(number(&law["restitution"]), 0.44629924, 1e-4);
     assert_eq!(law["regime"], 4);
-    // the speeds at which the regimes begin: 1.8737e-3, 25.189 and 201.19 times that
+    // the speeds at which the regimes begin, relative to the yield speed: 1.8737e-3, 25.189 and 201.19
     let onsets: Vec<f64> = law["onsets"].as_array().unwrap().iter().map(|onset| number(&onset["speed"])).collect();
     assert_eq!(onsets.len(), 3);
     close(onsets[1] / onsets[0], 25.1891570453553, 1e-12);
@@ -71,7 +71,7 @@ fn a_dent_turned_round_gives_the_speed_and_the_strength_that_made_it() {
     for law in ["big-alabo", "brinell"] {
         let dent = number(&predicted(&["--laws", law])["laws"][0]["dent"]).to_string();
         let answer = predicted(&["--laws", law, "--dent", &dent])["laws"][0].clone();
-        // the dent changes as the speed, and as the inverse of the strength: no digit is lost on the way
+        // the dent is proportional to the speed and to the inverse of the strength, and no digit is lost
         close(number(&answer["speed"]), 1.0, 1e-12);
         close(number(&answer["yield_strength"]), 300e6, 1e-12);
     }
@@ -101,14 +101,14 @@ fn a_curve_goes_in_out_in_again_and_out_and_its_energies_add_up() {
 }
 
 #[test]
-fn laws_says_how_far_each_law_is_from_the_truth() {
+fn laws_prints_the_error_of_each_law_against_finite_elements() {
     let folder = empty_folder();
     let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
     let law = |name: &str| {
         let found = laws["loading"].as_array().unwrap().iter().find(|law| law["name"] == name);
         found.unwrap_or_else(|| panic!("no {name} in {laws}")).clone()
     };
-    // measured independently: +30 % at some 25 to 30 yield indentations, within 0.5 %, and Stronge's known surplus
+    // measured independently: +30 % at about 25 to 30 yield indentations, within 0.5 %, and Stronge's known surplus
     let published = law("big-alabo");
     assert!((number(&published["worst_error"]) - 0.308).abs() < 0.002, "{published}");
     assert!(number(&law("brinell")["worst_error"]).abs() < 0.005);
@@ -153,7 +153,7 @@ fn laws_lists_constants_validity_and_reference_of_every_law() {
 }
 
 #[test]
-fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
+fn a_wrong_command_line_is_reported_and_nothing_is_written() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     let cases: [(&[&str], &[&str]); 22] = [
@@ -187,15 +187,15 @@ fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
             assert!(failed.err.contains(part), "nothing of {part:?} in {failed:#?}");
         }
     }
-    // a right question without an answer
+    // a valid question without an answer
     let failed = run(folder.path(), ["predict", &scene, "--dent", "1e9"]).with_status(1);
     assert!(failed.err.contains("dent = ") && failed.err.contains("speed"), "{failed:#?}");
     assert!(contents(folder.path()).is_empty());
 }
 
-/// It fails before any work, not after it.
+/// It fails before the work, not after it.
 #[test]
-fn a_goal_that_cannot_be_written_is_refused_before_the_work() {
+fn an_output_that_cannot_be_written_is_refused_before_the_work() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     fs::create_dir(folder.path().join("there.csv")).unwrap();
@@ -221,7 +221,7 @@ fn a_goal_that_cannot_be_written_is_refused_before_the_work() {
     }
 }
 
-/// Of every command, in every form for people.
+/// For every command, in every text format.
 #[test]
 fn every_output_fits_a_hundred_columns() {
     let folder = empty_folder();
@@ -294,7 +294,7 @@ fn a_prediction_is_written_as_people_write_numbers() {
     assert!(text.contains("rebound height") && text.contains("a fall of 50 mm"), "{text}");
 }
 
-/// The end of an impact is where the prediction has it, and the force is that of the law on the way.
+/// The end of the impact agrees with the prediction, and the force follows the law.
 #[test]
 fn a_time_history_goes_from_first_contact_to_separation() {
     for (name, laws) in [("steel_ball", "big-alabo,brinell,jackson-green,hertz"), ("damped", "hunt-crossley,tsuji")] {
@@ -361,7 +361,7 @@ fn one_law_is_shown_with_formulas_constants_validity_and_curve() {
 }
 
 #[test]
-fn rate_dependent_laws_stand_beside_the_others_and_are_asked_for_the_same_restitution() {
+fn rate_dependent_laws_are_listed_with_the_others_for_the_same_restitution() {
     let both = predicted(&["--laws", "big-alabo,hunt-crossley,hunt-crossley/lee-wang"]);
     let restitution = |law: usize| number(&both["laws"][law]["restitution"]);
     close(restitution(1), restitution(0), 1e-9);

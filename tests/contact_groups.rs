@@ -1,4 +1,4 @@
-//! Units with several contacts: what export says of them, and how they are checked.
+//! FMUs with several contacts: the summary of an export, and their check.
 
 #[path = "support/command.rs"]
 mod command;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 const STEEL: &str = "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
 const IMPACT: &str = "[impact]\nmass = 4e-3\nspeed = 1.0\n";
 
-/// What a scene exports and how its check went.
+/// The summary of the export of a scene, and the result of its check.
 #[track_caller]
 fn exported(scene: &Path) -> (Value, Value) {
     let folder = empty_folder();
@@ -27,7 +27,7 @@ fn scene(name: &str) -> PathBuf {
 }
 
 #[test]
-fn every_group_is_told_with_what_it_has_of_its_own() {
+fn every_group_is_listed_with_its_own_values() {
     let (export, _) = exported(&scene("many_contacts"));
     let edge = json!({ "impactor.radius": 3e-3, "impactor.youngs_modulus": 4e11, "impactor.poissons_ratio": 0.29 });
     assert_eq!(
@@ -47,7 +47,7 @@ fn every_group_is_told_with_what_it_has_of_its_own() {
 }
 
 #[test]
-fn a_unit_with_many_contacts_is_told_in_few_lines() {
+fn an_fmu_with_many_contacts_is_summarized_in_few_lines() {
     let folder = empty_folder();
     let told = run(folder.path(), ["export", scene("many_contacts").to_str().unwrap()]).with_status(0).out;
     assert!(told.lines().count() < 30 && told.len() < 3000, "{told}");
@@ -69,9 +69,9 @@ fn the_impact_meets_the_first_contact_of_every_group() {
     assert!(contacts.iter().all(|contact| contact["rows"].as_array().unwrap().len() == 5), "{check}");
 }
 
-/// Each with its own bodies: the largest force is that of the plain scene with the numbers of the contact.
+/// Each contact has its own bodies: the largest force is that of the plain scene with the numbers of the contact.
 #[test]
-fn the_contacts_of_a_unit_have_their_own_bodies() {
+fn the_contacts_of_an_fmu_have_their_own_bodies() {
     let (_, check) = exported(&scene("two_contacts"));
     assert_eq!(check["passed"], true, "{check}");
     let ball = "[impactor]\nradius = 5e-3\nyoungs_modulus = 210e9\npoissons_ratio = 0.3\n[target]\nmaterial = ";
@@ -89,7 +89,7 @@ fn the_contacts_of_a_unit_have_their_own_bodies() {
     assert_ne!(check["contacts"][0]["rows"], check["contacts"][1]["rows"]);
 }
 
-/// A gap that can't be set is crossed first; a contact that starts pressed in stays as it is.
+/// A gap that cannot be set is crossed first; a contact that starts indented is not moved.
 #[test]
 fn contacts_with_constant_gaps_are_checked_too() {
     let folder = empty_folder();
@@ -106,9 +106,9 @@ fn contacts_with_constant_gaps_are_checked_too() {
     assert!(check["contacts"][2]["skipped"].as_str().unwrap().contains("pressed in"), "{check}");
 }
 
-/// The guard acts on each contact's bodies; what is told of the unit covers them all.
+/// The guard acts on the bodies of each contact; the text about the FMU covers all of them.
 #[test]
-fn a_guarded_unit_tells_where_the_guard_acts_on_each_contact() {
+fn a_guarded_fmu_states_where_the_guard_acts_on_each_contact() {
     let folder = empty_folder();
     let scene = format!(
         "{STEEL}[law]\nloading = \"ghaednia\"\nunloading = \"contact-radius\"\n\
@@ -128,9 +128,9 @@ fn a_guarded_unit_tells_where_the_guard_acts_on_each_contact() {
     assert!(all.is_sorted() && all.windows(2).all(|pair| pair[0].1 < pair[1].0), "{all:?}");
 }
 
-/// No scene says which bodies two contacts have in common.
+/// No scene specifies which bodies two contacts share.
 #[test]
-fn contacts_whose_bodies_the_unit_moves_come_with_a_word_on_shared_bodies() {
+fn contacts_whose_bodies_the_fmu_moves_come_with_a_note_on_shared_bodies() {
     let folder = tempfile::tempdir().unwrap();
     let bodies = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
     let coupling = "[coupling]\neffective_mass = 4e-3\n";
@@ -150,7 +150,7 @@ fn contacts_whose_bodies_the_unit_moves_come_with_a_word_on_shared_bodies() {
 }
 
 #[test]
-fn what_each_contact_has_for_itself_is_told_and_checked() {
+fn values_of_each_contact_are_listed_and_checked() {
     let folder = empty_folder();
     let scene = format!(
         "{STEEL}[fmu]\nparameters = []\n[coupling]\neffective_mass = 4e-3\n[[contact]]\nname = \"bead\"\ncount = 12\n\
@@ -166,7 +166,7 @@ fn what_each_contact_has_for_itself_is_told_and_checked() {
         assert!(variables.contains(&json!(name)), "no {name} in {variables:?}");
     }
     assert_eq!(export["variable_count"], 3 * 13 + 2 * 12);
-    // the impact on the light one is that of its mass
+    // the impact on the light contact is with its own mass
     assert_eq!(check["passed"], true, "{check}");
     let forces = [0, 1].map(|index| check["contacts"][index]["rows"][0]["predicted"].as_f64().unwrap());
     assert!(forces[1] < 0.7 * forces[0], "{check}");

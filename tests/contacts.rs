@@ -1,4 +1,4 @@
-//! Scenes with several contacts: what each contact is made of.
+//! Scenes with several contacts: the bodies of each contact.
 
 #[path = "support/command.rs"]
 mod command;
@@ -10,7 +10,7 @@ use std::fs;
 const HEAD: &str = "name = \"unit\"\n";
 const IMPACT: &str = "[impact]\nmass = 4e-3\nspeed = 1.0\n";
 
-/// What `brinell predict` says of the first contact of `scene`.
+/// The prediction of `brinell predict` for the first contact of `scene`.
 #[track_caller]
 fn predicted(scene: &str) -> Value {
     let folder = empty_folder();
@@ -18,7 +18,7 @@ fn predicted(scene: &str) -> Value {
     run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json()
 }
 
-/// The scene with `all` for all contacts and one contact with `own`, and beside it the plain scene that means the same.
+/// Compares the scene with `all` for all contacts and one contact with `own` with the equivalent `plain` scene.
 #[track_caller]
 fn same(all: &str, own: &str, plain: &str) {
     let contact = format!("{all}\n[[contact]]\nname = \"other\"\n{own}\n");
@@ -28,7 +28,7 @@ fn same(all: &str, own: &str, plain: &str) {
 const BALL: &str = "[impactor]\nradius = 5e-3\n";
 
 #[test]
-fn a_contact_has_what_the_scene_gives_to_all() {
+fn a_contact_has_the_common_values_of_the_scene() {
     let scene = format!("{BALL}[target]\nmaterial = \"mild steel\"\n");
     same(&scene, "", &scene);
 }
@@ -42,7 +42,7 @@ fn a_contact_has_its_own_number_instead_of_that_of_all() {
     );
 }
 
-/// Also instead of single numbers that the scene gives to all.
+/// It also overrides single numbers that the scene gives to all.
 #[test]
 fn a_contact_has_the_whole_of_its_own_material() {
     same(
@@ -53,7 +53,7 @@ fn a_contact_has_the_whole_of_its_own_material() {
 }
 
 #[test]
-fn a_number_of_a_contact_stands_before_its_own_material() {
+fn a_number_of_a_contact_overrides_its_own_material() {
     let target = "material = \"aluminium 6061-T6\", yield_strength = 5e8";
     same(
         &format!("{BALL}[target]\nmaterial = \"mild steel\"\n"),
@@ -79,7 +79,7 @@ fn an_elastic_impactor_may_be_that_of_one_contact() {
     );
 }
 
-/// The law is chosen for all: without any yield strength it is Hertz's.
+/// The law is common to all: without any yield strength it is Hertz's.
 #[test]
 fn contacts_without_yield_strength_are_elastic() {
     let target = "[target]\nyoungs_modulus = 2e11\npoissons_ratio = 0.3\n";

@@ -1,4 +1,4 @@
-//! Where one branch of the law meets the next: exactly at a corner, one unit in the last place beside it, at rest.
+//! Transitions between branches: exactly at a corner, one unit in the last place beside it, at rest.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -78,11 +78,11 @@ fn at_a_corner_of_the_loading_curve_the_branch_above_holds() {
             assert_eq!(at.stiffness(), slope(corner), "{name} at {corner:e}");
             assert_eq!(above.stiffness(), slope(corner.next_up()), "{name} above {corner:e}");
             assert_eq!(at.regime(), above.regime(), "{name} at {corner:e}");
-            // not every corner is the border of a regime, but at each the law goes on with another piece
+            // not every corner is the boundary of a regime, but at each of them the law has another piece
             let end = |d: f64| model.loading.next_corner(&model.pair, d);
             assert_eq!(end(corner.next_down()), corner, "{name} at {corner:e}");
             assert!(end(corner) > corner, "{name} at {corner:e}");
-            // two pieces meet to the rounding of their terms, the largest of which are some twenty times the force
+            // two pieces meet within the rounding of their terms, of which the largest are about twenty times the force
             let rounding = 1e-14 * at.force();
             assert!(below.force() <= at.force() + rounding, "{name} at {corner:e}");
             assert!(at.force() <= above.force() + rounding, "{name} at {corner:e}");
@@ -184,7 +184,7 @@ fn apart_there_is_neither_contact_radius_nor_pressure() {
 #[test]
 fn a_few_roundings_beyond_yield_the_dent_is_not_above_the_surface() {
     let mut random = Random(3);
-    // how these numbers round differs from pair to pair
+    // the rounding of these numbers differs from pair to pair
     let mut pair = || {
         let radius = 10f64.powf(-4.0 * random.next());
         pair_of(radius, 10f64.powf(9.0 + 3.0 * random.next()), 10f64.powf(6.0 + 2.0 * random.next()))
@@ -196,7 +196,7 @@ fn a_few_roundings_beyond_yield_the_dent_is_not_above_the_surface() {
                 let history = pressed(&model, largest);
                 let depth = history.residual_indentation(&model);
                 assert!(depth >= 0.0 && depth < largest, "{name} from {largest:e}: {depth:e}");
-                // work of loading less that of unloading: each a few roundings of the first
+                // work of loading minus that of unloading: each has a few rounding errors of the first
                 let rounding = 8.0 * f64::EPSILON * history.work(&model);
                 assert!(history.dissipated_energy(&model) >= -rounding, "{name} from {largest:e}");
                 largest = largest.next_up();

@@ -27,7 +27,7 @@ fn assert_close(what: &str, value: f64, expected: f64, tolerance: f64) {
     assert!(error <= tolerance, "{what}: {value:e} instead of {expected:e}, off by {error:e}");
 }
 
-/// laws.md, section 7: what each damping factor gives when asked for e.
+/// The restitution that each damping factor gives for a required restitution e, from published tables.
 const DELIVERED: [(DampingFactor, [f64; 6]); 8] = [
     (DampingFactor::HuntCrossley, [0.5158326, 0.5468541, 0.5812880, 0.6629622, 0.7679998, 0.9090157]),
     (DampingFactor::LeeWang, [0.6866634, 0.7119502, 0.7389953, 0.7991988, 0.8693431, 0.9523702]),
@@ -39,7 +39,7 @@ const DELIVERED: [(DampingFactor, [f64; 6]); 8] = [
     (DampingFactor::HuGuo, [0.0740735, 0.1655959, 0.2706585, 0.4877413, 0.6972970, 0.8998999]),
 ];
 
-/// The restitutions asked for in those tables.
+/// The required restitutions in those tables.
 const ASKED: [f64; 6] = [0.1, 0.2, 0.3, 0.5, 0.7, 0.9];
 
 fn hunt_crossley(damping_factor: DampingFactor) -> AnyDamped {
@@ -57,7 +57,7 @@ fn each_hunt_crossley_factor_gives_the_restitution_of_the_table() {
 }
 
 #[test]
-fn the_exact_factor_is_that_of_the_table_and_gives_what_was_asked_for() {
+fn the_exact_factor_is_that_of_the_table_and_gives_the_required_restitution() {
     let table = [9.998159398, 4.919166716, 3.087081981, 1.432750533, 0.634828281, 0.166481951];
     for (asked, chi) in ASKED.into_iter().zip(table) {
         assert!((DampingFactor::Exact.chi(asked) - chi).abs() < 1e-9, "{asked}: {}", DampingFactor::Exact.chi(asked));
@@ -94,7 +94,7 @@ fn without_damping_an_impact_is_that_of_hertz() {
     }
 }
 
-/// Restitution of a linear spring and dashpot that doesn't pull.
+/// Restitution of a linear spring and dashpot that does not pull.
 ///
 /// Reference: T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469.
 fn without_tension(asked: f64) -> f64 {
@@ -167,7 +167,7 @@ fn the_impact_function_is_that_of_the_manuals() {
     }
 }
 
-/// Every law, in the variants that differ.
+/// Every law, in its different variants.
 fn every_law() -> Vec<(String, AnyDamped)> {
     let mut laws: Vec<_> = AnyDamped::ALL.iter().map(|(name, law)| ((*name).to_string(), *law)).collect();
     laws.extend(DampingFactor::ALL.iter().map(|(name, factor)| ((*name).to_string(), hunt_crossley(*factor))));
@@ -183,7 +183,7 @@ fn every_law() -> Vec<(String, AnyDamped)> {
 fn work_is_the_integral_of_the_force_and_heat_never_falls() {
     for (name, law) in every_law() {
         let model = model_of(law, 0.4);
-        // there and back with several rates, with and without a force that would have to pull
+        // indentation and separation at several rates, with and without a force that would have to pull
         for back in [-0.01, -0.5, -20.0] {
             let mut history = History::start(&model, 0.0).unwrap();
             let (mut work, mut heat, mut largest) = (0.0, 0.0, 0.0f64);
@@ -281,7 +281,7 @@ fn a_contact_that_starts_pressed_in_counts_its_first_closing_rate_as_the_touch()
 }
 
 #[test]
-fn what_is_not_refused_is_finite_and_nothing_physical_is_refused() {
+fn accepted_values_are_finite_and_nothing_physical_is_refused() {
     for (name, law) in every_law() {
         let model = model_of(law, 0.3);
         for depth in logarithmic(1e-300, 1e99, 120) {
@@ -341,7 +341,7 @@ fn a_stored_history_goes_on_as_before() {
 
 #[test]
 fn factors_follow_the_bodies() {
-    // twice the modulus: twice the stiffness; K_h chi, C of the others by their own powers
+    // twice the modulus: twice the stiffness; K_h chi and the C of the others change with their own powers
     let pair = mild();
     let stiffer = brinell::contact::Pair { modulus: 2.0 * pair.modulus, ..pair };
     for (name, law, power) in [
@@ -361,7 +361,7 @@ fn the_mean_force_of_a_step_is_that_of_many_small_ones() {
     for (name, law) in every_law() {
         let model = model_of(law, 0.4);
         let mut history = History::start(&model, 1e-6).unwrap();
-        // to the surface and in, out slowly, faster than the surface follows, and out of contact
+        // to the surface and in, out slowly, out faster than the surface follows, and out of contact
         for (rate, time) in [(1.0, 2.1e-5), (-0.3, 5e-6), (-20.0, 0.5e-6), (0.4, 3e-5), (-3.0, 8e-6), (-3.0, 4e-6)] {
             let mean = history.mean_force(rate, time);
             let parts = 20_000;

@@ -1,4 +1,4 @@
-//! What a unit says of itself, in its model description and on its documentation page: it must be true of this kind of unit.
+//! The texts of an FMU in its model description and on its documentation page must be true for its kind.
 
 #[path = "support/loaded.rs"]
 mod loaded;
@@ -11,14 +11,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use unit::write_scene;
 
-/// A scene of a steel ball with these lines in addition.
+/// A scene of a steel ball with these additional lines.
 fn scene(name: &str, more: &str) -> PathBuf {
     let text =
         format!("name = \"{name}\"\nimpactor = {{ radius = 5e-3 }}\ntarget = {{ material = \"mild steel\" }}\n{more}");
     write_scene(name, &text)
 }
 
-/// The model description and the page of the unit of `scene`.
+/// The model description and the page of the FMU of `scene`.
 fn texts(scene: &Path) -> (String, String) {
     let library = unit::library(&unit::export(scene));
     let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
@@ -43,7 +43,7 @@ const MASS_KNOWN: &str =
     "fmu = { outputs = [\"mean_force\", \"predicted_force\"] }\ncoupling = { effective_mass = 4e-3 }\n";
 
 #[test]
-fn a_unit_that_knows_the_mass_does_not_say_that_the_rate_is_held() {
+fn an_fmu_that_knows_the_mass_does_not_state_that_the_rate_is_held() {
     let (xml, page) = texts(&scene("mass_words", MASS_KNOWN));
     assert!(!xml.contains("held over a step"), "{}", variable(&xml, "indentation_rate"));
     assert!(!page.contains("held over a step"), "{page}");
@@ -53,7 +53,7 @@ fn a_unit_that_knows_the_mass_does_not_say_that_the_rate_is_held() {
 }
 
 #[test]
-fn a_unit_that_knows_the_mass_says_what_mean_force_and_the_derivative_are_for() {
+fn an_fmu_that_knows_the_mass_describes_the_use_of_mean_force_and_the_derivative() {
     let (xml, page) = texts(&scene("mass_words", MASS_KNOWN));
     for text in [variable(&xml, "mean_force"), row(&page, "mean_force")] {
         assert!(text.contains("applied to the bodies over that step"), "{text}");
@@ -64,7 +64,7 @@ fn a_unit_that_knows_the_mass_says_what_mean_force_and_the_derivative_are_for() 
 }
 
 #[test]
-fn a_plain_unit_says_that_the_rate_is_held_or_follows_its_derivatives() {
+fn a_plain_fmu_states_that_the_rate_is_held_or_follows_its_derivatives() {
     let (xml, page) = texts(&scene("plain_words", ""));
     for text in [variable(&xml, "indentation_rate"), row(&page, "indentation_rate")] {
         assert!(text.contains("held over a step, or a polynomial in time"), "{text}");
@@ -73,7 +73,7 @@ fn a_plain_unit_says_that_the_rate_is_held_or_follows_its_derivatives() {
 }
 
 #[test]
-fn a_rate_dependent_unit_which_takes_no_derivatives_does_not_speak_of_them() {
+fn a_rate_dependent_fmu_without_derivatives_does_not_mention_them() {
     let law = "law = { loading = \"tsuji\", restitution = 0.5 }\n";
     let (xml, page) = texts(&scene("damped_words", law));
     let rate = variable(&xml, "indentation_rate");
@@ -82,9 +82,9 @@ fn a_rate_dependent_unit_which_takes_no_derivatives_does_not_speak_of_them() {
     assert!(variable(&xml, "effective_mass").contains("for which the damping of the law is designed"), "{xml}");
 }
 
-/// Stronge's law is above Hertz's just after yield, and gives back more than it took.
+/// Stronge's law is above Hertz's just after yield, and returns more energy than it took.
 #[test]
-fn dissipated_energy_is_said_never_to_fall_only_where_it_does_not() {
+fn the_claim_that_dissipated_energy_never_falls_is_made_only_where_it_holds() {
     let outputs = "fmu = { outputs = [\"dissipated_energy\", \"indentation\"] }\n";
     let makes_energy = scene("energy_made", &format!("{outputs}law = {{ loading = \"stronge\" }}\n"));
     let (xml, page) = texts(&makes_energy);
@@ -112,9 +112,9 @@ fn dissipated_energy_is_said_never_to_fall_only_where_it_does_not() {
     }
 }
 
-/// The library answers for every pair of output and input.
+/// The library has a derivative for every pair of output and input.
 #[test]
-fn every_kind_of_unit_provides_directional_derivatives() {
+fn every_kind_of_fmu_provides_directional_derivatives() {
     let kinds = ["", MASS_KNOWN, "law = { loading = \"tsuji\", restitution = 0.5 }\n"];
     for (name, more) in ["plain_words", "mass_words", "damped_words"].into_iter().zip(kinds) {
         let (xml, _) = texts(&scene(name, more));
@@ -122,9 +122,9 @@ fn every_kind_of_unit_provides_directional_derivatives() {
     }
 }
 
-/// The bodies that only a contact gives were described as a rigid sphere and a half-space, and their constants were missing.
+/// Bodies given only by a contact were described as a rigid sphere and a half-space, and their constants were missing.
 #[test]
-fn the_page_of_a_unit_knows_the_bodies_and_constants_of_each_contact() {
+fn the_page_of_an_fmu_knows_the_bodies_and_constants_of_each_contact() {
     let text = "name = \"own_bodies\"\ntarget = { material = \"mild steel\" }\nfmu = { parameters = [] }\n\
                 [[contact]]\nname = \"left\"\nimpactor = { radius = 4e-3, youngs_modulus = 7e10, poissons_ratio = 0.22 }\n\
                 [[contact]]\nname = \"bead\"\ncount = 3\nimpactor = { radius = 2e-3 }\ntarget = { radius = -0.5 }\n";
@@ -143,7 +143,7 @@ fn the_page_of_a_unit_knows_the_bodies_and_constants_of_each_contact() {
     assert!(page.contains("contact of an elastic sphere and a spherical socket"), "{page}");
 }
 
-/// The variables that `output` depends on before the first step, as the model description has it.
+/// The variables on which `output` depends before the first step, according to the model description.
 fn listed(xml: &str, output: &str) -> BTreeSet<String> {
     let names: Vec<&str> =
         xml.split("<ScalarVariable name=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
@@ -154,9 +154,9 @@ fn listed(xml: &str, output: &str) -> BTreeSet<String> {
     dependencies.map(|index| names[index.parse::<usize>().expect("a place") - 1].to_string()).collect()
 }
 
-/// A damping that waits for the first touch is none before the first step, but the prediction looks past the touch.
+/// A damping that begins at the first touch is zero before the first step, but the prediction extends beyond the touch.
 #[test]
-fn initial_unknowns_of_rate_dependent_units_name_restitution_and_mass_just_where_they_count() {
+fn initial_unknowns_of_rate_dependent_fmus_list_restitution_and_mass_only_where_they_matter() {
     let outputs = ["force", "mean_pressure", "stiffness", "predicted_force", "mean_force", "elastic_energy"];
     for (name, law) in [
         ("touched", "loading = \"hunt-crossley\", restitution = 0.5"),
@@ -178,7 +178,7 @@ fn initial_unknowns_of_rate_dependent_units_name_restitution_and_mass_just_where
             outputs.map(|output| instance.real(output))
         };
         let has = |parameter: &str| xml.contains(&format!("<ScalarVariable name=\"{parameter}\""));
-        // parting so fast that the surface doesn't follow, the damping decides whether there is a force at all
+        // at a separation so fast that the surface does not follow, the damping decides whether there is a force at all
         let rates: Vec<f64> = (0..24).map(|power| -1e-3 * 2f64.powi(power)).chain([0.5]).collect();
         for (known, value) in [("restitution", 0.7), ("effective_mass", 8e-3), ("indentation_rate", 0.25)] {
             if !has(known) {

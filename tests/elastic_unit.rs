@@ -1,7 +1,6 @@
-//! A scene without yield strength makes an elastic unit: nothing plastic is in its description, its code, its numbers.
+//! A scene without yield strength gives an elastic FMU: nothing plastic is in its description, its code, or its numbers.
 //!
-//! The same scene with a yield strength is looked at in the same way each time, so that a search that finds nothing at all
-//! is noticed.
+//! Each test also examines the same scene with a yield strength, so that a search that never finds anything is noticed.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -42,7 +41,7 @@ fn contains(bytes: &[u8], part: &[u8]) -> bool {
 }
 
 #[test]
-fn every_output_of_an_elastic_unit_is_right() {
+fn every_output_of_an_elastic_fmu_is_right() {
     let folder = empty_folder();
     let elastic = unit::export(&scene(false));
     let check = run(folder.path(), ["check", elastic.to_str().unwrap(), "--json"]).with_status(0).json();
@@ -53,7 +52,7 @@ fn every_output_of_an_elastic_unit_is_right() {
 }
 
 #[test]
-fn an_elastic_unit_has_no_yield_strength_in_its_description() {
+fn an_elastic_fmu_has_no_yield_strength_in_its_description() {
     let description = |scene: &Path| {
         let library = unit::library(&unit::export(scene));
         let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY").to_path_buf();
@@ -63,9 +62,9 @@ fn an_elastic_unit_has_no_yield_strength_in_its_description() {
     assert!(!description(&scene(false)).contains("yield"), "{}", description(&scene(false)));
 }
 
-/// A law is its constants: as eight bytes each they are in the library, or they aren't.
+/// The constants of a law are in the library as eight bytes each, or they are not.
 #[test]
-fn an_elastic_unit_has_no_constant_of_a_plastic_law() {
+fn an_elastic_fmu_has_no_constant_of_a_plastic_law() {
     let text = constants(&scene(true));
     let law = text.split("const LOADING").nth(1).unwrap().split("};").next().unwrap();
     let numbers = law.lines().filter_map(|line| line.trim().trim_end_matches(',').split(": ").nth(1)?.parse().ok());
@@ -80,20 +79,20 @@ fn an_elastic_unit_has_no_constant_of_a_plastic_law() {
 }
 
 #[test]
-fn an_elastic_unit_is_smaller_by_what_it_leaves_out() {
+fn an_elastic_fmu_is_smaller_by_the_omitted_code() {
     let [plastic, elastic] = [true, false].map(|yields| library(&scene(yields)).len());
     assert!(elastic + 3000 < plastic, "{elastic} against {plastic} bytes");
 }
 
-/// The library of a scene, compiled as the exporter does it, but with the names of its functions, and of the file that
-/// each piece of its code was written in, inlined or not.
+/// The library of a scene, compiled like in an export, but with the names of its functions and of the source file of each piece
+/// of its code, inlined or not.
 fn with_names(scene: &Path) -> Vec<u8> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = empty_folder();
     for part in ["Cargo.toml", "Cargo.lock", "build.rs"] {
         fs::copy(root.join(part), folder.path().join(part)).unwrap();
     }
-    // named in the manifest, and not compiled
+    // listed in the manifest, but not compiled
     for named in ["benches", "examples", "tests"] {
         std::os::unix::fs::symlink(root.join(named), folder.path().join(named)).unwrap();
     }
@@ -135,9 +134,9 @@ fn law_files(kind: &str) -> BTreeSet<String> {
     names.filter(|name| name.ends_with(".rs") && name != "mod.rs").collect()
 }
 
-/// No line of the program is in the unit that was written for a law that yields, or for the way back from a dent.
+/// The FMU contains no line of the program for a law that yields, or for unloading from a dent.
 #[test]
-fn an_elastic_unit_has_no_code_of_a_plastic_law() {
+fn an_elastic_fmu_has_no_code_of_a_plastic_law() {
     // one at a time: both are built in the same folder
     let plastic = with_names(&scene(true));
     let elastic = with_names(&scene(false));
@@ -149,7 +148,7 @@ fn an_elastic_unit_has_no_code_of_a_plastic_law() {
     assert!(named(&plastic, &unloading).contains("contact_radius.rs"), "{:?}", named(&plastic, &unloading));
     assert_eq!(named(&elastic, &loading), BTreeSet::from(["hertz.rs".to_string()]));
     assert_eq!(named(&elastic, &unloading), BTreeSet::new());
-    // functions of their own, by their mangled names
+    // functions that are not inlined, by their mangled names
     let names = ["path_of_dent", "unloading_segment", "recovered_work", "dissipated_in_dent"];
     let functions = |library: &[u8]| -> Vec<&str> {
         names.into_iter().filter(|name| contains(library, format!("{}{name}", name.len()).as_bytes())).collect()

@@ -1,4 +1,4 @@
-//! Where laws end: a fit that is asked beyond what it can say must refuse, not give numbers that are none.
+//! The ends of laws: a fit must reject what is beyond its range, not return numbers that are not finite.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -8,7 +8,7 @@ use brinell::contact::quadrature::logarithmic_integral;
 use brinell::contact::{History, Pair};
 use physics::{AnyModel, Random, all_models, model, pair_of};
 
-/// Any number over the decades from `10^low` to `10^high`.
+/// Log-uniform numbers from `10^low` to `10^high`.
 fn decades(random: &mut Random, low: f64, high: f64) -> f64 {
     10f64.powf(low + (high - low) * random.next())
 }
@@ -21,7 +21,7 @@ fn bodies(random: &mut Random) -> (f64, Pair) {
     (radius, pair_of(radius, modulus, strength))
 }
 
-/// Force, stiffness, dent, contact radius and energies of the contact must be numbers.
+/// Force, stiffness, dent, contact radius and energies of the contact must be finite.
 fn check(what: &str, history: &History, model: &AnyModel) {
     let shown = [
         ("force", history.force()),
@@ -37,7 +37,7 @@ fn check(what: &str, history: &History, model: &AnyModel) {
 }
 
 #[test]
-fn a_contact_shows_numbers_or_is_refused_for_any_bodies_and_depth() {
+fn a_contact_has_finite_outputs_or_is_refused_for_any_bodies_and_depth() {
     let mut random = Random(2015);
     let (mut shown, mut refused) = (0, 0);
     for _ in 0..400 {
@@ -104,7 +104,7 @@ fn jackson_and_green_end_where_their_fit_overflows() {
     assert!(history.force() > 0.0);
 }
 
-/// A fit whose unit of length is zero counts in infinitely many of them.
+/// A fit with a zero unit of length would have an infinite range.
 #[test]
 fn an_integral_up_to_infinity_ends_and_is_no_number() {
     for (low, high) in [(1.0, f64::INFINITY), (0.0, 1.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {

@@ -1,5 +1,5 @@
-//! Examples with multibody engines, and studies: each example judges itself. What needs a package that can't be installed
-//! here is skipped, and says so.
+//! Examples with multibody engines, and studies. Each example checks its own results. If a package cannot be installed here,
+//! the example is skipped with a message.
 
 #[path = "support/python.rs"]
 mod python;
@@ -19,7 +19,7 @@ fn interpreter() -> Command {
         .env("PYTHONPATH", root().join("python"))
         .env("BRINELL", env!("CARGO_BIN_EXE_brinell"))
         .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
-        // nothing is left behind in the source tree
+        // the source tree stays clean
         .env("PYTHONDONTWRITEBYTECODE", "1");
     command
 }
@@ -28,12 +28,12 @@ fn text(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
 }
 
-/// Past the harness, which keeps what a test prints unless it fails.
+/// Prints past the test harness, which hides the output of a test that passes.
 fn tell(what: &str) {
     writeln!(std::io::stderr(), "{what}").expect("somebody reads");
 }
 
-/// Whether these packages are there; if not, says what is skipped.
+/// Whether these packages are available; if not, prints what is skipped.
 fn have(packages: &[&str], skipped: &str) -> bool {
     let missing: Vec<_> = packages
         .iter()
@@ -48,7 +48,7 @@ fn have(packages: &[&str], skipped: &str) -> bool {
     missing.is_empty()
 }
 
-/// An example with the packages that it needs.
+/// An example with its packages.
 struct Example {
     name: &'static str,
     packages: &'static [&'static str],
@@ -65,8 +65,8 @@ const EXAMPLES: [Example; 7] = [
     Example { name: "ball_in_box", packages: &[], animated: false },
 ];
 
-/// Runs an example, which ends with an error if something isn't right, and looks at its pictures, which `BRINELL_WRITE=1`
-/// puts into the documentation. What it printed, and how long it took [s]; or what is wrong.
+/// Runs an example, which ends with an error if its checks fail, and compares its pictures, which `BRINELL_WRITE=1` copies to
+/// the documentation. Returns its output and its run time [s], or an error message.
 fn run(example: &Example) -> Result<(String, f64), String> {
     let name = example.name;
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
@@ -99,7 +99,7 @@ fn run(example: &Example) -> Result<(String, f64), String> {
     Ok((text, seconds))
 }
 
-/// The largest error of the balance of energy that an example has printed.
+/// The largest error of the energy balance in the output of an example.
 fn balance(text: &str) -> f64 {
     let errors =
         text.lines().filter_map(|line| line.strip_prefix("balance of energy: ")?.split(' ').next()?.parse().ok());
@@ -130,7 +130,7 @@ fn every_example_judges_itself_and_draws_its_pictures() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What is counted, and what isn't, is told in own_lines.py.
+/// own_lines.py defines which lines count.
 #[test]
 fn an_example_is_at_most_forty_lines_of_the_users_own_code() {
     let paths = EXAMPLES.map(|example| root().join("examples").join(example.name).with_extension("py"));
@@ -152,7 +152,7 @@ fn block<'a>(page: &'a str, language: &str) -> &'a str {
     rest.split("```").next().unwrap_or_default()
 }
 
-/// What docs/guide/tools/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
+/// The output in docs/guide/tools/`name`.md is that of its script, with the FMU of the page on MuJoCo.
 fn page(name: &str, packages: &[&str]) {
     if !have(packages, &format!("the page {name}")) {
         return;
@@ -169,7 +169,7 @@ fn page(name: &str, packages: &[&str]) {
     let output = interpreter().args(["-c", block(&page, "python")]).current_dir(folder.path()).output().unwrap();
     assert!(output.status.success(), "{}", text(&output));
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-    // an engine may print more than the script does
+    // an engine may print additional lines
     let shown: Vec<_> = printed.lines().filter(|line| line.contains(" s: ") || line.starts_with("potential")).collect();
     assert_eq!(shown, block(&page, "text").lines().collect::<Vec<_>>(), "{printed}");
 }
@@ -195,7 +195,7 @@ fn the_page_on_fmpy_prints_what_it_shows() {
 }
 
 #[test]
-fn studies_are_run_whole_and_resumed() {
+fn studies_run_completely_and_are_resumed() {
     if !have(&["scipy", "pyarrow", "tqdm", "matplotlib"], "studies") {
         return;
     }

@@ -1,4 +1,4 @@
-//! Every law inside an exported unit.
+//! Every law in an exported FMU.
 
 #[path = "support/command.rs"]
 mod command;
@@ -7,7 +7,7 @@ use command::{empty_folder, run};
 use std::fs;
 
 #[test]
-fn every_law_runs_inside_a_unit_that_has_no_other() {
+fn every_law_runs_inside_an_fmu_that_has_no_other() {
     let folder = empty_folder();
     let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
     let laws = laws["loading"].as_array().unwrap();
@@ -27,14 +27,14 @@ fn every_law_runs_inside_a_unit_that_has_no_other() {
         let checked = run(folder.path(), ["check", "unit.fmu", "--json"]);
         assert_eq!(checked.status, Some(0), "{loading}: {checked:#?}");
     }
-    // a unit with all laws would be larger than its largest part: what isn't named is left out
+    // an FMU with all laws would be larger than its largest part: other laws are left out
     let (smallest, largest) = (sizes.iter().min().unwrap(), sizes.iter().max().unwrap());
     assert_eq!(smallest.1, "hertz", "{sizes:?}");
     assert!(largest.0 < 50_000 && largest.0 > smallest.0 + 10_000, "{sizes:?}");
 }
 
 #[test]
-fn every_rate_dependent_law_runs_inside_a_unit_with_nothing_plastic() {
+fn every_rate_dependent_law_runs_inside_an_fmu_with_nothing_plastic() {
     let folder = empty_folder();
     let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
     let laws = laws["damped"].as_array().unwrap();

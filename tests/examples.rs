@@ -1,4 +1,4 @@
-//! The examples in Rust run to their end: each judges itself.
+//! The Rust examples run to their end. Each checks its own results.
 
 use std::process::Command;
 

@@ -1,4 +1,4 @@
-//! A host may trap floating-point exceptions: no call that succeeds raises one beyond inexact and underflow.
+//! A host may trap floating-point exceptions: a successful call raises none except inexact and underflow.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 #[path = "support/physics.rs"]
@@ -28,11 +28,11 @@ unsafe extern "C" {
     fn fetestexcept(exceptions: i32) -> i32;
 }
 
-/// What `call` gives, and the exceptions that it raised.
+/// The result of `call`, and the exceptions that it raised.
 #[inline(never)]
 fn raised<T>(call: impl FnOnce() -> T) -> (T, i32) {
     let all = INVALID | DIVISION_BY_ZERO | OVERFLOW;
-    // SAFETY: functions of the C library that look at the processor's flags.
+    // SAFETY: functions of the C library that read and clear the processor's flags.
     unsafe {
         feclearexcept(all);
         let result = std::hint::black_box(call());
@@ -40,14 +40,14 @@ fn raised<T>(call: impl FnOnce() -> T) -> (T, i32) {
     }
 }
 
-/// Fails if a call that succeeded raised an exception.
+/// Fails if a successful call raised an exception.
 #[track_caller]
 fn quiet<T, E>(what: impl Fn() -> String, call: impl FnOnce() -> Result<T, E>) {
     let (result, flags) = raised(call);
     assert!(result.is_err() || flags == 0, "{}: exceptions {flags}", what());
 }
 
-/// Makes an instance, lets it live, and looks at the flags after every call.
+/// Creates an instance, uses it, and checks the flags after every call.
 fn live<S: Scene>(name: &str) {
     let (made, flags) = raised(Instance::<S>::new);
     assert_eq!(flags, 0, "{name}: made");

@@ -1,4 +1,4 @@
-//! The command line as its user sees it: exit status, results, the unit and its library.
+//! The command line from the user's point of view: exit status, results, the FMU and its library.
 
 #[path = "support/command.rs"]
 mod command;
@@ -63,9 +63,9 @@ fn every_scene_is_exported_and_agrees_with_its_prediction() {
     }
 }
 
-/// Everything that there is stands on one side or the other.
+/// Every feature is either included or omitted.
 #[test]
-fn what_a_unit_has_and_what_was_left_out_of_it_is_everything_there_is() {
+fn every_feature_is_listed_as_included_or_omitted() {
     let folder = empty_folder();
     let list =
         |value: &serde_json::Value| -> BTreeSet<String> { serde_json::from_value(value.clone()).expect("names") };
@@ -95,7 +95,7 @@ fn what_a_unit_has_and_what_was_left_out_of_it_is_everything_there_is() {
     assert!(list(&elastic["constants"]).contains("impactor.radius"), "{elastic}");
 }
 
-/// Letters of any language, quotation marks, tabs and line ends, and the words that stand for the GUID until it is known.
+/// Letters of any language, quotation marks, tabs, line ends, and the placeholders of the GUID.
 #[test]
 fn a_description_of_any_other_characters_is_exported_and_checked() {
     let folder = empty_folder();
@@ -128,7 +128,7 @@ fn json_has_the_keys_that_programs_read() {
     assert!(materials[0]["youngs_modulus"].as_f64().is_some_and(|modulus| modulus > 1e9), "{materials}");
 }
 
-/// The source tree holds the constants of the default scene, so that the library can be built and tested without export.
+/// The source tree contains the constants of the default scene, so that the library can be built and tested without an export.
 #[test]
 fn the_constants_in_the_source_are_those_of_the_default_scene() {
     let folder = empty_folder();
@@ -138,7 +138,7 @@ fn the_constants_in_the_source_are_those_of_the_default_scene() {
 }
 
 #[test]
-fn a_unit_is_written_to_the_place_asked_for_and_replaces_an_older_one() {
+fn an_fmu_is_written_to_the_requested_path_and_replaces_an_older_one() {
     let folder = empty_folder();
     fs::create_dir(folder.path().join("units")).unwrap();
     fs::write(folder.path().join("units/ball.fmu"), "an older unit").unwrap();
@@ -155,7 +155,7 @@ fn an_output_that_cannot_be_written_is_named() {
     let folder = empty_folder();
     fs::write(folder.path().join("file"), "").unwrap();
     fs::create_dir(folder.path().join("folder.fmu")).unwrap();
-    // a folder without write permission would stop everyone but the superuser, as whom containers run; these stop all
+    // the superuser, as in containers, can write to a folder without write permission; these paths fail for everyone
     for path in ["missing/unit.fmu", "file/unit.fmu", "folder.fmu"] {
         let run = run(folder.path(), ["export", scene("steel_ball").to_str().unwrap(), "-o", path]).with_status(1);
         assert!(run.err.contains(&format!("brinell: {path}: ")) && run.out.is_empty(), "{run:#?}");

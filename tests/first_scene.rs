@@ -1,4 +1,4 @@
-//! `brinell new`, and scenes with mistakes that beginners make.
+//! `brinell new`, and typical errors of beginners in scenes.
 
 #[path = "support/command.rs"]
 mod command;
@@ -22,7 +22,7 @@ fn a_new_scene_is_a_good_one_and_is_not_overwritten() {
     assert_eq!(fs::read_to_string(folder.path().join("hammer.toml")).unwrap(), text);
 }
 
-/// Every commented key is one that a scene takes.
+/// Every commented key is valid in a scene.
 #[test]
 fn every_comment_of_a_new_scene_that_is_a_key_can_be_taken_in() {
     let folder = empty_folder();
@@ -45,7 +45,7 @@ fn every_comment_of_a_new_scene_that_is_a_key_can_be_taken_in() {
 }
 
 #[test]
-fn a_name_that_is_none_is_refused_and_nothing_is_written() {
+fn an_invalid_name_is_refused_and_nothing_is_written() {
     let folder = empty_folder();
     for name in ["4ball", "steel ball", "a\"b", "../ball"] {
         let refused = run(folder.path(), ["new", name]).with_status(2);
@@ -54,7 +54,7 @@ fn a_name_that_is_none_is_refused_and_nothing_is_written() {
     assert!(contents(folder.path()).is_empty());
 }
 
-/// What `brinell predict` says of a scene that is wrong.
+/// The message of `brinell predict` about a wrong scene.
 #[track_caller]
 fn said(text: &str) -> String {
     let folder = empty_folder();
@@ -62,7 +62,7 @@ fn said(text: &str) -> String {
     run(folder.path(), ["predict", "scene.toml"]).with_status(1).err
 }
 
-/// What it doubts in a scene that is not.
+/// The warnings about the plausibility of a valid scene.
 #[track_caller]
 fn doubted(text: &str) -> String {
     let folder = empty_folder();
@@ -84,7 +84,7 @@ speed = 1.0
 ";
 
 #[test]
-fn a_number_with_a_unit_says_the_number_that_is_meant() {
+fn the_message_about_a_number_with_an_fmu_gives_the_number_in_si() {
     for (from, to, hint) in [
         ("radius = 5e-3", "radius = 5mm", "scene.toml:3:10: radius = 5mm: metres, a number without unit: 5e-3"),
         ("radius = 5e-3", "radius = \"5 mm\"", "radius = \"5 mm\": metres, a number without unit: 5e-3"),
@@ -95,7 +95,7 @@ fn a_number_with_a_unit_says_the_number_that_is_meant() {
         ("[impactor]\nradius = 5e-3", "impactor = { radius = \"5 mm\" }", "radius = \"5 mm\": metres"),
     ] {
         let text = SCENE.replacen(from, to, 1);
-        // one line for a table comes before the others
+        // one-line tables come first
         let text = if to.starts_with("impactor") {
             text.replacen("name = \"ball\"\n", &format!("name = \"ball\"\n{to}\n"), 1).replacen(
                 &format!("{to}\n[target]"),
@@ -111,7 +111,7 @@ fn a_number_with_a_unit_says_the_number_that_is_meant() {
 }
 
 #[test]
-fn a_number_that_is_hardly_meant_is_asked_about() {
+fn an_implausible_number_causes_a_question() {
     for (from, to, question) in [
         ("5e-3", "5", "scene.toml:3:10: impactor.radius = 5 m; did you mean 5e-3?"),
         ("206e9", "206", "target.youngs_modulus = 206 Pa; did you mean 206e9?"),
@@ -161,7 +161,7 @@ fn a_typing_mistake_finds_the_word_that_is_meant() {
 }
 
 #[test]
-fn what_there_is_not_is_called_not_supported() {
+fn missing_features_are_called_not_supported() {
     for (from, to) in [
         ("[target]", "[target]\nfriction = 0.3"),
         ("[impact]", "[impact]\nangle = 30"),
@@ -177,7 +177,7 @@ fn what_there_is_not_is_called_not_supported() {
     assert!(said.contains("yield_strength") && said.contains("brinell hardness"), "{said}");
 }
 
-/// A ball of a known density needs no mass; another number overrides that of the material.
+/// A ball of known density needs no mass; an explicit number overrides that of the material.
 #[test]
 fn an_impactor_takes_a_material_and_a_density() {
     let folder = empty_folder();
@@ -209,7 +209,7 @@ fn an_impactor_takes_a_material_and_a_density() {
     assert!(said.contains("missing field `mass` in [impact]") && said.contains("density or material"), "{said}");
 }
 
-/// A scene that names one law has that law's own partner, and so has the law when a prediction is asked for it.
+/// A scene that names only a loading law has its default unloading law, and so has a prediction with that law.
 #[test]
 fn a_law_that_is_named_alone_is_the_same_in_a_scene_and_in_a_prediction() {
     let folder = empty_folder();

@@ -1,6 +1,6 @@
-//! Units in the hands of fmpy, the importer that most Python users have: one test for each file in tests/fmpy/.
+//! FMUs in fmpy, the importer of most Python users: one test for each file in tests/fmpy/.
 //!
-//! The units are exported by the program as a user would do it. The files can be run alone, too: see [`pytest::pytest`].
+//! The program exports the FMUs like for a user. The files can also be run alone: see [`pytest::pytest`].
 
 #[path = "support/pytest.rs"]
 mod pytest;
@@ -13,7 +13,7 @@ use std::fs;
 use std::path::PathBuf;
 use unit::{export, plain_scenes, scene, scenes, steel_ball_with_regime, write_scene};
 
-/// Runs tests/fmpy/`file` with the units of `scenes`.
+/// Runs tests/fmpy/`file` with the FMUs of `scenes`.
 fn pytest(file: &str, scenes: &[PathBuf]) {
     let name = |scene: &PathBuf| scene.file_stem().unwrap().to_string_lossy().into_owned();
     pytest::pytest(file, &scenes.iter().map(|scene| (name(scene), export(scene))).collect());
@@ -73,7 +73,7 @@ fn a_prescribed_history_gives_the_tabulated_forces() {
 }
 
 #[test]
-fn a_contact_that_has_opened_closes_again_where_its_surface_says() {
+fn a_contact_that_has_opened_closes_again_according_to_its_surface() {
     let scenes =
         [reference_case("dented", "contact-radius", "dented"), reference_case("fresh", "contact-radius", "fresh")];
     pytest("test_contact_closes_again.py", &scenes);
@@ -126,10 +126,10 @@ fn with_bodies_of_coupled(name: &str, more: &str) -> PathBuf {
     write_scene(name, &format!("name = \"{name}\"\n{bodies}[impact]\nmass = 4e-3\nspeed = 1.0\n{more}\n"))
 }
 
-/// What can be an input of a unit that knows the mass.
+/// The possible additional inputs of an FMU that knows the mass.
 const BOTH_INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
 
-/// The contact of scenes/mass_known.toml for this kind of master, with these inputs and more outputs.
+/// The contact of scenes/mass_known.toml for this kind of importer, with these inputs and more outputs.
 fn for_master(name: &str, master: &str, inputs: &[&str]) -> PathBuf {
     let text = fs::read_to_string(scene("mass_known")).expect("a scene file");
     let text = text.replacen("\"mass_known\"", &format!("\"{name}\""), 1);
@@ -161,7 +161,7 @@ fn each_way_of_coupling_has_its_error_and_order() {
 }
 
 #[test]
-fn derivatives_and_momentum_mean_what_the_standard_says() {
+fn derivatives_and_momentum_have_the_meaning_of_the_standard() {
     let all_outputs = r#"
 name = "all_outputs"
 impactor = { radius = 10e-3, youngs_modulus = 210e9, poissons_ratio = 0.3 }
@@ -201,7 +201,7 @@ fn messages_are_complete_and_only_where_something_is_wrong() {
 }
 
 #[test]
-fn the_passivity_guard_is_told_when_it_first_acts() {
+fn the_passivity_guard_is_logged_when_it_first_acts() {
     let text = r#"
 name = "guarded"
 impactor = { radius = 5e-3 }
@@ -222,7 +222,7 @@ fn with_unknown_density(name: &str, law: &str, more: &str) -> PathBuf {
 }
 
 #[test]
-fn what_leaves_the_validity_of_the_law_is_told_once() {
+fn leaving_the_validity_of_the_law_is_logged_once() {
     let target = |surface: &str| {
         let numbers = "youngs_modulus = 206e9, poissons_ratio = 0.3, yield_strength = 300e6";
         format!("target = {{ {numbers}, surface = \"{surface}\" }}\n")
@@ -289,6 +289,6 @@ fn simulate_fmu_runs_with_its_defaults() {
 }
 
 #[test]
-fn systems_are_valid_and_run_as_their_unit_does() {
+fn systems_are_valid_and_run_like_their_fmu() {
     pytest("test_ssp.py", &scenes());
 }

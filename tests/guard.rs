@@ -1,4 +1,4 @@
-//! The passivity guard: no impact gains energy, and what needs no guard is as without it.
+//! The passivity guard: no impact gains energy, and laws that need no guard do not change.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -8,7 +8,7 @@ use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Pair};
 use physics::{AnyModel, MASS, laws, loading_force, logarithmic, mild, model, unit, unloading, unloading_force};
 
-/// Loading laws that make energy with some unloading law.
+/// Loading laws that are not passive with some unloading law.
 fn making_energy() -> impl Iterator<Item = &'static str> {
     laws::entries("loading").filter(|law| law.contains_key("energy")).map(|law| laws::text(law, "name"))
 }
@@ -21,7 +21,7 @@ fn with_guard() -> impl Iterator<Item = &'static str> {
 /// The pairings of these, without and with guard.
 fn pairings() -> Vec<(String, AnyModel, AnyModel)> {
     let pairing = |loading: &str, unloading: &str| {
-        // with a target for which all of them make energy: some don't from a Poisson's ratio on
+        // for this target none of them is passive: some are from a certain Poisson's ratio on
         let pair = Pair { poissons_ratio: 0.1, ..mild() };
         let plain = AnyModel { pair, ..model(loading, unloading) };
         let guarded = AnyModel { unloading: plain.unloading.guarded().expect("it has a guarded form"), ..plain };
@@ -31,7 +31,7 @@ fn pairings() -> Vec<(String, AnyModel, AnyModel)> {
     loadings.flat_map(|loading| with_guard().map(move |unloading| pairing(loading, unloading))).collect()
 }
 
-/// Largest indentations [m] from before yield to far beyond everything that gains energy.
+/// Largest indentations [m] from before yield to far beyond every energy gain.
 fn depths() -> impl Iterator<Item = f64> {
     let d_y = unit(&mild()).indentation;
     logarithmic(0.5, 1e5, 1500).map(move |x| x * d_y)
@@ -106,6 +106,6 @@ fn the_laws_with_paths_of_their_own_have_no_guard() {
     for (name, law) in AnyUnloading::ALL {
         assert_eq!(law.guarded().is_some(), with_guard().any(|guarded| guarded == name), "{name}");
     }
-    // nor is a guard guarded again
+    // a guarded law cannot be guarded again
     assert!(unloading("thornton").guarded().and_then(AnyUnloading::guarded).is_none());
 }

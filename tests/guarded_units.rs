@@ -1,4 +1,4 @@
-//! Units with the passivity guard: what is said of it, and that they do what is predicted.
+//! FMUs with the passivity guard: their texts, and their agreement with the prediction.
 
 #[path = "support/command.rs"]
 mod command;
@@ -16,7 +16,7 @@ fn write(folder: &Path, loading: &str, guard: &str) {
     fs::write(folder.join("scene.toml"), scene).unwrap();
 }
 
-/// A file inside the unit.
+/// A file inside the FMU.
 fn inside(folder: &Path, path: &str) -> String {
     let script = "import sys, zipfile; sys.stdout.write(zipfile.ZipFile('unit.fmu').read(sys.argv[1]).decode())";
     command::output(std::process::Command::new("python3").args(["-c", script, path]).current_dir(folder))
@@ -25,7 +25,7 @@ fn inside(folder: &Path, path: &str) -> String {
 }
 
 #[test]
-fn a_guarded_unit_says_where_the_guard_acts_and_does_what_is_predicted() {
+fn a_guarded_fmu_states_where_the_guard_acts_and_agrees_with_the_prediction() {
     let folder = empty_folder();
     for loading in ["stronge", "kogut-etsion", "brake-2012-tangent", "brake-2012-line", "brake-2015", "ghaednia"] {
         write(folder.path(), loading, "passivity_guard = true");
@@ -43,7 +43,7 @@ fn a_guarded_unit_says_where_the_guard_acts_and_does_what_is_predicted() {
 }
 
 #[test]
-fn the_guard_is_off_unless_it_is_asked_for_and_then_nothing_is_said() {
+fn the_guard_is_off_unless_requested_and_then_not_mentioned() {
     let folder = empty_folder();
     let mut constants = Vec::new();
     for guard in ["", "passivity_guard = false"] {
@@ -69,7 +69,7 @@ fn the_guard_is_off_unless_it_is_asked_for_and_then_nothing_is_said() {
 }
 
 #[test]
-fn the_range_that_is_said_ends_where_energy_begins_to_be_lost() {
+fn the_stated_range_of_the_guard_ends_where_energy_begins_to_be_lost() {
     let folder = empty_folder();
     write(folder.path(), "stronge", "passivity_guard = true");
     let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();

@@ -1,4 +1,4 @@
-//! `brinell hardness`: the test of a scene, and the same turned round.
+//! `brinell hardness`: the test of a scene, and the inverse problem.
 
 #[path = "support/command.rs"]
 mod command;
@@ -11,7 +11,7 @@ use std::fs;
 /// A hard ball of 10 mm on steel, as in the test HBW 10/3000.
 const BALL: &str = "name = \"test\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
 
-/// The answer for the scene `text` with these arguments.
+/// The result for the scene `text` with these arguments.
 fn tested(text: &str, arguments: &[&str]) -> Value {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), text).unwrap();
@@ -46,7 +46,7 @@ fn the_numbers_of_a_test_are_those_of_the_standard() {
     }
 }
 
-/// Tabor: in the fully plastic range the mean pressure is some 2.8 to 3 yield strengths.
+/// Tabor: in the fully plastic range, the mean pressure is about 2.8 to 3 yield strengths.
 #[test]
 fn a_fully_plastic_dent_has_some_three_yield_strengths() {
     let answer = tested(BALL, &["--load", "5kN", "--laws", "brinell"]);
@@ -62,7 +62,7 @@ fn a_hardness_turned_round_gives_the_strength_that_made_it() {
         for strength in [50e6, 300e6, 1.2e9] {
             let text = format!("{BALL}yield_strength = {strength:e}\n");
             let dent = tested(&text, &["--load", "2kN", "--laws", law])["laws"][0].clone();
-            // a target too soft for the ball, or not yielding
+            // a target that is too soft for the ball, or does not yield
             let Some(hardness) = dent["brinell_hardness"].as_f64() else { continue };
             let hardness = format!("{hardness:.17e}");
             let found = tested(BALL, &["--load", "2kN", "--laws", law, "--brinell", &hardness])["laws"][0].clone();
@@ -82,7 +82,7 @@ fn a_load_has_a_unit_or_is_in_newtons() {
 }
 
 #[test]
-fn a_dent_too_wide_for_the_law_is_told() {
+fn a_dent_too_wide_for_the_law_causes_a_warning() {
     let warnings = |load: &str| tested(BALL, &["--load", load])["laws"][0]["warnings"].clone();
     let wide = warnings("29.4kN").to_string();
     assert!(wide.contains("a/R = 0.6") && wide.contains("ends at 0.3") && wide.contains("0.24 to 0.6"), "{wide}");
@@ -110,7 +110,7 @@ fn several_laws_are_rows_and_fit_a_terminal() {
 }
 
 #[test]
-fn what_is_no_brinell_test_is_refused() {
+fn scenes_that_are_not_brinell_tests_are_refused() {
     let folder = empty_folder();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("curved.toml", &BALL.replace("[target]", "[target]\nradius = -0.1"));

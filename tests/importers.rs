@@ -1,9 +1,9 @@
-//! Units in the hands of other people's tools: the drivers in tests/importers/, each in a process of its own.
+//! FMUs in other tools: the drivers in tests/importers/, each in its own process.
 //!
-//! Every tool runs the same history of rates, whose forces are those of the C interface, and, if it is a master, a ball that
-//! meets the block, whose restitution is the predicted one. At the end there is one table, also of what didn't run and why.
-//! `BRINELL_IMPORTERS=all` adds the tools that are large (two gigabytes), `BRINELL_IMPORTER_PYTHON` names an interpreter that has
-//! tools which can't be installed from a registry, `BRINELL_WRITE=1` writes the table to docs/importers.md.
+//! Every tool runs the same history of rates, whose forces must be those of the C interface. A co-simulation tool also runs a
+//! ball that hits the block, whose restitution must be the predicted one. The result is a table, including tools that did not
+//! run and the reason. `BRINELL_IMPORTERS=all` adds the large tools (two gigabytes), `BRINELL_IMPORTER_PYTHON` names an
+//! interpreter with tools that no registry provides, `BRINELL_WRITE=1` writes the table to docs/importers.md.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -31,11 +31,11 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Where the interpreter of a driver comes from.
+/// The source of the interpreter of a driver.
 enum Interpreter {
-    /// From a virtual environment, made from this file of requirements.
+    /// A virtual environment with this requirements file.
     Made { requirements: &'static str, large: bool },
-    /// From whoever has this Python package, since no registry has one that can be installed: `BRINELL_IMPORTER_PYTHON`.
+    /// The interpreter in `BRINELL_IMPORTER_PYTHON` with this Python package, if no registry provides an installable one.
     Given { package: &'static str, since: &'static str },
 }
 
@@ -82,18 +82,18 @@ const DRIVERS: [Driver; 10] = [
 /// Tools without a driver.
 const NOT_RUN: [(&str, &str); 1] = [("fmi-sim", "not tried: it is the program of the `fmi` crate, which is run")];
 
-/// Time that no driver needs: one that has taken it hangs.
+/// More time than any driver needs: one that takes longer hangs.
 const HANGS: Duration = Duration::from_secs(300);
 
 const STEPS: u32 = 2000;
 const STEP: f64 = 1e-6;
 
-/// The closing rate [m/s] of a step: presses, lets go until the bodies part, and presses deeper, five times.
+/// The closing rate [m/s] of a step: load, unload until separation, and load deeper, five times.
 fn rate(index: u32) -> f64 {
     0.06 * (TAU * f64::from(index) / 400.3).sin() + 0.006
 }
 
-/// The folder with all that drivers need. `swapped` gives each kind of master the unit of the other kind.
+/// The folder with all files of the drivers. `swapped` gives each kind of importer the FMU for the other kind.
 fn folder(name: &str, swapped: bool) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("importers").join(name);
     let _ = fs::remove_dir_all(&folder);
@@ -113,7 +113,7 @@ fn folder(name: &str, swapped: bool) -> PathBuf {
     folder
 }
 
-/// The ball of scenes/mass_known.toml for a master of this kind. It meets the block within the second microsecond.
+/// The ball of scenes/mass_known.toml for this kind of importer. It touches the block within the second microsecond.
 fn ball(master: &str) -> PathBuf {
     let text = fs::read_to_string(unit::scene("mass_known")).unwrap();
     let text = text.replacen("\"mass_known\"", &format!("\"{master}\""), 1);
@@ -136,7 +136,7 @@ fn pack_mass(folder: &Path) {
     command::output(&mut zip).with_status(0);
 }
 
-/// The forces [N] after each step by the C interface; the history must go through every regime.
+/// The forces [N] after each step through the C interface; the history must pass through every regime.
 fn reference() -> Vec<f64> {
     let unit = Unit::load(&unit::steel_ball_with_regime());
     let mut instance = unit.ready();
@@ -169,7 +169,7 @@ fn python_of(driver: &Driver) -> Result<PathBuf, String> {
     }
 }
 
-/// Runs a driver to its end; its result is in `result` as far as it came.
+/// Runs a driver to its end. Its result is in `result`, possibly incomplete.
 fn run(driver: &Driver, folder: &Path) -> Result<Value, String> {
     let importers = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers");
     let python = python_of(driver)?;
@@ -202,7 +202,7 @@ fn run(driver: &Driver, folder: &Path) -> Result<Value, String> {
     result_of(driver, folder)
 }
 
-/// What a driver has written.
+/// The result that a driver has written.
 fn result_of(driver: &Driver, folder: &Path) -> Result<Value, String> {
     let text = fs::read_to_string(folder.join(driver.name).with_extension("json"));
     let text = text.map_err(|error| format!("no result: {error}"))?;
@@ -213,7 +213,7 @@ fn last_line(text: &str) -> String {
     text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default().to_string()
 }
 
-/// The restitution of the ball by `brinell predict`.
+/// The restitution of the ball according to `brinell predict`.
 fn predicted() -> f64 {
     let run =
         command::run(command::empty_folder().path(), [Path::new("predict"), &ball("serial"), Path::new("--json")]);
@@ -248,7 +248,7 @@ fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitutio
             Ok(result) => table.rows.extend(importer_table::rows(&result, &forces, restitution)),
             Err(reason) if reason.starts_with("can't be installed") => table.not_run.push((driver.name.into(), reason)),
             Err(reason) => {
-                // what it had done before it crashed
+                // the results before the crash
                 let done = result_of(driver, &folder).unwrap_or_default();
                 table.rows.extend(importer_table::rows(&done, &forces, restitution));
                 table.rows.push(Row { failure: Some(reason), ..Row::named(driver.name, "", "-") });
@@ -265,9 +265,9 @@ fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitutio
     }
 }
 
-/// The table can fail: with the unit for the other kind of master the ball is far off.
+/// The table can fail: with the FMU for the other kind of importer, the ball has a large error.
 #[test]
-fn a_unit_for_the_other_kind_of_master_is_seen_in_the_table() {
+fn an_fmu_for_the_other_order_of_execution_shows_in_the_table() {
     let (folder, forces, restitution) = (folder("swapped", true), reference(), predicted());
     let result = run(&DRIVERS[0], &folder).unwrap_or_else(|reason| panic!("{reason}"));
     let rows: Vec<_> = importer_table::rows(&result, &forces, restitution).collect();

@@ -1,4 +1,4 @@
-//! Steps along a course: what the law is asked for, what is exact, and that it doesn't matter how they are cut.
+//! Steps along a course: number of evaluations of the law, exactness, and independence of the division into steps.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -11,10 +11,10 @@ use brinell::scene::{Real, exported::Exported};
 use physics::{Random, mild, model, unit};
 use std::cell::Cell;
 
-/// What is said of every law that is made of segments.
+/// A claim about every law made of segments.
 trait Claim {
-    /// Of a law with these names. A model whose laws are known when it is compiled follows its branches; one whose laws aren't is
-    /// taken piece by piece.
+    /// Checks a law with these names. A model whose laws are known at compile time follows its branches; one whose laws are not
+    /// is processed piece by piece.
     fn check<L: Loading, U: Unloading>(&self, names: [&str; 2], model: &Model<L, U>);
 
     fn check_all(&self) {
@@ -37,7 +37,7 @@ trait Claim {
     }
 }
 
-/// A course of any size, and one that turns as often as not.
+/// A course of any size, which turns in half of the cases.
 fn any_course(random: &mut Random) -> Course {
     let d_y = unit(&mild()).indentation;
     let mut size = || (random.next() - 0.45) * 10f64.powf(3.0 * random.next() - 0.5) * d_y;
@@ -49,7 +49,7 @@ fn part_of(course: &Course, time: f64) -> Course {
     Course { rate: course.rate_after(time), slope: course.slope + course.bend * time, bend: course.bend }
 }
 
-/// A step along `course` by `contact`, its mean force, and how often the model was asked for.
+/// A step along `course` by `contact`, its mean force, and the number of times that the model was requested.
 fn stepped<L: Loading, U: Unloading>(
     contact: &mut History,
     model: &Model<L, U>,
@@ -99,14 +99,14 @@ fn a_course_that_keeps_its_direction_has_one_motion() {
     assert!(kept > 5000, "{kept} only");
 }
 
-/// Work that a clock would show: the law is asked where a branch is left, and nowhere else.
+/// A measure of the work without a clock: the law is evaluated only where a branch is left.
 #[test]
-fn the_law_is_asked_only_where_a_branch_is_left() {
+fn the_law_is_evaluated_only_where_a_branch_is_left() {
     let (loading, unloading) = (loading::BigAlabo::REFERENCE, unloading::ContactRadius);
     let model = Model { pair: mild(), loading, unloading, surface: Surface::Dented };
     let d_y = unit(&mild()).indentation;
     let course = |way: f64| Course { rate: 1.25 * way, slope: -0.5 * way, bend: 0.0 };
-    // depth, way there, and how often the model is asked for: without the mean force, and with it
+    // depth, distance, and number of requests of the model: without the mean force, and with it
     let places = [
         ("on a branch", [3.0, 0.1], 0, 1),
         ("over a corner", [12.0, 4.0], 1, 2),
@@ -122,7 +122,7 @@ fn the_law_is_asked_only_where_a_branch_is_left() {
         assert_eq!((one.force(), one.indentation()), (other.force(), other.indentation()), "{name}");
         assert!(way < -2.0 || one.regime() != Regime::Apart, "{name}");
     }
-    // one that turns twice, on the way back
+    // a course that turns twice, during unloading
     let mut contact = History::start(&model, -150.0 * d_y).unwrap();
     contact.advance(&model, -5.0 * d_y).unwrap();
     let turning = Course { rate: 0.1875 * d_y, slope: -d_y, bend: 2.0 * d_y };
@@ -130,7 +130,7 @@ fn the_law_is_asked_only_where_a_branch_is_left() {
     assert_eq!(asked(&mut contact, &model, &turning, 1.0), 0);
 }
 
-/// Powers of time and of `1 + time`, whose integrals are known: the force begins, ends, or is far from its beginning.
+/// Powers of time and of `1 + time`, whose integrals are known: the force begins, ends, or is far from its start.
 #[test]
 fn the_impulse_of_a_power_is_exact() {
     let (loading, unloading) = (loading::Hertz, unloading::OriginalRadius);
@@ -149,7 +149,7 @@ fn the_impulse_of_a_power_is_exact() {
         check(0.0, Course { rate: 0.0, slope: 0.0, bend: 6.0 * size }, power / 5.5, "t^3");
         check(size, Course { rate: -2.0 * size, slope: 2.0 * size, bend: 0.0 }, power / 4.0, "(1 - t)^2");
         for part in [-1.0, -1.0 + 1e-9, -0.9, -0.3, -1e-3, -1e-9, 1e-9, 1e-3, 0.3, 3.0, 1e3, 1e9] {
-            // without the digits that cancel
+            // without cancellation
             let mean = |power: f64| f64::exp_m1((power + 1.0) * f64::ln_1p(part)) / ((power + 1.0) * part);
             let what = format!("{size:e} m, {part}");
             let (one, two) = (part * size, part * part * size);
@@ -161,7 +161,7 @@ fn the_impulse_of_a_power_is_exact() {
     }
 }
 
-/// The impulse along the branches against that of the pieces of the law.
+/// Compares the impulse along the branches with that of the pieces of the law.
 struct AsByPieces;
 
 impl Claim for AsByPieces {
@@ -195,7 +195,7 @@ fn the_impulse_along_branches_is_that_of_the_pieces_of_the_law() {
     AsByPieces.check_all();
 }
 
-/// A step in one and in many.
+/// Compares one step with many.
 struct AsItsParts;
 
 impl Claim for AsItsParts {
@@ -215,7 +215,7 @@ impl Claim for AsItsParts {
                 largest = f64::max(largest, mean.abs());
             }
             let what = format!("{names:?}, {:?}, {course:?} in {parts} parts", model.surface);
-            // the ends of the parts are rounded, as parts of the largest way
+            // the ends of the parts have rounding errors relative to the largest distance
             let ways = course.rate.abs() + course.slope.abs() + course.bend.abs();
             let reached = 1e-14 * ways + 1e-15 * whole.max_indentation();
             assert!((whole.indentation() - cut.indentation()).abs() <= reached, "{what}");
@@ -237,7 +237,7 @@ fn ready() -> Instance<Exported> {
     instance
 }
 
-/// A derivative that was set before an instance was made the same as another once came back with the next one.
+/// A derivative that was set before an instance was restored once reappeared in a later step.
 #[test]
 fn a_derivative_of_a_state_that_was_left_is_forgotten() {
     for plainly in [false, true] {
@@ -257,7 +257,7 @@ fn a_derivative_of_a_state_that_was_left_is_forgotten() {
     }
 }
 
-/// The ways into an instance that are quick set and refuse what the others do.
+/// The fast functions of an instance set and reject the same as the others.
 #[test]
 fn quick_steps_with_derivatives_are_those_that_are_not() {
     let mut random = Random(8);

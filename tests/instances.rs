@@ -1,6 +1,6 @@
 //! Instances of one contact, of several, of rate-dependent laws and of known mass, as ordinary values: no export, no C.
 //!
-//! The same tests run under the address sanitizer; see `tests/sanitizer.rs`.
+//! The same tests run under the address sanitizer, see `tests/c_functions.rs`.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -41,7 +41,7 @@ fn some_pairings() -> Vec<(String, Choice)> {
     every_pairing().into_iter().filter(|(name, _)| wanted.contains(&name.as_str())).collect()
 }
 
-/// Drives all contacts through yield, reversal, flight and new contacts, and gives what they show after each step.
+/// Moves all contacts through yield, reversal, flight and new contacts, and returns their outputs after each step.
 fn drive<S: Scene>(instance: &mut Instance<S>, steps: usize, seed: u64) -> Vec<f64> {
     let mut random = Random(seed);
     let mut shown = Vec::new();
@@ -60,7 +60,7 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
-/// What every kind of instance does: finite outputs, the same from a copy, from words and after a reset.
+/// Every kind of instance has finite outputs, and the same ones from a copy, from words and after a reset.
 fn behaves<S: Scene>(name: &str) {
     let mut instance = ready::<S>();
     let first = drive(&mut instance, 40, 7);
@@ -125,7 +125,7 @@ fn a_contact_among_several_does_what_it_does_alone() {
     }
 }
 
-/// The look-ahead once believed that only a rate above 1e40 m/s can be refused; laws that are fits refuse too.
+/// The look-ahead once assumed that only a rate above 1e40 m/s can fail; fitted laws can fail too.
 #[test]
 fn a_refused_step_of_several_contacts_moves_none_of_them() {
     let pairings = every_pairing();
@@ -137,7 +137,7 @@ fn a_refused_step_of_several_contacts_moves_none_of_them() {
     instance.do_step(0.0, 1e-6).unwrap();
     let before = words(&instance);
     let time = instance.time();
-    // the other order of success: the last contact is the one that is refused
+    // the other order: the last contact fails
     (0..4).for_each(|contact| set_rate(&mut instance, contact, 1e-6));
     let moved = words(&instance);
     let refused = instance.do_step(time, 1.0).unwrap_err();
@@ -151,7 +151,7 @@ fn a_refused_step_of_several_contacts_moves_none_of_them() {
 }
 
 #[test]
-fn rates_and_times_beyond_all_reason_are_refused_by_name() {
+fn unreasonable_rates_and_times_are_refused_by_name() {
     choose(some_pairings()[0].1);
     let mut instance = ready::<One>();
     for rate in [1.1 * FASTEST, -1e300, f64::MAX] {
@@ -173,7 +173,7 @@ fn rates_and_times_beyond_all_reason_are_refused_by_name() {
     for start in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN, -f64::MAX, 1.1 * LATEST, -1.1 * LATEST] {
         assert!(matches!(made.set_experiment(start, None), Err(Fault::Experiment { .. })), "{start}");
     }
-    // a start time of -DBL_MAX once let a step through in Initialization Mode
+    // a start time of -DBL_MAX once allowed a step in Initialization Mode
     for start in [0.0, -LATEST, LATEST] {
         let mut made = Instance::<One>::new().unwrap();
         made.set_experiment(start, None).unwrap();
@@ -187,7 +187,7 @@ fn rates_and_times_beyond_all_reason_are_refused_by_name() {
 }
 
 #[test]
-fn the_fastest_rates_over_the_longest_steps_show_numbers_or_are_refused() {
+fn the_fastest_rates_over_the_longest_steps_give_finite_outputs_or_are_refused() {
     for (name, choice) in every_pairing() {
         choose(choice);
         for rate in [FASTEST, -FASTEST, 1e-300, -1e-300, 5e-324, 1e20] {
@@ -230,7 +230,7 @@ fn states_of_parameters_that_do_not_fit_come_back_from_their_own_words() {
     let bytes: Vec<[u8; 8]> = failed.iter().map(|word| word.to_le_bytes()).collect();
     let mut again = Instance::<One>::new().unwrap();
     assert!(again.load(&bytes), "in the error state, too");
-    // but no simulation goes on with such bodies
+    // but no simulation continues with such bodies
     let mut ready_words = words(&ready::<One>());
     ready_words[5] = 2e3f64.to_bits();
     let bytes: Vec<[u8; 8]> = ready_words.iter().map(|word| word.to_le_bytes()).collect();
@@ -251,7 +251,7 @@ fn equal_states_have_equal_words_whatever_came_before() {
     assert_eq!(words(&curved), words(&plain));
 }
 
-/// Derivatives by time, against differences of the outputs over the steps that follow.
+/// Compares derivatives with respect to time with differences of the outputs over the following steps.
 #[test]
 fn derivatives_of_every_output_are_those_of_its_course() {
     for (name, choice) in every_pairing() {
@@ -306,7 +306,7 @@ fn derivatives_of_every_output_are_those_of_its_course() {
     }
 }
 
-/// Once NaN with every law that is no segment: the surface has no width to look at.
+/// This was once NaN for every law without segments: the surface has no width.
 #[test]
 fn derivatives_before_the_first_step_are_numbers() {
     for gap in [0.0, 1e-6, -1e-6, -5e-324, 5e-324] {
@@ -330,7 +330,7 @@ fn derivatives_before_the_first_step_are_numbers() {
     }
 }
 
-/// dF/d(rate) and the like, against differences of outputs at two rates.
+/// Compares derivatives such as dF/d(rate) with differences of outputs at two rates.
 #[test]
 fn derivatives_by_the_input_are_those_of_the_outputs() {
     fn check<S: Scene>(name: &str) {
@@ -353,7 +353,7 @@ fn derivatives_by_the_input_are_those_of_the_outputs() {
                 let exact = instance.derivative_by_input((output, 0), input).unwrap();
                 let differences = above.real((output, 0)) - below.real((output, 0));
                 let slope = differences / (2.0 * width);
-                // a corner of the law between the two is no mistake
+                // a corner of the law between the two is not an error
                 let one_sided = (above.real((output, 0)) - instance.real((output, 0))) / width;
                 let smooth = (one_sided - slope).abs() < 1e-3 * slope.abs();
                 let size = instance.real((output, 0)).abs() / rate.abs();
@@ -382,7 +382,7 @@ fn derivatives_by_the_input_are_those_of_the_outputs() {
     }
 }
 
-/// A contact that is touched at next to no speed once had more damping than there are numbers.
+/// A contact that was touched at almost zero speed once had an infinite damping.
 #[test]
 fn a_rate_dependent_contact_can_be_touched_at_next_to_no_speed() {
     for (name, damped) in AnyDamped::ALL {
@@ -390,7 +390,7 @@ fn a_rate_dependent_contact_can_be_touched_at_next_to_no_speed() {
             choose(Choice { damped, ..some_pairings()[0].1 });
             let mut instance = ready::<DampedOne>();
             set_rate(&mut instance, 0, rate);
-            // one micrometre in
+            // indentation of one micrometre
             instance.do_step(0.0, if rate > 1e-50 { 1e-6 / rate } else { 1e49 }).unwrap_or_else(|fault| {
                 panic!("{name} at {rate} m/s: {fault:?}");
             });
@@ -400,7 +400,7 @@ fn a_rate_dependent_contact_can_be_touched_at_next_to_no_speed() {
     }
 }
 
-/// The laws of a scene that is read from memory are those of a scene of constants, to the bit.
+/// The laws of a scene that is read from memory equal those of a scene of constants, bit for bit.
 #[test]
 fn a_scene_from_memory_does_what_one_of_constants_does() {
     let (_, loading) = AnyLoading::ALL.into_iter().find(|(name, _)| *name == "big-alabo").unwrap();

@@ -1,4 +1,4 @@
-//! The same scene gives the same bytes, whatever surrounds the export: settings, other exports, and files that strangers left.
+//! The same scene gives the same bytes, whatever the environment of the export: settings, other exports, and foreign files.
 #![cfg(unix)]
 
 #[path = "support/command.rs"]
@@ -17,23 +17,23 @@ fn the_same_scene_gives_the_same_bytes() {
 }
 
 #[test]
-fn the_cache_does_not_show_in_the_unit() {
+fn the_cache_does_not_affect_the_fmu() {
     let other = empty_folder();
     let new = other.path().join("new");
     assert_same(&exported(|command| command), &exported(|command| command.env("BRINELL_CACHE", new)));
 }
 
 #[test]
-fn the_folder_of_temporary_files_does_not_show_in_the_unit() {
+fn the_folder_of_temporary_files_does_not_affect_the_fmu() {
     let other = empty_folder();
     assert_same(&exported(|command| command), &exported(|command| command.env("TMPDIR", other.path())));
     assert!(contents(other.path()).is_empty(), "temporary files were left");
 }
 
-/// Whoever builds for the own processor, or without optimization, says so for the own programs, not for units. A linker, a
-/// wrapper or a target would be seen at once: there is none of these names. The registry isn't needed.
+/// Users who build for their own processor, or without optimization, mean their own programs and not FMUs. A linker, a wrapper
+/// or a target would fail at once, because these names do not exist. The registry is not needed.
 #[test]
-fn no_setting_in_the_environment_shows_in_the_unit() {
+fn no_setting_in_the_environment_affects_the_fmu() {
     let settings = [
         ("RUSTFLAGS", "-Ctarget-cpu=native -Cdebuginfo=2"),
         ("CARGO_ENCODED_RUSTFLAGS", "-Copt-level=0"),
@@ -62,7 +62,7 @@ fn no_setting_in_the_environment_shows_in_the_unit() {
         ("LDFLAGS", "-Wl,-rpath,/tmp/libraries"),
         ("LC_ALL", "de_DE.UTF-8"),
     ];
-    // a cache of its own, so that what these settings leave there meets no other test
+    // its own cache, so that files created with these settings affect no other test
     let own = empty_folder();
     let exported_with = |settings: &[(&str, &str)]| {
         let settings = settings.iter().copied();
@@ -75,7 +75,7 @@ fn no_setting_in_the_environment_shows_in_the_unit() {
     }
 }
 
-/// What a `.cargo/config.toml` can say that would change bytes, or run a stranger's program.
+/// Settings in a `.cargo/config.toml` that would change bytes or run a foreign program.
 fn hostile_configuration(linker: &Path) -> String {
     let linker = linker.display();
     format!(
@@ -88,8 +88,8 @@ fn hostile_configuration(linker: &Path) -> String {
     )
 }
 
-/// A home with a folder of temporary files, a cache and a working folder deep inside, and hostile files above them all; what
-/// they would have run is `ran`.
+/// A home directory with a folder of temporary files, a cache and a working folder deep inside, and hostile files above them
+/// all. If they ran, they would create `ran`.
 struct Home {
     folder: tempfile::TempDir,
     ran: PathBuf,
@@ -115,7 +115,7 @@ impl Home {
         Home { folder, ran }
     }
 
-    /// The unit, exported with this home by the compiler on PATH; with no variable that would choose another one.
+    /// The FMU, exported with this home by the compiler on PATH, without variables that would select another compiler.
     fn exported(&self) -> Vec<u8> {
         let home = self.folder.path();
         let rustup = env::var_os("RUSTUP_HOME").map(PathBuf::from);
@@ -130,15 +130,15 @@ impl Home {
     }
 }
 
-/// On a shared machine the folder of temporary files is everybody's: a stranger's linker ran as the exporting user.
+/// On a shared machine, everybody can write to the folder of temporary files: a foreign linker once ran as the exporting user.
 #[test]
-fn no_file_above_the_build_changes_the_unit_or_is_run() {
+fn no_file_above_the_build_changes_the_fmu_or_is_run() {
     let (plain, hostile) = (Home::new(false), Home::new(true));
     assert_same(&plain.exported(), &hostile.exported());
     assert!(!hostile.ran.exists(), "a program that a configuration names was run");
 }
 
-/// Both compile what the other one may have in the cache already.
+/// Both compile files that the other one may already have in the cache.
 #[test]
 fn exports_of_one_scene_at_the_same_time_do_not_disturb_each_other() {
     let plain = exported(|command| command);
@@ -152,9 +152,9 @@ fn exports_of_one_scene_at_the_same_time_do_not_disturb_each_other() {
     });
 }
 
-/// A unit is some ten kilobytes, but every change of a parameter makes a new one.
+/// An FMU has some tens of kilobytes, but every change of a parameter creates a new one.
 #[test]
-fn units_do_not_pile_up_in_the_cache() {
+fn fmus_do_not_accumulate_in_the_cache() {
     let own = empty_folder();
     for _ in 0..2 {
         exported(|command| command.env("BRINELL_CACHE", own.path()));
@@ -163,9 +163,9 @@ fn units_do_not_pile_up_in_the_cache() {
     assert!(left.len() == 1 && left[0].starts_with("libm-"), "{left:?}");
 }
 
-/// An export that was killed can't clean up.
+/// An export that was killed cannot clean up.
 #[test]
-fn what_a_stopped_export_has_left_goes_after_a_day() {
+fn files_of_a_killed_export_are_removed_after_a_day() {
     let own = empty_folder();
     for (name, hours) in [("build-old", 48), ("build-new", 1), ("other", 48)] {
         let path = own.path().join(name);
@@ -180,14 +180,14 @@ fn what_a_stopped_export_has_left_goes_after_a_day() {
 }
 
 #[test]
-fn the_folder_that_units_are_built_in_is_made_for_its_owner_alone() {
+fn only_the_owner_can_access_the_build_folder() {
     let home = empty_folder();
     exported(|command| command.env_remove("BRINELL_CACHE").env("XDG_CACHE_HOME", home.path().join("new/cache")));
     let mode = |path: &str| fs::metadata(home.path().join(path)).unwrap().permissions().mode() & 0o777;
     assert_eq!([mode("new"), mode("new/cache"), mode("new/cache/brinell")], [0o700; 3]);
 }
 
-/// The refused export of the default scene with this cache; its message.
+/// The message of the rejected export of the default scene with this cache.
 #[track_caller]
 fn refused(cache: &OsStr) -> String {
     let folder = empty_folder();
@@ -198,7 +198,7 @@ fn refused(cache: &OsStr) -> String {
 }
 
 #[test]
-fn a_folder_that_others_can_write_to_is_not_built_in() {
+fn a_folder_that_others_can_write_to_is_not_used_for_the_build() {
     let folder = empty_folder();
     for mode in [0o777, 0o1777, 0o770, 0o702] {
         fs::set_permissions(folder.path(), fs::Permissions::from_mode(mode)).unwrap();
@@ -209,9 +209,9 @@ fn a_folder_that_others_can_write_to_is_not_built_in() {
     }
 }
 
-/// Only the superuser can give a folder to somebody else, and so only where the tests run as one is this tried.
+/// Only the superuser can give a folder to another user, so this is tried only if the tests run as superuser.
 #[test]
-fn a_folder_or_link_of_somebody_else_is_not_built_in() {
+fn a_folder_or_link_of_another_user_is_not_used_for_the_build() {
     let folder = empty_folder();
     let (theirs, link) = (folder.path().join("theirs"), folder.path().join("link"));
     fs::create_dir(&theirs).unwrap();
@@ -238,7 +238,7 @@ fn a_cache_that_is_a_file_is_named() {
     assert_eq!(contents(folder.path()), ["cache"], "files were left");
 }
 
-/// The compiler runs in a folder of its own, so that a relative path would mean another place there.
+/// The compiler runs in another folder, where a relative path would have another meaning.
 #[test]
 fn a_relative_cache_is_relative_to_the_current_folder() {
     let folder = empty_folder();
@@ -247,7 +247,7 @@ fn a_relative_cache_is_relative_to_the_current_folder() {
     assert_eq!(contents(folder.path()), ["elastic.fmu", "own cache"]);
 }
 
-/// Rather than building where everybody can write.
+/// It must not build where everybody can write.
 #[test]
 fn without_any_cache_the_message_names_what_is_missing() {
     let folder = empty_folder();

@@ -1,5 +1,5 @@
-//! The loading curve of Brizmer et al.: the published formulas, evaluated elsewhere with thirty digits, no corner at yield, and
-//! how near it is to others' finite elements.
+//! The loading curve of Brizmer et al.: the published formulas, evaluated independently with thirty digits; no corner at yield;
+//! and the distance to finite-element results of others.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -95,7 +95,7 @@ fn the_curve_leaves_hertzs_without_a_corner() {
             let at = d_c * (1.0 + part);
             let hertz = pair.hertz_stiffness() * (at * at.sqrt());
             let segment = law.segment(&pair, at);
-            // the exponential is below 1e-40 up to there
+            // the exponential is below 1e-40 up to this point
             assert_eq!(segment.force(at), hertz, "{part} beyond yield");
             let slope = segment.stiffness(at) * at / hertz;
             assert!((slope - 1.5).abs() < 1e-14, "{slope} at {part} beyond yield");
@@ -103,8 +103,8 @@ fn the_curve_leaves_hertzs_without_a_corner() {
     }
 }
 
-/// Kogut and Etsion fitted their own finite elements of the same contact, without friction (nu = 0.3): within 4 % for force and
-/// 8 % for area, but for the jumps of their fits at 1 and 110 d_c.
+/// Kogut and Etsion fitted their own finite elements of the same frictionless contact (nu = 0.3): within 4 % in force and 8 %
+/// in area, except at the jumps of their fits at 1 and 110 d_c.
 #[test]
 fn force_and_area_are_near_those_of_kogut_and_etsion() {
     let (law, other) = (model("brizmer", "contact-radius"), model("kogut-etsion", "contact-radius"));
@@ -119,12 +119,12 @@ fn force_and_area_are_near_those_of_kogut_and_etsion() {
     }
 }
 
-/// The law `brinell` is fitted to the truth within half a percent.
+/// The law `brinell` is fitted to the finite elements within half a percent.
 #[test]
 fn force_and_area_are_within_some_percent_of_the_truth_as_far_as_the_fit_goes() {
     let (law, truth) = (model("brizmer", "contact-radius"), model("brinell", "brinell"));
     let unit = law.loading.yield_point(&law.pair);
-    // largest indentation [d_c], and how far force and area may be off up to there
+    // largest indentation [d_c], and the largest error of force and area up to it
     for (last, allowed) in [(50.0, 0.045), (110.0, 0.09)] {
         let largest = (0..=100).map(|step| f64::powf(last, f64::from(step) / 100.0)).fold(0.0f64, |largest, y| {
             let (got, expected) = (law.peak(y * unit.indentation), truth.peak(y * unit.indentation));

@@ -1,4 +1,4 @@
-//! Whether a law makes energy: the table of laws says it for all bodies that a unit takes.
+//! Passivity of the laws: the table of laws describes it for all bodies that an FMU accepts.
 
 #[path = "support/command.rs"]
 mod command;
@@ -13,10 +13,10 @@ use physics::laws::{entries, entry, text};
 use physics::{AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit};
 use std::fs;
 
-/// A surplus up to this part of the work is rounding, and that of integrals.
+/// A surplus up to this fraction of the work is attributed to rounding and to the integrals.
 const ROUNDING: f64 = 1e-10;
 
-/// Rising indentations [m] from far below yield to far beyond it, and on both sides of each corner.
+/// Increasing indentations [m] from far below yield to far beyond it, and on both sides of each corner.
 fn indentations(model: &AnyModel) -> Vec<f64> {
     let d_y = unit(&model.pair).indentation;
     let mut points: Vec<f64> = logarithmic(1e-2 * d_y, 1e5 * d_y, 250).collect();
@@ -28,18 +28,18 @@ fn indentations(model: &AnyModel) -> Vec<f64> {
     points
 }
 
-/// The loading of a law on some bodies: indentations [m] with the work up to there [J], as far as the law goes.
+/// The loading with a law on some bodies: indentations [m] with the work up to there [J], as far as the law is defined.
 struct Loaded {
     pair: Pair,
     loading: AnyLoading,
     points: Vec<(f64, f64)>,
 }
 
-/// What comes back of it.
+/// The energy that unloading returns.
 #[derive(Debug)]
 struct Returned {
     largest_restitution: f64,
-    /// How far what is lost falls again, over the work.
+    /// The largest decrease of the dissipated energy, over the work.
     fall: f64,
 }
 
@@ -65,13 +65,13 @@ impl Loaded {
     }
 }
 
-/// The unloading laws with which a loading law makes sense.
+/// The unloading laws with which a loading law can be combined.
 fn partners(loading: &str) -> impl Iterator<Item = (&'static str, AnyUnloading)> {
     AnyUnloading::ALL.into_iter().filter(move |(unloading, _)| belong_together(loading, unloading))
 }
 
 #[test]
-fn laws_that_are_said_to_be_passive_are_it_for_any_bodies() {
+fn laws_listed_as_passive_are_passive_for_any_bodies() {
     let mut random = Random(2005);
     let (mut passive, mut others) = (0, 0);
     for (name, loading) in AnyLoading::ALL {
@@ -94,14 +94,14 @@ fn laws_that_are_said_to_be_passive_are_it_for_any_bodies() {
 }
 
 #[test]
-fn laws_that_are_not_said_to_be_passive_make_energy_below_where_they_are() {
+fn laws_not_listed_as_passive_gain_energy_below_their_limit() {
     for (name, loading) in AnyLoading::ALL {
         for (unloading_name, unloading) in partners(name) {
             let from = passive_from(name, unloading_name).unwrap_or(0.5);
             if from <= -0.99 {
                 continue;
             }
-            // so that the border is no further off than 0.02
+            // so that the limit is off by at most 0.02
             let makes_energy = [3.0, 1e3].into_iter().any(|modulus_ratio| {
                 let pair = pair_of(0.005, 2e11, 2e11 / modulus_ratio);
                 let loaded = Loaded::new(loading, Pair { poissons_ratio: from - 0.02, ..pair });
@@ -113,7 +113,7 @@ fn laws_that_are_not_said_to_be_passive_make_energy_below_where_they_are() {
 }
 
 #[test]
-fn the_largest_restitution_with_the_own_unloading_law_is_the_one_that_is_said() {
+fn the_largest_restitution_with_the_own_unloading_law_is_the_listed_one() {
     let mut random = Random(1997);
     for (name, loading) in AnyLoading::ALL {
         let law = entry("loading", name);
@@ -123,19 +123,19 @@ fn the_largest_restitution_with_the_own_unloading_law_is_the_one_that_is_said() 
         for (key, low, high) in [("restitution", 0.0, 0.5), ("auxetic_restitution", -0.99, -1e-9)] {
             let said = energy[key].as_float().unwrap();
             let mut largest = 0.0f64;
-            // the worst is at an end of the range, or nearly, for some of the moduli
+            // for some moduli, the maximum is at or near an end of the range
             for step in 0..24 {
                 let poissons_ratio = if step % 2 == 0 { low } else { low + (high - low) * random.next() };
                 let pair = Pair { poissons_ratio, ..random_bodies(&mut random) };
                 largest = largest.max(Loaded::new(loading, pair).returned(unloading).largest_restitution);
             }
-            // three decimals, and what lies between the indentations that are looked at
+            // three decimals, and the error between the indentations that are evaluated
             assert!((largest - said).abs() < 1e-3, "{name} with {own}, {key}: {largest}, not {said}");
         }
     }
 }
 
-/// What the documentation of a unit says of energy, for a scene with these lines under `[law]`.
+/// The statement about energy in the documentation of an FMU, for a scene with these lines under `[law]`.
 fn said(law: &str, parameters: &str) -> String {
     let folder = empty_folder();
     let scene = format!(
@@ -151,9 +151,9 @@ fn said(law: &str, parameters: &str) -> String {
 }
 
 #[test]
-fn a_unit_says_whether_its_law_may_make_energy_with_any_value_of_its_parameters() {
+fn an_fmu_states_whether_its_law_may_gain_energy_for_any_value_of_its_parameters() {
     let none = "make no energy: dissipated energy never falls";
-    // law, settable parameters, what is said
+    // law, settable parameters, statement
     let cases = [
         ("loading = \"big-alabo\"", "[]", none),
         ("loading = \"stronge\"", "[]", "may make energy: dissipated energy may fall"),
@@ -164,14 +164,14 @@ fn a_unit_says_whether_its_law_may_make_energy_with_any_value_of_its_parameters(
             "[]",
             "With the guard, no contact returns more energy than it took",
         ),
-        // steel has 0.3; a unit whose Poisson's ratio can be set is another matter
+        // steel has 0.3; an FMU whose Poisson's ratio can be set is different
         ("loading = \"jackson-green\"\nunloading = \"jackson\"", "[\"target.yield_strength\"]", none),
         (
             "loading = \"jackson-green\"\nunloading = \"jackson\"",
             "[\"target.poissons_ratio\"]",
             "may make energy below a Poisson's ratio of 0.02",
         ),
-        // constants of the scene's own
+        // with the scene's own constants
         ("loading = \"big-alabo\"\nloading_parameters = { fully_plastic = 80.0 }", "[]", none),
         ("loading = \"power\"\nloading_parameters = { coefficient = 2.5 }", "[]", "may make energy"),
         (
@@ -187,7 +187,7 @@ fn a_unit_says_whether_its_law_may_make_energy_with_any_value_of_its_parameters(
 }
 
 #[test]
-fn laws_are_listed_with_what_was_measured_of_them() {
+fn laws_are_listed_with_their_measurements() {
     let folder = empty_folder();
     let list = run(folder.path(), ["laws", "--json"]).with_status(0).json();
     for law in list["loading"].as_array().unwrap() {
@@ -209,7 +209,7 @@ fn laws_are_listed_with_what_was_measured_of_them() {
     assert_eq!(list["loading"].as_array().unwrap().len(), entries("loading").count());
 }
 
-/// A row of the guide's table, as `brinell laws` measures it.
+/// A row of the guide's table, from the measurements of `brinell laws`.
 fn row(law: &serde_json::Value) -> String {
     let number = |key: &str| law[key].as_f64().unwrap();
     let word = |key: &str| law[key].as_str().unwrap();

@@ -1,4 +1,4 @@
-//! Johnson's loading curve: the mean pressures he gives, the geometry in between, and his limit of restitution.
+//! Johnson's loading curve: his mean pressures, the geometry in between, and his limit of the restitution.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -54,7 +54,7 @@ fn the_contact_is_fully_plastic_at_73_6_and_not_at_johnsons_30_to_40() {
 fn the_slope_jumps_as_documented() {
     let law = Johnson::REFERENCE;
     let (pair, point) = (mild(), law.yield_point(&mild()));
-    // border in yield indentations, slope below and above [F_y/d_y]
+    // boundary in yield indentations, slope below and above [F_y/d_y]
     let borders = [(1.0, 1.5, 2.0), (2.958_032_935_524, 2.0, 2.606), (403.671_250_290_7, 5.697, 5.091)];
     let mut corner = 0.0;
     for (border, below, above) in borders {
@@ -93,11 +93,11 @@ fn just_beyond_yield_an_impact_gains_energy_as_documented() {
     assert!(restitution(1.58) > 1.0 && restitution(1.60) < 1.0);
 }
 
-/// Fully plastic, `a^2 = 2 R d` from the surface on: the limit of Johnson's section 11.5, with its tables.
-///
-/// In units of `F_y d_y` the work of the present curve is `(c/p_Y) u^2/4 + K`, `K = 0.15 - (u_p^2 - u_2^2)/(24 p_Y)`, beyond
-/// the border `u_p`, and that of the limit the same without `K`. So at a given energy `W` `u` differs by the factor
-/// `s = (1 - K/W)^(1/2)`, which is how the limit is approached: `K` is -24600 for `c = 2.8`, `W = 0.4 (v/v_y)^2`.
+/// Fully plastic, `a^2 = 2 R d` from the surface on: the limit of Johnson's section 11.5, with tables computed from it.
+/// In units of `F_y d_y`, the work of the present curve beyond the boundary `u_p` is `(c/p_Y) u^2/4 + K` with
+/// `K = 0.15 - (u_p^2 - u_2^2)/(24 p_Y)`; that of the limit is the same without `K`. At a given energy `W`, `u` therefore
+/// differs by the factor `s = (1 - K/W)^(1/2)`, which describes how the limit is approached: `K` is -24600 for `c = 2.8`,
+/// `W = 0.4 (v/v_y)^2`.
 #[test]
 fn fast_impacts_approach_the_fully_plastic_limit_as_its_asymptotics_say() {
     // speeds [m/s], restitution, largest force [N], largest indentation [m] of the limit
@@ -120,12 +120,13 @@ fn fast_impacts_approach_the_fully_plastic_limit_as_its_asymptotics_say() {
             let what = format!("{plastic_pressure_factor} S at {speed} m/s");
             agrees(&what, prediction.restitution / factor.powf(0.75), limit, 8);
             agrees_in_digits(&what, prediction.max_force / factor, limit_force, 7);
-            // d = (u + 1) d_y/2 for a given u, where the limit has u d_y/2 = a^2/(2 R)
+            // d = (u + 1) d_y/2 for a given u; the limit has u d_y/2 = a^2/(2 R)
             let hertzian = prediction.max_contact_radius.powi(2) / (2.0 * model.pair.radius);
             let depth = hertzian + 0.5 * unit.indentation;
             assert!((prediction.max_indentation / depth - 1.0).abs() < 1e-14, "{what}");
         }
-        // (3/8) K/W: 0.32 % away from the limit at 5 m/s for 2.8 S, at 100 m/s 8e-6 for 2.8 S and 3e-5 for 3.0 S
+        // (3/8) K/W: a distance from the limit of 0.32 % at 5 m/s for 2.8 S, and at 100 m/s of 8e-6 for 2.8 S and 3e-5 for 3.0
+        // S
         let restitution =
             |speed| predict(&model, &Impact { mass: MASS, speed }).expect("an ordinary impact").restitution;
         assert!((restitution(100.0) / restitutions[2] - 1.0).abs() < 3e-5);

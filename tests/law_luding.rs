@@ -1,4 +1,4 @@
-//! Luding's spring: forces, dents and restitution against his formulas.
+//! Luding's spring: forces, dents and restitution compared with his formulas.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -18,11 +18,11 @@ fn constants() -> (f64, f64, f64, f64) {
 
 #[track_caller]
 fn close(what: &str, got: f64, expected: f64) {
-    // a few roundings
+    // a few rounding errors
     assert!((got / expected - 1.0).abs() <= 32.0 * f64::EPSILON, "{what}: {got:e} instead of {expected:e}");
 }
 
-/// The force that Luding's section 2.3 gives to a contact at `d` whose largest indentation is `largest` [m].
+/// The force according to Luding's section 2.3 of a contact at `d` with the largest indentation `largest` [m].
 fn luding(largest: f64, d: f64) -> f64 {
     let (k1, ratio, limit, _) = constants();
     if largest >= limit {

@@ -1,4 +1,4 @@
-//! The constants of the laws: as data, in a scene, and inside an exported unit.
+//! The constants of the laws: as data, in a scene, and in an exported FMU.
 
 #[path = "support/command.rs"]
 mod command;
@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// What the file says of each law of a kind, beside the names and values of the law's own fields.
+/// The entry of each law of a kind in the file, and the names and values of the law's fields.
 fn told_and_own(kind: &str) -> Vec<(toml::Table, serde_json::Map<String, Value>)> {
     let fields =
         |law: Value| law.as_object().unwrap().values().next().unwrap().as_object().cloned().unwrap_or_default();
@@ -38,7 +38,7 @@ fn number(table: &toml::Table, key: &str) -> f64 {
     table[key].as_float().unwrap_or_else(|| panic!("{key} of {table} is no number"))
 }
 
-/// The variant's value as Rust writes it, up to the first constant: `BigAlabo { yield_pressure_factor: 1.1, .. })`.
+/// The variant's value as Rust prints it, up to the first constant: `BigAlabo { yield_pressure_factor: 1.1, .. })`.
 fn type_in(debug: &str) -> &str {
     let inside = debug.split_once('(').map_or(debug, |(_, inside)| inside);
     inside.split([' ', ')']).next().unwrap()
@@ -101,7 +101,7 @@ fn every_reference_constant_is_a_number_within_its_limits() {
 }
 
 #[test]
-fn every_loading_law_says_where_it_holds() {
+fn every_loading_law_states_its_validity() {
     for (told, _) in told_and_own("loading") {
         assert!(text(&told, "validity").len() > 20, "{}", text(&told, "name"));
     }
@@ -129,7 +129,7 @@ fn every_law_takes_its_own_constants() {
     };
     for (told, own) in told_and_own("loading") {
         let law = format!("loading = \"{}\"", text(&told, "name"));
-        // an empty table asks for the check of the whole law on the bodies of the scene
+        // an empty table causes the check of the whole law on the bodies of the scene
         let all = format!("{law}\nloading_parameters = {{ {} }}", given(&told, &own));
         assert_eq!(constants(&all), constants(&law));
     }
@@ -157,13 +157,13 @@ fn where_a_published_law_falls_its_constants_can_still_be_given() {
     predict("kogut-etsion", "first_area_factor = 0.95").with_status(0);
     predict("jackson-green", "area_exponent = 0.15").with_status(0);
     predict("ghaednia", "hardening = 0.03").with_status(0);
-    // but not by more
+    // but they may not fall farther
     let refused = predict("kogut-etsion", "second_factor = 1.5").with_status(1);
     assert!(refused.err.contains("the loading force falls"), "{refused:#?}");
 }
 
 #[test]
-fn a_scenes_constants_are_those_of_its_unit_and_the_unit_agrees_with_the_prediction() {
+fn a_scenes_constants_are_those_of_its_fmu_and_the_fmu_agrees_with_the_prediction() {
     let folder = empty_folder();
     let law = "loading = \"power\"\nloading_parameters = { exponent = 1.15, coefficient = 2 }";
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
@@ -177,7 +177,7 @@ fn a_scenes_constants_are_those_of_its_unit_and_the_unit_agrees_with_the_predict
         let rows = checked["rows"].as_array().unwrap();
         rows.iter().find(|row| row["quantity"] == quantity).unwrap()["simulated"].as_f64().unwrap()
     };
-    // what the binary does, against the law with these constants at the depth that it reached
+    // the result of the binary, compared with the law with these constants at the indentation that it reached
     let sphere = Body { radius: 5e-3, youngs_modulus: f64::INFINITY, poissons_ratio: 0.3 };
     let steel = Body { radius: f64::INFINITY, youngs_modulus: 206e9, poissons_ratio: 0.3 };
     let pair = Pair::new(&sphere, &steel, 300e6).unwrap();
@@ -189,7 +189,7 @@ fn a_scenes_constants_are_those_of_its_unit_and_the_unit_agrees_with_the_predict
     assert!((force / reference - 1.0).abs() > 0.02, "the constants make a difference");
 }
 
-/// The documentation of the unit of a scene with these lines under `[law]`.
+/// The documentation of the FMU of a scene with these lines under `[law]`.
 fn page(law: &str) -> String {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
@@ -199,9 +199,9 @@ fn page(law: &str) -> String {
 }
 
 #[test]
-fn the_formulas_on_the_page_of_a_unit_have_its_constants_and_what_follows_from_them() {
+fn the_formulas_on_the_page_of_an_fmu_contain_its_constants_and_derived_numbers() {
     let law = "loading = \"big-alabo\"\nloading_parameters = { second_region = 10.0, fully_plastic = 50.0, plastic_slope = 4.0 }";
-    // by hand: k_l = 1.5 sqrt(9) = 4.5, f_tep = 9^1.5 + 1 = 28, f_p = 4.5 * 40 + 28 = 208
+    // computed by hand: k_l = 1.5 sqrt(9) = 4.5, f_tep = 9^1.5 + 1 = 28, f_p = 4.5 * 40 + 28 = 208
     let page = page(law);
     for formula in ["10 &lt;= x &lt; 50: f = 4.5 (x - 10) + 28<", "50 &lt;= x: f = 4 (x - 50) + 208<"] {
         assert!(page.contains(formula), "nothing of {formula} in {page}");
@@ -232,7 +232,7 @@ fn the_texts_of_every_law_have_numbers_in_place_of_names() {
 }
 
 #[test]
-fn the_page_of_a_unit_has_its_constants() {
+fn the_page_of_an_fmu_has_its_constants() {
     let law = "loading = \"johnson\"\nloading_parameters = { plastic_pressure_factor = 3.0 }\nunloading = \"walton-braun\"\n\
                unloading_parameters = { stiffness_ratio = 6.25 }";
     let page = page(law);
@@ -244,7 +244,7 @@ fn the_page_of_a_unit_has_its_constants() {
     }
 }
 
-/// Restitution of the scene's impact by each of the `laws`.
+/// Restitution of the scene's impact with each of the `laws`.
 fn restitution(folder: &Path, laws: &str) -> Vec<f64> {
     let predicted = run(folder, ["predict", "scene.toml", "--json", "--laws", laws]).with_status(0).json();
     predicted["laws"].as_array().unwrap().iter().map(|law| law["restitution"].as_f64().unwrap()).collect()
@@ -262,7 +262,7 @@ fn the_scenes_own_law_is_compared_with_its_constants_and_others_with_those_of_th
     fs::write(folder.path().join("scene.toml"), reference).unwrap();
     let usual = restitution(folder.path(), "walton-braun,big-alabo/walton-braun,luding");
     assert!((usual[0] - 0.5).abs() < 1e-14, "{usual:?}");
-    // the unloading law is the scene's there, the loading law of the reference
+    // the unloading law is the scene's, the loading law has the reference constants
     assert!((found[2] / usual[1] - 0.4).abs() < 1e-12, "{found:?} {usual:?}");
     assert_eq!(found[3], usual[2]);
     let curve = |law: &str| {

@@ -1,7 +1,7 @@
-//! One suite for every loading law and for every pairing of a loading with an unloading law.
+//! One suite for every loading law and for every pair of a loading and an unloading law.
 //!
-//! What the suite must not contradict: the stiffness of the Big-Alabo curve is zero just after yield, restitution is
-//! not monotone in the speed, and the dent of the deformed radius jumps to 0.0153 d_y at yield.
+//! Known exceptions: the stiffness of the Big-Alabo curve is zero just after yield, the restitution is not monotone in the
+//! speed, and the dent of the deformed radius jumps to 0.0153 d_y at yield.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -28,8 +28,8 @@ fn indentations(model: &AnyModel) -> Vec<f64> {
     points
 }
 
-/// Largest rounding error of a force on the unloading path from `largest` [N]: a few units in the last place, of the
-/// two large forces whose difference it is if Hertz's curve is shifted.
+/// Largest rounding error of a force on the unloading path from `largest` [N]: a few units in the last place. For Hertz's
+/// lowered curve, they are those of the two large forces whose difference it is.
 fn force_rounding(model: &AnyModel, largest: f64) -> f64 {
     let hertz = model.pair.hertz_stiffness() * largest.powf(1.5);
     let size = match model.unloading {
@@ -39,20 +39,20 @@ fn force_rounding(model: &AnyModel, largest: f64) -> f64 {
     16.0 * EPSILON * size
 }
 
-/// Derivative by the five-point rule, and the bound of its error for a function that is a power of the distance to a
-/// point no nearer than `1000 step`, with values up to `size` of a few roundings each.
+/// Derivative by the five-point rule, with a bound of its error. The function must be a power of the distance to a point no
+/// nearer than `1000 step`, with values up to `size` that have a few rounding errors each.
 ///
 /// Truncation: `step^4/30` times the fifth derivative, for `z^2.5` and smaller powers less than `1e-12/z` of the value.
 fn derivative(function: impl Fn(f64) -> f64, at: f64, step: f64, size: f64) -> (f64, f64) {
-    // the steps as they are after rounding: h and 2h exactly
+    // the steps after rounding: h and 2h exactly
     let step = (at + step) - at;
     let near = function(at + step) - function(at - step);
     let far = function(at + 2.0 * step) - function(at - 2.0 * step);
     ((8.0 * near - far) / (12.0 * step), 16.0 * EPSILON * size / step + 1e-9 * size * step / at.abs())
 }
 
-/// The smooth piece of the loading curve around `at`: its ends, and where the power in it begins. A curve that is no segment
-/// has a power that begins at its lower end, if it has one.
+/// The smooth piece of the loading curve around `at`: its ends, and the point where its power begins. In a curve without
+/// segments, a power begins at the lower end of the piece.
 fn smooth_range(model: &AnyModel, at: f64) -> [f64; 3] {
     let segment = model.loading.segment(&model.pair, at);
     let lower = corners(model).into_iter().filter(|&corner| corner <= at).fold(0.0, f64::max);
@@ -63,10 +63,10 @@ fn smooth_range(model: &AnyModel, at: f64) -> [f64; 3] {
 /// Fails unless `got` is the derivative of `function` at `at` on a branch with this lower and upper end and origin.
 fn is_derivative(what: &str, got: f64, function: impl Fn(f64) -> f64, at: f64, range: [f64; 3], size: f64) {
     let [lower, upper, origin] = range;
-    // a dent above the surface is met at negative indentations
+    // a dent above the surface is reached at negative indentations
     let room = (at - lower).min(upper - at).min(at - origin).min(at.abs());
     let (slope, rounding) = derivative(function, at, 1e-3 * room, size);
-    // truncation relative to the slope itself: it is a power of the distance to the origin plus a constant
+    // truncation relative to the slope, which is a power of the distance to the origin plus a constant
     let allowed = rounding + 1e-11 * got.abs();
     assert!((slope - got).abs() <= allowed, "{what} at {at:e}: {got:e}, by differences {slope:e} (+-{allowed:e})");
 }
@@ -87,7 +87,7 @@ fn force_work_and_contact_radius_are_continuous_at_every_corner() {
     for (name, model) in all_models(mild()) {
         for corner in corners(&model) {
             let (below, above) = (corner.next_down(), corner);
-            // the step of one unit in the last place changes each by less than 1.5, 2.5 and 1 such units
+            // a step of one unit in the last place changes each by less than 1.5, 2.5 and 1 such units
             if has_jumps(&model) {
                 continue;
             }
@@ -147,7 +147,7 @@ fn on_unloading_force_is_the_slope_of_work_and_stiffness_the_slope_of_force() {
     for (name, model) in all_models(mild()) {
         for largest in indentations(&model) {
             let path = model.unloading_path(largest);
-            // a path of one step in the last place has no inside (the fitted dent far beyond its fit)
+            // a path of one unit in the last place has no interior (the fitted dent far beyond its fit)
             if path.lower.next_up() >= largest {
                 continue;
             }
@@ -190,7 +190,7 @@ fn loading_is_monotone() {
         points.sort_by(f64::total_cmp);
         for pair in points.windows(2) {
             let (before, after) = (loading_force(&model, pair[0]), loading_force(&model, pair[1]));
-            // neighbours in f64 may round to forces that are out of order by their own rounding
+            // forces at neighbouring f64 numbers may be out of order by their rounding errors
             assert!(after >= before * (1.0 - 4.0 * EPSILON), "{name} at {:e}: {before:e} {after:e}", pair[1]);
         }
     }
@@ -207,7 +207,7 @@ fn the_unloading_path_is_never_above_the_loading_path() {
                 let allowed = force_rounding(&model, largest);
                 assert!(down <= up + allowed, "{name} from {largest:e} at {at:e}: {down:e} above {up:e}");
             }
-            // so that the tangent at the peak can't leave the loading path on the wrong side
+            // so that the tangent at the peak cannot leave the loading path on the wrong side
             let (unloading, loading) =
                 (unloading_stiffness(&model, largest, largest), pressed(&model, largest).stiffness());
             assert!(
@@ -225,7 +225,7 @@ fn the_dent_deepens_with_the_largest_indentation() {
         for largest in indentations(&model) {
             let depth = model.unloading_path(largest).lower;
             assert!(depth >= 0.0 && depth < largest, "{name} from {largest:e}: {depth:e}");
-            // the difference of two numbers near d_m carries their rounding
+            // the difference of two numbers near d_m contains their rounding errors
             assert!(depth >= before - 8.0 * EPSILON * largest, "{name} from {largest:e}: {depth:e} after {before:e}");
             before = depth;
         }
@@ -237,14 +237,14 @@ fn only_the_deformed_radius_jumps_at_yield_and_as_documented() {
     let d_y = unit(&mild()).indentation;
     for (name, unloading) in AnyUnloading::ALL {
         let model = AnyModel { unloading, ..model("big-alabo", "contact-radius") };
-        // so near to yield a continuous dent is below d_m - d_y = 1e-9 d_y, or its 2/3 power in Hertz's shifted curve
+        // so close to yield, a continuous dent is below d_m - d_y = 1e-9 d_y, or its power 2/3 for Hertz's lowered curve
         let depth = model.unloading_path(d_y * (1.0 + 1e-9)).lower / d_y;
         match name {
             "deformed-radius" => assert!((depth - 0.0153).abs() < 5e-5, "{depth}: not 0.0153 as printed"),
             "hertz-shift" => assert!(depth < 2e-6, "{name}: {depth}"),
-            // its shape rises with the lag behind Hertz's force, over an onset of 0.0313: six times d_m - d_y here
+            // its shape grows with the lag behind Hertz's force, over an onset of 0.0313: six times d_m - d_y here
             "brinell" => assert!(depth < 6e-9, "{name}: {depth}"),
-            // these have yield points of their own, a little below 1.1 S, and count from there
+            // these have their own yield points, slightly below 1.1 S, and count from there
             "etsion" => assert!((depth - 0.00033612).abs() < 5e-9, "{name}: {depth}"),
             "jackson" => assert!((depth - 0.0035).abs() < 5e-5, "{name}: {depth}"),
             "vu-quoc-zhang" => assert!((depth - 1.4e-7).abs() < 5e-9, "{name}: {depth}"),
@@ -273,7 +273,7 @@ fn the_contact_radius_grows_with_loading_and_is_continuous_at_the_turn() {
             assert_eq!(history.contact_radius(&model), radius, "{name} at {largest:e}");
             go(&mut history, &model, largest * (1.0 - 4.0 * EPSILON));
             let turned = history.contact_radius(&model);
-            // a = a_m sqrt((d - d_f)/d_e): half the relative change of d - d_f, and its rounding
+            // a = a_m sqrt((d - d_f)/d_e): half the relative change of d - d_f, plus its rounding error
             let recovery = largest - history.residual_indentation(&model);
             let allowed = 8.0 * EPSILON * (largest / recovery).max(1.0) * radius;
             assert!((turned - radius).abs() <= allowed, "{name} at {largest:e}: {radius:e} turns into {turned:e}");
@@ -288,7 +288,7 @@ fn no_path_gives_back_more_than_was_put_in() {
         for largest in indentations(&model) {
             let work = model.loading.work(&model.pair, largest);
             let lost = work - model.recovered_work(largest, largest);
-            // the shifted Hertz curve takes its energy from a difference of two larger ones
+            // the energy of Hertz's lowered curve is a difference of two larger ones
             let rounding = 16.0 * EPSILON * work.max(0.4 * model.pair.hertz_stiffness() * largest.powf(2.5));
             assert!(lost >= -rounding, "{name} from {largest:e}: gains {:e} of {work:e}", -lost);
             assert!(lost >= before - rounding, "{name} from {largest:e}: loss falls from {before:e} to {lost:e}");
@@ -346,8 +346,8 @@ fn the_normalised_curve_is_the_same_for_every_pair() {
     for (name, reference) in all_models(mild()).into_iter().filter(|(_, model)| is_scale_free(model)) {
         for x in logarithmic(0.01, 1e4, 61) {
             let expected = scaled(&reference, x);
-            // one part in 1e12: a border that rounds to the other side moves the curve by no more, and dents are
-            // differences of numbers up to 1e4 d_y
+            // 1e-12: a boundary that is rounded to the other side moves the curve by no more, and dents are differences of
+            // numbers up to 1e4 d_y
             for pair in pairs {
                 let got = scaled(&AnyModel { pair, ..reference }, x);
                 for (index, (got, expected)) in got.into_iter().zip(expected).enumerate() {
@@ -396,13 +396,13 @@ fn the_curve_follows_its_constants_when_they_are_others() {
     };
     let pair = mild();
     let unit = law.yield_point(&pair);
-    // by hand: k_l = 1.5 sqrt(9) = 4.5, f_tep = 9^1.5 + 1 = 28, f_p = 4.5 * 40 + 28 = 208
+    // computed by hand: k_l = 1.5 sqrt(9) = 4.5, f_tep = 9^1.5 + 1 = 28, f_p = 4.5 * 40 + 28 = 208
     for (x, force) in [(1.0, 1.0), (2.0, 2.0), (10.0, 28.0), (20.0, 73.0), (50.0, 208.0), (60.0, 248.0)] {
         let got = law.segment(&pair, x * unit.indentation).force(x * unit.indentation) / unit.force;
-        // a few roundings
+        // a few rounding errors
         assert!((got / force - 1.0).abs() <= 8.0 * EPSILON, "{got} at {x}, not {force}");
     }
-    // mean pressure at yield is 1.07 S by definition of the yield point, and 3 S once ln(2x - 1)/3 = 1.93
+    // the mean pressure at yield is 1.07 S by definition of the yield point, and 3 S once ln(2x - 1)/3 = 1.93
     for (x, pressure) in [(1.0, 1.07), (200.0, 3.0)] {
         let at = x * unit.indentation;
         let area = std::f64::consts::PI * law.contact_radius(&pair, at).powi(2);

@@ -1,4 +1,4 @@
-//! What the table of laws says of a curve is what the curve does, for any bodies.
+//! The statements of the table of laws about a curve hold for the curve, for any bodies.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -9,7 +9,7 @@ use brinell::contact::unloading::AnyUnloading;
 use physics::laws::{self, entry, says, text};
 use physics::{AnyModel, Random, corners, loading_force, logarithmic, model, pair_of, random_bodies, unit};
 
-/// The law by its name, with an unloading law that doesn't matter.
+/// The law of this name, with an arbitrary unloading law.
 fn of(name: &str) -> AnyModel {
     model(name, "contact-radius")
 }
@@ -36,10 +36,10 @@ fn every_law_that_an_entry_names_is_one_and_has_the_constants_that_are_tied() {
 }
 
 #[test]
-fn the_laws_that_are_above_hertz_and_no_other_are_said_to_be() {
+fn exactly_the_laws_above_hertz_are_listed_as_such() {
     let mut random = Random(1882);
     for (name, loading) in AnyLoading::ALL {
-        // a law without elastic part is not asked: it goes with its own unloading law alone
+        // a law without an elastic part is skipped: it can only be combined with its own unloading law
         if entry("loading", name).contains_key("no_other_unloading") {
             continue;
         }
@@ -56,7 +56,7 @@ fn the_laws_that_are_above_hertz_and_no_other_are_said_to_be() {
 }
 
 #[test]
-fn the_laws_whose_force_jumps_and_no_other_are_said_to() {
+fn exactly_the_laws_whose_force_jumps_are_listed_as_such() {
     let mut random = Random(2002);
     for (name, loading) in AnyLoading::ALL {
         let jumps = (0..60).any(|_| {
@@ -71,7 +71,7 @@ fn the_laws_whose_force_jumps_and_no_other_are_said_to() {
 }
 
 #[test]
-fn the_laws_whose_normalised_curve_depends_on_the_moduli_and_no_other_are_said_to() {
+fn exactly_the_laws_whose_normalised_curve_depends_on_the_moduli_are_listed_as_such() {
     for (name, _) in AnyLoading::ALL {
         let forces = |ratio: f64| {
             let model = Model { pair: pair_of(0.005, 2e11, 2e11 / ratio), ..of(name) };

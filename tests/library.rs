@@ -1,4 +1,4 @@
-//! The library inside a unit, as bytes: small, self-sufficient, and silent about where it was built.
+//! The library in an FMU, as bytes: small, self-contained, and without traces of where it was built.
 #![cfg(target_os = "linux")]
 
 #[path = "support/unit.rs"]
@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Largest size of a library [bytes]: that of a unit that knows the mass.
+/// Largest size of a library [bytes]: that of an FMU that knows the mass.
 const LARGEST: u64 = 62_000;
 
 /// Largest size of the library of the default scene [bytes].
@@ -19,7 +19,7 @@ fn libraries() -> Vec<PathBuf> {
     unit::scenes().iter().map(|scene| unit::library(&unit::export(scene))).collect()
 }
 
-/// Standard output of a tool of binutils; None, with a word about it, if it isn't there.
+/// Standard output of a binutils program; `None`, with a message, if it is not installed.
 fn tool(name: &str, arguments: &[&str], library: &Path) -> Option<String> {
     let Ok(output) = Command::new(name).args(arguments).arg(library).output() else {
         println!("skipped: there is no {name}");
@@ -44,7 +44,7 @@ fn it_is_small() {
     assert!(size < LARGEST_OF_DEFAULT, "{size} bytes");
 }
 
-/// Nothing unwinds through a library that cannot panic, and nobody asks which compiler made it.
+/// Nothing unwinds through a library that cannot panic, and nobody needs to know which compiler made it.
 #[test]
 fn it_has_no_tables_for_unwinding_and_no_comment() {
     for library in libraries() {
@@ -65,9 +65,9 @@ fn with_outputs(name: &str, outputs: &str) -> PathBuf {
     unit::library(&unit::export(&unit::write_scene(name, &text)))
 }
 
-/// What computes an output is in the library only if the output is.
+/// The code of an output is in the library only if the scene requests the output.
 #[test]
-fn an_output_that_is_not_asked_for_is_not_in_the_library() {
+fn an_output_that_is_not_requested_is_not_in_the_library() {
     let size = |library: PathBuf| fs::metadata(library).unwrap().len();
     let force_alone = size(with_outputs("force_alone", ""));
     let work = size(with_outputs("with_work", "\"work\""));
@@ -86,7 +86,7 @@ fn it_exports_the_34_functions_and_nothing_else() {
     }
 }
 
-/// Nothing but memory, and what compilers make of loops over it; above all nothing that panics.
+/// Only memory functions, and those to which compilers translate loops over memory; above all, nothing that panics.
 #[test]
 fn it_takes_only_memory_functions_from_the_process() {
     let allowed = ["calloc", "free", "memcpy", "memmove", "memset", "memcmp", "bcmp", "strlen"];
@@ -98,7 +98,7 @@ fn it_takes_only_memory_functions_from_the_process() {
     }
 }
 
-/// Otherwise it would load only where the C library is of the same kind, and as new as on the machine that built it.
+/// Otherwise it would load only with a C library of the same kind, at least as new as the one on the build machine.
 #[test]
 fn it_needs_no_library_and_no_version_of_a_symbol() {
     for library in libraries() {
@@ -110,7 +110,7 @@ fn it_needs_no_library_and_no_version_of_a_symbol() {
     }
 }
 
-/// An executable stack would have the loader make that of the whole process executable, or refuse.
+/// Because of an executable stack, the loader would make the stack of the whole process executable, or fail.
 #[test]
 fn its_stack_is_not_executable() {
     for library in libraries() {
@@ -133,9 +133,9 @@ fn it_holds_no_path_of_the_machine_that_built_it() {
     }
 }
 
-/// What a scene doesn't ask for is neither in the XML nor in the binary.
+/// Features that a scene does not request are neither in the XML nor in the binary.
 #[test]
-fn an_elastic_unit_has_nothing_plastic() {
+fn an_elastic_fmu_has_nothing_plastic() {
     let [elastic, plastic] = ["elastic", "steel_ball"].map(|name| unit::library(&unit::export(&unit::scene(name))));
     let size = |library: &Path| fs::metadata(library).unwrap().len() as f64;
     assert!(size(&elastic) < 0.9 * size(&plastic), "{} against {} bytes", size(&elastic), size(&plastic));
@@ -148,7 +148,7 @@ fn an_elastic_unit_has_nothing_plastic() {
     assert!(!contains(&fs::read(&elastic).unwrap(), "yield_strength"));
 }
 
-/// The library of a scene whose every parameter is a constant holds no name of one.
+/// The library of a scene whose parameters are all constants contains no name of a parameter.
 #[test]
 fn a_parameter_that_is_a_constant_is_not_in_the_library() {
     let bytes = fs::read(unit::library(&unit::export(&unit::scene("elastic")))).unwrap();

@@ -1,5 +1,5 @@
-//! Masters of both orders of execution, with steps of any length: the bodies rebound as the energy balance says. Each is used
-//! with the scene that is made for it.
+//! Importers with both orders of execution, and steps of any length: the rebound agrees with the energy balance. Each importer
+//! is used with the scene made for it.
 
 #[path = "support/masters.rs"]
 mod masters;
@@ -15,7 +15,7 @@ use masters::{MASS, Master, PATTERNS, Parallel, Serial, WiredParallel, WiredSeri
 use physics::{AnyModel, Random, all_models, mild};
 use scenes::Choice;
 
-/// Runs `one` with the masters of both kinds, by input derivatives and by inputs.
+/// Runs `one` with both kinds of importers, with input derivatives and with inputs.
 fn with_each_master(choice: Choice, speed: f64, acceleration: f64, mut one: impl FnMut(&str, &mut dyn AnyMaster)) {
     one("serial", &mut Master::<Serial>::new(choice, false, false, speed, acceleration));
     one("parallel", &mut Master::<Parallel>::new(choice, true, false, speed, acceleration));
@@ -23,7 +23,7 @@ fn with_each_master(choice: Choice, speed: f64, acceleration: f64, mut one: impl
     one("parallel, wired", &mut Master::<WiredParallel>::new(choice, true, true, speed, acceleration));
 }
 
-/// A master, whatever its scene.
+/// An importer for any scene.
 trait AnyMaster {
     fn step(&mut self, step: f64);
     fn get(&self, output: Real) -> f64;
@@ -55,7 +55,7 @@ const SIZES: [f64; 5] = [1e-6, 7e-6, 1e-4, 5e-4, 2e-3];
 
 #[test]
 fn a_rebound_is_the_predicted_one_whatever_the_master_and_its_steps() {
-    // by size of the steps and kind of master
+    // by step size and kind of importer
     let mut worst = [[0.0f64; 4]; SIZES.len()];
     for (name, model) in all_models(mild()) {
         let expected = predict(&model, &Impact { mass: MASS, speed: 1.0 }).unwrap().restitution;
@@ -86,18 +86,18 @@ fn a_rebound_is_the_predicted_one_whatever_the_master_and_its_steps() {
         .for_each(|(size, errors)| println!("{size:e} s: {}", errors.map(|error| format!("{error:.1e}")).join(" ")));
 }
 
-/// Energies at the surface over the mass, after each of so many bounces, by energy balance [m^2/s^2]: what is left of
-/// `speed^2/2` there.
+/// Energies at the surface over the mass, after each of `count` bounces, from the energy balance [m^2/s^2]: the remainder of
+/// `speed^2/2`.
 fn bounces(model: &AnyModel, surface: Surface, speed: f64, gravity: f64, count: usize) -> Vec<f64> {
     let work = |depth: f64| model.loading.work(&model.pair, depth) / MASS;
     let recovered = |largest: f64| model.recovered_work(largest, largest) / MASS;
-    // of the surface, where the height is zero
+    // at the surface, where the height is zero
     let mut energy = 0.5 * speed * speed;
     let mut largest = 0.0;
     (0..count)
         .map(|_| {
             let stored = if largest > 0.0 { recovered(largest) } else { 0.0 };
-            // deeper than the dent by what the energy is more than the way back up
+            // deeper than the dent by the energy in excess of that returned
             let missing = |depth: f64| work(depth) - work(largest) + stored - energy - gravity * depth;
             if largest == 0.0 || missing(largest) < 0.0 {
                 let (mut low, mut high) = (largest, 1e-3);
@@ -108,7 +108,7 @@ fn bounces(model: &AnyModel, surface: Surface, speed: f64, gravity: f64, count: 
                 largest = low;
                 energy = recovered(largest) - gravity * largest;
             }
-            // a ball that doesn't leave its dent meets no fresh surface
+            // a ball that does not leave its dent touches no fresh surface
             let leaves = energy > 2.0 * gravity * largest;
             if surface == Surface::Fresh {
                 largest = 0.0;
@@ -128,14 +128,14 @@ fn a_ball_bounces_ten_times_to_the_heights_of_the_energy_balance() {
             if !physics::is_passive(&model) || !model.loading.is_segmented() {
                 continue;
             }
-            // gravity is stronger where steps are short, so that there are not too many of them
+            // gravity is stronger for short steps, to limit their number
             for (size, gravity) in [(1e-6, 50.0), (3e-5, 50.0), (1e-3, 9.81), (5e-3, 9.81)] {
-                // of long steps the tenth may be in one with the eleventh
+                // with long steps, the tenth bounce may be in the same step as the eleventh
                 let expected = bounces(&model, surface, 0.5, gravity, 40);
                 if expected.len() < 40 {
                     continue;
                 }
-                // of the shortest steps there are some ten thousand
+                // with the shortest step size there are about ten thousand steps
                 let patterns = if size > 1e-6 { &PATTERNS[..] } else { &PATTERNS[place % 4..][..1] };
                 for &pattern in patterns {
                     with_each_master(choice(&model, surface, 0.0), 0.5, gravity, |master_name, master| {
@@ -152,7 +152,7 @@ fn a_ball_bounces_ten_times_to_the_heights_of_the_energy_balance() {
                             let error = |bounce: usize| (energy / expected[bounce] - 1.0).abs();
                             let impulse = master.get(Real::Impulse);
                             if impulse > given {
-                                // at least one more bounce; of long steps there may be several in one
+                                // at least one more bounce; with long steps there may be several in one
                                 given = impulse;
                                 let Some(next) = (seen..expected.len()).min_by(|a, b| error(*a).total_cmp(&error(*b)))
                                 else {

@@ -1,4 +1,4 @@
-//! `brinell merge`: FMUs of one scene become one, others are refused.
+//! `brinell merge`: FMUs of one scene are joined, others are rejected.
 
 #[path = "support/command.rs"]
 mod command;
@@ -10,7 +10,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Writes a copy of the FMU at `from` to `to`, changed by lines of Python that work on `files`, a dictionary of bytes by name.
+/// Writes a modified copy of the FMU at `from` to `to`. `change` is Python code that works on `files`, a dictionary of bytes by
+/// name.
 fn changed(from: &Path, to: &Path, change: &str) {
     let script = format!(
         "import sys, zipfile\n\
@@ -22,7 +23,7 @@ fn changed(from: &Path, to: &Path, change: &str) {
     output(Command::new("python3").args(["-c", &script]).args([from, to])).with_status(0);
 }
 
-/// What `merge` says of the default scene's FMU, `a.fmu`, and a changed copy of it, `b.fmu`.
+/// The result of `merge` for the FMU of the default scene, `a.fmu`, and a modified copy of it, `b.fmu`.
 fn merge(change: &str) -> (Run, Vec<String>) {
     let folder = empty_folder();
     let [a, b] = ["a.fmu", "b.fmu"].map(|name| folder.path().join(name));
@@ -43,7 +44,7 @@ fn assert_refused(change: &str, parts: &[&str]) {
     assert_eq!(left, ["a.fmu", "b.fmu"], "{change}: something was written");
 }
 
-/// The other platform's library is this one's, under another name: `merge` doesn't look into it.
+/// The library of the other platform is a renamed copy: `merge` does not look into it.
 const MOVED: &str = "files['binaries/other/x.so'] = files.pop(library)";
 
 #[test]
@@ -58,7 +59,7 @@ fn the_libraries_of_both_are_in_one() {
     assert_eq!(platforms[1], "other", "folders that FMI 2.0 knows come first: {platforms:?}");
     assert_eq!(json["size"], fs::metadata(folder.path().join("c.fmu")).unwrap().len());
     run(folder.path(), ["check", "c.fmu"]).with_status(0);
-    // the order of the FMUs doesn't matter, nor one that is there twice, and one alone stays as it is
+    // the order of the FMUs and duplicates do not matter, and a single FMU does not change
     run(folder.path(), ["merge", "a.fmu", "b.fmu", "a.fmu", "-o", "d.fmu"]).with_status(0);
     run(folder.path(), ["merge", "a.fmu", "a.fmu", "-o", "e.fmu"]).with_status(0);
     let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
@@ -67,7 +68,7 @@ fn the_libraries_of_both_are_in_one() {
 }
 
 #[test]
-fn different_guids_are_told() {
+fn different_guids_are_reported() {
     assert_refused(
         &format!(
             "{MOVED}\nimport re\nfiles['modelDescription.xml'] = \
@@ -78,7 +79,7 @@ fn different_guids_are_told() {
 }
 
 #[test]
-fn different_descriptions_with_the_same_guid_are_told() {
+fn different_descriptions_with_the_same_guid_are_reported() {
     assert_refused(
         &format!(
             "{MOVED}\nfiles['modelDescription.xml'] = files['modelDescription.xml'].replace(b'max=', b'nominal=', 1) + b' '"
@@ -88,19 +89,19 @@ fn different_descriptions_with_the_same_guid_are_told() {
 }
 
 #[test]
-fn two_libraries_for_one_platform_are_told() {
+fn two_libraries_for_one_platform_are_reported() {
     assert_refused("files[library] += b'x'", &["both have files for", "which differ"]);
-    // not only one library of another name
+    // not just another name of the library
     assert_refused("files[library + '.so'] = files.pop(library)", &["both have files for", "which differ"]);
 }
 
 #[test]
-fn another_file_that_differs_is_told() {
+fn another_file_that_differs_is_reported() {
     assert_refused(&format!("{MOVED}\nfiles['resources/scene.toml'] += b'#'"), &["differ in resources/scene.toml"]);
 }
 
 #[test]
-fn what_is_no_fmu_is_told_by_its_name() {
+fn a_file_that_is_not_an_fmu_is_reported_by_name() {
     let folder = empty_folder();
     fs::copy(unit::export(&unit::scene("steel_ball")), folder.path().join("a.fmu")).unwrap();
     fs::write(folder.path().join("text.fmu"), "text").unwrap();

@@ -1,4 +1,4 @@
-//! The impulse of a step: exact for any course of the rate, through every corner of the law.
+//! The impulse of a step: exact for any course of the rate, across every corner of the law.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -8,7 +8,7 @@ use brinell::contact::path::Course;
 use brinell::contact::{History, Surface};
 use physics::{AnyModel, Random, all_models, mild, model, unit};
 
-/// The impulse by many small steps, each by Simpson's rule, and the contact at the end.
+/// The impulse from many small steps, each with Simpson's rule, and the final contact.
 fn slowly(history: &History, model: &AnyModel, course: &Course, step: f64, parts: u32) -> (f64, History) {
     let mut contact = *history;
     let origin = history.indentation();
@@ -67,7 +67,7 @@ fn with_the_rate_held_the_impulse_times_the_rate_is_the_work() {
         let mut after = history;
         after.advance(&model, way).unwrap();
         let work = after.work(&model) - history.work(&model);
-        // on a short way the difference of the works cancels, the impulse doesn't
+        // over a short distance the difference of the works cancels, but the impulse does not
         let rounding = 4.0 * f64::EPSILON * after.work(&model) / work + 1e-14;
         let moved = (after.indentation() - history.indentation()) / 1e-5;
         assert!((exact * moved / work - 1.0).abs() < rounding, "from {from} to {to}: {exact:e}, {:e}", work / moved);
@@ -79,7 +79,7 @@ fn the_impulse_of_a_polynomial_is_that_of_its_parts() {
     let model = model("brinell", "brinell");
     let d_y = unit(&mild()).indentation;
     let step = 1e-5;
-    // in, out beyond the surface, and in again deeper
+    // in, out beyond the surface, and in again, deeper
     let course =
         Course { rate: 60.0 * d_y / step, slope: -300.0 * d_y / step / step, bend: 700.0 * d_y / step / step / step };
     let start = History::start(&model, 2.0 * d_y).unwrap();
@@ -110,7 +110,7 @@ fn the_monotone_parts_of_a_course_end_where_the_rate_changes_its_sign() {
     assert_eq!(ends(-1.0, 0.0, 8.0), [0.5, 1.0, 1.0]);
     // (t - 1/4)(t - 3/4)
     assert_eq!(ends(0.1875, -1.0, 2.0), [0.25, 0.75, 1.0]);
-    // (t - 1/2)^2 touches
+    // (t - 1/2)^2 touches zero
     assert_eq!(ends(0.25, -1.0, 2.0), [1.0; 3]);
     assert_eq!(ends(0.0, 1.0, 0.0), [1.0; 3]);
 }
@@ -119,13 +119,13 @@ fn the_monotone_parts_of_a_course_end_where_the_rate_changes_its_sign() {
 fn derivatives_of_the_force_are_those_of_its_course() {
     let d_y = unit(&mild()).indentation;
     for (name, model) in all_models(mild()) {
-        // loading in each region, and half way down
+        // loading in each region, and half-way through unloading
         for (depth, back) in [(0.6, 0.0), (3.7, 0.0), (31.0, 0.0), (150.0, 0.0), (31.0, 0.3), (150.0, 0.2)] {
             let mut history = History::start(&model, -depth * d_y).unwrap();
             let recovery = depth * d_y - model.unloading_path(depth * d_y).lower;
             history.advance(&model, -back * recovery).unwrap();
             let sign = if back > 0.0 { -1.0 } else { 1.0 };
-            // onto the branch that lies in the direction of motion
+            // to the branch in the direction of motion
             history.advance(&model, sign * 1e-9 * d_y).unwrap();
             let (rate, slope) = (sign * 0.7, 3e4);
             let course = Course { rate, slope, bend: 0.0 };

@@ -1,4 +1,4 @@
-//! A contact that knows the mass: its motion inside of one step.
+//! A contact that knows the mass: its motion within one step.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -28,7 +28,7 @@ fn one_step_over_a_whole_impact_gives_the_predicted_rebound() {
             assert_close(&format!("{name}: restitution"), -outcome.speed / speed, prediction.restitution, 1e-11);
             assert_close(&format!("{name}: depth"), history.max_indentation(), prediction.max_indentation, 1e-11);
             assert_eq!(history.force(), 0.0, "{name}");
-            // apart since the end of the contact; without segments the energies of the prediction are differences
+            // apart since the end of the contact; without segments, the energies of the prediction are differences
             let tolerance = if model.loading.is_segmented() { 1e-12 } else { 1e-10 };
             let flown = prediction.residual_indentation - history.indentation();
             let time = 2.0 * prediction.contact_time() + flown / outcome.speed;
@@ -57,7 +57,7 @@ fn it_does_not_matter_how_time_is_cut() {
     }
 }
 
-/// Energy of motion, of position in the field of the acceleration, and of the contact [J].
+/// Kinetic energy, potential energy of the acceleration, and energy of the contact [J].
 fn energy(history: &History, model: &AnyModel, acceleration: f64, speed: f64) -> f64 {
     0.5 * MASS * speed * speed - MASS * acceleration * history.indentation() + history.work(model)
 }
@@ -66,7 +66,7 @@ fn energy(history: &History, model: &AnyModel, acceleration: f64, speed: f64) ->
 fn a_ball_that_is_pressed_bounces_and_keeps_its_energy() {
     for surface in [Surface::Dented, Surface::Fresh] {
         for (name, model) in all_models(mild()) {
-            // what makes energy has none to keep
+            // a law that is not passive conserves no energy
             if !physics::is_passive(&model) {
                 continue;
             }
@@ -101,7 +101,7 @@ fn a_second_with_many_bounces_is_one_step() {
 
 #[test]
 fn a_body_at_rest_on_the_surface_is_carried() {
-    // the force of a contact in balance with the acceleration
+    // the force of a contact in equilibrium with the acceleration
     let model = model("hertz", "contact-radius");
     let depth = unit(&mild()).indentation;
     let mut history = History::start(&model, -depth).unwrap();
@@ -172,20 +172,20 @@ fn bounces_that_lose_nothing_are_followed_for_as_long_as_their_phase_is_known() 
         let drive = Drive { mass: MASS, acceleration };
         (follow(&mut history, &model, &drive, 0.0, step), history)
     };
-    // some 1e9 bounces
+    // about 1e9 bounces
     let (followed, history) = fall(1e4);
     let outcome = followed.expect("nothing is lost");
     assert!(outcome.evaluations < 2000, "{outcome:?}");
     let off = energy(&history, &model, acceleration, outcome.speed) - MASS * acceleration * 1e-9;
     assert!(off.abs() < 1e-12 * MASS * acceleration * outcome.deepest, "off by {off:e} J");
     assert_close("speed taken", outcome.taken, acceleration * 1e4 - outcome.speed, 1e-9);
-    // some 1e13
+    // about 1e13
     assert_eq!(fall(1e8).0, Err(NoMotion::TooLong));
 }
 
 #[test]
-fn a_step_with_more_bounces_than_can_be_followed_is_refused() {
-    // bodies that yield a little less each time come ever nearer to a motion that loses nothing
+fn a_step_with_too_many_bounces_is_refused() {
+    // the motion of bodies that yield less and less approaches a lossless one
     for (loading, unloading) in [("brinell", "brinell"), ("thornton", "thornton"), ("vu-quoc-zhang", "vu-quoc-zhang")] {
         let model = AnyModel { surface: Surface::Fresh, ..model(loading, unloading) };
         let mut history = History::start(&model, 1e-3).unwrap();
@@ -218,7 +218,7 @@ fn an_impact_takes_a_bounded_number_of_evaluations() {
     println!("at most {most} evaluations");
 }
 
-/// Evaluations of an impact at 1 m/s that is followed for 1.25 contact times in so many steps, from a tenth of one before the touch.
+/// Evaluations of an impact at 1 m/s over 1.25 contact times in this number of steps, starting a tenth of one before the touch.
 fn evaluations_of_an_impact(model: &AnyModel, steps: u32) -> u32 {
     let time = predict(model, &Impact { mass: MASS, speed: 1.0 }).expect("within range").contact_time();
     let mut history = History::start(model, 0.1 * time).unwrap();
@@ -232,7 +232,7 @@ fn evaluations_of_an_impact(model: &AnyModel, steps: u32) -> u32 {
 
 #[test]
 fn cutting_an_impact_into_steps_costs_little_for_each() {
-    // what it took when this was written, and some hundredths for other roundings
+    // the number when this was written, plus a few hundredths for other roundings
     for (loading, unloading, most) in [
         ("big-alabo", "contact-radius", [(1, 135), (2, 158), (32, 595), (1000, 9200)]),
         ("hertz", "contact-radius", [(1, 63), (2, 91), (32, 595), (1000, 6300)]),

@@ -1,4 +1,4 @@
-//! A contact that knows the mass ends a stretch of time in the same state, however the time is cut into steps.
+//! A contact that knows the mass reaches the same state, however the time is divided into steps.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -8,7 +8,7 @@ use brinell::contact::motion::{Drive, follow};
 use brinell::contact::{History, Surface};
 use physics::{AnyModel, Random, all_models, pair_of};
 
-/// A motion to be cut into steps.
+/// A motion to be divided into steps.
 #[derive(Debug)]
 struct Case {
     model: AnyModel,
@@ -18,7 +18,7 @@ struct Case {
     time: f64,
 }
 
-/// Where it has led.
+/// Its final state.
 #[derive(Clone, Copy, Debug)]
 struct State {
     speed: f64,
@@ -30,12 +30,12 @@ struct State {
     turns: u32,
 }
 
-/// A number from `low` to `high`, each decade as often.
+/// A log-uniform number from `low` to `high`.
 fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
     low * (high / low).powf(random.next())
 }
 
-/// A body that meets a fresh surface, or the dent of a last time, is driven there or pulled away, and meets it up to five times.
+/// A body that touches a fresh surface or an earlier dent is driven there or pulled away, and touches it up to five times.
 fn draw(random: &mut Random, models: &[(String, AnyModel)]) -> Option<Case> {
     let (_, model) = &models[(random.next() * models.len() as f64) as usize];
     let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
@@ -48,7 +48,7 @@ fn draw(random: &mut Random, models: &[(String, AnyModel)]) -> Option<Case> {
     let speed = yield_speed * log_uniform(random, 0.05, 30.0);
     let prediction = predict(&model, &Impact { mass, speed })?;
     let sign = if random.next() < 0.5 { 1.0 } else { -1.0 };
-    // from nothing beside the contact to what keeps the bodies from a contact of any depth
+    // from negligible beside the contact to so strong that the bodies cannot separate
     let contact = prediction.contact_time();
     let acceleration = sign * speed / contact * log_uniform(random, 1e-6, 1e3);
     let flights = if sign > 0.0 { 2.0 * speed / acceleration } else { 0.0 };
@@ -82,7 +82,7 @@ fn run(case: &Case, steps: &[f64]) -> State {
     }
 }
 
-/// `time` [s] in `count` steps, equal ones or of any length.
+/// `time` [s] in `count` steps, equal or of any length.
 fn cut(random: &mut Random, time: f64, count: usize) -> Vec<f64> {
     if random.next() < 0.5 {
         return vec![time / count as f64; count];
@@ -92,7 +92,7 @@ fn cut(random: &mut Random, time: f64, count: usize) -> Vec<f64> {
     parts.iter().map(|part| time * part / sum).collect()
 }
 
-/// How far two states differ, in parts of the initial energy, or of what the other forces have made of it.
+/// The difference of two states, relative to the initial energy or to that from the other forces.
 fn difference(case: &Case, one: &State, other: &State) -> f64 {
     let Drive { mass, acceleration } = case.drive;
     let start = History::start(&case.model, case.gap).unwrap();
@@ -121,7 +121,7 @@ fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies() {
         let count = log_uniform(&mut random, 2.0, 1001.0) as usize;
         let steps = cut(&mut random, case.time, count);
         let parts = run(&case, &steps);
-        // the roundings of many impacts add up
+        // the rounding errors of many impacts add up
         let Some(seen) = turns.get_mut(parts.turns as usize) else { continue };
         *seen += 1;
         let off = difference(&case, &whole, &parts);

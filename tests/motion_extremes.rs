@@ -1,4 +1,4 @@
-//! A contact that knows the mass, over all sizes of numbers: every step ends, in numbers, with the energy that it should have.
+//! A contact that knows the mass, over the whole range of numbers: every step ends with finite results and the right energy.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -7,12 +7,12 @@ use brinell::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follo
 use brinell::contact::{History, Surface};
 use physics::{AnyModel, Random, all_models, pair_of};
 
-/// A number from `low` to `high`, each decade as often.
+/// A log-uniform number from `low` to `high`.
 fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
     (low.ln() + (high.ln() - low.ln()) * random.next()).exp()
 }
 
-/// One of several, or nothing, or the smallest number that there is, of either sign.
+/// Log-uniform, or zero, or the smallest number, of either sign.
 fn signed(random: &mut Random, low: f64, high: f64) -> f64 {
     let number = log_uniform(random, low, high);
     let sign = if random.next() < 0.5 { 1.0 } else { -1.0 };
@@ -31,7 +31,7 @@ struct Step {
     time: f64,
 }
 
-/// A step of bodies of any size and speed, and the contact as it is before.
+/// A step of bodies of any size and speed, and the initial contact.
 fn draw(random: &mut Random, models: &[(String, AnyModel)]) -> Option<(Step, History)> {
     let (name, model) = &models[(random.next() * models.len() as f64) as usize];
     let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
@@ -60,7 +60,7 @@ fn describe(step: &Step, before: &History, result: &Result<Outcome, NoMotion>) -
     )
 }
 
-/// Energy of motion, of position in the field of the acceleration, and of the contact [J]; and the size of the largest of them.
+/// Kinetic energy, potential energy of the acceleration, and energy of the contact [J]; and the size of the largest of them.
 fn energy(step: &Step, history: &History, speed: f64) -> (f64, f64) {
     let Drive { mass, acceleration } = step.drive;
     let parts = [
@@ -100,7 +100,7 @@ fn a_step_of_any_size_ends_in_numbers_and_keeps_the_energy() {
             let (is, other) = energy(&step, &history, outcome.speed);
             let fallen = step.drive.mass * step.drive.acceleration.abs() * outcome.deepest;
             let size = size.max(other).max(fallen);
-            // deeper than that some laws know their own work no better, and smaller numbers have fewer digits
+            // some laws do not compute their own work more accurately at larger depths, and smaller numbers have fewer digits
             if outcome.deepest < step.model.pair.radius && size > 1e-280 {
                 assert!((is - was).abs() < 1e-11 * size, "off by {:e} of {size:e} J: {what}", is - was);
             }

@@ -1,4 +1,4 @@
-//! No step that succeeds raises a floating-point exception but inexact and underflow: a host may trap the others.
+//! A successful step raises no floating-point exception except inexact and underflow: a host may trap the others.
 #![cfg(target_arch = "x86_64")]
 
 #[path = "support/physics.rs"]
@@ -14,16 +14,16 @@ use std::arch::asm;
 /// Invalid operation, division by zero and overflow, as bits of the control and status register.
 const TRAPPED: u32 = 0b1101;
 
-/// The result of `step`, and the exceptions of [`TRAPPED`] that it has raised.
+/// The result of `step`, and the exceptions of [`TRAPPED`] that it raised.
 fn raised<T>(step: impl FnOnce() -> T) -> (T, u32) {
     let (mut before, mut after) = (0u32, 0u32);
-    // SAFETY: the register is stored, and loaded with what was in it but for the flags of exceptions
+    // SAFETY: the register is stored, and loaded with the same contents except for the exception flags
     unsafe {
         asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
         let cleared = before & !0b11_1111;
         asm!("ldmxcsr [{}]", in(reg) &raw const cleared, options(nostack));
     }
-    // so that nothing of it is computed before
+    // prevents any earlier computation
     let step = std::hint::black_box(step);
     let result = std::hint::black_box(step());
     // SAFETY: as above
@@ -31,7 +31,7 @@ fn raised<T>(step: impl FnOnce() -> T) -> (T, u32) {
     (result, after & TRAPPED)
 }
 
-/// A number from `low` to `high`, each decade as often, of either sign; or nothing, or the smallest number that there is.
+/// A log-uniform number from `low` to `high` of either sign, or zero, or the smallest number.
 fn signed(random: &mut Random, low: f64, high: f64) -> f64 {
     let number = (low.ln() + (high.ln() - low.ln()) * random.next()).exp();
     let sign = if random.next() < 0.5 { 1.0 } else { -1.0 };
@@ -42,7 +42,7 @@ fn signed(random: &mut Random, low: f64, high: f64) -> f64 {
     }
 }
 
-/// A contact of any two laws on any surface, anywhere.
+/// A contact with any two laws on any surface, at any indentation.
 fn contact(random: &mut Random, models: &[(String, AnyModel)]) -> Option<(String, AnyModel, History)> {
     let (name, model) = &models[(random.next() * models.len() as f64) as usize];
     let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
@@ -118,7 +118,7 @@ fn no_step_along_a_course_raises_an_exception() {
     }
 }
 
-/// Along the branches of a law whose laws are known when it is compiled, which is another way than that of the models above.
+/// Along the branches of a law known at compile time, which uses other code than the models above.
 #[test]
 fn no_mean_force_along_branches_raises_an_exception() {
     let model = Model {

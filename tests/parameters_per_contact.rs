@@ -1,4 +1,4 @@
-//! Units whose contacts have parameters of their own: each contact does what a unit of one contact with these parameters does, to
+//! FMUs whose contacts have their own parameters: each contact equals that of an FMU of one contact with these parameters, to
 //! the last bit.
 #![cfg(target_os = "linux")]
 
@@ -13,11 +13,11 @@ use unit::write_scene;
 const BODIES: &str = "impactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n";
 const OUTPUTS: [&str; 4] = ["force", "indentation", "dissipated_energy", "mean_force"];
 
-/// Step of the simulations [s].
+/// Step size of the simulations [s].
 const STEP: f64 = 1e-5;
 
-/// What contacts of these tests have for themselves, with the limits of the values that they get; none of them shrinks the
-/// indentations of [`rate`] to nothing.
+/// The parameters that contacts of these tests have for themselves, with the ranges of their values. None of them makes the
+/// indentations of [`rate`] negligible.
 const OWN: [(&str, f64, f64); 5] = [
     ("impactor.radius", 1e-4, 1e-1),
     ("target.youngs_modulus", 1e10, 1e12),
@@ -28,12 +28,12 @@ const OWN: [(&str, f64, f64); 5] = [
 const MASS: (&str, f64, f64) = ("effective_mass", 1e-6, 1e2);
 const RESTITUTION: (&str, f64, f64) = ("restitution", 0.1, 1.0);
 
-/// The number `place` of an evenly spread sequence between 0 and 1 (multiples of the golden ratio).
+/// The number with index `place` of a uniformly distributed sequence between 0 and 1 (multiples of the golden ratio).
 fn part(place: usize) -> f64 {
     (place as f64 * 0.618_033_988_749_894_9).fract()
 }
 
-/// Values of the parameters `own` for a contact: log-uniform, and other ones for each.
+/// Log-uniform values of the parameters `own` for a contact, different for each contact.
 fn values(own: &[(&str, f64, f64)], contact: usize) -> Vec<f64> {
     let value = |(place, (_, low, high)): (usize, &(&str, f64, f64))| {
         low * (high / low).powf(part(own.len() * contact + place + 1))
@@ -41,13 +41,13 @@ fn values(own: &[(&str, f64, f64)], contact: usize) -> Vec<f64> {
     own.iter().enumerate().map(value).collect()
 }
 
-/// The rate of a contact in a step [m/s]: in and out, of either sign.
+/// The rate of a contact in a step [m/s]: of either sign.
 fn rate(contact: usize, step: usize) -> f64 {
     let size = 10f64.powf(3.0 * part(37 * contact + step) - 2.0);
     if part(11 * contact + 3 * step) < 0.55 { size } else { -size }
 }
 
-/// A scene with `more` at its end.
+/// A scene with `more` appended.
 fn load(name: &str, more: &str) -> Unit {
     let (top, tables) = more.split_once("[[").map_or((more, String::new()), |(top, rest)| (top, format!("[[{rest}")));
     let outputs = "[fmu]\noutputs = [\"indentation\", \"dissipated_energy\", \"mean_force\"]\n";
@@ -60,13 +60,13 @@ fn table(name: &str, count: usize, own: &[(&str, f64, f64)]) -> String {
     format!("[[contact]]\nname = \"{name}\"\ncount = {count}\nparameters_per_contact = {names:?}\n")
 }
 
-/// Every output of the contact whose variables begin with `prefix`, bit by bit.
+/// Every output of the contact whose variables begin with `prefix`, as bits.
 fn outputs(instance: &Instance, prefix: &str) -> [u64; 4] {
     OUTPUTS.map(|name| instance.real(&format!("{prefix}{name}")).to_bits())
 }
 
-/// The contacts `row[1]` to `row[count]`, each with its values of `own` and its rates, step by step beside the unit `single` of
-/// one contact.
+/// Compares the contacts `row[1]` to `row[count]`, each with its values of `own` and its rates, step by step with the FMU
+/// `single` of one contact.
 fn beside(row: &Unit, single: &Unit, count: usize, own: &[(&str, f64, f64)], steps: usize) {
     let mut all = row.instantiate();
     for contact in 0..count {
@@ -93,7 +93,7 @@ fn beside(row: &Unit, single: &Unit, count: usize, own: &[(&str, f64, f64)], ste
 }
 
 #[test]
-fn contacts_with_parameters_of_their_own_are_units_of_one_contact_to_the_last_bit() {
+fn contacts_with_parameters_of_their_own_are_fmus_of_one_contact_to_the_last_bit() {
     let damped = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.6\n";
     let with_mass = "[law]\nloading = \"tsuji\"\nrestitution = 0.6\n[impact]\nmass = 4e-3\nspeed = 1.0\n";
     let fit = "[law]\nloading = \"brinell\"\nunloading = \"brinell\"\n";
@@ -115,15 +115,15 @@ fn contacts_with_parameters_of_their_own_are_units_of_one_contact_to_the_last_bi
 
 const COUPLING: &str = "[coupling]\neffective_mass = 4e-3\n";
 
-/// One step holds the whole impact of each contact, as in a study.
+/// One step contains the whole impact of each contact, as in a study.
 #[test]
-fn a_thousand_impacts_in_one_step_are_those_of_a_thousand_units() {
+fn a_thousand_impacts_in_one_step_are_those_of_a_thousand_fmus() {
     const COUNT: usize = 1000;
     let own = [OWN[0], OWN[3], MASS];
     let row = load("thousand_row", &format!("{COUPLING}{}", table("row", COUNT, &own)));
     let single = load("thousand_one", COUPLING);
     let mut all = row.instantiate();
-    // the values of a parameter follow each other, one parameter after the other
+    // the values of a parameter are consecutive, one parameter after the other
     let settable = all.real_of("row[1].impactor.radius");
     let columns = (0..own.len()).flat_map(|kind| (0..COUNT).map(move |contact| values(&own, contact)[kind]));
     let references: Vec<u32> = (settable..).take(own.len() * COUNT).collect();
@@ -146,7 +146,7 @@ fn a_thousand_impacts_in_one_step_are_those_of_a_thousand_units() {
     }
 }
 
-/// Contacts with and without parameters of their own side by side, in several tables.
+/// Contacts with and without their own parameters in several tables.
 fn mixed() -> Unit {
     let strength = &OWN[3..4];
     load(
@@ -179,7 +179,7 @@ fn every_table_of_a_scene_has_its_parameters_for_itself() {
     let rates = [1.0; 8];
     assert_eq!(all.set(&[0, 1, 2, 3, 4, 5, 6, 7], &rates), OK);
     assert_eq!(all.step(0.0, 1e-3), OK);
-    // strength, mass and gap of each contact: its own, or those of all
+    // strength, mass and gap of each contact: its own, or the common ones
     let expected = [
         (250e6, 1e-3, 0.0),
         (250e6, 1e-3, 0.0),
@@ -217,7 +217,7 @@ fn a_value_that_is_refused_names_its_contact() {
         assert!(message.contains(words) && message.contains("allowed is"), "{message}");
         instance.reset();
     }
-    // between steps the masses alone can be set, those of each contact
+    // between steps only the masses can be set, one for each contact
     let mut instance = unit.ready();
     for name in ["effective_mass", "row[1].effective_mass", "row[3].effective_mass", "left.effective_mass"] {
         instance.set_one(name, 7e-3);
@@ -288,7 +288,7 @@ fn states_hold_the_parameters_of_each_contact_and_a_reset_forgets_them() {
     assert_eq!(instance.get(&references, &mut found), OK);
     assert_eq!(found, columns(0));
     assert_eq!(run(&mut instance, 20..50), first);
-    // a reset brings back the values of the scene
+    // a reset restores the values of the scene
     instance.reset();
     instance.enter_initialization();
     assert_eq!(instance.get(&references, &mut starts), OK);

@@ -1,4 +1,4 @@
-//! A contact moved along paths: what counts is where it has been, not in how many steps.
+//! Contacts on paths: the result depends on the path, not on the number of steps.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -11,7 +11,7 @@ use physics::{
     pressed, unit, unloading_force,
 };
 
-/// What a path shows: force, energies, dent, contact radius.
+/// The outputs along a path: force, energies, dent, contact radius.
 fn readings(history: &History, model: &AnyModel) -> [f64; 5] {
     [
         history.force(),
@@ -37,8 +37,8 @@ fn a_path_gives_the_same_however_it_is_cut() {
                 }
                 let pairs = readings(&whole, &model).into_iter().zip(readings(&cut, &model));
                 for (index, (one, thousand)) in pairs.enumerate() {
-                    // 1e-13 of the largest: the thousandth is rounded once, which moves the end by 1e-16 of the way.
-                    // The root in the contact radius makes 1e-8 of that at the residual indentation; none turns there.
+                    // 1e-13 of the largest: the thousandth is rounded once, which moves the end by 1e-16 of the path. The root
+                    // in the contact radius turns this into 1e-8 at the residual indentation; no path turns there.
                     let size = if index < 3 { largest[index].max(largest[0] * on_grid(200.0)) } else { largest[index] };
                     let size = if index == 0 { largest[0] } else { size };
                     assert!(
@@ -55,9 +55,9 @@ fn a_path_gives_the_same_however_it_is_cut() {
 #[test]
 fn a_hundred_million_small_steps_lose_nothing() {
     let model = model("big-alabo", "contact-radius");
-    // an unoptimized build does a tenth of them, so that nobody waits
+    // an unoptimized build makes a tenth of them, to save time
     let steps = if cfg!(debug_assertions) { 10_000_000 } else { 100_000_000 };
-    // from nothing; and steps so small beside the indentation that a plain sum would not move at all
+    // from zero; and with steps so small beside the indentation that a plain sum would not change
     for (start, step) in [(0.0, 1.1e-15), (1.0, 1.1e-17)] {
         let mut history = pressed(&model, start);
         for _ in 0..steps {
@@ -79,7 +79,7 @@ fn what_a_step_smaller_than_the_indentation_rounds_away_is_kept() {
     let mut history = pressed(&model, 1.0);
     advance(&mut history, &model, 0.7 * half);
     assert_eq!(history.indentation(), 1.0);
-    // together more than half a unit, each alone less
+    // together more than half a unit, each of them less
     advance(&mut history, &model, 0.7 * half);
     assert_eq!(history.indentation(), 1.0f64.next_up());
 }
@@ -91,7 +91,7 @@ fn a_step_much_larger_than_the_indentation_is_off_by_half_a_unit_of_its_own_last
     for small in [0.4 * half, 0.9 * half, 3.3 * half, 1e-3, 0.3, 0.999] {
         let mut history = pressed(&model, small);
         advance(&mut history, &model, 1.0);
-        // back to the small number: what is missing there was lost on the way
+        // back to the small number: its missing part was lost on the way
         advance(&mut history, &model, -1.0);
         assert!((history.indentation() - small).abs() <= half, "{small:e} became {:e}", history.indentation());
     }
@@ -152,7 +152,7 @@ fn a_fresh_surface_forgets_the_dent_beyond_the_original_surface_but_not_its_ener
         let (lost, dent) = (first.dissipated_energy(&fresh), first.residual_indentation(&fresh));
         let mut history = first;
         if dent > 0.0 {
-            // parted, but not beyond the original surface: the dent is still met
+            // separated, but not beyond the original surface: the dent is still there
             exactly(&mut history, &fresh, 0.5 * dent);
             assert_eq!((history.regime(), history.force()), (Regime::Apart, 0.0), "{name}");
             exactly(&mut history, &fresh, on_grid(20.0));
@@ -199,7 +199,7 @@ fn increments_that_leave_the_range_are_refused_and_change_nothing() {
                 let before = history;
                 for increment in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e101, -1e101, f64::MAX, f64::MIN] {
                     let refused = history.advance(&model, increment).expect_err("out of range").indentation;
-                    // the refused indentation is named: so far away, the increment itself
+                    // the error contains the rejected indentation: so far away, it is the increment
                     assert_eq!(refused.to_bits(), increment.to_bits(), "{name}: {increment} from {path:?}");
                     assert_eq!(history, before, "{name}: {increment} from {path:?}");
                 }
@@ -215,7 +215,7 @@ fn the_range_has_the_same_end_however_it_is_reached() {
         for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
             assert!(History::start(&model, LARGEST_INDENTATION).is_err(), "{name}: started there");
             for x in [-1.0, 0.5, 20.0] {
-                // one step to zero first, so that the next one ends exactly at the border
+                // one step to zero first, so that the next one ends exactly at the boundary
                 let mut history = pressed(&model, on_grid(x));
                 go(&mut history, &model, 0.0);
                 let before = history;
@@ -234,12 +234,12 @@ fn dissipated_energy_never_falls_along_a_long_path() {
         for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
             let (mut history, mut random, mut before, mut largest) = (pressed(&model, 0.0), Random(7), 0.0, 0.0_f64);
             for _ in 0..5000 {
-                // over five decades of the yield indentation, a fifth of the turns apart
+                // over five decades of the yield indentation; a fifth of the turning points are apart
                 let x = 10f64.powf(5.0 * random.next() - 1.5) * if random.next() < 0.2 { -1.0 } else { 1.0 };
                 go(&mut history, &model, on_grid(x));
                 largest = largest.max(history.indentation());
                 let lost = history.dissipated_energy(&model);
-                // a few roundings of the energies whose difference it is, and of the sum of all the dents so far
+                // a few rounding errors of the energies whose difference it is, and of the sum over all dents so far
                 let hertz = 0.4 * model.pair.hertz_stiffness() * largest.powf(2.5);
                 let rounding = 16.0 * f64::EPSILON * hertz.max(lost);
                 assert!(lost >= before - rounding, "{name}, {:?}: from {before:e} to {lost:e} at {x}", model.surface);
@@ -276,7 +276,7 @@ fn a_history_comes_back_from_its_words() {
 }
 
 #[test]
-fn words_that_are_no_history_are_refused() {
+fn words_that_are_not_a_history_are_refused() {
     let model = model("big-alabo", "contact-radius");
     let words = words_of(&pressed(&model, on_grid(20.0)));
     assert!(of_words(&words, &model).is_some());
@@ -307,15 +307,15 @@ fn on_the_way_down_the_contact_radius_is_that_of_an_elastic_recovery() {
         for part in [0.9, 0.25, 0.01] {
             go(&mut history, &model, dent + part * (on_grid(20.0) - dent));
             let ratio = history.contact_radius(&model) / radius;
-            // Hertz's recovery, or half the stiffness over E*, which is the same where the path is Hertz's
+            // Hertz's recovery, or half the stiffness over E*, which is equal on a Hertzian path
             let expected = match hertzian {
-                // the area of this law falls with another power of the recovery, y_m^-0.12; that one keeps part of the radius
+                // the area of this law is another power of the recovery, y_m^-0.12; the other law keeps a part of the radius
                 _ if is_etsion => (part.powf(depth.powf(-0.12))).sqrt(),
                 _ if is_vu_quoc => (history.indentation() / on_grid(20.0)).sqrt(),
                 true => part.sqrt(),
                 false => history.stiffness() / (2.0 * model.pair.modulus) / radius,
             };
-            // the rounding of d - d_f, a hundredth of numbers of the size of d
+            // the rounding error of d - d_f, a hundredth of numbers of the size of d
             assert!((ratio / expected - 1.0).abs() < 1e-13, "{name}: {ratio} after {part} of the recovery");
         }
     }

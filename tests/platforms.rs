@@ -1,4 +1,4 @@
-//! FMUs for several platforms. What other systems need is tested where a toolchain for them is: BRINELL_PLATFORMS=all fetches it.
+//! FMUs for several platforms. Other systems are tested if their toolchain is available; BRINELL_PLATFORMS=all downloads it.
 
 #[path = "support/command.rs"]
 mod command;
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// All folders, in the order in which they are in the archive.
+/// All folders, in their order in the archive.
 const ALL: [&str; 5] = ["linux64", "aarch64-linux", "win64", "darwin64", "aarch64-darwin"];
 
 /// The files of an FMU by name.
@@ -48,7 +48,7 @@ fn number(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
 }
 
-/// The format and the processor of a library, by its first bytes.
+/// The format and the processor of a library, from its first bytes.
 fn kind(library: &[u8]) -> String {
     match number(library, 0) {
         0x464C_457F => format!("ELF {}", number(library, 18) & 0xFFFF),
@@ -66,7 +66,7 @@ fn contains(bytes: &[u8], text: &[u8]) -> bool {
     bytes.windows(text.len()).any(|window| window == text)
 }
 
-/// An export of the default scene in `folder` for these platforms, with the toolchain that was found.
+/// An export of the default scene in `folder` for these platforms, with this toolchain.
 fn export(folder: &Path, toolchain: &Path, scene_name: &str, arguments: &[&str]) -> Run {
     let mut command = brinell(folder);
     command.env("BRINELL_TOOLCHAIN", toolchain).arg("export").arg(scene(scene_name)).args(arguments);
@@ -90,7 +90,7 @@ fn the_platform_of_this_machine_is_the_default() {
 }
 
 #[test]
-fn a_platform_that_does_not_exist_is_told_with_those_that_do() {
+fn an_unknown_platform_is_reported_with_the_known_ones() {
     let folder = empty_folder();
     for platforms in ["win32", "linux64,win32", ""] {
         let said = run(folder.path(), ["export", scene("steel_ball").to_str().unwrap(), "--platforms", platforms]);
@@ -104,10 +104,10 @@ fn a_platform_that_does_not_exist_is_told_with_those_that_do() {
     }
 }
 
-/// A compiler that has no other target than its own: each message says what to install, and nothing is written.
+/// A compiler for its own target only: each message says what to install, and nothing is written.
 #[test]
 #[cfg(target_os = "linux")]
-fn a_platform_that_cannot_be_built_is_told_with_how_to_get_it() {
+fn a_platform_that_cannot_be_built_is_reported_with_how_to_get_it() {
     let folder = empty_folder();
     let compiler = folder.path().join("bin");
     let script = "#!/bin/sh\ncase $1 in --print) echo /no/sysroot;; *) echo 'release: 1.99.0';; esac\n";
@@ -164,7 +164,7 @@ fn all_platforms_at_once_are_those_made_apart_and_merged_bit_for_bit() {
     let folder = empty_folder();
     let fmu = |name: &str| folder.path().join(name);
     export(folder.path(), &toolchain, "steel_ball", &["--platforms", "all", "-o", "all.fmu"]);
-    // another cache, so that nothing of the first export is used
+    // another cache, so that nothing of the first export is reused
     let cache = empty_folder();
     let mut apart = Vec::new();
     for platforms in ["darwin64", "win64,linux64", "aarch64-darwin,aarch64-linux"] {

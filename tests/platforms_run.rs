@@ -1,7 +1,7 @@
-//! Units on other C libraries and in unusual hosts of Linux: the same history gives the same bits as in an ordinary program.
+//! FMUs with other C libraries and in unusual Linux hosts: the same history gives the same bits as in an ordinary program.
 //!
-//! Each test compiles the program in tests/platforms/ for its kind of host. What a host needs is unpacked in the target folder
-//! (tests/support/debian.rs); a host that can't be had is skipped, and said to be.
+//! Each test compiles the program in tests/platforms/ for its kind of host. The dependencies of a host are unpacked in the
+//! target folder (tests/support/debian.rs). If a host is not available, it is skipped with a message.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
 #[path = "support/courses.rs"]
@@ -22,10 +22,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The scenes that are run: the default, one that knows the mass, one with every output.
+/// The scenes: the default, one that knows the mass, and one with every output.
 const SCENES: [&str; 3] = ["steel_ball", "mass_known", "everything"];
 
-/// A library, and what an ordinary program gets from it.
+/// A library, and its results in an ordinary program.
 struct Case {
     name: String,
     library: PathBuf,
@@ -33,7 +33,7 @@ struct Case {
     expected: Said,
 }
 
-/// The units of all scenes, as they are and standalone, under an ordinary program.
+/// The FMUs of all scenes, unchanged and standalone, in an ordinary program.
 fn cases(host: &Host) -> Vec<Case> {
     let scenes = SCENES.map(unit::scene).into_iter().chain(SCENES.map(|name| standalone::scene(&unit::scene(name))));
     let case = |scene: PathBuf| {
@@ -47,14 +47,14 @@ fn cases(host: &Host) -> Vec<Case> {
     scenes.map(case).collect()
 }
 
-/// The program that loads libraries as any other does.
+/// An ordinary program that loads libraries through the system.
 fn ordinary() -> Host {
     Host::program(
         compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap_or_else(|why| panic!("{why}")),
     )
 }
 
-/// What `host`, whose name begins with `name`, says of the units: the same as an ordinary program.
+/// Runs the FMUs in `host`, whose name begins with `name`, and compares the results with those in an ordinary program.
 #[track_caller]
 fn assert_all_run(host: &Host, name: &str) {
     for case in cases(&ordinary()) {
@@ -67,12 +67,12 @@ fn assert_runs(host: &Host, name: &str, case: &Case) {
     let said = host.run(&case.library, &case.interface, &courses::history());
     let said = said.unwrap_or_else(|why| panic!("{} in {name}: {why}", case.name));
     assert!(said.host.starts_with(name), "this is no {name}: {}", said.host);
-    // not assert_eq: there are thousands of lines
+    // not assert_eq, because there are thousands of lines
     assert!(said.bits == case.expected.bits, "{} in {name}: other bits", case.name);
     assert_eq!((said.memory, &said.message), (case.expected.memory, &case.expected.message), "{} in {name}", case.name);
 }
 
-/// Standalone units run in `host`, whose name begins with `name`; of the others the host says that `calloc` is missing.
+/// Standalone FMUs run in `host`, whose name begins with `name`; for the others, the host reports that `calloc` is missing.
 #[track_caller]
 fn assert_standalone_alone_runs(host: &Host, name: &str) {
     for case in cases(&ordinary()) {
@@ -85,16 +85,16 @@ fn assert_standalone_alone_runs(host: &Host, name: &str) {
     }
 }
 
-/// The old C library is that of the release before the last but one, Debian 11.
+/// The old C library is that of Debian 11, the release before the last but one.
 #[test]
-fn units_run_on_an_old_c_library() {
+fn fmus_run_on_an_old_c_library() {
     let packages = match debian::packages("bullseye", "bullseye", &["libc6", "libc6-dev", "linux-libc-dev"], false) {
         Ok(packages) => packages,
         Err(why) => return skipped("units on glibc 2.31", &why),
     };
     let root = packages.folder;
     let libraries = root.join("lib/x86_64-linux-gnu");
-    // the compiler would link its own system's library, wherever headers come from
+    // otherwise the compiler would link the library of its own system, whatever the headers are
     let sysroot = format!("--sysroot={}", root.display());
     let linked =
         ["crt1.o", "crti.o", "libc_nonshared.a", "crtn.o"].map(|name| root.join("usr/lib/x86_64-linux-gnu").join(name));
@@ -107,10 +107,10 @@ fn units_run_on_an_old_c_library() {
     let loader = libraries.join("ld-linux-x86-64.so.2");
     let host = Host { command: vec![loader, "--library-path".into(), libraries, program], variables: Vec::new() };
     assert_all_run(&host, "glibc 2.31");
-    // the host can refuse: a library for a new C library doesn't load
+    // the host can fail: a library for a new C library does not load
     let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join("needs_new_glibc.c");
     let library = source.with_extension("so");
-    // the symbol has the version in which it came into the C library itself
+    // the symbol has the version with which it was moved to the C library
     fs::write(&source, "void *dlopen(const char *, int); void *f(void) { return dlopen(0, 1); }").unwrap();
     let made = Command::new("cc").args(["-shared", "-fPIC", "-o"]).arg(&library).arg(&source).status().unwrap();
     assert!(made.success());
@@ -120,7 +120,7 @@ fn units_run_on_an_old_c_library() {
 }
 
 #[test]
-fn units_run_on_musl() {
+fn fmus_run_on_musl() {
     let packages = match debian::packages("musl", "bookworm", &["musl", "musl-dev"], false) {
         Ok(packages) => packages,
         Err(why) => return skipped("units on musl", &why),
@@ -128,7 +128,7 @@ fn units_run_on_musl() {
     let root = packages.folder;
     let file = |name: &str| root.join(name).display().to_string();
     let (include, start) = (file("usr/include/x86_64-linux-musl"), file("usr/lib/x86_64-linux-musl/crt1.o"));
-    // the library is its own loader
+    // the library is also the loader
     let system = file("lib/x86_64-linux-musl/libc.so");
     let options = ["-nostdinc", "-isystem", &include, "-nostdlib", "-no-pie", &start, &system];
     let program = compile("musl", "host.c", Loading::BySystem, &cc(), &options).unwrap_or_else(|why| panic!("{why}"));
@@ -136,25 +136,25 @@ fn units_run_on_musl() {
     assert_all_run(&host, "another C library");
 }
 
-/// As importers do that keep units apart: what the process has is not to be found from there.
+/// Like importers that isolate FMUs: libraries of the process are not visible there.
 #[test]
-fn standalone_units_run_in_a_namespace_of_their_own() {
+fn standalone_fmus_run_in_a_namespace_of_their_own() {
     let program = compile("namespace", "host.c", Loading::IntoNamespace, &cc(), &["-ldl"]);
     assert_standalone_alone_runs(&Host::program(program.unwrap_or_else(|why| panic!("{why}"))), "glibc ");
 }
 
 #[test]
-fn standalone_units_run_in_a_host_that_is_linked_statically() {
-    // that the linker warns of dlopen is no failure
+fn standalone_fmus_run_in_a_host_that_is_linked_statically() {
+    // a warning of the linker about dlopen is not a failure
     match compile("static", "host.c", Loading::BySystem, &cc(), &["-static", "-ldl"]) {
         Ok(program) => assert_standalone_alone_runs(&Host::program(program), "glibc "),
         Err(why) => skipped("a host that is linked statically", &why),
     }
 }
 
-/// As in a program for some device, which has no dynamic linker at all.
+/// Like a program for a device without a dynamic linker.
 #[test]
-fn standalone_units_run_in_a_host_that_loads_them_by_itself() {
+fn standalone_fmus_run_in_a_host_that_loads_them_by_itself() {
     let program = compile("by-hand", "host.c", Loading::ByHand, &cc(), &[]).unwrap_or_else(|why| panic!("{why}"));
     assert_standalone_alone_runs(&Host::program(program), "no dynamic linker");
 }

@@ -1,4 +1,4 @@
-//! How predictions are found: the root of the energy balance, and what it costs.
+//! Predictions: the root of the energy balance, and the cost to find it.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -12,7 +12,7 @@ use brinell::contact::{Loading, Model, Pair, Segment, Surface};
 use physics::{AnyModel, MASS, logarithmic, mild, model, unit};
 use std::cell::Cell;
 
-/// A law that counts how often its work is asked for.
+/// A law that counts the evaluations of its work.
 struct Counting<'a> {
     law: AnyLoading,
     works: &'a Cell<u32>,
@@ -37,7 +37,7 @@ impl Loading for Counting<'_> {
     }
 
     fn work_between(&self, pair: &Pair, low: f64, high: f64) -> Option<f64> {
-        // so that the time of the loading asks for no work: the root is what is counted
+        // the time of the loading evaluates no work, so that only the root is counted
         Some(self.law.work_between(pair, low, high).unwrap_or(0.0))
     }
 
@@ -81,7 +81,7 @@ fn a_prediction_asks_for_the_work_a_few_times_only() {
             most = most.max((works.get(), name));
         }
     }
-    // halving needs 64 for the root alone; some of these are for the time of each smooth piece
+    // bisection would need 64 for the root alone; some of these are for the time of each smooth piece
     assert!(most.0 <= 32, "{most:?}");
 }
 
@@ -94,7 +94,7 @@ fn the_work_between_two_indentations_is_the_difference_of_their_works() {
             for part in [1e-3, 0.1, 0.9] {
                 let high = x * unit(&pair).indentation;
                 let low = high * (1.0 - part);
-                // across a corner nobody asks
+                // never called across a corner
                 let corner = law.next_corner(&pair, low);
                 let Some(between) = law.work_between(&pair, low, high).filter(|_| corner >= high) else { continue };
                 let difference = law.work(&pair, high) - law.work(&pair, low);
@@ -109,7 +109,7 @@ fn the_work_between_two_indentations_is_the_difference_of_their_works() {
 
 #[test]
 fn times_are_right_to_rounding_though_the_kinetic_energy_vanishes_at_the_turning_point() {
-    // Hertz's impact lasts (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10) d_m/v, of which the loading is half: mpmath, 30 digits
+    // Hertz's impact lasts (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10) d_m/v; the loading is half of it (mpmath, 30 digits)
     let hertz = model("hertz", "contact-radius");
     for speed in logarithmic(1e-6, 1e2, 9) {
         let prediction = predict(&hertz, &Impact { mass: MASS, speed }).unwrap();

@@ -1,4 +1,4 @@
-//! What holds for every material, sphere, pairing of laws and path: drawn at random, shrunk when it fails.
+//! Properties that hold for every material, sphere, pair of laws and path: random cases, shrunk on failure.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -10,8 +10,8 @@ use physics::{AnyModel, advance, all_models, is_passive, is_scale_free, loading_
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-/// No files: a case that fails is printed with its input, and becomes a test of its own. The same cases in every run, so that
-/// a failure is that of a change; PROPTEST_RNG_SEED and PROPTEST_CASES look further.
+/// No files: a failing case is printed with its input, and becomes a separate test. The cases are the same in every run, so
+/// that a failure is caused by a change; PROPTEST_RNG_SEED and PROPTEST_CASES extend the search.
 fn config(cases: u32) -> ProptestConfig {
     let chosen = |name| std::env::var_os(name).is_some();
     let default = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
@@ -22,7 +22,7 @@ fn config(cases: u32) -> ProptestConfig {
     }
 }
 
-/// Numbers over the decades from `10^low` to `10^high`.
+/// Log-uniform numbers from `10^low` to `10^high`.
 fn decades(low: f64, high: f64) -> impl Strategy<Value = f64> {
     (low..high).prop_map(|exponent| 10f64.powf(exponent))
 }
@@ -34,7 +34,7 @@ fn models() -> impl Strategy<Value = AnyModel> {
     (bodies, laws, any::<bool>()).prop_map(|((youngs_modulus, strain, radius, nu, rigid), (_, laws), fresh)| {
         let impactor_modulus = if rigid { f64::INFINITY } else { 3.0 * youngs_modulus };
         let sphere = Body { radius, youngs_modulus: impactor_modulus, poissons_ratio: 0.3 };
-        // these laws have the contact radius over R in them, and hold where that is small
+        // these laws depend on the contact radius over R, and hold where it is small
         let strain = if is_scale_free(&laws) { strain } else { strain.min(1e-3) };
         let target = Body { radius: f64::INFINITY, youngs_modulus, poissons_ratio: nu };
         let pair = Pair::new(&sphere, &target, strain * youngs_modulus).expect("a sphere on a plane");
@@ -43,14 +43,14 @@ fn models() -> impl Strategy<Value = AnyModel> {
     })
 }
 
-/// Turning points in yield indentations, over five decades, some of them apart.
+/// Turning points in yield indentations, over five decades; some of them are apart.
 fn turns() -> impl Strategy<Value = Vec<f64>> {
     let inside = decades(-2.0, 3.0);
     let turn = prop_oneof![4 => inside, 1 => decades(-2.0, 1.0).prop_map(|x| -x)];
     prop::collection::vec(turn, 1..12)
 }
 
-/// Energies that cancel in the results [J]: the loading work and, for Hertz's shifted curve, Hertz's own.
+/// Energies that cancel in the results [J]: the work of loading and, for Hertz's lowered curve, Hertz's own.
 fn energy_size(model: &AnyModel, largest: f64) -> f64 {
     0.4 * model.pair.hertz_stiffness() * largest.powf(2.5) + loading_force(model, largest) * largest
 }
@@ -62,7 +62,7 @@ fn force_size(model: &AnyModel, largest: f64) -> f64 {
     hertz.max(loading_force(model, largest))
 }
 
-/// Moves through `turns`, and after each leg calls `check` with the history before it and after it.
+/// Moves through `turns`, and after each part calls `check` with the history before and after it.
 fn follow(
     model: &AnyModel,
     turns: &[f64],
@@ -79,7 +79,7 @@ fn follow(
     Ok(())
 }
 
-/// Integral of the force over `[low, high]` by Simpson's rule, halved until both halves agree to `allowed`.
+/// Integral of the force over `[low, high]` with Simpson's rule, bisected until both halves agree within `allowed`.
 fn simpson(force: &dyn Fn(f64) -> f64, low: f64, high: f64, allowed: f64, depth: u32) -> f64 {
     let rule = |a: f64, b: f64| (b - a) / 6.0 * (force(a) + 4.0 * force(0.5 * (a + b)) + force(b));
     let middle = 0.5 * (low + high);
@@ -110,7 +110,7 @@ proptest! {
     fn dissipated_energy_never_falls_and_completes_the_work(model in models(), turns in turns()) {
         let passive = is_passive(&model);
         follow(&model, &turns, |before, after, largest| {
-            // a few roundings of the energies whose difference it is; fresh surfaces sum those of every dent
+            // a few rounding errors of the energies whose difference it is; fresh surfaces sum those of every dent
             let rounding = 32.0 * f64::EPSILON * turns.len() as f64 * energy_size(&model, largest.max(0.0));
             let [lost_before, lost] = [before, after].map(|history| history.dissipated_energy(&model));
             prop_assert!(!passive || lost >= lost_before - rounding, "from {lost_before:e} to {lost:e}");
@@ -131,14 +131,14 @@ proptest! {
                 advance(&mut history, &model, indentation - from);
                 history.force()
             };
-            // many panels from the start, since two coarse estimates may agree by chance; at a corner, where they don't
-            // converge, they are down to 2^-26 of the leg when halving stops
+            // many panels from the start, because two coarse estimates may agree by chance; at a corner, where they do not
+            // converge, the panels are 2^-26 of the part when bisection stops
             let panel = |index: u32| from + (to - from) * f64::from(index) / 64.0;
             let part = |index| simpson(&force, panel(index), panel(index + 1), 1e-14 * size, 20);
             let integral: f64 = (0..64).map(part).sum();
             let work = after.work(&model) - before.work(&model);
-            // the estimate of Simpson's error is not a bound: some ten times what 64 panels were asked for
-            // where the force jumps, Simpson's rule misses at most the jump, 8 % of the force, over the last half of a panel
+            // the estimate of Simpson's error is not a bound: about ten times the tolerance of 64 panels. Where the force
+            // jumps, Simpson's rule misses at most the jump, 8 % of the force, over half of the last panel
             let jump = if physics::has_jumps(&model) { 0.08 * (to - from).abs() / 67_108_864.0 } else { 0.0 };
             let missed = 3.0 * jump * loading_force(&model, largest.max(0.0));
             prop_assert!((work - integral).abs() <= 1e-11 * size + missed, "{work:e}, by integration {integral:e}");
@@ -149,7 +149,7 @@ proptest! {
     #[test]
     fn a_step_may_be_cut_anywhere(model in models(), turns in turns(), cut in 0.0..1.0f64) {
         let deepest = turns.iter().fold(0.0_f64, |deepest, &turn| deepest.max(turn)) * unit(&model.pair).indentation;
-        // to 1e-12 of the largest force, and where Hertz's shifted curve ends, of the forces that cancel in it
+        // within 1e-12 of the largest force, and at the end of Hertz's lowered curve, of the forces that cancel in it
         let force_rounding = 1e-12 * force_size(&model, deepest);
         let energy_rounding = 1e-12 * energy_size(&model, deepest);
         follow(&model, &turns, |before, whole, _| {
@@ -170,7 +170,7 @@ proptest! {
         let unit = unit(&model.pair);
         let speed = speed_ratio * (0.8 * unit.force * unit.indentation / mass).sqrt();
         let prediction = predict(&model, &Impact { mass, speed }).expect("an ordinary impact");
-        // a root of a sum of a few rounded energies, of those that cancel in it
+        // the root of a sum of a few rounded energies, including those that cancel in it
         let rounding = 16.0 * f64::EPSILON * energy_size(&model, prediction.max_indentation) / prediction.energy;
         let most = if is_passive(&model) { 1.0 + rounding } else { f64::INFINITY };
         prop_assert!(prediction.restitution > 0.0 && prediction.restitution <= most, "{prediction:?}");
@@ -192,7 +192,7 @@ fn leapfrog(model: &AnyModel, impact: &Impact, duration: f64, steps: u32) -> (f6
         largest = largest.max(history.indentation());
         time += step;
         if speed < 0.0 && history.force() == 0.0 {
-            // the bodies parted within the last step: go back to the residual indentation at the speed of parting
+            // the bodies separated within the last step: go back to the residual indentation at the speed of separation
             let passed = (history.residual_indentation(model) - history.indentation()) / -speed;
             return (largest, -speed / impact.speed, time - passed);
         }
@@ -207,7 +207,7 @@ fn predictions_agree_with_a_fine_simulation() {
             let prediction = predict(&model, &impact).expect("an ordinary impact");
             let duration = prediction.contact_time();
             let (largest, restitution, time) = leapfrog(&model, &impact, duration, 20_000);
-            // second order: (1/20000)^2 times a few tens, and ten times that for the corners of the curves
+            // second order: (1/20000)^2 times some tens, and ten times that for the corners of the curves
             let errors = [
                 largest / prediction.max_indentation - 1.0,
                 restitution - prediction.restitution,

@@ -1,5 +1,5 @@
-//! The published laws against tables of numbers that were computed elsewhere: as printed, but where a comment names another
-//! source.
+//! The published laws compared with tables of independently computed numbers. The numbers are as printed, unless a comment
+//! names another source.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -161,7 +161,7 @@ fn restitution_depends_on_the_speed_over_the_laws_own_yield_speed_alone() {
         ("zhao-maietta-chang", "contact-radius", [1.0, 0.9628928, 0.9356936, 0.8465761, 0.7847389, 0.7430356,
             0.7389777, 0.7297247, 0.5886730, 0.4548809, 0.3808684]),
     ];
-    // another pair too: the table holds for every material, radius and mass
+    // also another pair: the table holds for every material, radius and mass
     let lead = pair_of(0.03, 16e9, 8e6);
     for (pair, mass) in [(mild(), MASS), (lead, 1.3)] {
         for (loading, unloading, values) in RESTITUTION {
@@ -186,7 +186,7 @@ fn thorntons_restitution_is_the_one_he_gives_in_closed_form() {
         let root = (r / (r + 2.0 * (6.0 / 5.0 - r * r / 5.0).sqrt())).powf(0.25);
         let expected = (6.0 * 3f64.sqrt() / 5.0).sqrt() * (1.0 - r * r / 6.0).sqrt() * root;
         let prediction = impact(&model, ratio * yield_speed);
-        // a few roundings, and that of the dent, of which the recovery is what is left
+        // a few rounding errors, and that of the dent, which determines the recovery
         let recovery = prediction.max_indentation - prediction.residual_indentation;
         let allowed = (32.0 + prediction.max_indentation / recovery) * f64::EPSILON;
         let restitution = prediction.restitution;
@@ -199,7 +199,7 @@ fn walton_and_brauns_restitution_is_the_root_of_the_stiffness_ratio_at_any_speed
     let model = model("walton-braun", "walton-braun");
     for speed in SPEEDS {
         let restitution = impact(&model, speed).restitution;
-        // k_1/k_2 = 1/4; a few roundings
+        // k_1/k_2 = 1/4; a few rounding errors
         assert!((restitution / 0.5 - 1.0).abs() <= 8.0 * f64::EPSILON, "{restitution} at {speed} m/s");
     }
 }
@@ -210,7 +210,7 @@ fn the_walton_braun_line_meets_hertz_where_the_mean_pressure_is_1_1_times_the_yi
     let unit = unit(&model.pair);
     for x in [0.5, 1.0, 2.0, 200.0] {
         let force = loading_force(&model, x * unit.indentation) / unit.force;
-        // a few roundings
+        // a few rounding errors
         assert!((force / x - 1.0).abs() <= 8.0 * f64::EPSILON, "{force} at {x}");
     }
 }
@@ -221,7 +221,7 @@ fn the_power_law_follows_its_constants() {
     let law = Power { yield_pressure_factor: 1.0, coefficient: 2.0, exponent: 1.5 };
     let pair = mild();
     let point = law.yield_point(&pair);
-    // by hand: 1 + 2 (x - 1)^1.5, with the slope 3 sqrt(x - 1) and the work 0.4 + (x - 1) + 0.8 (x - 1)^2.5
+    // computed by hand: 1 + 2 (x - 1)^1.5, with the slope 3 sqrt(x - 1) and the work 0.4 + (x - 1) + 0.8 (x - 1)^2.5
     for (x, force, slope, work) in
         [(1.0, 1.0, 0.0, 0.4), (2.0, 3.0, 3.0, 2.2), (5.0, 17.0, 6.0, 30.0), (10.0, 55.0, 9.0, 203.8)]
     {
@@ -233,7 +233,7 @@ fn the_power_law_follows_its_constants() {
             (law.work(&pair, at) / (point.force * point.indentation), work),
         ];
         for (got, expected) in found {
-            // a few roundings
+            // a few rounding errors
             assert!((got - expected).abs() <= 16.0 * f64::EPSILON * expected, "{got} at {x}, not {expected}");
         }
     }
@@ -241,7 +241,7 @@ fn the_power_law_follows_its_constants() {
 
 #[test]
 fn the_slopes_at_the_borders_are_the_printed_ones() {
-    // law, border in yield indentations, slope below and above [F_y/d_y]
+    // law, boundary in yield indentations, slope below and above [F_y/d_y]
     #[rustfmt::skip]
     const SLOPES: [(&str, f64, f64, f64); 8] = [
         ("stronge", 1.0, 1.5, 2.606),

@@ -1,4 +1,4 @@
-//! The fitted and rebuilt laws against tables of numbers that were computed elsewhere, as printed.
+//! The fitted and reconstructed laws compared with tables of independently computed numbers, as printed.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -16,8 +16,8 @@ const X: [f64; 7] = [1.0, 2.0, 5.0, 13.93, 30.0, 82.5, 200.0];
 /// Speeds of the tables [m/s].
 const SPEEDS: [f64; 7] = [0.05, 0.1, 0.5, 1.0, 5.0, 20.0, 100.0];
 
-/// Beyond `y_m = 10017` the residual formula of Jackson et al. exceeds the largest indentation. The table goes on with a dent deeper
-/// than that; here the dent is the whole indentation but for its last digit, and nothing comes back.
+/// Beyond `y_m = 10017`, the residual formula of Jackson et al. exceeds the largest indentation. The table continues with a
+/// dent deeper than that. Here the dent is the whole indentation except for its last digit, and no energy is returned.
 fn is_beyond_the_fit(unloading: &str, speed: f64) -> bool {
     unloading == "jackson" && speed == 100.0
 }
@@ -261,7 +261,7 @@ fn restitution_depends_on_the_speed_over_the_yield_speed_alone() {
             [1.0000000, 0.9848896, 0.9767027, 0.9515696, 0.9273987, 0.8959754,
             0.8363004, 0.7637778, 0.6614746, 0.5118267, 0.4111310]),
     ];
-    // another pair too: the table holds for every material, radius and mass
+    // also another pair: the table holds for every material, radius and mass
     let lead = pair_of(0.03, 16e9, 8e6);
     for (pair, mass) in [(mild(), MASS), (lead, 1.3)] {
         for (loading, unloading, values) in RESTITUTION {
@@ -269,7 +269,7 @@ fn restitution_depends_on_the_speed_over_the_yield_speed_alone() {
             // each law has its own yield point here
             let unit = model.loading.yield_point(&pair);
             for (ratio, printed) in RATIO.into_iter().zip(values) {
-                // a hair above v_y, so that rounding doesn't decide whether the first case yields: one law jumps
+                // slightly above v_y, so that rounding does not decide whether the first case yields: one law jumps
                 let above = if ratio == 1.0 { 1.0 + 1e-12 } else { 1.0 };
                 let speed = above * ratio * (0.8 * unit.force * unit.indentation / mass).sqrt();
                 let restitution = predict(&model, &Impact { mass, speed }).expect("an ordinary impact").restitution;
@@ -281,7 +281,7 @@ fn restitution_depends_on_the_speed_over_the_yield_speed_alone() {
 
 #[test]
 fn jackson_and_green_with_the_fitted_dent_have_the_restitution_of_the_printed_check() {
-    // speed [m/s], by the law, and by the authors' own fit of the restitution (which is near, not equal)
+    // speed [m/s], with the law, and with the authors' own fit of the restitution (which is close, but not equal)
     const MILD: [(f64, f64, Option<f64>); 6] = [
         (0.05, 0.703241, Some(0.704274)),
         (0.1, 0.611207, Some(0.600945)),

@@ -14,12 +14,12 @@ const BODIES: &str =
     "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[impact]\nmass = 4e-3\nspeed = 1.0\n";
 const OUTPUTS: &str = r#"["indentation", "residual_indentation", "elastic_energy", "dissipated_energy", "mean_force"]"#;
 
-/// A scene of the usual bodies with these lines behind.
+/// A scene of the usual bodies with these lines appended.
 fn with(name: &str, more: &str) -> PathBuf {
     write_scene(name, &format!("name = \"{name}\"\n{BODIES}{more}\n"))
 }
 
-/// Every kind of unit that the module treats in its own way.
+/// Every kind of FMU that the module treats differently.
 fn scenes() -> Vec<PathBuf> {
     let two = "[[contact]]\nname = \"left\"\ninitial_gap = 0.0\n[[contact]]\nname = \"right\"\ninitial_gap = 1e-5\n";
     vec![
@@ -48,7 +48,7 @@ fn scenes() -> Vec<PathBuf> {
     ]
 }
 
-/// Runs tests/python/`file` with the units of [`scenes`].
+/// Runs tests/python/`file` with the FMUs of [`scenes`].
 fn pytest(file: &str) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = root.join("tests/python");
@@ -65,7 +65,7 @@ fn pytest(file: &str) {
         .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
         .env("BRINELL_TEST_SCENES", root.join("scenes"))
-        // nothing is left behind in the source tree
+        // the source tree stays clean
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
         .expect("the virtual environment has an interpreter");

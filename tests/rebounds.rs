@@ -1,4 +1,4 @@
-//! `predict --restitution`: a rebound turned round gives every speed and yield strength that explains it.
+//! `predict --restitution`: the inverse problem gives every speed and yield strength that explains a rebound.
 
 #[path = "support/command.rs"]
 mod command;
@@ -16,7 +16,7 @@ fn scene_with(yield_strength: f64) -> String {
     )
 }
 
-/// The restitution that is predicted for the scene in `folder`.
+/// The predicted restitution for the scene in `folder`.
 fn restitution(folder: &Path, text: &str, law: &str, speed: f64) -> f64 {
     fs::write(folder.join("scene.toml"), text).unwrap();
     let arguments = ["predict", "scene.toml", "--json", "--laws", law, "--speed", &format!("{speed:e}")];
@@ -24,7 +24,7 @@ fn restitution(folder: &Path, text: &str, law: &str, speed: f64) -> f64 {
     predicted["laws"][0]["restitution"].as_f64().unwrap()
 }
 
-/// What explains the restitution `goal` by `law`.
+/// The explanations of the restitution `goal` with `law`.
 fn explained(folder: &Path, law: &str, goal: f64) -> Value {
     fs::write(folder.join("scene.toml"), scene_with(300e6)).unwrap();
     let arguments = ["predict", "scene.toml", "--json", "--laws", law, "--restitution", &goal.to_string()];
@@ -36,9 +36,9 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn every_solution_rebounds_as_was_asked() {
+fn every_solution_has_the_requested_rebound() {
     let folder = empty_folder();
-    // how many there are: counted in the curves of restitution over speed
+    // the number of solutions: counted in the curves of restitution over speed
     let cases = [
         ("big-alabo", 0.87, 3),
         ("big-alabo", 0.5, 1),
@@ -64,12 +64,12 @@ fn every_solution_rebounds_as_was_asked() {
     }
 }
 
-/// The published law has a least restitution just above yield: there two solutions draw together.
+/// The published law has a minimum of the restitution just above yield, where two solutions approach each other.
 #[test]
 fn two_solutions_closer_than_the_grid_are_both_found() {
     let folder = empty_folder();
     let speeds = |goal: f64| numbers(&explained(folder.path(), "big-alabo", goal)["speed"]["solutions"]);
-    // the least value by looking at ever smaller ones: two solutions draw together, then there is only the third
+    // the minimum by trying smaller and smaller values: two solutions approach each other, then only the third remains
     let (mut low, mut high) = (0.8, 0.86);
     while high - low > 1e-9 {
         let middle = 0.5 * (low + high);
@@ -89,7 +89,7 @@ fn an_elastic_rebound_is_explained_by_every_speed_below_yield() {
     let explained = explained(folder.path(), "big-alabo", 1.0);
     let ranges = explained["speed"]["ranges"].as_array().unwrap();
     assert_eq!(ranges.len(), 1, "{explained}");
-    // the speed at which the scene's target yields, as predict says it
+    // the speed at which the scene's target yields, according to predict
     let arguments = ["predict", "scene.toml", "--json"];
     let onset = &run(folder.path(), arguments).with_status(0).json()["laws"][0]["onsets"][0]["speed"];
     let end = numbers(&ranges[0])[1];
@@ -107,7 +107,7 @@ fn a_value_that_restitution_jumps_past_is_no_solution() {
 }
 
 #[test]
-fn a_rebound_that_nothing_explains_is_refused_with_what_was_searched() {
+fn a_rebound_without_explanation_is_refused_with_the_searched_range() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     let failed = run(folder.path(), ["predict", &scene, "--laws", "hertz", "--restitution", "0.5"]).with_status(1);
@@ -117,7 +117,7 @@ fn a_rebound_that_nothing_explains_is_refused_with_what_was_searched() {
 }
 
 #[test]
-fn a_number_that_is_no_restitution_is_refused_with_what_is_allowed() {
+fn an_invalid_restitution_is_refused_with_the_allowed_range() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     for value in ["0", "-0.5", "1.0000001", "NaN", "inf"] {

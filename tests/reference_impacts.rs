@@ -1,4 +1,4 @@
-//! Impacts against tables of numbers that were computed elsewhere: as printed, but where a comment names another source.
+//! Impacts compared with tables of independently computed numbers, as printed, unless a comment names another source.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -95,14 +95,14 @@ fn restitution_depends_on_the_speed_over_the_yield_speed_alone() {
         ("rd165", [1.0, 0.8272775, 0.8261313, 0.8685496, 0.8493712, 0.8083629, 0.7069973, 0.6026262,
             0.5085067, 0.3975744, 0.3334843]),
     ];
-    // another pair too: the table holds for every material, radius and mass
+    // also another pair: the table holds for every material, radius and mass
     let lead = pair_of(0.03, 16e9, 8e6);
     for (pair, mass) in [(mild(), MASS), (lead, 1.3)] {
         let unit = unit(&pair);
         for (name, values) in RESTITUTION {
             let model = AnyModel { pair, ..closure(name) };
             for (ratio, printed) in RATIO.into_iter().zip(values) {
-                // a hair below v_y, so that rounding doesn't decide whether the first case yields: one closure jumps
+                // slightly below v_y, so that rounding does not decide whether the first case yields: one closure jumps
                 let below = if ratio == 1.0 { 1.0 - 1e-12 } else { 1.0 };
                 let speed = below * ratio * (0.8 * unit.force * unit.indentation / mass).sqrt();
                 let restitution = predict(&model, &Impact { mass, speed }).expect("an ordinary impact").restitution;
@@ -133,9 +133,9 @@ fn contacts_last_as_long_as_printed() {
 
 #[test]
 fn restitution_has_its_extrema_where_a_search_with_40_digits_finds_them() {
-    // Per closure: (x_m, v/v_y, e) with their decimals, of the minimum after yield and of the maximum after that.
-    // e is as printed. The places are not: the printed ones come from a coarser search, up to 0.01 d_y and 0.03 v_y off;
-    // these were found by golden section on the closed forms with 40 digits, independently of this code.
+    // For each closure: (x_m, v/v_y, e) with their decimals, of the minimum after yield and of the maximum after that. e is as
+    // printed. The positions are not: the printed ones come from a coarser search and are off by up to 0.01 d_y and 0.03 v_y.
+    // These come from a golden-section search on the closed forms with 40 digits, independent of this code.
     type Printed = [(f64, i32); 3];
     #[rustfmt::skip]
     const EXTREMA: [(&str, Printed, Printed); 5] = [
@@ -154,7 +154,7 @@ fn restitution_has_its_extrema_where_a_search_with_40_digits_finds_them() {
             let given_back = model.recovered_work(largest, largest);
             ((given_back / work).sqrt(), (work / (0.4 * unit.force * unit.indentation)).sqrt())
         };
-        // steps of 1e-4 d_y: a fifth of half a unit of the printed place, and e is flat there
+        // steps of 1e-4 d_y: a fifth of half a unit of the last printed digit, and e is flat there
         for (what, printed, from, sign) in [("minimum", minimum, 1.001, 1.0), ("maximum", maximum, 2.5, -1.0)] {
             let mut best = (from, f64::INFINITY);
             for step in 0..250_000 {
@@ -181,7 +181,7 @@ fn far_beyond_yield_restitution_falls_with_the_printed_power_of_the_speed() {
     for (name, power) in POWER {
         let restitution = |speed| impact(&closure(name), speed).restitution;
         let measured = (restitution(2e4) / restitution(1e4)).log2();
-        // at 5e6 v_y the force is a pure line to 1e-5, and so is the power
+        // at 5e6 v_y the force is a pure line within 1e-5, and so is the power
         assert!((measured - power).abs() < 1e-4, "{name}: {measured}");
     }
 }

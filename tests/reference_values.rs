@@ -1,4 +1,4 @@
-//! The laws against tables of numbers that were computed elsewhere: as printed, but where a comment names another source.
+//! The laws compared with tables of independently computed numbers, as printed, unless a comment names another source.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -29,7 +29,7 @@ fn the_yield_point_is_that_of_a_mean_pressure_of_1_1_times_the_yield_strength() 
     let point = BigAlabo::REFERENCE.yield_point(&unit_pair);
     agrees("d_y / (R (S/E*)^2)", point.indentation, 6.71749950, 8);
     agrees("F_y / (R^2 S^3/E*^2)", point.force, 23.2140118, 7);
-    // 0.680625 pi^2 is the same number in closed form: a few roundings
+    // 0.680625 pi^2 is the same number in closed form: a few rounding errors
     let closed = 0.680625 * std::f64::consts::PI.powi(2);
     assert!((point.indentation / closed - 1.0).abs() <= 4.0 * f64::EPSILON);
 }
@@ -64,12 +64,12 @@ fn the_reference_constants_follow_from_continuity() {
     agrees_in_digits("f_p", last.constant / unit.force, 417.343282988029, 15);
     agrees_in_digits("k_p", last.linear / slope, 5.09090909090909, 15);
     agrees_in_digits("w_tep", law.work(&pair, tep) / energy, 253.797453062229, 15);
-    // These three end otherwise than printed (...7668, ...555, ...281): they are the closed forms evaluated with 40 digits.
+    // These three end differently than printed (...7668, ...555, ...281): they are the closed forms evaluated with 40 digits.
     agrees_in_digits("w_p", law.work(&pair, plastic) / energy, 16190.7469157667, 15);
     let speed = |indentation: f64| (law.work(&pair, indentation) / (0.4 * energy)).sqrt();
     agrees_in_digits("v_tep/v_y", speed(tep), 25.1891570453553, 15);
     agrees_in_digits("v_p/v_y", speed(plastic), 201.188636084190, 15);
-    // as printed again
+    // as printed
     agrees_in_digits("mild v_tep", speed(tep) * yield_speed(), 4.71965112232e-2, 12);
     agrees_in_digits("mild v_p", speed(plastic) * yield_speed(), 3.76963854084e-1, 12);
 }

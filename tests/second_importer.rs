@@ -1,4 +1,4 @@
-//! A unit in the hands of another importer: the `fmi` crate must read it and get the same bits from it as fmpy.
+//! An FMU in another importer: the `fmi` crate must read it and get the same bits as fmpy.
 
 #[path = "support/fmi_crate.rs"]
 mod fmi_crate;
@@ -15,8 +15,8 @@ use std::process::Command;
 /// Steps of the history.
 const STEPS: u32 = 3000;
 
-/// Presses, lets go and presses deeper, with rates and steps that change from line to line: a few visits to each branch of
-/// the law, at times that no decimal number of steps hits.
+/// Loads, unloads and loads deeper, with rates and steps that change from line to line: a few visits to each branch of the law,
+/// at times that no decimal number of steps gives.
 fn history() -> PathBuf {
     let mut text = String::new();
     for index in 0..STEPS {
@@ -49,7 +49,7 @@ fn the_fmi_crate_and_fmpy_get_the_same_bits() {
             panic!("{}: step {step}: {} and {}", scene.display(), by_fmi_crate[step], by_fmpy[step]);
         }
         assert_eq!(by_fmi_crate.len(), by_fmpy.len());
-        // two importers that both read zeros would agree as well
+        // two importers that both read zeros would also agree
         let pressed = by_fmi_crate.iter().filter(|bits| **bits != "0000000000000000").count();
         assert!(pressed > 1000, "{}: in contact for {pressed} steps only", scene.display());
     }

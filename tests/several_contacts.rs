@@ -1,5 +1,5 @@
-//! Units with several contacts, called as an importer calls them: each contact does what a unit of its own would do, to
-//! the last bit, however it is addressed, and all of them move or none.
+//! FMUs with several contacts, called like by an importer: each contact equals that of a separate FMU to the last bit, however
+//! it is addressed; either all of them move or none.
 #![cfg(target_os = "linux")]
 
 #[path = "support/loaded.rs"]
@@ -11,26 +11,26 @@ use loaded::{ERROR, Instance, OK, Unit};
 use std::fmt::Write;
 use unit::write_scene;
 
-/// Step of the simulations [s].
+/// Step size of the simulations [s].
 const STEP: f64 = 1e-6;
 
 /// Rates [m/s] of steps of 1 us: through all branches of the law, apart, and in again.
 const RATES: [f64; 12] = [1.3, 2.0, 0.7, -0.4, 0.3, -5.0, -1.0, 4.0, 5.0, -0.1, -9.0, 3.0];
 
-/// The bodies that contacts of these tests have, as lines of a scene file.
+/// The bodies of contacts in these tests, as lines of a scene file.
 const PLAIN: &str = "impactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n";
 const OTHER: &str = "impactor = { radius = 4e-3, youngs_modulus = 210e9, poissons_ratio = 0.3 }\n\
                      target = { material = \"mild steel\", yield_strength = 420e6, surface = \"fresh\" }\n";
 
 const OUTPUTS: &str = "[fmu]\noutputs = [\"indentation\", \"dissipated_energy\", \"regime\"]\n";
 
-/// A unit of one contact with the `bodies`, further from the target by `gap` [m].
+/// An FMU of one contact with the `bodies` and an additional `gap` [m].
 fn single(name: &str, bodies: &str, gap: f64) -> Unit {
     let outputs = OUTPUTS.replace("[fmu]", &format!("[fmu]\ninitial_gap = {gap:e}"));
     Unit::load(&write_scene(name, &format!("name = \"{name}\"\n{bodies}{outputs}")))
 }
 
-/// A unit with `groups` of contacts: lines of `[[contact]]`.
+/// An FMU with `groups` of contacts: lines of `[[contact]]`.
 fn several(name: &str, groups: &[String]) -> Unit {
     let mut text = format!("name = \"{name}\"\n{PLAIN}{OUTPUTS}");
     for group in groups {
@@ -47,19 +47,19 @@ fn counted(count: usize) -> Unit {
     several(&format!("counted_{count}"), &[format!("name = \"contact\"\ncount = {count}\n")])
 }
 
-/// The rate of a contact in a step [m/s]: another one for each.
+/// The rate of a contact in a step [m/s]: different for each contact.
 fn rate(contact: usize, step: usize) -> f64 {
     RATES[(step + contact) % RATES.len()] * (1.0 + 0.001 * contact as f64)
 }
 
-/// Every output of the contact whose variables begin with `prefix`, bit by bit.
+/// Every output of the contact whose variables begin with `prefix`, as bits.
 fn outputs(instance: &Instance, prefix: &str) -> [u64; 4] {
     let real = |name| instance.real(&format!("{prefix}{name}")).to_bits();
     let regime = instance.integer(&format!("{prefix}regime"));
     [real("force"), real("indentation"), real("dissipated_energy"), regime as u64]
 }
 
-/// Runs all contacts of `instance` over `steps`, and gives their forces.
+/// Runs all contacts of `instance` over `steps`, and returns their forces.
 fn run(instance: &mut Instance, steps: std::ops::Range<usize>, contacts: usize) -> Vec<f64> {
     for step in steps {
         let rates: Vec<_> = (0..contacts).map(|contact| rate(contact, step)).collect();
@@ -77,7 +77,7 @@ fn references(first: usize, count: usize) -> Vec<u32> {
 }
 
 #[test]
-fn two_different_contacts_are_two_units_to_the_last_bit() {
+fn two_different_contacts_are_two_fmus_to_the_last_bit() {
     let (both, left, right) = (two(), single("left", PLAIN, 0.0), single("right", OTHER, 2e-6));
     let (mut both, mut left, mut right) = (both.ready(), left.ready(), right.ready());
     for step in 0..200 {
@@ -95,7 +95,7 @@ fn two_different_contacts_are_two_units_to_the_last_bit() {
 }
 
 #[test]
-fn a_thousand_contacts_are_a_thousand_units_to_the_last_bit() {
+fn a_thousand_contacts_are_a_thousand_fmus_to_the_last_bit() {
     const COUNT: usize = 1000;
     let (all, one) = (counted(COUNT), single("one_of_many", PLAIN, 0.0));
     let mut all = all.ready();
@@ -124,7 +124,7 @@ fn however_inputs_and_forces_are_addressed_they_are_the_same() {
     assert_eq!(plain.step(0.0, STEP), OK);
     assert_eq!(plain.get(&references(COUNT, COUNT), &mut expected), OK);
     let reversed: Vec<usize> = (0..COUNT).rev().collect();
-    // runs that begin in the middle, repeated references, one at a time
+    // consecutive references from the middle on, repeated references, one at a time
     let middle: Vec<usize> = (COUNT / 2..COUNT).chain(0..COUNT / 2).collect();
     let repeated: Vec<usize> = (0..COUNT).chain([7, 7, 8]).collect();
     for order in [reversed, middle, repeated] {
@@ -167,7 +167,7 @@ fn one_wrong_reference_or_value_and_nothing_is_set() {
             assert_eq!(rates, vec![0.0; COUNT], "{reference} at {place}");
         }
     }
-    // a run that goes on beyond the last contact
+    // consecutive references beyond the last contact
     let mut instance = unit.ready();
     assert_eq!(instance.set(&references(COUNT - 2, 4), &[1.0; 4]), ERROR);
     assert_eq!(instance.real("contact[40].indentation_rate"), 0.0);
@@ -175,7 +175,7 @@ fn one_wrong_reference_or_value_and_nothing_is_set() {
 
 #[test]
 fn a_refused_step_names_the_contact_and_moves_none() {
-    // a law that is a fit, and ends before the deepest indentation where the target is nearly as strong as stiff
+    // a fitted law, which ends before the deepest indentation if the target is nearly as strong as stiff
     let strong = "target = { youngs_modulus = 91e9, poissons_ratio = 0.3, yield_strength = 1e11 }\n";
     let groups = ["name = \"left\"\n".into(), format!("name = \"row\"\ncount = 3\n{strong}")];
     let mut text =
@@ -235,13 +235,13 @@ fn a_state_of_many_contacts_is_restored_from_memory_and_from_bytes() {
     let first = run(&mut instance, 7..20, COUNT);
     instance.restore(saved);
     assert_eq!(run(&mut instance, 7..20, COUNT), first);
-    // into an instance that was never initialized
+    // to an instance that was never initialized
     let mut other = unit.instantiate();
     let state = other.deserialize(&bytes).expect("undamaged bytes");
     other.restore(state);
     assert_eq!(other.serialize(state), bytes);
     assert_eq!(run(&mut other, 7..20, COUNT), first);
-    // a damaged word is refused, and the state that was to be overwritten stays as it was
+    // a damaged word is rejected, and the state that was to be overwritten does not change
     let mut damaged = bytes.clone();
     let middle = damaged.len() / 2;
     damaged[middle] ^= 1;
@@ -255,7 +255,7 @@ fn a_state_of_many_contacts_is_restored_from_memory_and_from_bytes() {
 fn instances_of_ten_thousand_contacts_work_on_a_small_stack() {
     const COUNT: usize = 10_000;
     let unit = counted(COUNT);
-    // an instance has a megabyte
+    // an instance takes a megabyte
     let small = std::thread::Builder::new().stack_size(256 << 10);
     std::thread::scope(|scope| {
         let work = || {

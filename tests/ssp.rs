@@ -1,4 +1,4 @@
-//! `brinell ssp` as a user calls it; tests/fmpy/test_ssp.py has what is in the packages.
+//! `brinell ssp` from the user's point of view; tests/fmpy/test_ssp.py examines the packages.
 
 #[path = "support/command.rs"]
 mod command;
@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 #[test]
-fn a_system_goes_to_the_current_folder_and_says_what_it_has() {
+fn a_system_is_written_to_the_current_folder_and_its_contents_are_listed() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     let said = run(folder.path(), ["ssp", &scene]).with_status(0);
@@ -29,7 +29,7 @@ fn a_system_goes_to_the_current_folder_and_says_what_it_has() {
 }
 
 #[test]
-fn a_wrong_name_or_scene_is_told_and_nothing_is_written() {
+fn a_wrong_name_or_scene_is_reported_and_nothing_is_written() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     let said = run(folder.path(), ["ssp", &scene, "-o", "ball.zip"]).with_status(2);
@@ -41,7 +41,7 @@ fn a_wrong_name_or_scene_is_told_and_nothing_is_written() {
     assert_eq!(contents(folder.path()), ["wrong.toml"]);
 }
 
-/// `brinell ssp` of the ball that knows its mass, with a unit `other` of two contacts beside it.
+/// `brinell ssp` of the ball that knows its mass, together with an FMU `other` of two contacts.
 fn with_other(folder: &Path, arguments: &[&str]) -> Run {
     fs::copy(unit::export(&unit::scene("two_contacts")), folder.join("other.fmu")).unwrap();
     let scene = scene("mass_known").display().to_string();
@@ -49,7 +49,7 @@ fn with_other(folder: &Path, arguments: &[&str]) -> Run {
 }
 
 #[test]
-fn other_units_stand_beside_the_contact_and_are_connected_with_it() {
+fn other_fmus_are_packed_with_the_contact_and_connected_to_it() {
     let folder = empty_folder();
     let connections = ["other.left.force=contact.indentation_rate", "contact.force=other.right.indentation_rate"];
     with_other(folder.path(), &["--connect", connections[0], "--connect", connections[1]]).with_status(0);
@@ -61,7 +61,7 @@ fn other_units_stand_beside_the_contact_and_are_connected_with_it() {
         r#"startElement="contact" startConnector="force" endElement="other" endConnector="right.indentation_rate""#;
     assert!(text.contains(from) && text.contains(to), "{text}");
     assert_eq!(text.matches("<ssd:Connection ").count(), 2);
-    // what isn't connected of the other unit isn't shown
+    // variables of the other FMU that are not connected are not listed
     assert!(!text.contains("right.force"), "{text}");
     assert_eq!(archive["resources/other.fmu"], fs::read(folder.path().join("other.fmu")).unwrap());
 }
@@ -76,7 +76,7 @@ fn zip_of(path: &Path) -> std::collections::HashMap<String, Vec<u8>> {
 }
 
 #[test]
-fn a_wrong_connection_is_told_with_what_there_is() {
+fn a_wrong_connection_is_reported_with_the_possible_ones() {
     let cases = [
         ("contact.force", "--connect contact.force: write a connection as FMU.OUTPUT=FMU.INPUT"),
         ("force=other.force", "write a connection as FMU.OUTPUT=FMU.INPUT"),
@@ -98,7 +98,7 @@ fn a_wrong_connection_is_told_with_what_there_is() {
 }
 
 #[test]
-fn a_unit_that_can_not_stand_in_a_system_is_refused_by_name() {
+fn an_fmu_that_cannot_be_part_of_a_system_is_refused_by_name() {
     let folder = empty_folder();
     let said = with_other(folder.path(), &["--with", "other.fmu"]).with_status(1);
     assert!(said.err.contains("other.fmu: the system already has an FMU `other`"), "{said:#?}");

@@ -1,4 +1,4 @@
-//! `brinell toolchain` from a mirror in a folder, with packages that are as small as they can be.
+//! `brinell toolchain` with a mirror in a folder, with minimal packages.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 #[path = "support/command.rs"]
@@ -10,12 +10,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
 
-/// A mirror, and the folder that the toolchain goes to.
+/// A mirror, and the folder for the toolchain.
 struct Mirror {
     folder: TempDir,
 }
 
-/// Writes packages and their index. The compiler is a script that makes an empty file of everything.
+/// Writes packages and their index. The compiler is a script that creates an empty file for everything.
 const SCRIPT: &str = r##"
 import hashlib, io, lzma, os, sys, tarfile
 root = sys.argv[1]
@@ -63,7 +63,7 @@ open(os.path.join(folder, "Packages.xz"), "wb").write(lzma.compress(index.encode
 "##;
 
 impl Mirror {
-    /// None, with a word about it, if there is no curl.
+    /// `None`, with a message, if curl is not installed.
     fn new() -> Option<Mirror> {
         if Command::new("curl").arg("--version").output().is_err() {
             eprintln!("SKIPPED: there is no curl");
@@ -91,7 +91,7 @@ impl Mirror {
     }
 }
 
-/// The files below `folder`, and nothing about folders.
+/// The files below `folder`, without folders.
 fn files(folder: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for name in contents(folder) {
@@ -112,7 +112,7 @@ const TARGETS: [&str; 5] = [
     "x86_64-unknown-linux-gnu",
 ];
 
-/// What the folder of a toolchain has.
+/// The contents of the folder of a toolchain.
 fn layout() -> Vec<String> {
     let mut files = vec!["lock".to_string(), "packages.json".into()];
     files.extend(["usr/bin/cc-lld", "usr/bin/rustc", "usr/bin/rustc-web", "usr/lib/llvm-77/bin/lld"].map(String::from));
@@ -154,7 +154,7 @@ fn a_second_call_downloads_nothing() {
     let said = mirror.toolchain(&["--json"]).with_status(0);
     assert_eq!(said.err, "");
     assert_eq!(said.json()["packages"].as_array().unwrap().len(), 5);
-    // more is wanted than there is
+    // more is requested than available
     let said = mirror.toolchain(&["--std"]).with_status(1);
     assert!(said.err.contains("can't be downloaded"), "{said:#?}");
 }
@@ -169,7 +169,7 @@ fn a_download_goes_on_where_it_stopped() {
     mirror.toolchain(&[]).with_status(1);
     let said = mirror.toolchain(&[]).with_status(1);
     assert!(said.err.contains("libstd-rust-web-1.99") && !mirror.path("tc/packages.json").exists(), "{said:#?}");
-    // a part that is wrong would show: only what is missing comes from the mirror, whose beginning is now another
+    // a wrong part would be noticed: only the missing part comes from the mirror, which now has another beginning
     fs::create_dir_all(mirror.path("tc/packages")).unwrap();
     fs::write(mirror.path("whole"), &whole).unwrap();
     let sum = output(Command::new("sha256sum").arg(mirror.path("whole"))).with_status(0).out;
@@ -184,7 +184,7 @@ fn a_download_goes_on_where_it_stopped() {
 }
 
 #[test]
-fn a_damaged_package_is_told_and_removed() {
+fn a_damaged_package_is_reported_and_removed() {
     let Some(mirror) = Mirror::new() else { return };
     let package = mirror.package("lld-77");
     let whole = fs::read(&package).unwrap();
@@ -202,7 +202,7 @@ fn a_damaged_package_is_told_and_removed() {
 }
 
 #[test]
-fn what_the_index_has_not_got_is_named() {
+fn packages_missing_from_the_index_are_named() {
     let Some(mirror) = Mirror::new() else { return };
     let index = mirror.path("mirror/dists/bookworm-security/main/binary-amd64/Packages.xz");
     let script = "import lzma, sys; path = sys.argv[1]; text = lzma.open(path).read().replace(b'Package: lld-77', b'Package: lld-7'); \

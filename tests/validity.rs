@@ -1,4 +1,4 @@
-//! Up to where the laws are valid, and what the program says of an impact beyond.
+//! The valid range of the laws, and the messages of the program about an impact beyond.
 
 #[path = "support/command.rs"]
 mod command;
@@ -31,7 +31,7 @@ fn at_the_valid_depth_the_contact_radius_is_three_tenths_of_the_effective_radius
     }
 }
 
-/// A mark on the way makes the step ask for its branch, and it is the branch that it was.
+/// A mark on the way makes the step evaluate its branch again, and the branch does not change.
 #[test]
 fn a_mark_on_the_way_changes_no_bit_of_the_force() {
     for (name, model) in all_models(mild()) {
@@ -61,7 +61,7 @@ fn the_largest_speed_is_a_hundredth_of_that_of_waves_in_a_rod() {
 const SCENE: &str = "name = \"ball\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n\
                      [impact]\nmass = 4.11e-3\nspeed = 1.0\n";
 
-/// What `predict` says of the scene with these arguments.
+/// The output of `predict` for the scene with these arguments.
 fn predicted(scene: &str, arguments: &[&str]) -> String {
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), scene).unwrap();
@@ -91,7 +91,7 @@ fn predict_warns_of_an_impact_beyond_the_validity_and_of_no_other() {
 }
 
 #[test]
-fn the_density_is_a_constant_of_the_unit_and_no_variable() {
+fn the_density_is_a_constant_of_the_fmu_and_not_a_variable() {
     let folder = empty_folder();
     let constants = |scene: &str| {
         fs::write(folder.path().join("scene.toml"), scene).unwrap();

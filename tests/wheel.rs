@@ -1,5 +1,5 @@
-//! The wheel and the archive that packaging/release.py makes, of the program that the tests have: installed, and used where
-//! there is neither cargo nor rustc.
+//! The wheel and the archive made by packaging/release.py from the program of the tests: installed, and used without cargo and
+//! rustc.
 
 #[path = "support/command.rs"]
 mod command;
@@ -24,11 +24,11 @@ fn release(folder: &Path) {
     command.arg(root().join("packaging/release.py")).args(["--program", env!("CARGO_BIN_EXE_brinell")]);
     command.arg("--scratch").arg(python::target_folder().join("packaging")).arg("-o").arg(folder);
     command.args(PREBUILT.iter().flat_map(|folder| [Path::new("--prebuilt"), folder]));
-    // nothing is left behind in the source tree
+    // the source tree stays clean
     output(command.env("PYTHONDONTWRITEBYTECODE", "1")).with_status(0);
 }
 
-/// The one file in `folder` whose name ends so.
+/// The single file in `folder` whose name has this ending.
 fn file(folder: &Path, ending: &str) -> PathBuf {
     let names = contents(folder);
     let found: Vec<_> = names.iter().filter(|name| name.ends_with(ending)).collect();
@@ -36,18 +36,18 @@ fn file(folder: &Path, ending: &str) -> PathBuf {
     folder.join(found[0])
 }
 
-/// Where a virtual environment has its programs.
+/// The folder of programs in a virtual environment.
 const PROGRAMS: &str = if cfg!(windows) { "Scripts" } else { "bin" };
 
-/// What was made and installed once for all tests.
+/// The files made and installed once for all tests.
 struct Installed {
     folder: PathBuf,
-    /// Of the virtual environment.
+    /// Programs of the virtual environment.
     programs: PathBuf,
 }
 
 impl Installed {
-    /// A call of `program` of the environment that finds nothing on PATH, and nothing in the user's folder.
+    /// A call of `program` of the environment, with an empty PATH and an empty home folder.
     fn command(&self, program: &str) -> Command {
         let mut command = Command::new(self.programs.join(program));
         command.env("PATH", &self.folder).env("HOME", &self.folder).current_dir(&self.folder);
@@ -57,16 +57,16 @@ impl Installed {
         command
     }
 
-    /// What a line of Python prints.
+    /// The output of a line of Python.
     fn python(&self, line: &str) -> String {
         output(self.command("python").args(["-c", line])).with_status(0).out.trim().into()
     }
 }
 
-/// The scene that is exported without a compiler, its law, and the kind of prebuilt library that it takes.
+/// The scene that is exported without a compiler, its law, and its kind of prebuilt library.
 const SCENE: (&str, &str, &str) = ("mass_known", "big-alabo", "serial");
 
-/// A folder with the prebuilt library of [`SCENE`] for this machine; none from a program that can't make it.
+/// A folder with the prebuilt library of [`SCENE`] for this machine; `None` if the program cannot make it.
 static PREBUILT: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel-prebuilt");
     let _ = fs::remove_dir_all(&folder);
@@ -79,7 +79,7 @@ static PREBUILT: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
     Some(folder)
 });
 
-/// The wheel, installed with what it needs into an empty environment.
+/// The wheel, installed with its dependencies in an empty environment.
 static INSTALLED: LazyLock<Installed> = LazyLock::new(|| {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel");
     let _ = fs::remove_dir_all(&folder);
@@ -100,7 +100,7 @@ fn the_installed_program_answers_as_the_one_it_was_made_of() {
     let built = answers(Command::new(env!("CARGO_BIN_EXE_brinell")));
     assert!(built.contains("restitution"), "{built}");
     assert_eq!(answers(INSTALLED.command("brinell")), built);
-    // where the folder of programs isn't on PATH
+    // if the folder of programs is not on PATH
     let mut module = INSTALLED.command("python");
     module.args(["-m", "brinell"]);
     assert_eq!(answers(module), built);
@@ -123,7 +123,7 @@ fn the_module_finds_the_program_of_its_wheel_without_activation() {
     assert_eq!(law, "big-alabo/contact-radius");
 }
 
-/// Such an environment has another layout, and its list of files names the program where it isn't.
+/// Such an environment has another layout, and its list of files names a wrong place of the program.
 #[test]
 fn the_module_finds_the_program_of_a_wheel_in_a_folder_of_its_own() {
     let folder = empty_folder();
@@ -172,7 +172,7 @@ fn the_same_program_makes_the_same_wheel_and_archive() {
 
 #[test]
 #[cfg(unix)]
-fn the_archive_is_a_program_with_what_belongs_to_it() {
+fn the_archive_contains_the_program_and_its_files() {
     let folder = empty_folder();
     let mut tar = Command::new("tar");
     output(tar.arg("-xzf").arg(file(&INSTALLED.folder, ".tar.gz")).arg("-C").arg(folder.path())).with_status(0);
@@ -183,9 +183,9 @@ fn the_archive_is_a_program_with_what_belongs_to_it() {
 }
 
 #[test]
-fn a_first_export_takes_no_compiler_and_fmpy_runs_the_unit() {
+fn a_first_export_needs_no_compiler_and_fmpy_runs_the_fmu() {
     if PREBUILT.is_none() {
-        // past the harness, which keeps what a test prints unless it fails
+        // past the harness, which hides the output of a test that passes
         let _ = writeln!(std::io::stderr(), "NOT RUN: an export without a compiler; the program has no `prebuild`");
         return;
     }

@@ -1,7 +1,7 @@
-//! The program for Windows, run by Wine: it answers and exports as the one of this system, byte by byte.
+//! The program for Windows, run with Wine: its output and its exports equal those of this system, byte by byte.
 //!
-//! The program is the one in the archive that `packaging/release.py windows-x86_64` has made. Wine is `wine64` on PATH, or what
-//! the variable WINE names.
+//! The program comes from the archive made by `packaging/release.py windows-x86_64`. Wine is `wine64` on PATH, or the program
+//! in the variable WINE.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -50,12 +50,12 @@ fn wine(unpacked: &Path) -> Command {
     command
 }
 
-/// What the program says on Windows, in `folder`.
+/// The output of the program on Windows, in `folder`.
 fn on_windows<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = A>) -> Run {
     output(wine(&UNPACKED).args(arguments).current_dir(folder))
 }
 
-/// What it says here, with the prebuilt libraries of the archive.
+/// The output on this system, with the prebuilt libraries of the archive.
 fn here<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = A>) -> Run {
     output(brinell(folder).args(arguments).env("BRINELL_PREBUILT", UNPACKED.join("share/brinell/prebuilt")))
 }
@@ -103,7 +103,7 @@ fn what_it_writes_is_the_same() {
         &["curve", scene, "--output", "curve.svg"],
         &["predict", scene, "--sweep", "speed", "0.1:10", "--output", "sweep.html"],
     ] {
-        // twice: the second time a file is replaced
+        // twice: the second run replaces a file
         for _ in 0..2 {
             on_windows(folders[0].path(), arguments).with_status(0);
         }
@@ -118,7 +118,7 @@ fn what_it_writes_is_the_same() {
 
 #[test]
 #[ignore = "takes Wine and the archive for Windows"]
-fn it_exports_the_same_unit_and_checks_it() {
+fn it_exports_the_same_fmu_and_checks_it() {
     if !UNPACKED.join("share/brinell/prebuilt/win64.json").is_file() {
         eprintln!("NOT RUN: the archive was made without prebuilt libraries for win64");
         return;

@@ -80,7 +80,7 @@ fn with_untold_forces<S: Scene>(parallel: bool) {
 }
 
 #[test]
-fn forces_that_the_unit_is_not_told_of_raise_no_false_alarm() {
+fn forces_unknown_to_the_fmu_raise_no_false_alarm() {
     with_untold_forces::<Serial>(false);
     with_untold_forces::<Parallel>(true);
 }
@@ -220,7 +220,7 @@ fn change_mass<S: Scene>(parallel: bool) {
 }
 
 #[test]
-fn inputs_are_checked_by_name_and_derivatives_are_refused_beside_them() {
+fn inputs_are_checked_by_name_and_derivatives_are_refused_with_them() {
     choose(default_choice(0.0));
     let mut instance: Instance<WiredSerial> = ready();
     for mass in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e31, 1e-31] {

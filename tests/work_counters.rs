@@ -1,4 +1,4 @@
-//! How much work a step makes, counted without a clock: how often it asks the law. A slowdown shows here on any machine.
+//! The work of a step, measured without a clock as the number of evaluations of the law. It reveals a slowdown on any machine.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -11,7 +11,7 @@ use physics::{Random, all_models, mild, on_grid, random_bodies, unit};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
-/// How often a law was asked.
+/// Numbers of evaluations of a law.
 #[derive(Debug, Default)]
 struct Counters {
     yield_points: Cell<u32>,
@@ -27,13 +27,13 @@ impl Counters {
         counter.set(counter.get() + 1);
     }
 
-    /// Yield points, branches, radii and paths since the last time.
+    /// Yield points, branches, radii and paths since the last call.
     fn take(&self) -> [u32; 4] {
         [self.yield_points.take(), self.branches.take(), self.radii.take(), self.paths.take()]
     }
 }
 
-/// The laws of the default scene, which count.
+/// The laws of the default scene, with counters.
 #[derive(Clone, Copy)]
 struct Counted<'a, Law> {
     law: Law,
@@ -93,7 +93,8 @@ fn counted(counters: &Counters) -> CountedModel<'_> {
     }
 }
 
-/// Moves `history` by `increment` [m] as a unit does: on its branch if it stays there, or else to the next one. Whether it stayed.
+/// Moves `history` by `increment` [m] like an FMU: on its branch if possible, otherwise to the next one. Returns whether it
+/// stayed.
 fn step<L: Loading + Copy, U: Unloading + Copy>(
     history: &mut History,
     model: &Model<L, U>,
@@ -114,7 +115,7 @@ fn a_change_of_branch_asks_the_law_no_more_than_it_must() {
     let point = model.yield_point();
     let mut history = History::start(&model, 0.0).expect("within range");
     counters.take();
-    // in yield indentations, with how often yield point, branch, radius and path are asked for
+    // in yield indentations, with the numbers of evaluations of yield point, branch, radius and path
     let turns: [(&str, f64, [u32; 4]); 12] = [
         ("first touch", 0.5, [0, 1, 0, 0]),
         ("back before yield", 0.4, [0, 0, 0, 0]),
@@ -136,7 +137,8 @@ fn a_change_of_branch_asks_the_law_no_more_than_it_must() {
     }
 }
 
-/// Increments of cycles of growing amplitude, elastic to 200 yield indentations, each with partial unloading and reloading [m].
+/// Increments of cycles of increasing amplitude, from elastic to 200 yield indentations, each with partial unloading and
+/// reloading [m].
 fn cycles(steps_per_cycle: u32) -> impl Iterator<Item = f64> {
     const STEPS: u32 = 8192;
     let cycles = STEPS / steps_per_cycle;
@@ -151,7 +153,7 @@ fn cycles(steps_per_cycle: u32) -> impl Iterator<Item = f64> {
 
 #[test]
 fn few_steps_of_a_cycle_ask_the_law() {
-    // steps that leave their branch; and how often yield point, branch, radius and path are asked for
+    // steps that leave their branch, and the numbers of evaluations of yield point, branch, radius and path
     let asked = [1024, 128, 64, 32].map(|steps_per_cycle| {
         let counters = Counters::default();
         let model = counted(&counters);
@@ -165,7 +167,7 @@ fn few_steps_of_a_cycle_ask_the_law() {
     assert_eq!(asked, [[48, 0, 19, 13, 13], [274, 0, 75, 56, 56], [517, 0, 131, 113, 113], [1027, 0, 260, 226, 226]]);
 }
 
-/// What is found from the present branch is what is found from nothing, bit for bit.
+/// The next branch found from the present branch equals the one found from scratch, bit for bit.
 fn check_next_branches<L: Loading + Copy, U: Unloading + Copy>(name: &str, dented: Model<L, U>) {
     let mut random = Random(12);
     for model in [dented, Model { surface: Surface::Fresh, ..dented }] {
@@ -175,7 +177,7 @@ fn check_next_branches<L: Loading + Copy, U: Unloading + Copy>(name: &str, dente
             let mut searched = known;
             let scale = unit * 10f64.powf(4.0 * random.next() - 2.0);
             for number in 0..60 {
-                // now and then to a corner, to the surface, and to the end of the dent
+                // sometimes to a corner, to the surface, and to the end of the dent
                 let part = 10f64.powf(-4.0 * random.next());
                 let increment = match number % 7 {
                     3 => known.max_indentation() - known.indentation(),
@@ -184,7 +186,7 @@ fn check_next_branches<L: Loading + Copy, U: Unloading + Copy>(name: &str, dente
                     _ => scale * part * (2.0 * random.next() - 1.0),
                 };
                 if number % 3 == 0 {
-                    // a step that is only looked at, which may stay on its branch
+                    // a step that may stay on its branch
                     known.step_held(increment, 1.0, &point, || model).expect("within range");
                     searched.advance(&model, increment).expect("within range");
                     assert_eq!(known, searched, "{name}, {:?}: {increment:e}", model.surface);
@@ -205,7 +207,7 @@ fn the_next_branch_is_the_one_that_the_law_has() {
     }
 }
 
-/// As they are compiled into units: the compiler knows then that paths are segments.
+/// As compiled for FMUs: the compiler then knows that paths are segments.
 #[test]
 fn the_next_branch_of_laws_with_segments_is_the_one_that_the_law_has() {
     fn check<L: Loading + Copy, U: Unloading + Copy>(name: &str, loading: L, unloading: U) {

@@ -1,4 +1,4 @@
-//! The units to compare: exported by the program, and compiled from C.
+//! The FMUs to compare: exported by the program, and compiled from C.
 
 use std::ffi::CString;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A unit that the program has exported.
+/// An FMU exported by the program.
 pub struct Exported {
     pub library: PathBuf,
     pub guid: CString,
@@ -16,7 +16,7 @@ pub struct Exported {
     pub archive: u64,
     /// Size of the model description [bytes].
     pub xml: u64,
-    /// From calling the program to its end, compiling included.
+    /// Duration of the program, including compilation.
     pub time: Duration,
 }
 
@@ -67,12 +67,12 @@ pub fn export_text(name: &str, text: &str, folder: &Path) -> Exported {
     export(&path, folder)
 }
 
-/// Compiles `units/<name>.c` for so many contacts with the GUID of `exported`; the path of the library.
+/// Compiles `units/<name>.c` for this number of contacts with the GUID of `exported`; returns the path of the library.
 pub fn compile(name: &str, contacts: usize, exported: &Exported, folder: &Path) -> PathBuf {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/units").join(name).with_extension("c");
     let library = folder.join(format!("{name}_{contacts}.so"));
     let mut cc = Command::new("cc");
-    // square roots need no errno: without that option each carries a branch to the library's function
+    // square roots need no errno: without this option each has a branch to the library function
     cc.arg(format!("-DUNIT_GUID=\"{}\"", exported.guid.to_str().expect("a GUID is plain text")));
     cc.arg(format!("-DCONTACTS={contacts}"));
     cc.args(["-O3", "-shared", "-fPIC", "-fno-math-errno", "-o"]).arg(&library).arg(source).arg("-lm");

@@ -1,7 +1,7 @@
-//! What a change of branch costs beyond a step that stays on its branch, in instructions of the step alone.
+//! The cost of a change of branch in addition to a step that stays on its branch, in instructions of the step alone.
 //!
-//! All instructions of the steps of some path, less those that as many steps take that stay where they are, over the number
-//! of changes. A change is a step after which `regime` is another one.
+//! It is the number of instructions of the steps of some path, minus that of as many steps that stay on their branch, divided
+//! by the number of changes. A change is a step after which `regime` is different.
 
 use super::corners::{self, Place, STEP, STEPS_BEFORE, before_corners};
 use super::cycles;
@@ -11,13 +11,13 @@ use super::table::{Goal, Row};
 use super::trio::Trio;
 use super::unit::INPUT;
 
-/// How often each kind of change is made; the steps that lead to it are counted once.
+/// Number of repetitions of each kind of change. The steps that lead to it are counted once.
 const TIMES: usize = 10_000;
 
-/// Steps that stay where they are.
+/// Number of steps that stay on their branch.
 const STILL: usize = 1000;
 
-/// The mean over those of cycles of 32 steps, and each kind by itself.
+/// Prints the mean over the changes in cycles of 32 steps, and each kind separately.
 pub fn print(trio: &Trio) {
     const STEPS_PER_CYCLE: usize = 32;
     let still = Work::along(&[0.0; STILL], STEP);

@@ -1,28 +1,28 @@
-//! Places on the branches of the law and before its corners.
+//! Positions on the branches of the law and before its corners.
 
 use super::exchange::follow;
 use super::paths::yield_indentation;
 use super::trio::Trio;
 use super::unit::{Instance, Status, ok};
 
-/// Length of the steps that lead to a place, and of the one from there [s].
+/// Length of the steps that lead to a position, and of the step from it [s].
 pub const STEP: f64 = 1e-6;
 
-/// So many steps lead to each place.
+/// Number of steps that lead to each position.
 pub const STEPS_BEFORE: usize = 2;
 
-/// A place, and a step from there.
+/// A position, and a step from it.
 pub struct Place {
     pub name: &'static str,
-    /// The steps that lead there [m].
+    /// The steps that lead to it [m].
     pub before: [f64; STEPS_BEFORE],
-    /// The step from there [m].
+    /// The step from it [m].
     pub step: f64,
-    /// `regime` before and after that step, as the law has it.
+    /// `regime` before and after that step, according to the law.
     regimes: [i32; 2],
 }
 
-/// Places whose steps stay on the branch that they are on.
+/// Positions whose steps stay on their branch.
 pub fn on_branches() -> Vec<Place> {
     const WAY: f64 = 0.1;
     place_all([
@@ -36,7 +36,7 @@ pub fn on_branches() -> Vec<Place> {
     ])
 }
 
-/// Places whose steps end on another branch. The dent is that of an indentation to 150 yield indentations, which `trio` tells.
+/// Positions whose steps end on another branch. The dent is that of 150 yield indentations, according to `trio`.
 pub fn before_corners(trio: &Trio) -> Vec<Place> {
     const DEPTH: f64 = 150.0;
     let instance = trio.units[0].instance();
@@ -54,7 +54,7 @@ pub fn before_corners(trio: &Trio) -> Vec<Place> {
     ])
 }
 
-/// In yield indentations.
+/// The arguments are in yield indentations.
 fn place_all<const N: usize>(places: [(&'static str, [f64; STEPS_BEFORE], f64, [i32; 2]); N]) -> Vec<Place> {
     let unit = yield_indentation();
     let place = |(name, before, step, regimes): (_, [f64; STEPS_BEFORE], f64, _)| Place {
@@ -67,13 +67,13 @@ fn place_all<const N: usize>(places: [(&'static str, [f64; STEPS_BEFORE], f64, [
 }
 
 impl Place {
-    /// Whether the step leaves the loading curve backwards.
+    /// Whether the step leaves the loading curve by unloading.
     pub fn turns_back(&self) -> bool {
         self.step < 0.0 && self.regimes == [4, 5]
     }
 }
 
-/// Each place is what it is said to be, if `step` is made from there.
+/// Checks that each position and its step are as described; `step` makes the step.
 pub fn check(trio: &Trio, places: &[Place], step: impl Fn(&Instance, &Place) -> Status) {
     let (unit, regime) = (&trio.with_regime.0, trio.with_regime.1);
     for place in places {

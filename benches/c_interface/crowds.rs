@@ -1,4 +1,4 @@
-//! Impacts and steps alone, of one instance and of many in turn.
+//! Impacts and single steps, of one instance and of many in turn.
 
 use super::exchange::{time_of_exchange, timed};
 use super::fleet::Fleet;
@@ -10,13 +10,13 @@ use super::trio::Trio;
 use super::unit::{FORCE, INPUT, Status};
 use std::hint::black_box;
 
-/// So many instances of each unit, and how they are sampled: impacts in one sample, long enough for the clock and short
-/// enough that an interruption spoils few; and samples of each unit.
+/// The number of instances of each FMU, the number of impacts in one sample, and the number of samples. A sample is long enough
+/// for the clock, and short enough that an interruption spoils few of them.
 struct Crowd {
     instances: usize,
     impacts: usize,
     rounds: usize,
-    /// Of an impact, and of the step alone.
+    /// For an impact, and for the step alone.
     goals: [Goal; 2],
 }
 
@@ -53,13 +53,14 @@ pub fn print(trio: &Trio) {
     }
 }
 
-/// Time of `work` for each instance and each of [`STEPS`] steps [ns].
+/// Time of `work` per instance and step, for [`STEPS`] steps [ns].
 fn time_in_turn(fleet: &Fleet, work: impl FnOnce() -> Status) -> f64 {
     fleet.restore();
     timed(work).as_nanos() as f64 / (STEPS * fleet.instances.len()) as f64
 }
 
-/// An impact with an input and an output for every step, of instances that step in turn; the status of all calls together.
+/// An impact with an input and an output in every step, by instances that step in turn. Returns the combined status of all
+/// calls.
 fn impacts(fleet: &Fleet, rates: &[f64], shares: &[f64]) -> Status {
     let (mut status, mut force) = (0, 0.0);
     for (index, &rate) in rates.iter().enumerate() {
@@ -73,10 +74,10 @@ fn impacts(fleet: &Fleet, rates: &[f64], shares: &[f64]) -> Status {
     status
 }
 
-/// The speed [m/s] at which half of the steps lead to the [`PEAK`].
+/// The speed [m/s] at which half of the steps reach the [`PEAK`].
 const SPEED: f64 = PEAK / (STEPS / 2) as f64 / STEP;
 
-/// There and back at constant speed, without looking at the force.
+/// Loading and unloading at constant speed, without reading the force.
 fn there_and_back(fleet: &Fleet, shares: &[f64]) -> Status {
     let mut status = 0;
     for (speed, steps) in [(SPEED, 0..STEPS / 2), (-SPEED, STEPS / 2..STEPS)] {
@@ -92,7 +93,7 @@ fn there_and_back(fleet: &Fleet, shares: &[f64]) -> Status {
     status
 }
 
-/// Instructions of a step, on average over the same paths, changes of branch included.
+/// Prints the mean number of instructions of a step on the same paths, including changes of branch.
 pub fn print_instructions(trio: &Trio) {
     let speeds = [vec![SPEED; STEPS / 2], vec![-SPEED; STEPS / 2]].concat();
     for (name, rates, functions, goal) in [

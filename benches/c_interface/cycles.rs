@@ -1,4 +1,4 @@
-//! Cycles of growing amplitude, in as many steps as people make.
+//! Cycles of increasing amplitude, with typical numbers of steps.
 
 use super::exchange::time_of_exchange;
 use super::fleet::Fleet;
@@ -9,10 +9,10 @@ use super::table::{self, GOALS, Goal, cell};
 use super::trio::Trio;
 use super::unit::{INPUT, ok};
 
-/// Samples of each unit; one is all cycles.
+/// Number of samples for each FMU. A sample consists of all cycles.
 const ROUNDS: usize = 5000;
 
-/// Goals of the time over the empty unit and over the one in C.
+/// Goals of the time relative to the empty FMU and to the one in C.
 fn goals(steps_per_cycle: usize) -> [Goal; 2] {
     let over_empty = match steps_per_cycle {
         32 => Goal::OverEmpty(1.9, 1.5),
@@ -23,7 +23,7 @@ fn goals(steps_per_cycle: usize) -> [Goal; 2] {
     [over_empty, Goal::OverC(1.15, 1.0)]
 }
 
-/// In how many steps of the cycles the regime becomes another one.
+/// Number of steps of the cycles in which the regime changes.
 pub fn changes(trio: &Trio, steps_per_cycle: usize) -> usize {
     let (unit, regime) = (&trio.with_regime.0, trio.with_regime.1);
     let instance = unit.instance();
@@ -68,7 +68,7 @@ fn print_times(trio: &Trio) {
     table::head(&[&columns[..], &GOALS, &["Brinell / C"], &GOALS].concat());
     let fleets = trio.units.each_ref().map(|unit| Fleet::of(unit, 1));
     let rates = STEPS_PER_CYCLE.map(cycles);
-    // all in turns, so that no row has a bad time for itself
+    // taken in turn, so that no row suffers alone from a slow period
     let sample = |number: usize, _| time_of_exchange(&fleets[number % 3], &rates[number / 3], CYCLE_STEP);
     let times: [f64; 3 * STEPS_PER_CYCLE.len()] = interleaved(ROUNDS, sample);
     for (steps_per_cycle, &times) in STEPS_PER_CYCLE.into_iter().zip(times.as_chunks::<3>().0) {

@@ -1,4 +1,4 @@
-//! Steps with two derivatives of the input: set, set the derivatives, step, get.
+//! Steps with two derivatives of the input: set the input, set its derivatives, step, read.
 
 use super::build::export_text;
 use super::corners::{self, Place, STEP, STEPS_BEFORE, before_corners, on_branches};
@@ -11,20 +11,20 @@ use super::trio::Trio;
 use super::unit::{FORCE, INPUT, Instance, Status, Unit};
 use std::hint::black_box;
 
-/// Instances at each place. All of them make one step in a sample.
+/// Number of instances at each position. All of them make one step in a sample.
 const INSTANCES: usize = 16;
 
-/// Samples.
+/// Number of samples.
 const ROUNDS: usize = 5000;
 
-/// The rate at the beginning of a step [m/s], and its derivatives.
+/// The rate at the start of a step [m/s], and its derivatives.
 struct Course {
     rate: f64,
     derivatives: [f64; 2],
 }
 
 impl Course {
-    /// The rate falls and bends so that the step leads where it shall; one back from the loading curve goes on in before.
+    /// The rate decreases and bends so that the step ends as required. A step back from the loading curve goes deeper first.
     fn of(place: &Place) -> Course {
         let [slope, bend] = if place.turns_back() { [-3.0, 0.1] } else { [-0.5, 0.1] };
         let rate = place.step / STEP / (1.0 + slope / 2.0 + bend / 6.0);
@@ -70,13 +70,13 @@ pub fn print(trio: &Trio) {
     }
 }
 
-/// Instances at all places, the same number at each.
+/// The same number of instances at each position.
 fn fleet<'unit>(unit: &'unit Unit, places: &[Place]) -> Fleet<'unit> {
     let prepare = |index: usize, instance: &Instance| follow(instance, &places[index % places.len()].before, STEP);
     Fleet::placed(unit, INSTANCES * places.len(), prepare)
 }
 
-/// Time of a step of each instance with a look at the variable `output` [ns].
+/// Time of a step of each instance, including reading the variable `output` [ns].
 fn time(fleet: &Fleet, courses: &[Course], output: u32) -> f64 {
     fleet.restore();
     let time = timed(|| steps(fleet, black_box(courses), output));

@@ -1,12 +1,12 @@
-//! Rates in, steps, forces out.
+//! Setting rates, stepping, reading forces.
 
 use super::fleet::Fleet;
 use super::unit::{FORCE, INPUT, Instance, Status, ok};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// An exchange for each of `rates` [m/s]: set, step of length `step` [s], get. The instance has made `before` such steps.
-/// The status of all calls together.
+/// For each of `rates` [m/s]: set the input, make a step of `step` [s], read the force. The instance has made `before` such
+/// steps. Returns the combined status of all calls.
 pub fn exchange(instance: &Instance, rates: &[f64], step: f64, before: usize) -> Status {
     let (mut status, mut force) = (0, 0.0);
     for (index, &rate) in (before..).zip(rates) {
@@ -17,7 +17,7 @@ pub fn exchange(instance: &Instance, rates: &[f64], step: f64, before: usize) ->
     status
 }
 
-/// Time of an exchange [ns] on average over `rates`, which the first instance follows from its place.
+/// Mean time of an exchange [ns] over `rates`, which the first instance follows from its position.
 pub fn time_of_exchange(fleet: &Fleet, rates: &[f64], step: f64) -> f64 {
     fleet.restore();
     let time = timed(|| exchange(&fleet.instances[0], black_box(rates), step, 0));
@@ -33,7 +33,7 @@ pub fn timed(work: impl FnOnce() -> Status) -> Duration {
     time
 }
 
-/// Moves an instance that starts at time zero by `increments` [m], one in each step of length `step` [s].
+/// Moves an instance from time zero by `increments` [m], one in each step of `step` [s].
 pub fn follow(instance: &Instance, increments: &[f64], step: f64) {
     for (index, increment) in increments.iter().enumerate() {
         ok(instance.set(INPUT, increment / step) | instance.step(index as f64 * step, step));

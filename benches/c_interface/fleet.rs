@@ -1,11 +1,11 @@
-//! Several instances of a unit, each with a place on its path to which it can be brought back.
+//! Several instances of an FMU, each with a position on its path to which it can be restored.
 
 use super::unit::{Instance, State, Unit, ok};
 use std::ptr::null_mut;
 
 pub struct Fleet<'unit> {
     pub instances: Vec<Instance<'unit>>,
-    /// The places: one for all instances, or one for each.
+    /// The positions: one for all instances, or one for each.
     places: Vec<State>,
 }
 
@@ -17,7 +17,7 @@ impl<'unit> Fleet<'unit> {
         Fleet { instances, places }
     }
 
-    /// Instances that `prepare` has moved, each to a place of its own.
+    /// Instances that `prepare` has moved to their positions.
     pub fn placed(unit: &'unit Unit, size: usize, prepare: impl Fn(usize, &Instance)) -> Fleet<'unit> {
         let instances: Vec<_> = (0..size).map(|_| unit.instance()).collect();
         for (index, instance) in instances.iter().enumerate() {
@@ -27,7 +27,7 @@ impl<'unit> Fleet<'unit> {
         Fleet { instances, places }
     }
 
-    /// Brings all instances back to their places.
+    /// Restores all instances to their positions.
     pub fn restore(&self) {
         for (instance, &place) in self.instances.iter().zip(self.places.iter().cycle()) {
             ok(instance.restore(place));

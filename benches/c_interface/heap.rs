@@ -1,6 +1,6 @@
-//! Memory in use, as the C library counts it.
+//! Memory in use according to the C library.
 
-/// What glibc's `mallinfo2` gives [bytes], in the order of `malloc.h`.
+/// The result of glibc's `mallinfo2` [bytes], in the order of `malloc.h`.
 #[cfg(unix)]
 #[repr(C)]
 struct Info {
@@ -16,7 +16,7 @@ struct Info {
     releasable: usize,
 }
 
-/// What malloc has given out [bytes], with its own part of every block; `None` without glibc 2.33 or newer.
+/// Memory allocated by malloc [bytes], including its overhead; `None` without glibc 2.33 or newer.
 #[cfg(unix)]
 pub fn in_use() -> Option<usize> {
     use libloading::os::unix::Library;
@@ -28,7 +28,7 @@ pub fn in_use() -> Option<usize> {
     Some(info.in_use + info.mapped)
 }
 
-/// There is no such count here.
+/// Not available on this system.
 #[cfg(not(unix))]
 pub fn in_use() -> Option<usize> {
     None

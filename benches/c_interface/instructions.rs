@@ -1,4 +1,4 @@
-//! How many instructions the calls have: this program runs itself under callgrind, which counts inside of them only.
+//! Number of instructions of the calls. This program runs itself under callgrind, which counts only inside the calls.
 
 use super::exchange::exchange;
 use super::unit::{Unit, ok};
@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::ptr::null_mut;
 
-/// The first argument of a run that is counted.
+/// The first argument of a counted run.
 const COUNTED: &str = "--counted";
 
 /// The calls of an exchange.
@@ -18,20 +18,20 @@ pub const EXCHANGE: &[&str] = &["fmi2SetReal", "fmi2DoStep", "fmi2GetReal"];
 /// The step alone.
 pub const STEP: &[&str] = &["fmi2DoStep"];
 
-/// What an instance does in a run that is counted.
+/// The work of an instance in a counted run.
 pub struct Work {
-    /// Rates that lead to a place [m/s]. They are counted too.
+    /// Rates that lead to a position [m/s]. They are also counted.
     pub before: Vec<f64>,
-    /// Rates from there [m/s].
+    /// Rates from that position [m/s].
     pub rates: Vec<f64>,
     /// Length of each step [s].
     pub step: f64,
-    /// How often it starts from that place.
+    /// Number of starts from that position.
     pub times: usize,
 }
 
 impl Work {
-    /// `rates` [m/s] in steps of length `step` [s], once.
+    /// `rates` [m/s] in steps of `step` [s], once.
     pub fn along(rates: &[f64], step: f64) -> Work {
         Work { before: Vec::new(), rates: rates.to_vec(), step, times: 1 }
     }
@@ -58,7 +58,7 @@ impl Work {
     }
 }
 
-/// Whether this process is one to be counted; if so the work is done already.
+/// Whether this process is a counted run. The work is then already done.
 pub fn was_counted() -> bool {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [first, library, guid, work] = arguments.as_slice() else { return false };
@@ -71,12 +71,12 @@ pub fn was_counted() -> bool {
     true
 }
 
-/// Whether there is a valgrind.
+/// Whether valgrind is installed.
 pub fn can_be_counted() -> bool {
     Command::new("valgrind").arg("--version").stdout(Stdio::null()).status().is_ok_and(|status| status.success())
 }
 
-/// Instructions of `functions` in all of `work`.
+/// Number of instructions of `functions` during all of `work`.
 pub fn count(work: &Work, functions: &[&str], library: &Path, guid: &str, folder: &Path) -> f64 {
     let [counts, task] = ["callgrind.out", "work.json"].map(|name| folder.join(name));
     fs::write(&task, work.to_json().to_string()).expect("the folder can be written to");

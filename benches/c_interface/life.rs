@@ -1,4 +1,4 @@
-//! What an instance takes to be made and unmade, in time and in memory; and what a library takes.
+//! Time and memory to create and free an instance, and those of a library.
 
 use super::build::{size, stripped_size};
 use super::exchange::timed;
@@ -11,14 +11,14 @@ use super::unit::{INPUT, Unit, ok};
 use std::fs;
 use std::time::Instant;
 
-/// Samples of a life; each is so many.
+/// Number of samples of a life cycle, and of life cycles in each.
 const ROUNDS: usize = 2000;
 const LIVES: usize = 100;
 
-/// Samples of the load time, which needs a file each.
+/// Number of samples of the load time; each needs a file.
 const LOAD_ROUNDS: usize = 200;
 
-/// Instances to find the memory of one.
+/// Number of instances to measure the memory of one.
 const HEAP_INSTANCES: usize = 1000;
 
 pub fn print(trio: &Trio) {
@@ -46,7 +46,7 @@ fn print_life(trio: &Trio) {
 fn print_memory(trio: &Trio) {
     let heap = |unit: &Unit| {
         let mut instances = Vec::with_capacity(2 * HEAP_INSTANCES);
-        // the first ones may take what others have left
+        // the first instances may reuse memory that others have freed
         instances.extend((0..HEAP_INSTANCES).map(|_| unit.instance()));
         let before = heap::in_use()?;
         instances.extend((0..HEAP_INSTANCES).map(|_| unit.instance()));
@@ -57,10 +57,10 @@ fn print_memory(trio: &Trio) {
     Row { name, unit: "B", decimals: 0, goal: Goal::Value(320.0, 128.0) }.print(heaps);
 }
 
-/// From opening the library to the end of the first step.
+/// Time from opening the library to the end of the first step.
 fn print_load_time(trio: &Trio) {
     let times = interleaved(LOAD_ROUNDS, |number: usize, _| {
-        // a library that is open already isn't loaded again, hence a fresh copy
+        // a library that is already open is not loaded again, so each sample needs a new copy
         let copy = trio.folder.join("copy.so");
         fs::copy(&trio.libraries[number], &copy).expect("the folder can be written to");
         let start = Instant::now();

@@ -1,9 +1,8 @@
-//! What a step costs through the C interface: Brinell's library, the same contact written by hand in C, and a unit
-//! without physics, which is the floor of FMI itself. And what all else costs that an importer asks of a unit.
+//! The cost of a step through the C interface: for Brinell's library, for the same contact written by hand in C, and for an FMU
+//! without physics, which is the lower limit of FMI itself. Also the cost of all other calls of an importer.
 //!
-//! All are loaded as an importer loads them. Samples are taken in turns, so that whatever else the machine does hits all
-//! alike; the tables have their medians, in Markdown. `cargo bench --bench c_interface -- NAME...` prints some of the
-//! [`PARTS`] only.
+//! All libraries are loaded like in an importer. Samples are taken in turn, so that other load on the machine affects all
+//! alike. The tables contain medians, in Markdown. `cargo bench --bench c_interface -- NAME...` prints only these [`PARTS`].
 
 mod build;
 mod changes;
@@ -32,12 +31,12 @@ use trio::Trio;
 /// A kind of figure.
 struct Part {
     name: &'static str,
-    /// Whether it is rows of the common table; otherwise it has tables of its own.
+    /// Whether it contributes rows to the common table; otherwise it has tables of its own.
     is_rows: bool,
     print: fn(&Trio),
 }
 
-/// Everything that there is to be printed, in this order.
+/// All parts, in the order of the output.
 const PARTS: [Part; 11] = [
     Part { name: "cycles", is_rows: false, print: cycles::print },
     Part { name: "impact", is_rows: true, print: crowds::print },
@@ -52,10 +51,10 @@ const PARTS: [Part; 11] = [
     Part { name: "growth", is_rows: false, print: many::print_growth },
 ];
 
-/// The parts that are asked for.
+/// The requested parts.
 ///
 /// # Errors
-/// A name that none of them has.
+/// A name that no part has.
 fn wanted(names: &[String]) -> Result<Vec<&'static Part>, String> {
     if let Some(unknown) = names.iter().find(|name| PARTS.iter().all(|part| part.name != name.as_str())) {
         return Err(format!("there is no {unknown}, but {}", PARTS.map(|part| part.name).join(", ")));
@@ -73,7 +72,7 @@ fn main() {
     let trio = Trio::build(folder.path());
     trio.check();
     many::check(&trio);
-    // `cargo test` runs this program without the option, to see that it works
+    // `cargo test` runs this program without the option, to check that it works
     if !options.iter().any(|option| option == "--bench") {
         return;
     }

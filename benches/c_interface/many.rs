@@ -1,4 +1,4 @@
-//! One unit with many contacts.
+//! One FMU with many contacts.
 
 use super::build::{Exported, compile, export_text, size};
 use super::exchange::time_of_exchange;
@@ -14,28 +14,28 @@ use std::path::Path;
 use std::ptr::null_mut;
 use std::time::{Duration, Instant};
 
-/// Contacts in the one unit of the first table.
+/// Number of contacts in the FMU of the first table.
 const CONTACTS: usize = 10_000;
 
-/// Contacts in the unit in C whose contacts are checked first: whole blocks of its arrays, and a rest.
+/// Number of contacts in the first FMU in C that is checked: complete blocks of its arrays, and a remainder.
 const FEW: usize = 37;
 
-/// Contacts in the units of the second table.
+/// Number of contacts in the FMUs of the second table.
 const GROWTH: [usize; 6] = [1, 10, 100, 1000, 10_000, 100_000];
 
-/// Contact steps in all samples of a unit together.
+/// Number of contact steps in all samples of an FMU together.
 const WORK: usize = 50_000_000;
 
-/// The fewest and the most samples.
+/// Smallest and largest number of samples.
 const ROUNDS: [usize; 2] = [5, 200];
 
-/// The scene of the other units, with `count` contacts.
+/// The scene of the other FMUs, with `count` contacts.
 fn scene(count: usize) -> String {
     let one = include_str!("../../scenes/steel_ball.toml");
     format!("{one}\n[[contact]]\nname = \"contact\"\ncount = {count}\n")
 }
 
-/// A unit with many contacts, and the one that is written by hand in C.
+/// An FMU with many contacts, and the same written by hand in C.
 struct ManyUnits {
     exported: Exported,
     units: [Unit; 2],
@@ -50,10 +50,10 @@ impl ManyUnits {
     }
 }
 
-/// An instance with what its importer keeps for it: references and values, side by side.
+/// An instance with its references and values, as stored by its importer.
 struct Many<'unit> {
     instance: Instance<'unit>,
-    /// Memory that the instance has taken [bytes].
+    /// Memory of the instance [bytes].
     heap: Option<usize>,
     untouched: State,
     inputs: Vec<u32>,
@@ -70,7 +70,7 @@ impl<'unit> Many<'unit> {
         let heap = heap::in_use().zip(before).map(|(after, before)| after - before);
         let mut untouched = null_mut();
         ok(instance.save(&mut untouched));
-        // inputs come first, forces next
+        // the inputs come first, then the forces
         let last = u32::try_from(count).expect("a number of contacts");
         Many {
             instance,
@@ -88,8 +88,8 @@ impl<'unit> Many<'unit> {
         self.inputs.len()
     }
 
-    /// Time of an impact in [`STEPS`] steps of all contacts: set all rates, step, get all forces. Writing the rates down
-    /// is part of it. `look` sees the forces of the first and of the last contact after each step.
+    /// Time of an impact in [`STEPS`] steps of all contacts: set all rates, step, read all forces. It includes writing the
+    /// rates. `look` gets the forces of the first and the last contact after each step.
     fn impact(&mut self, rates: &[f64], mut look: impl FnMut([f64; 2])) -> Duration {
         ok(self.instance.restore(self.untouched));
         let mut status = 0;
@@ -116,14 +116,14 @@ impl Drop for Many<'_> {
     }
 }
 
-/// Times for each contact and step [ns].
+/// Times per contact and step [ns].
 fn times(units: &mut [Many; 2], rates: &[f64]) -> [f64; 2] {
     let steps = units[0].contacts() * STEPS;
     let rounds = (WORK / steps).clamp(ROUNDS[0], ROUNDS[1]);
     interleaved(rounds, |number, _| units[number].impact(rates, |_| ()).as_nanos() as f64 / steps as f64)
 }
 
-/// A contact among many is the contact that it would be alone.
+/// Checks that a contact behaves the same among many and alone.
 fn check_among(many: &mut Many, alone: &Unit, rates: &[f64]) {
     let last = share(many.contacts() - 1);
     let expected = [1.0, last].map(|share| (alone.instance(), share));
@@ -139,13 +139,13 @@ fn check_among(many: &mut Many, alone: &Unit, rates: &[f64]) {
     });
 }
 
-/// Whole blocks of the arrays in C and a rest are right.
+/// Checks the FMU in C with complete blocks of its arrays and a remainder.
 pub fn check(trio: &Trio) {
     let c = Unit::open(&compile("contacts", FEW, &trio.exported, &trio.folder), &trio.exported.guid);
     check_among(&mut Many::of(&c, FEW), &trio.units[0], &impact());
 }
 
-/// One unit with many contacts beside one contact of the default scene.
+/// Prints an FMU with many contacts compared with one contact of the default scene.
 pub fn print(trio: &Trio) {
     let rates = impact();
     let ManyUnits { units, .. } = ManyUnits::build(CONTACTS, &trio.folder);
@@ -161,7 +161,7 @@ pub fn print(trio: &Trio) {
     Row { name: &name, unit: "ns", decimals: 2, goal }.print([Some(brinell), Some(c), None]);
 }
 
-/// What grows with the number of contacts in a unit.
+/// Prints the quantities that grow with the number of contacts in an FMU.
 pub fn print_growth(trio: &Trio) {
     let rates = impact();
     table::head(&["contacts", "step", "per contact", "in C", "heap per contact", "XML", "library", ".fmu", "export"]);

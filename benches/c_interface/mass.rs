@@ -1,4 +1,4 @@
-//! A unit that knows the mass: a whole impact in few steps, and the restitution that it finds.
+//! An FMU that knows the mass: an impact in few steps, and its restitution.
 
 use super::build::export_text;
 use super::exchange::{time_of_exchange, timed};
@@ -11,27 +11,27 @@ use super::unit::{INPUT, Instance, Status, Unit, ok};
 use serde_json::Value;
 use std::process::Command;
 
-/// [kg] and [m/s]: the impact of the default scene.
+/// Mass [kg] and speed [m/s] of the impact of the default scene.
 const MASS: f64 = 4.11e-3;
 const SPEED: f64 = 1.0;
 
-/// Instances that make an impact in a sample.
+/// Number of instances that make an impact in a sample.
 const INSTANCES: usize = 16;
 
-/// Samples.
+/// Number of samples.
 const ROUNDS: usize = 1000;
 
-/// The bodies meet so late, and are followed for so long, in contact times.
+/// Time before first contact, and total time, in contact times.
 const FLIGHT: f64 = 0.1;
 const SPAN: f64 = 1.25;
 
-/// Largest error of the restitution for which a time means anything.
+/// Largest error of the restitution for which a time is meaningful.
 const ALLOWED: f64 = 1e-12;
 
-/// What the program predicts by energy balance.
+/// The prediction of the program from the energy balance.
 struct Prediction {
     restitution: f64,
-    /// [s]
+    /// Contact time [s].
     contact_time: f64,
 }
 
@@ -46,7 +46,7 @@ fn predict() -> Prediction {
     Prediction { restitution: number("restitution"), contact_time: number("loading_time") + number("unloading_time") }
 }
 
-/// The default scene with bodies that the unit moves, so far apart.
+/// The default scene with bodies that the FMU moves, at this initial gap.
 fn scene(gap: f64) -> String {
     let one = include_str!("../../scenes/steel_ball.toml");
     let one = one.replacen("outputs = [", &format!("initial_gap = {gap:e}\noutputs = [\"mean_force\", "), 1);
@@ -70,7 +70,7 @@ pub fn print(trio: &Trio) {
         };
         let [time, empty]: [f64; 2] = interleaved(ROUNDS, sample);
         let steps = if steps == 1 { "one step".to_owned() } else { format!("{steps} steps") };
-        // how long something wrong takes is no figure
+        // the time of a wrong result is meaningless
         let is_right = error <= ALLOWED;
         let verdict = if is_right { "restitution within" } else { "NO TIME: restitution wrong by" };
         let name = format!("mass known, a whole impact in {steps} ({verdict} {error:.0e})");
@@ -79,17 +79,17 @@ pub fn print(trio: &Trio) {
     }
 }
 
-/// An impact in so many steps of this length [s].
+/// An impact in this number of steps of this length [s].
 struct Impact {
     steps: u32,
     step: f64,
-    /// Reference of that output.
+    /// Reference of the output `mean_force`.
     mean_force: u32,
 }
 
 impl Impact {
-    /// As a master does it that moves the bodies by the momentum that they feel. The status of all calls together, and the
-    /// closing speed at the end [m/s].
+    /// The impact with an importer that moves the bodies by the impulse of the force. Returns the combined status of all calls,
+    /// and the closing speed at the end [m/s].
     fn run(&self, instance: &Instance) -> (Status, f64) {
         let (mut status, mut speed, mut force) = (0, SPEED, 0.0);
         for index in 0..self.steps {
@@ -100,7 +100,7 @@ impl Impact {
         (status, speed)
     }
 
-    /// On average over the instances [ns].
+    /// Mean time over the instances [ns].
     fn time(&self, fleet: &Fleet) -> f64 {
         fleet.restore();
         let time = timed(|| fleet.instances.iter().fold(0, |status, instance| status | self.run(instance).0));

@@ -1,5 +1,5 @@
-//! Many instances in turn, each elsewhere on the same cycles: what a unit costs whose instances don't fit into a core's own
-//! cache, with contacts on all branches.
+//! Many instances in turn, each at another position on the same cycles. This measures an FMU whose instances do not fit into
+//! the cache of a core, with contacts on all branches.
 
 use super::exchange::{exchange, timed};
 use super::fleet::Fleet;
@@ -14,13 +14,13 @@ const INSTANCES: usize = 10_000;
 
 const STEPS_PER_CYCLE: usize = 64;
 
-/// Steps of each instance in a sample.
+/// Number of steps of each instance in a sample.
 const STEPS_OF_EACH: usize = 50;
 
-/// Samples.
+/// Number of samples.
 const ROUNDS: usize = 200;
 
-/// The number of steps that an instance has made: neighbours are far apart.
+/// The number of steps that an instance has made. Neighbouring instances are far apart.
 fn phase(index: usize) -> usize {
     const APART: usize = 617;
     index * APART % (CYCLE_STEPS - STEPS_OF_EACH)

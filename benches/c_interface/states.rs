@@ -1,4 +1,4 @@
-//! States: saved over an older one, restored, and both around a step.
+//! States: saving over an older state, restoring, and both around a step.
 
 use super::exchange::{exchange, timed};
 use super::fleet::Fleet;
@@ -9,11 +9,11 @@ use super::trio::Trio;
 use super::unit::{FORCE, INPUT, Instance, State, Status, ok};
 use std::ptr::null_mut;
 
-/// Samples; each is so many operations.
+/// Number of samples, and of operations in each.
 const ROUNDS: usize = 5000;
 const OPERATIONS: usize = 10_000;
 
-/// The contact is in the middle of its loading.
+/// The contact is in the middle of loading.
 const STEPS_BEFORE: usize = STEPS / 4;
 
 type Operation = fn(&Instance, &mut State) -> Status;
@@ -57,7 +57,7 @@ pub fn print(trio: &Trio) {
     }
 }
 
-/// A state that was saved is the one that is restored.
+/// Checks that the restored state is the saved one.
 fn check(instance: &Instance, state: State) {
     let before = instance.value(FORCE);
     ok(instance.set(INPUT, 1.0) | instance.step(STEPS_BEFORE as f64 * STEP, STEP));

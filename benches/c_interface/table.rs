@@ -10,10 +10,10 @@ pub fn row(cells: &[String]) {
     println!("| {} |", cells.join(" | "));
 }
 
-/// What stands where there is nothing.
+/// Placeholder for a missing value.
 pub const NOTHING: &str = "-";
 
-/// `value` with separated thousands.
+/// `value` with thousands separators.
 pub fn number(value: f64, decimals: usize) -> String {
     let plain = format!("{value:.decimals$}");
     let (whole, fraction) = plain.split_at(plain.find('.').unwrap_or(plain.len()));
@@ -27,21 +27,21 @@ pub fn number(value: f64, decimals: usize) -> String {
     text + fraction
 }
 
-/// `value` as [`number`] writes it, if there is one.
+/// `value` in the format of [`number`], if there is one.
 pub fn cell(value: Option<f64>, decimals: usize) -> String {
     value.map_or(NOTHING.to_owned(), |value| number(value, decimals))
 }
 
-/// What a figure shall be: what it must not exceed, and what it aims at.
+/// The goal of a figure: a limit that it must not exceed, and a target.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Goal {
-    /// There is none.
+    /// No goal.
     None,
     /// In the unit of the figure.
     Value(f64, f64),
-    /// Over the same figure of the empty unit.
+    /// Relative to the same figure of the empty FMU.
     OverEmpty(f64, f64),
-    /// Over the same figure of the unit in C.
+    /// Relative to the same figure of the FMU in C.
     OverC(f64, f64),
 }
 
@@ -49,7 +49,7 @@ pub enum Goal {
 pub const GOALS: [&str; 3] = ["must", "aim", "met"];
 
 impl Goal {
-    /// What must be, the aim, and which of the two `brinell` meets beside the other two units.
+    /// The limit, the target, and which of them `brinell` meets compared with the other two FMUs.
     pub fn cells(self, [brinell, c, empty]: [Option<f64>; 3], unit: &str, decimals: usize) -> [String; 3] {
         let over = |other: Option<f64>| brinell.zip(other).map(|(brinell, other)| brinell / other);
         let (value, must, aim, write): (_, _, _, &dyn Fn(f64) -> String) = match self {
@@ -71,7 +71,7 @@ impl Goal {
     }
 }
 
-/// A figure of the three units, beside what it shall be.
+/// A figure of the three FMUs, with its goal.
 pub struct Row<'text> {
     pub name: &'text str,
     pub unit: &'text str,

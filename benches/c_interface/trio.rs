@@ -1,4 +1,4 @@
-//! The three units that are compared: what the program exports for the default scene, and two in C.
+//! The three FMUs that are compared: the export of the default scene, and two in C.
 
 use super::build::{Exported, compile, export, export_text};
 use super::instructions::{self, Work};
@@ -7,11 +7,11 @@ use super::unit::{FORCE, INPUT, Instance, Unit, ok};
 use std::path::{Path, PathBuf};
 
 pub struct Trio {
-    /// Brinell's unit, the contact by hand in C, and the one without physics.
+    /// Brinell's FMU, the contact written by hand in C, and the FMU without physics.
     pub units: [Unit; 3],
     pub libraries: [PathBuf; 3],
     pub exported: Exported,
-    /// Brinell's unit with the output `regime`, which the default scene hasn't got, and its reference.
+    /// Brinell's FMU with the output `regime`, which the default scene does not have, and its reference.
     pub with_regime: (Unit, u32),
     pub folder: PathBuf,
 }
@@ -30,7 +30,7 @@ impl Trio {
         Trio { units, libraries, exported, with_regime, folder: folder.to_owned() }
     }
 
-    /// The comparison means something only if all calls succeed and both contacts are the same one.
+    /// Checks that all calls succeed and that both contacts behave the same; otherwise the comparison is meaningless.
     pub fn check(&self) {
         // full plasticity begins at 128 N
         const PLASTIC: f64 = 200.0;
@@ -48,7 +48,7 @@ impl Trio {
         assert_eq!(empty.value(FORCE), STEP, "the empty unit gives back its input");
     }
 
-    /// Instructions of `functions` in all of `work`, by each unit; none without valgrind.
+    /// Number of instructions of `functions` during all of `work`, for each FMU; `None` without valgrind.
     pub fn count(&self, work: &Work, functions: &[&str]) -> [Option<f64>; 3] {
         let guid = self.exported.guid.to_str().expect("a GUID is plain text");
         self.libraries.each_ref().map(|library| {
@@ -57,7 +57,7 @@ impl Trio {
     }
 }
 
-/// Other parameters than those of the scene; the contact begins pressed in.
+/// Parameters that differ from those of the scene; the contact begins indented.
 const PARAMETERS: [(&str, f64); 5] = [
     ("impactor.radius", 4e-3),
     ("target.youngs_modulus", 180e9),
@@ -66,7 +66,7 @@ const PARAMETERS: [(&str, f64); 5] = [
     ("initial_gap", -1e-6),
 ];
 
-/// Two instances have the same force after each step; the largest one [N].
+/// Checks that two instances have the same force after each step. Returns the largest force [N].
 fn check_along(instance: &Instance, other: &Instance, rates: &[f64], step: f64) -> f64 {
     let mut peak: f64 = 0.0;
     for (index, &rate) in rates.iter().enumerate() {
@@ -80,12 +80,12 @@ fn check_along(instance: &Instance, other: &Instance, rates: &[f64], step: f64) 
     peak
 }
 
-/// Two contacts that shall be the same have the same force [N]. `peak` [N] is the largest so far.
+/// Checks that two contacts have the same force [N]. `peak` [N] is the largest force so far.
 pub fn check_force(step: usize, force: f64, expected: f64, peak: f64) {
     const AGREEMENT: f64 = 1e-12;
     /// Of the depth of the dent.
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
-    // a contact about to part follows F ~ z^1.5: there the last digit of the dent decides over the digits of the force
+    // a contact about to separate follows F ~ z^1.5: the last digit of the dent determines the digits of the force
     let larger = force.max(expected);
     let allowed = AGREEMENT * larger + ROUNDING * (peak * peak * larger).cbrt();
     assert!((force - expected).abs() <= allowed, "step {step}: {force} N, and not {expected} N");

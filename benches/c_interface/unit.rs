@@ -1,4 +1,4 @@
-//! A unit's library, loaded as an importer loads it.
+//! The library of an FMU, loaded like in an importer.
 
 use libloading::Library;
 use std::ffi::{CStr, CString, c_char, c_int, c_uint, c_void};
@@ -8,21 +8,21 @@ use std::ptr::{null, null_mut};
 /// Reference of the input of the first contact.
 pub const INPUT: c_uint = 0;
 
-/// Reference of the force of a unit with one contact.
+/// Reference of the force of an FMU with one contact.
 pub const FORCE: c_uint = 1;
 
 pub type State = *mut c_void;
 pub type Status = c_int;
 type Component = *mut c_void;
 
-/// The importer's functions: none of the units needs any.
+/// The importer's callbacks: none of the FMUs needs any.
 #[repr(C)]
 struct Callbacks {
     functions: [*const c_void; 4],
     environment: *mut c_void,
 }
 
-/// Copied function pointers, as an importer has them in a table.
+/// Function pointers, copied to a table like in an importer.
 struct Functions {
     instantiate: unsafe extern "C" fn(
         *const c_char,
@@ -44,7 +44,7 @@ struct Functions {
     get_state: unsafe extern "C" fn(Component, *mut State) -> Status,
     set_state: unsafe extern "C" fn(Component, State) -> Status,
     free_state: unsafe extern "C" fn(Component, *mut State) -> Status,
-    // the units in C have only what they are compared by
+    // the FMUs in C have only the functions that are compared
     get_integer: Option<unsafe extern "C" fn(Component, *const c_uint, usize, *mut c_int) -> Status>,
     set_derivatives: Option<SetDerivatives>,
 }
@@ -56,13 +56,13 @@ impl Functions {
         /// # Safety
         /// `T` is the type of the function with this name.
         unsafe fn get<T: Copy>(library: &Library, name: &CStr) -> T {
-            // SAFETY: as the caller promises.
+            // SAFETY: guaranteed by the caller.
             unsafe { *library.get(name).unwrap_or_else(|error| panic!("{error}")) }
         }
         /// # Safety
         /// As for `get`.
         unsafe fn find<T: Copy>(library: &Library, name: &CStr) -> Option<T> {
-            // SAFETY: as the caller promises.
+            // SAFETY: guaranteed by the caller.
             unsafe { library.get(name).ok().map(|function| *function) }
         }
         // SAFETY: the types are those of the standard.
@@ -87,7 +87,7 @@ impl Functions {
     }
 }
 
-/// A unit whose library is open.
+/// An FMU with an open library.
 pub struct Unit {
     functions: Functions,
     guid: CString,
@@ -96,30 +96,30 @@ pub struct Unit {
 
 impl Unit {
     pub fn open(library: &Path, guid: &CStr) -> Unit {
-        // SAFETY: the libraries built here run no code when they are loaded.
+        // SAFETY: the libraries built here run no code when loaded.
         let open = unsafe { Library::new(library) }.unwrap_or_else(|error| panic!("{}: {error}", library.display()));
         Unit { functions: Functions::of(&open), guid: guid.to_owned(), _library: open }
     }
 
-    /// An instance that is ready for its first step.
+    /// An instance ready for its first step.
     pub fn instance(&self) -> Instance<'_> {
         self.instance_with(&[])
     }
 
-    /// An instance with these parameters, by reference, that is ready for its first step.
+    /// An instance with these parameters, by reference, ready for its first step.
     pub fn instance_with(&self, parameters: &[(c_uint, f64)]) -> Instance<'_> {
         const CO_SIMULATION: c_int = 1;
         let functions = &self.functions;
         let (name, guid) = (c"bench".as_ptr(), self.guid.as_ptr());
         let callbacks = Callbacks { functions: [null(); 4], environment: null_mut() };
-        // SAFETY: strings end with 0, and callbacks are copied by the unit.
+        // SAFETY: the strings are null-terminated, and the FMU copies the callbacks.
         let component = unsafe { (functions.instantiate)(name, CO_SIMULATION, guid, null(), &callbacks, 0, 0) };
         assert!(!component.is_null(), "no instance");
         let instance = Instance { functions, component };
         for &(reference, value) in parameters {
             ok(instance.set(reference, value));
         }
-        // SAFETY: a component of this library, in the order of the standard.
+        // SAFETY: a component of this library; the calls are in the order of the standard.
         unsafe {
             ok((functions.setup_experiment)(component, 0, 0.0, 0.0, 0, 0.0));
             ok((functions.enter_initialization)(component));
@@ -129,7 +129,7 @@ impl Unit {
     }
 }
 
-/// An initialized instance of a unit.
+/// An initialized instance of an FMU.
 pub struct Instance<'unit> {
     functions: &'unit Functions,
     component: Component,
@@ -138,13 +138,13 @@ pub struct Instance<'unit> {
 impl Instance<'_> {
     /// Sets one variable.
     pub fn set(&self, reference: c_uint, value: f64) -> Status {
-        // SAFETY: the unit's component, and arrays of one element.
+        // SAFETY: the FMU's component, and arrays of one element.
         unsafe { (self.functions.set_real)(self.component, &reference, 1, &value) }
     }
 
     /// Reads one variable.
     pub fn get(&self, reference: c_uint, value: &mut f64) -> Status {
-        // SAFETY: the unit's component, and arrays of one element.
+        // SAFETY: the FMU's component, and arrays of one element.
         unsafe { (self.functions.get_real)(self.component, &reference, 1, value) }
     }
 
@@ -152,12 +152,12 @@ impl Instance<'_> {
     pub fn integer(&self, reference: c_uint) -> c_int {
         let get = self.functions.get_integer.expect("a unit with Integer variables");
         let mut value = -1;
-        // SAFETY: the unit's component, and arrays of one element.
+        // SAFETY: the FMU's component, and arrays of one element.
         ok(unsafe { get(self.component, &reference, 1, &mut value) });
         value
     }
 
-    /// Reads one variable, of which it is certain that it is there.
+    /// Reads one variable that must exist.
     pub fn value(&self, reference: c_uint) -> f64 {
         let mut value = f64::NAN;
         ok(self.get(reference, &mut value));
@@ -168,50 +168,50 @@ impl Instance<'_> {
     #[inline]
     pub fn set_derivatives(&self, reference: c_uint, derivatives: &[f64; 2]) -> Status {
         let Some(set) = self.functions.set_derivatives else { return -1 };
-        // SAFETY: the unit's component, and arrays of two elements.
+        // SAFETY: the FMU's component, and arrays of two elements.
         unsafe { set(self.component, [reference; 2].as_ptr(), 2, [1, 2].as_ptr(), derivatives.as_ptr()) }
     }
 
-    /// Sets as many variables as there are.
+    /// Sets all of these variables.
     pub fn set_all(&self, references: &[c_uint], values: &[f64]) -> Status {
         assert_eq!(references.len(), values.len());
-        // SAFETY: the unit's component, and arrays of the same length.
+        // SAFETY: the FMU's component, and arrays of equal length.
         unsafe { (self.functions.set_real)(self.component, references.as_ptr(), values.len(), values.as_ptr()) }
     }
 
-    /// Reads as many variables as there are.
+    /// Reads all of these variables.
     pub fn get_all(&self, references: &[c_uint], values: &mut [f64]) -> Status {
         assert_eq!(references.len(), values.len());
-        // SAFETY: the unit's component, and arrays of the same length.
+        // SAFETY: the FMU's component, and arrays of equal length.
         unsafe { (self.functions.get_real)(self.component, references.as_ptr(), values.len(), values.as_mut_ptr()) }
     }
 
     pub fn step(&self, time: f64, step: f64) -> Status {
-        // SAFETY: the unit's component.
+        // SAFETY: the FMU's component.
         unsafe { (self.functions.do_step)(self.component, time, step, 1) }
     }
 
-    /// Saves the state over an older one, or into a new one if that is null.
+    /// Saves the state over an older one, or to a new one if the pointer is null.
     pub fn save(&self, state: &mut State) -> Status {
-        // SAFETY: the unit's component, and one of its states or null.
+        // SAFETY: the FMU's component, and one of its states or null.
         unsafe { (self.functions.get_state)(self.component, state) }
     }
 
-    /// Restores a state, which may be that of another instance of the unit.
+    /// Restores a state, which may come from another instance of the FMU.
     pub fn restore(&self, state: State) -> Status {
-        // SAFETY: the unit's component and state.
+        // SAFETY: the FMU's component and state.
         unsafe { (self.functions.set_state)(self.component, state) }
     }
 
     pub fn free(&self, state: &mut State) {
-        // SAFETY: the unit's component and state, which nobody uses afterwards.
+        // SAFETY: the FMU's component and state, which are not used afterwards.
         ok(unsafe { (self.functions.free_state)(self.component, state) });
     }
 }
 
 impl Drop for Instance<'_> {
     fn drop(&mut self) {
-        // SAFETY: the unit's component, which nobody uses afterwards.
+        // SAFETY: the FMU's component, which is not used afterwards.
         unsafe {
             ok((self.functions.terminate)(self.component));
             (self.functions.free)(self.component);

@@ -1,4 +1,4 @@
-/* Phase and time of an instance, and the look at the times of a step that the units beside this file have in common. */
+/* Phase and time of an instance, and the check of the times of a step, common to all FMUs in this folder. */
 #ifndef UNITS_CLOCK_H
 #define UNITS_CLOCK_H
 
@@ -22,15 +22,15 @@ typedef struct {
 #define BEFORE_ANY_STEP ((Clock){.stop = DBL_MAX, .phase = INSTANTIATED, .limit = -DBL_MAX})
 
 /*
- * Whether a step to `end` plainly follows the last one. One that isn't positive is not larger than any distance, and NaN not
- * either. Here and elsewhere the number that lies in memory is the second one of a comparison, which saves a load.
+ * Whether a step to `end` clearly follows the last one. It is false if the step is zero, negative or NaN, because no distance
+ * is smaller. Here and elsewhere, the second operand of a comparison is the one in memory, which saves a load.
  */
 static inline bool is_plain(const Clock *clock, double time, double step, double end)
 {
     return fabs(time - clock->time) * 10.0 < step && !(end > clock->limit);
 }
 
-/* the second look, with room for rounding far from zero */
+/* the second check, with a tolerance for rounding far from zero */
 static inline bool is_in_time(const Clock *clock, double time, double step)
 {
     double rounding = 32.0 * DBL_EPSILON * (fabs(time) + fabs(clock->time));

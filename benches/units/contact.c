@@ -1,11 +1,11 @@
 /*
- * The contact of Brinell's first scene as a careful writer would write it by hand in C: the measure for the generated unit.
- * It has the same law, the same sum of increments and the same parameters; of the outputs it has the force alone.
+ * The contact of Brinell's first scene, written carefully by hand in C: the reference for the generated FMU. It has the same
+ * law, the same sum of increments and the same parameters. Its only output is the force.
  *
- * Checked, as the standard asks of a unit: the order of calls, references, parameters, that a step is positive, follows the
- * last one and doesn't go beyond the stop time, and that the indentation stays finite: an input that isn't is refused by the
- * step that would use it. Not checked: null pointers (see lifecycle.h). What nearly every call is, one value and a step
- * that follows the last one and stays on its branch, is looked for first; all else is out of its way.
+ * It checks what the standard requires of an FMU: the order of calls, references and parameters; that a step is positive,
+ * follows the last one and does not go beyond the stop time; and that the indentation stays finite. An input that is not
+ * finite is rejected by the step that would use it. It does not check for null pointers (see lifecycle.h). The most frequent
+ * calls, with one value or with a step that follows the last one and stays on its branch, are handled first.
  */
 #include "clock.h"
 #include "law.h"
@@ -55,12 +55,12 @@ static inline void copy_state(State *to, const State *from)
 
 #include "lifecycle.h"
 
-/* how often parameters were set, in all instances together: none of them has a number that another one had */
+/* number of times that parameters were set in all instances: no two settings have the same number */
 static atomic_ulong settings;
 
 static bool are_allowed(const Parameters *given)
 {
-    /* written so that a NaN is refused */
+    /* written positively to reject NaN */
     return given->radius > 0.0 && given->radius < INFINITY && given->modulus > 0.0 && given->modulus < INFINITY
         && given->poissons_ratio > -1.0 && given->poissons_ratio <= 0.5 && given->strength > 0.0
         && given->strength < INFINITY && fabs(given->gap) < LARGEST_INDENTATION;
@@ -104,7 +104,7 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference referen
     return set_any(unit, references, count, values);
 }
 
-/* the force is evaluated here and not in the step, so that steps that nobody looks at don't pay for it */
+/* the force is evaluated here and not in the step, so that steps without a reading do not pay for it */
 static inline double force(const Contact *contact)
 {
     return force_on(&contact->branch, contact->sum + contact->rest);

@@ -1,10 +1,9 @@
 /*
- * CONTACTS equal contacts in one unit, as a careful writer would write them by hand in C: arrays over all contacts, so that
- * the compiler takes several at a time. References are those of Brinell: first all rates, then all forces. The parameters
- * are fixed. Checked and not checked is the same as in contact.c.
+ * CONTACTS equal contacts in one FMU, written carefully by hand in C: arrays over all contacts allow the compiler to process
+ * several at a time. References are those of Brinell: first all rates, then all forces. The parameters are fixed. The checks
+ * are the same as in contact.c.
  *
- * A step looks first whether a block of contacts stays on its branches; only in a block where one doesn't are contacts
- * taken one by one.
+ * A step first tests whether all contacts of a block stay on their branches. Only otherwise are they processed one by one.
  */
 #include "clock.h"
 #include "law.h"
@@ -13,14 +12,14 @@
 
 enum { BLOCK = 8, FIRST_FORCE = CONTACTS, END = 2 * CONTACTS };
 
-/* the arrays are the fields of Contact and Branch */
+/* the arrays hold the fields of Contact and Branch */
 typedef struct {
     Clock clock;
     Law law;
     double rate[CONTACTS];
     double sum[CONTACTS], rest[CONTACTS], least[CONTACTS], lower[CONTACTS], upper[CONTACTS];
     double origin[CONTACTS], constant[CONTACTS], linear[CONTACTS], power[CONTACTS];
-    /* needed where a branch is left */
+    /* needed when a branch is left */
     double largest[CONTACTS], unloading[CONTACTS];
     Kind kind[CONTACTS], from[CONTACTS];
 } State;
@@ -82,7 +81,7 @@ static void copy_state(State *to, const State *from)
 
 #include "lifecycle.h"
 
-/* two numbers at a time, and what comparing them gives: what every x86-64 and AArch64 has, in the words of gcc and clang */
+/* two numbers at a time, and the result of their comparison: available on every x86-64 and AArch64, in the syntax of gcc and clang */
 typedef double Pair __attribute__((vector_size(16), aligned(8), may_alias));
 typedef long long Mask __attribute__((vector_size(16)));
 
@@ -91,7 +90,7 @@ static Pair pair_at(const double *numbers)
     return *(const Pair *)numbers;
 }
 
-/* whether the references count up from the first one */
+/* whether the references are consecutive */
 static bool are_in_a_row(const fmi2ValueReference references[], size_t count)
 {
     unsigned differs = 0;
@@ -127,7 +126,7 @@ static double force(const State *state, size_t i)
     return state->constant[i] + z * (state->linear[i] + state->power[i] * sqrt(z));
 }
 
-/* the importer's array is none of the unit's */
+/* the importer's array does not overlap the FMU's data */
 static void forces(const State *restrict state, size_t first, size_t count, fmi2Real *restrict values)
 {
     for (size_t i = 0; i < count; i++)
@@ -155,7 +154,7 @@ fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference referen
     return fmi2OK;
 }
 
-/* one by one, where not all stay on their branches */
+/* one by one, if not all stay on their branches */
 static bool advance_each(State *state, size_t first, size_t end, double step)
 {
     for (size_t i = first; i < end; i++) {

@@ -1,10 +1,10 @@
 /*
- * A unit without physics: the input is stored, the step adds up time, the output is the input. It shows what the calls of
- * FMI themselves cost: the floor of any unit.
+ * An FMU without physics: the input is stored, the step advances the time, and the output is the input. It shows the cost of
+ * the FMI calls themselves, which is the lower limit for any FMU.
  *
- * Checked, as the standard asks of a unit: the order of calls, references, that a step is positive, follows the last one
- * and doesn't go beyond the stop time. Not checked: null pointers (see lifecycle.h), and whether the input is finite, since
- * nothing is computed from it. One value and a step that plainly follows are looked for first; all else is out of their way.
+ * It checks what the standard requires of an FMU: the order of calls and references; that a step is positive, follows the
+ * last one and does not go beyond the stop time. It does not check for null pointers (see lifecycle.h), nor whether the input
+ * is finite, because nothing is computed from it. Calls with one value, and steps that clearly follow, are handled first.
  */
 #include "clock.h"
 

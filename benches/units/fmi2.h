@@ -1,4 +1,4 @@
-/* The part of the C interface of FMI 2.0 that the units beside this file have; names and types are those of the standard. */
+/* The part of the C interface of FMI 2.0 that the FMUs in this folder use; names and types are those of the standard. */
 #ifndef UNITS_FMI2_H
 #define UNITS_FMI2_H
 

@@ -1,9 +1,9 @@
 /*
  * The law of Brinell's first scene, and one contact that follows it: loading after Big-Alabo, Harrison and Cartmell (2015),
- * unloading by contact radius, and the dent stays.
+ * unloading from the contact radius, and a permanent dent.
  *
- * What depends on parameters alone is computed when they are set: borders in metres, factors of the branches, and what the
- * unloading needs. A step that leaves its branch finds the next one from the present one.
+ * Values that depend only on parameters are computed when these are set: boundaries in metres, factors of the branches, and
+ * constants for unloading. A step that leaves its branch finds the next one from the present one.
  */
 #ifndef UNITS_LAW_H
 #define UNITS_LAW_H
@@ -20,10 +20,10 @@ static const double PLASTIC_PRESSURE = 2.8;
 
 static const double LARGEST_INDENTATION = 1e100; /* [m] */
 
-/* the least increment of a branch that is followed both ways [m] */
+/* the least increment of a branch that is followed in both directions [m] */
 static const double EITHER_WAY = -DBL_MAX;
 
-/* a dent shallower than this, relative to the largest indentation, is rounding */
+/* a dent shallower than this, relative to the largest indentation, is a rounding error */
 static const double SHALLOWEST_DENT = 8.0 * DBL_EPSILON;
 
 typedef struct {
@@ -45,8 +45,8 @@ typedef struct {
 } Branch;
 
 /*
- * What a contact remembers. A step stores sum and rest; they are apart, so that no compiler makes one wide store of them,
- * which the narrow loads of the next step would wait for.
+ * The state of a contact. A step stores sum and rest. They are not adjacent, so that no compiler combines them into one wide
+ * store, for which the narrow loads of the next step would have to wait.
  */
 typedef struct {
     double sum; /* the indentation [m] */
@@ -57,7 +57,7 @@ typedef struct {
     Kind kind, from; /* the branch, and the one that the last unloading began on */
 } Contact;
 
-/* what follows from the parameters */
+/* values that follow from the parameters */
 typedef struct {
     Branch loading[4];     /* by kind */
     double yield;          /* indentation at yield [m] */
@@ -78,14 +78,14 @@ static inline double force_on(const Branch *branch, double indentation)
     return branch->constant + z * (branch->linear + branch->power * sqrt(z));
 }
 
-/* whether a step to this indentation is on the branch; a NaN isn't above the lower end */
+/* whether a step to this indentation stays on the branch; false for NaN */
 static inline bool stays(const Contact *contact, double indentation, double increment)
 {
     const Branch *branch = &contact->branch;
     return indentation > branch->lower && !(indentation >= branch->upper) && increment >= branch->least;
 }
 
-/* inline, so that the compiler finds the law of the scene, and no instance has to */
+/* inlined, so that the compiler computes the law of the scene, and not each instance */
 static inline __attribute__((always_inline)) Law make_law(const Parameters *given)
 {
     double modulus = given->modulus / (1.0 - given->poissons_ratio * given->poissons_ratio);
@@ -124,7 +124,7 @@ static void part(Contact *contact, double upper)
     contact->branch = apart(upper);
 }
 
-/* onto this branch of the loading curve, or a later one */
+/* changes to this branch of the loading curve, or to a later one */
 static void load(Contact *contact, const Law *law, double indentation, Kind kind)
 {
     while (indentation >= law->loading[kind].upper)
@@ -133,13 +133,13 @@ static void load(Contact *contact, const Law *law, double indentation, Kind kind
     contact->branch = law->loading[kind];
 }
 
-/* off the loading curve beyond yield, on which the contact is at `largest` */
+/* leaves the loading curve beyond yield, where the contact is at `largest` */
 static __attribute__((noinline)) void turn(Contact *contact, const Law *law, double largest, double indentation)
 {
     double force = force_on(&contact->branch, largest), pressure = PLASTIC_PRESSURE;
     if (largest < law->saturated)
         pressure = YIELD_PRESSURE + log(2.0 * (largest / law->yield) - 1.0) / 3.0;
-    /* of the two contact radii the larger one */
+    /* the larger of the two contact radii */
     double recovery = sqrt(law->recovery * force * pressure), recovery_yield = law->recovery_yield * force;
     if (recovery > recovery_yield)
         recovery = recovery_yield;
@@ -156,7 +156,7 @@ static __attribute__((noinline)) void turn(Contact *contact, const Law *law, dou
         part(contact, residual);
 }
 
-/* before any motion; in contact already if the gap is negative */
+/* before any motion; in contact if the gap is negative */
 static inline __attribute__((always_inline)) void start(Contact *contact, const Law *law, double gap)
 {
     contact->sum = 0.0 - gap;
@@ -171,7 +171,7 @@ static inline __attribute__((always_inline)) void start(Contact *contact, const 
 static bool leave(Contact *contact, const Law *law, double sum, double rest)
 {
     double indentation = sum + rest, before = contact->sum + contact->rest;
-    /* written so that a NaN is refused, which is also the rest of what overflows */
+    /* written positively to reject NaN, which is also the rest after an overflow */
     if (!(fabs(indentation) < LARGEST_INDENTATION))
         return false;
     switch (contact->kind) {
@@ -194,7 +194,7 @@ static bool leave(Contact *contact, const Law *law, double sum, double rest)
             part(contact, DBL_TRUE_MIN);
         break;
     default:
-        /* no motion, no other branch */
+        /* without motion, the branch stays */
         if (indentation > before)
             load(contact, law, indentation, contact->kind + 1);
         else if (indentation < before)

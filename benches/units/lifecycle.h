@@ -1,10 +1,10 @@
 /*
- * Life, order of calls and saved states of the units beside this file. A unit includes it after it has said what a saved
- * state holds (State, with a field `clock`) and how to make one (make_initial) and to copy one (copy_state).
+ * Life cycle, order of calls and saved states of the FMUs in this folder. An FMU includes this file after it has defined a
+ * saved state (State, with a field `clock`) and the functions to create (make_initial) and to copy one (copy_state).
  *
- * Checked is what only the unit can know and what would end in a wrong result: the order of calls, the GUID and the kind of
- * unit, start and stop time, memory. Not checked is what the standard leaves to the program that calls: null pointers, and
- * components and states that aren't the unit's own.
+ * It checks what only the FMU can know and what would lead to a wrong result: the order of calls, the GUID and the type of
+ * FMU, start and stop time, memory. It does not check what the standard leaves to the caller: null pointers, and components
+ * and states that do not belong to the FMU.
  */
 #ifndef UNITS_LIFECYCLE_H
 #define UNITS_LIFECYCLE_H

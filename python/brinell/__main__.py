@@ -1,5 +1,5 @@
-"""`python -m brinell study`, and every command of the exporter: where the folder of scripts isn't on
-PATH, `python -m brinell export scene.toml` does what `brinell export scene.toml` does."""
+"""`python -m brinell study`, and every command of the exporter: if the folder of scripts is not on
+PATH, `python -m brinell export scene.toml` is the same as `brinell export scene.toml`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .program import program
 from .studies.study import study
 
 TOLD = 10
-"""How many failed runs the command names."""
+"""Largest number of failed runs that the command lists."""
 
 
 def _pair(text: str) -> tuple[str, str]:
@@ -120,7 +120,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _tell(table: dict[str, Any], failed: NDArray[np.int_], names: Sequence[str]) -> None:
-    """Which runs have failed, and why: the first of them; the table has all."""
+    """Print the first failed runs and the reasons; the table contains all of them."""
     for index in failed[:TOLD]:
         run = ", ".join(f"{name} = {table[name][index]:g}" for name in names)
         print(f"failed: {run}: {table['error'][index]}", file=sys.stderr)
@@ -129,7 +129,7 @@ def _tell(table: dict[str, Any], failed: NDArray[np.int_], names: Sequence[str])
 
 
 def _exporter(arguments: Sequence[str]) -> int:
-    """Runs the exporter; gives its exit status."""
+    """Run the exporter; return its exit status."""
     try:
         return subprocess.run([program(), *arguments], check=False).returncode
     except (ProgramError, OSError) as error:

@@ -138,7 +138,7 @@ class Contact:
             given = self._variables.given(initial_gap, parameters, keywords)
             before, self._given = self._given, self._given | given
             self._instance.call("Reset")
-            # a unit tells each kind of warning once, until it is asked again
+            # an FMU gives each kind of warning once, until logging is enabled again
             self._instance.call("SetDebugLogging", True, 0, None)
             try:
                 self._start()

@@ -33,27 +33,27 @@ class Prediction:
     """Closing speed [m/s]."""
     restitution: float
     kinetic_energy: float
-    """[J]"""
+    """Kinetic energy before the impact [J]."""
     energy_lost: float
-    """[J]"""
+    """Energy dissipated by the impact [J]."""
     largest_force: float
-    """[N]"""
+    """Largest force [N]."""
     largest_indentation: float
-    """[m]"""
+    """Largest indentation [m]."""
     largest_contact_radius: float
-    """[m]"""
+    """Contact radius at the largest indentation [m]."""
     loading_time: float
-    """From touch to the largest indentation [s]."""
+    """Time from first contact to the largest indentation [s]."""
     unloading_time: float
-    """From there to separation [s]."""
+    """Time from the largest indentation to separation [s]."""
     dent: float
-    """Depth that remains [m]; rate-dependent laws leave none."""
+    """Depth of the dent [m]; rate-dependent laws leave none."""
     regime: int
     """The regime at the largest indentation, numbered like the output `regime`."""
     onsets: tuple[tuple[int, float], ...] = ()
     """Pairs: a regime, and the speed [m/s] at which it begins."""
     warnings: tuple[str, ...] = ()
-    """In which respects this impact leaves the validity of the law."""
+    """Warnings about the validity of the law for this impact."""
 
 
 def program() -> Path:
@@ -82,8 +82,8 @@ _SCRIPTS = ("bin", "Scripts")
 
 
 def _of_the_wheel(module: Path) -> Path | None:
-    """The program that was installed together with the module in the folder `module`, also where
-    the environment isn't activated; None if the module is used from the repository."""
+    """The program that was installed together with the module in the folder `module`, even if
+    the environment is not activated; None if the module is used from the repository."""
     try:
         distribution = metadata.distribution("brinell")
     except metadata.PackageNotFoundError:
@@ -234,7 +234,7 @@ def _options(values: Mapping[str, float | None], laws: Sequence[str] | None) -> 
 
 
 def _tables(text: str) -> dict[str, Columns]:
-    """The columns of each law in what the exporter writes."""
+    """The columns of each law in the output of the exporter."""
     tables = {}
     for table in json.loads(text)["laws"]:
         law = table.pop("law")

@@ -34,7 +34,7 @@ class Variables:
         self.contacts = tuple(name[: -len(RATE)].rstrip(".") for name in rates)
         self.outputs = tuple(n for n, it in self._all.items() if it.causality == "output")
         self.parameters = tuple(n for n, it in self._all.items() if it.causality == "parameter")
-        # only the description tells: effective_mass may be a constant, and damping has one, too
+        # only the description distinguishes them: effective_mass may be a constant, or belong to the damping
         texts = [self._all[name].description or "" for name in rates]
         self.knows_mass = any("moves the bodies" in text for text in texts)
         mean = [self._all[name].description or "" for name in self.owners("mean_force")]
@@ -88,7 +88,7 @@ class Variables:
         given: dict[str, Numbers] = dict(parameters or {})
         if keywords:
             known = {_plain(name): name for name in self.parameters}
-            # one that each contact has for itself is known by what comes behind the contact
+            # a parameter that each contact has for itself is known by the part of its name after the contact
             for contact in self.contacts[:1]:
                 behind = contact + "."
                 own = [name for name in self.parameters if name.startswith(behind)]

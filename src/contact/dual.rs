@@ -1,9 +1,9 @@
-//! A number with its derivative: it gives the slope of a long formula without a second formula.
+//! A number with its derivative. It gives the slope of a long formula without a second formula.
 
 use core::ops::{Add, Mul, Sub};
 use libm::{cos, cosh, exp, expm1, pow, sin, sinh};
 
-/// `value` and its derivative by the one variable of the formula.
+/// `value` and its derivative with respect to the one variable of the formula.
 ///
 /// Reference: A. Griewank, A. Walther, *Evaluating Derivatives*, SIAM 2008, section 3.1 (forward mode).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,7 @@ impl Dual {
         Dual { value, slope: 1.0 }
     }
 
-    /// A number that doesn't depend on the variable.
+    /// A number that does not depend on the variable.
     pub fn constant(value: f64) -> Dual {
         Dual { value, slope: 0.0 }
     }
@@ -51,7 +51,7 @@ impl Dual {
     pub fn sech(self) -> Dual {
         let cosine = cosh(self.value);
         let value = 1.0 / cosine;
-        // beyond 40 the hyperbolic tangent is 1, and the sine may overflow
+        // beyond 40 the hyperbolic tangent is 1, and sinh may overflow
         let tangent = if self.value < 40.0 { sinh(self.value) / cosine } else { 1.0 };
         Dual { value, slope: -value * tangent * self.slope }
     }

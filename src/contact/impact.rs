@@ -8,7 +8,7 @@ use super::{Model, Regime};
 use core::cell::Cell;
 use libm::{pow, sqrt};
 
-/// A body of `mass` that meets the other at `speed`, with nothing else pushing.
+/// A body of `mass` that hits the other one at `speed`, with no other force acting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Effective mass \[kg\] > 0: `1/m = 1/m1 + 1/m2`.
@@ -17,7 +17,7 @@ pub struct Impact {
     pub speed: f64,
 }
 
-/// The course of an impact.
+/// Result of an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
     /// Largest indentation \[m\].
@@ -32,13 +32,13 @@ pub struct Prediction {
     pub residual_indentation: f64,
     /// Kinetic energy before the impact \[J\].
     pub energy: f64,
-    /// Kinetic energy after it \[J\].
+    /// Kinetic energy after the impact \[J\].
     pub rebound_energy: f64,
-    /// Rebound speed over incoming speed.
+    /// Coefficient of restitution: rebound speed over incoming speed.
     pub restitution: f64,
-    /// From first contact to the largest indentation \[s\].
+    /// Time from first contact to the largest indentation \[s\].
     pub loading_time: f64,
-    /// From the largest indentation to separation \[s\].
+    /// Time from the largest indentation to separation \[s\].
     pub unloading_time: f64,
 }
 
@@ -49,26 +49,27 @@ impl Prediction {
     }
 }
 
-/// The impact of `impact` on an untouched contact: `W(d_m) = m v^2/2`, rebound energy the work given back on unloading.
+/// The impact `impact` on an untouched contact. The largest indentation `d_m` follows from `W(d_m) = m v^2/2`; the rebound
+/// energy is the work returned by unloading.
 ///
-/// `None` if mass or speed aren't positive and finite, the energy is below the smallest normal number, or the
-/// indentation would leave what the law can be evaluated for, at most [`LARGEST_INDENTATION`].
+/// `None` if the mass or the speed is not positive and finite, if the energy is below the smallest normal number, or if the
+/// indentation would exceed the range in which the law can be evaluated ([`LARGEST_INDENTATION`] at most).
 ///
-/// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 11.5; the energy balance is that of section 4 of
-/// A. Big-Alabo et al., *Computers & Structures* 151 (2015) 20-29, with the root found to rounding.
+/// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 11.5. The energy balance is that of section 4 of A. Big-Alabo
+/// et al., *Computers & Structures* 151 (2015) 20-29; the root is found to rounding.
 pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<Prediction> {
     let (energy, max_indentation) = turning_point(model, impact)?;
     let unloading = model.unloading_path(max_indentation);
     let peak = model.peak(max_indentation);
-    // a path that is no segment has a tangent for every point
+    // a path that is not a segment has a different tangent at every point
     let anywhere = 0.5 * (unloading.lower + max_indentation);
     let follows_path = model.unloading_segment(max_indentation, anywhere).upper >= max_indentation;
-    // `Model::recovered_work`, with path and peak found once
+    // `Model::recovered_work`, but with path and peak computed once
     let recovered = |d: f64| {
         if follows_path { unloading.work(d) } else { model.unloading.work(&model.pair, &peak, &unloading, d) }
     };
     let rebound_energy = recovered(max_indentation);
-    // the energy at which the numbers themselves balance, so that the speed at the turning point is exactly zero
+    // the energy for which the computed works balance, so that the speed at the turning point is exactly zero
     let work = model.loading.work(&model.pair, max_indentation);
     let loading_time = travel_time(
         impact.mass,
@@ -100,7 +101,7 @@ pub fn predict<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -
     })
 }
 
-/// Rebound speed over incoming speed: that of [`predict`], without the times, which take longest.
+/// Coefficient of restitution as in [`predict`], without the times, which are the most expensive part.
 pub fn restitution<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact) -> Option<f64> {
     let (energy, max_indentation) = turning_point(model, impact)?;
     Some(sqrt(model.recovered_work(max_indentation, max_indentation) / energy))
@@ -113,28 +114,28 @@ fn turning_point<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact)
         return None;
     }
     let energy = 0.5 * impact.mass * impact.speed * impact.speed;
-    // below it an energy has lost digits already
+    // a subnormal energy has already lost digits
     if energy < f64::MIN_POSITIVE {
         return None;
     }
     let indentation = indentation_of_work(model, energy)?;
-    // a fit may end before
+    // a fitted law may end earlier
     let end = model.loading.segment(&model.pair, indentation);
     let is_finite = end.force(indentation).is_finite() && end.stiffness(indentation).is_finite();
     is_finite.then_some((energy, indentation))
 }
 
-/// Steps by Newton's method, after which the rest of the bracket is halved: a smooth law needs some five.
+/// Number of Newton steps before the remaining bracket is bisected. A smooth law needs about five.
 const NEWTON_STEPS: u32 = 24;
 
-/// An indentation \[m\] whose loading work exceeds `energy` \[J\] while that of its neighbour below doesn't: the root to
+/// The indentation \[m\] whose loading work exceeds `energy` \[J\] while that of the next smaller number does not: the root to
 /// rounding.
 ///
-/// Newton's method on the logarithms, in which a power law is a straight line, from the indentation that Hertz's law has. It
-/// ends within rounding of the root; from there steps of one, four, sixteen ... units in the last place close the bracket from
-/// the other side. What would leave the bracket, and a law that Newton's method doesn't suit, is halved instead.
+/// Newton's method works on the logarithms, in which a power law is a straight line, and starts from the indentation of Hertz's
+/// law. It ends within rounding of the root. Steps of 1, 4, 16 ... units in the last place then close the bracket from the
+/// other side. If a step would leave the bracket, or if Newton's method does not suit the law, the bracket is bisected.
 fn indentation_of_work<L: Loading, U: Unloading>(model: &Model<L, U>, energy: f64) -> Option<f64> {
-    // f64 keeps its order when the bits of positive numbers are read as integers: 64 halvings find the neighbours
+    // the bits of positive f64 numbers, read as integers, keep their order: 64 bisections find the neighbours
     let deepest = LARGEST_INDENTATION.to_bits();
     let (mut low, mut high) = (0, deepest);
     let mut guess = pow(energy / (0.4 * model.pair.hertz_stiffness()), 0.4).to_bits();
@@ -166,15 +167,16 @@ fn indentation_of_work<L: Loading, U: Unloading>(model: &Model<L, U>, energy: f6
     found.then(|| f64::from_bits(high))
 }
 
-/// A way on which Gauss's rule integrates any law to rounding, as a fraction of the indentation.
+/// A distance over which Gauss's rule integrates any law to rounding, as a fraction of the indentation.
 const SHORT: f64 = 1.0 / 64.0;
 
-/// The kinetic energy \[J\] on a smooth piece of the loading curve from `start` to `end` \[m\], with `energy` \[J\] left there, as a
-/// function of the indentation and of the way from there to the end \[m\]. `whole` \[J\] is the work of the whole way.
+/// The kinetic energy \[J\] on a smooth piece of the loading curve from `start` to `end` \[m\], where `energy` \[J\] is left at
+/// the end. It is returned as a function of the indentation and of the distance to the end \[m\]. `whole` \[J\] is the work
+/// over the whole piece.
 ///
-/// The difference of two works loses its digits near the turning point. The mean force over the rest of the way doesn't: that of
-/// a segment, and of any law on a short way. Where the work is an integral, each energy farther off is taken from the last
-/// one: the integral between neighbours is short.
+/// The difference of two works loses digits near the turning point. The mean force over the remaining distance does not, on a
+/// segment and, over a short distance, for any law. Where the work is an integral, each energy farther away is computed from
+/// the previous one, because the integral between neighbours is short.
 fn falling_energy<L: Loading, U: Unloading>(
     model: &Model<L, U>,
     (start, end): (f64, f64),
@@ -200,12 +202,12 @@ fn falling_energy<L: Loading, U: Unloading>(
     }
 }
 
-/// Time \[s\] between `from` and the turning point `to` \[m\] of a `mass` \[kg\] whose kinetic energy at `d`, on the smooth piece
-/// from `start` to `end`, is `kinetic_energy(start, end)(d, end - d)` \[J\], zero at `to`.
+/// Time \[s\] between `from` and the turning point `to` \[m\] of a `mass` \[kg\]. On the smooth piece from `start` to `end`,
+/// its kinetic energy at `d` is `kinetic_energy(start, end)(d, end - d)` \[J\]; it is zero at `to`.
 ///
-/// `t = integral dd / sqrt(2 T(d)/m)`; with `d = to - (to - from) s^2` the end where the speed vanishes is regular. The
-/// integral is split where the law has a corner (`next_corner(d)`: the first corner above `d`), since Gauss's rule needs
-/// a smooth integrand.
+/// `t = integral dd / sqrt(2 T(d)/m)`. The substitution `d = to - (to - from) s^2` removes the singularity at the end where the
+/// speed vanishes. The integral is split at the corners of the law, because Gauss's rule needs a smooth integrand;
+/// `next_corner(d)` is the first corner above `d`.
 fn travel_time<E: Fn(f64, f64) -> f64>(
     mass: f64,
     from: f64,

@@ -5,11 +5,11 @@ use libm::sqrt;
 /// One of the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
-    /// Radius of curvature \[m\]; infinite: flat; negative: a socket.
+    /// Radius of curvature \[m\]; infinite for a flat, negative for a socket.
     pub radius: f64,
-    /// Young's modulus \[Pa\] > 0; infinite: rigid.
+    /// Young's modulus \[Pa\] > 0; infinite for a rigid body.
     pub youngs_modulus: f64,
-    /// Poisson's ratio, above -1 and at most 0.5.
+    /// Poisson's ratio \[-\], above -1 and at most 0.5.
     pub poissons_ratio: f64,
 }
 
@@ -20,22 +20,22 @@ impl Body {
     }
 }
 
-/// The two bodies as the contact laws see them.
+/// The two bodies in the form that the contact laws use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
     /// Effective radius `R` \[m\]: `1/R = 1/R1 + 1/R2`.
     pub radius: f64,
     /// Effective modulus `E*` \[Pa\]: `1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`.
     pub modulus: f64,
-    /// Yield strength `S` of the body that yields, the target \[Pa\]; infinite for an elastic contact.
+    /// Yield strength `S` of the yielding body, the target \[Pa\]; infinite for an elastic contact.
     pub yield_strength: f64,
-    /// Young's modulus of the target \[Pa\], which some laws need beside `E*`.
+    /// Young's modulus of the target \[Pa\], which some laws need in addition to `E*`.
     pub youngs_modulus: f64,
-    /// Poisson's ratio of the target.
+    /// Poisson's ratio of the target \[-\].
     pub poissons_ratio: f64,
 }
 
-/// Where a contact begins to yield.
+/// The point where the contact begins to yield.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct YieldPoint {
     /// Indentation `d_y` \[m\].
@@ -44,15 +44,15 @@ pub struct YieldPoint {
     pub force: f64,
 }
 
-/// The smallest radius of curvature of a body \[m\]: below the size of an atom there is no contact mechanics.
+/// The smallest radius of curvature of a body \[m\]. Contact mechanics does not apply below the size of an atom.
 pub const SMALLEST_RADIUS: f64 = 1e-12;
 
 impl Pair {
-    /// The pair of `impactor` and `target`, of which the softer yields at `yield_strength` \[Pa\].
+    /// The pair of `impactor` and `target`. The softer one yields at `yield_strength` \[Pa\].
     ///
-    /// Written so that a rigid body and a flat target leave `E/(1-nu^2)` and `R` of the other one unrounded.
-    /// `None` if the bodies cannot touch in one point (a socket must be wider than the impactor, `R2 < -R1`, the impactor
-    /// is not flat, and no radius is smaller than [`SMALLEST_RADIUS`]), and if both are rigid.
+    /// With a rigid body or a flat target, `E/(1-nu^2)` or `R` of the other body is used without rounding. `None` if both
+    /// bodies are rigid or if they cannot touch at one point: a socket must be wider than the impactor (`R2 < -R1`), the
+    /// impactor must not be flat, and no radius may be smaller than [`SMALLEST_RADIUS`].
     ///
     /// Reference: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 4.2.
     pub fn new(impactor: &Body, target: &Body, yield_strength: f64) -> Option<Pair> {
@@ -60,7 +60,7 @@ impl Pair {
         let (one, other) = (impactor.plane_strain_modulus(), target.plane_strain_modulus());
         let (soft, hard) = if other <= one { (other, one) } else { (one, other) };
         let modulus = soft / (1.0 + soft / hard);
-        // written positively, so that a NaN fails
+        // written positively to reject NaN
         let touch = curvature_ratio > 0.0
             && impactor.radius >= SMALLEST_RADIUS
             && impactor.radius < f64::INFINITY
@@ -82,10 +82,10 @@ impl Pair {
         4.0 / 3.0 * self.modulus * sqrt(self.radius)
     }
 
-    /// The point of Hertz's curve where the mean pressure reaches `pressure_factor` times the yield strength.
+    /// The point of Hertz's curve where the mean pressure is `pressure_factor` times the yield strength.
     ///
-    /// `d_y = R (3 pi p / (4 E*))^2` and `F_y = K_h d_y^1.5`, with `p = pressure_factor S`. The force is computed from
-    /// `K_h`, not from its own closed form, so that it continues Hertz's law to the last bit.
+    /// `d_y = R (3 pi p / (4 E*))^2` and `F_y = K_h d_y^1.5`, with `p = pressure_factor S`. The force is computed from `K_h`,
+    /// not from its own closed form, so that it continues Hertz's law to the last bit.
     pub fn yield_point(&self, pressure_factor: f64) -> YieldPoint {
         let strain = 0.75 * core::f64::consts::PI * pressure_factor * self.yield_strength / self.modulus;
         let indentation = self.radius * strain * strain;

@@ -1,25 +1,25 @@
 //! The physics: a rigid or elastic sphere pressed into an elastoplastic half-space.
 //!
-//! `f64` only; no allocation, no input or output, no panic, no `unsafe`, and no FMI. A [`Model`] says which bodies are in
-//! contact and by which law; a [`History`] is everything that a contact remembers. [`History::advance`] moves it along a
-//! path, and force, stiffness, energies and dent are functions of the two. The trait [`Contact`] is what elastoplastic and
-//! [rate-dependent](damped) contacts have in common.
+//! `f64` only; no allocation, no input or output, no panic, no `unsafe`, and no FMI. A [`Model`] holds the bodies in contact
+//! and their laws; a [`History`] holds the whole state of a contact. [`History::advance`] moves it along a path. Force,
+//! stiffness, energies and dent are functions of the two. The trait [`Contact`] is the common interface of elastoplastic and
+//! [rate-dependent](damped) contacts.
 //!
 //! | module | content |
 //! |---|---|
 //! | [`material`] | bodies, effective radius and modulus, yield point |
-//! | [`segment`] | the form that the branches of most laws have: `F = c0 + c1 z + c2 z^1.5 + c3 z^2` |
+//! | [`segment`] | the form of the branches of most laws: `F = c0 + c1 z + c2 z^1.5 + c3 z^2` |
 //! | [`loading`] | one file for each loading law |
 //! | [`unloading`] | one file for each unloading law |
-//! | [`path`] | the indentation, summed without loss |
-//! | [`dual`] | slopes of long formulas |
-//! | [`quadrature`] | work and time where there is no closed form |
+//! | [`path`] | the indentation, summed without loss of digits |
+//! | [`dual`] | slopes of long formulas by automatic differentiation |
+//! | [`quadrature`] | numerical integration where work or time has no closed form |
 //! | [`behaviour`] | the trait [`Contact`] |
 //! | [`history`] | the state of a contact and its path through the branches |
 //! | [`impact`] | prediction of an impact from the energy balance |
-//! | [`piece`] | the smooth pieces of the law along which a contact moves |
+//! | [`piece`] | the smooth pieces of a law |
 //! | [`momentum`] | the integral of force over time, along branches or by pieces |
-//! | [`motion`] | a contact that knows the mass |
+//! | [`motion`] | the motion of bodies of known mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
 //! | [`validity`] | the range in which the laws are valid |
 
@@ -49,36 +49,37 @@ pub use material::{Body, Pair, YieldPoint};
 pub use segment::Segment;
 pub use unloading::{Peak, Unloading};
 
-/// What a new contact meets after the bodies have parted.
+/// The surface that a new contact meets after the bodies have separated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Surface {
     /// The dent that the last contact left: the force begins again at the residual indentation.
     #[default]
     Dented,
-    /// An untouched spot: once the bodies have parted beyond the original surface the dent is forgotten, its energy isn't.
+    /// An untouched spot. Once the bodies have separated beyond the original surface, the dent is forgotten, but its energy
+    /// still counts.
     Fresh,
 }
 
-/// What is in contact, and by which laws.
+/// The bodies in contact and their laws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model<L, U> {
     /// The two bodies.
     pub pair: Pair,
     /// The loading curve.
     pub loading: L,
-    /// How the load comes off.
+    /// The unloading law.
     pub unloading: U,
-    /// What a new contact meets.
+    /// The surface that a new contact meets.
     pub surface: Surface,
 }
 
 impl<L: Loading, U: Unloading> Model<L, U> {
-    /// Where the contact begins to yield.
+    /// The point where the contact begins to yield.
     pub fn yield_point(&self) -> YieldPoint {
         self.loading.yield_point(&self.pair)
     }
 
-    /// Whether a contact that yields at `point` has yielded before it is as deep as `indentation` \[m\].
+    /// Whether a contact that yields at `point` yields before it reaches `indentation` \[m\].
     #[inline(always)]
     fn yields_before(&self, point: &YieldPoint, indentation: f64) -> bool {
         self.loading.can_yield() && indentation > point.indentation
@@ -95,7 +96,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         Peak { work: self.work_for_unloading(indentation), ..self.point_of_loading(indentation) }
     }
 
-    /// The same without the work: one piece of code for whoever is in no hurry.
+    /// The same without the work. It is not inlined, to keep the code small where speed does not matter.
     #[inline(never)]
     fn point_of_loading(&self, indentation: f64) -> Peak {
         let point = self.yield_point();
@@ -104,7 +105,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         Peak { indentation, force, contact_radius, yield_force: point.force, work: f64::NAN }
     }
 
-    /// [`Model::peak`] of a contact that yields at `point` and has this `force` \[N\] there.
+    /// [`Model::peak`] of a contact that yields at `point` and has this `force` \[N\] at `indentation` \[m\].
     #[inline(always)]
     fn peak_at(&self, point: &YieldPoint, indentation: f64, force: f64) -> Peak {
         let contact_radius = self.loading.radius_at(&self.pair, point, indentation, force);
@@ -112,17 +113,17 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         Peak { indentation, force, contact_radius, yield_force: point.force, work }
     }
 
-    /// Work of the loading up to `indentation` \[J\]; NaN if the unloading law doesn't need it.
+    /// Work of loading up to `indentation` \[J\]; NaN if the unloading law does not need it.
     #[inline(always)]
     fn work_for_unloading(&self, indentation: f64) -> f64 {
         if self.unloading.needs_work() { self.loading.work(&self.pair, indentation) } else { f64::NAN }
     }
 
-    /// The path on which the load comes off from `max_indentation` \[m\] > 0, from the residual indentation (its lower end)
-    /// to `max_indentation` (its upper end). Up to the yield point it is the loading curve itself.
+    /// The unloading path from `max_indentation` \[m\] > 0: its lower end is the residual indentation, its upper end
+    /// `max_indentation`. Up to the yield point it is the loading curve itself.
     #[inline(always)]
     pub fn unloading_path(&self, max_indentation: f64) -> Segment {
-        // of a law that never yields nothing plastic is compiled
+        // for a law that never yields, the plastic code is compiled out
         match self.loading.can_yield() {
             true => self.path_of_dent(max_indentation),
             false => self.elastic_path(max_indentation),
@@ -144,13 +145,13 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         Segment { upper: max_indentation, ..self.loading.segment(&self.pair, 0.0) }
     }
 
-    /// The same for a `peak` beyond the yield point.
+    /// The same from a `peak` beyond the yield point.
     #[inline(never)]
     fn path_from(&self, peak: &Peak) -> Segment {
         self.unloading.path(&self.pair, peak)
     }
 
-    /// The segment of that path at `indentation` \[m\].
+    /// The segment of the unloading path at `indentation` \[m\].
     pub fn unloading_segment(&self, max_indentation: f64, indentation: f64) -> Segment {
         let path = self.unloading_path(max_indentation);
         if U::SEGMENTED || self.is_elastic_at(max_indentation) {
@@ -159,7 +160,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         self.unloading.tangent(&self.pair, &self.peak(max_indentation), &path, indentation)
     }
 
-    /// Work given back on that path from `indentation` down to the residual indentation \[J\].
+    /// Work returned on the unloading path from `indentation` \[m\] down to the residual indentation \[J\].
     pub fn recovered_work(&self, max_indentation: f64, indentation: f64) -> f64 {
         let path = self.unloading_path(max_indentation);
         if U::SEGMENTED || self.is_elastic_at(max_indentation) {
@@ -178,7 +179,7 @@ impl<L: Loading, U: Unloading> Model<L, U> {
         !self.is_elastic_at(max_indentation) && self.unloading.holds_back(&self.pair, &self.peak(max_indentation))
     }
 
-    /// Whether a contact that never was deeper than `max_indentation` \[m\] has not yielded.
+    /// Whether a contact that was never deeper than `max_indentation` \[m\] has not yielded.
     #[inline(never)]
     pub fn is_elastic_at(&self, max_indentation: f64) -> bool {
         !self.yields_before(&self.yield_point(), max_indentation)

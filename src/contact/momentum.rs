@@ -1,4 +1,4 @@
-//! The integral of force over time: what a step does to the momentum of the bodies.
+//! The integral of force over time: the impulse of a step.
 
 use super::history::{History, TooDeep};
 use super::loading::Loading;
@@ -9,17 +9,17 @@ use super::unloading::Unloading;
 use super::{Model, Surface};
 use libm::fabs;
 
-/// What two ways to integrate a smooth force may differ by, as a fraction of the integral.
+/// The largest difference between two integrals of a smooth force, as a fraction of the integral.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Pieces that a law can't have in one direction: none has more than a dozen.
+/// More pieces than any law has in one direction: none has more than a dozen.
 const MOST_PIECES: u32 = 100;
 
-/// Impulse \[N.s\] of a step on `course` over `step` \[s\] from where the contact is, which stays where it is.
+/// Impulse \[N.s\] of a step along `course` for `step` \[s\] from the present state, which does not change.
 ///
-/// The way is cut where the direction changes and where the law has a corner. On each part the force is smooth in time and
-/// is integrated in closed form if the rate is held and the law has segments, else by Gauss's rule, to rounding: with segments
-/// the [power](super::segment::Segment) alone.
+/// The path is split where the direction changes and where the law has a corner. On each part the force is smooth in time. If
+/// the rate is constant and the law has segments, the integral is a closed form. Otherwise Gauss's rule integrates to rounding;
+/// for laws with segments it integrates only the [power](super::segment::Segment).
 ///
 /// # Errors
 /// [`TooDeep`] as for [`History::advance`].
@@ -36,7 +36,7 @@ pub fn impulse<L: Loading, U: Unloading>(
     impulse_by_pieces(history, model, course, step)
 }
 
-/// [`impulse`] of a course with the rate held, or by a law without segments.
+/// [`impulse`] for a constant rate, or for a law without segments.
 pub(super) fn impulse_by_pieces<L: Loading, U: Unloading>(
     history: &History,
     model: &Model<L, U>,
@@ -101,19 +101,20 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
 
     /// Impulse over the smooth `piece`, from one time and indentation to another.
     fn over(&self, piece: &Piece<'_, L, U>, (start, end): (f64, f64), (from, to): (f64, f64)) -> f64 {
-        // a law that is made of segments comes here with the rate held only, and then needs no rule
+        // a law made of segments gets here only with a constant rate, and then needs no quadrature
         let is_held = self.model.is_segmented() || self.course.is_held();
         if is_held && let Some(segment) = piece.whole() {
             return (end - start) * segment.mean_force(from, to);
         }
         let force = |time: f64| piece.force(self.at(time));
-        // where the force begins, at the surface or at a corner of the law, it may be a fractional power; mostly it is far off
+        // where the force begins, at the surface or at a corner of the law, it may be a fractional power; usually that point is
+        // far away
         let middle = 0.5 * (start + end);
         let (whole, halves) = (gauss(start, end, &force), gauss(start, middle, &force) + gauss(middle, end, &force));
         if fabs(whole - halves) <= ROUNDING * fabs(halves) { halves } else { graded_integral(start, end, &force) }
     }
 
-    /// When, between now and `end` \[s\], the indentation is `border` \[m\].
+    /// The time between now and `end` \[s\] at which the indentation is `border` \[m\].
     fn when(&self, border: f64, end: f64) -> f64 {
         self.course.when(|time| self.at(time) - border, (self.time, end), 0.5 * (self.time + end))
     }

@@ -1,22 +1,22 @@
 //! Arithmetic that raises no floating-point exceptions except inexact and underflow: a host may trap the others.
 //!
-//! A compiler that optimizes for size may compute both sides of a choice between two numbers. A division or a root that must
-//! not be evaluated is therefore not skipped, but evaluated for another operand, which is hidden from the compiler.
+//! A compiler that optimizes for size may compute both sides of a choice between two numbers. A forbidden division or root is
+//! therefore not skipped, but evaluated for another operand, which is hidden from the compiler.
 
 use core::hint::black_box;
 use libm::sqrt;
 
-/// The larger of two numbers; the second one if the first is none.
+/// The larger of two numbers; the second one if the first is NaN.
 pub(crate) fn largest(one: f64, other: f64) -> f64 {
     if one > other { one } else { other }
 }
 
-/// The smaller of two numbers; the second one if the first is none.
+/// The smaller of two numbers; the second one if the first is NaN.
 pub(crate) fn smallest(one: f64, other: f64) -> f64 {
     if one < other { one } else { other }
 }
 
-/// The root of a number; zero of a negative one.
+/// The square root; zero for a negative number.
 pub(crate) fn root(square: f64) -> f64 {
     sqrt(black_box(largest(square, 0.0)))
 }
@@ -27,16 +27,16 @@ pub(crate) fn quotient(dividend: f64, divisor: f64, exists: bool, instead: f64) 
     if exists { quotient } else { instead }
 }
 
-/// The largest power of two that is not above `value` >= 0; for the smallest numbers the smallest that has all its digits.
+/// The largest power of two not above `value` >= 0. For the smallest numbers, it is the smallest normal power of two.
 pub(crate) fn power_of_two(value: f64) -> f64 {
     let power = f64::from_bits(value.to_bits() & f64::INFINITY.to_bits());
     if power > 0.0 { power } else { f64::MIN_POSITIVE }
 }
 
-/// The next larger number of a finite one.
+/// The next larger number after a finite one.
 #[inline(always)]
 pub(crate) fn next_above(value: f64) -> f64 {
-    // no zero has a sign then
+    // adding 0.0 turns -0.0 into 0.0
     let bits = (value + 0.0).to_bits();
     f64::from_bits(bits.wrapping_add(1).wrapping_sub(2 * (bits >> 63)))
 }

@@ -1,8 +1,8 @@
-//! The force over time on one segment, while the indentation is a polynomial of third degree.
+//! The force over time on one segment, while the indentation is a cubic polynomial in time.
 //!
-//! Everything in a segment except its power is integrated in closed form. The power is smooth over time as long as its base is
-//! not near zero; a few points of Gauss's rule are then exact to rounding, and their number is known in advance. Where the base
-//! is zero at an end, a rule with the power as its weight is used.
+//! Everything in a segment except its power is integrated in closed form. The power is smooth in time as long as its base is
+//! not near zero. A few points of Gauss's rule are then exact to rounding, and their number is known in advance. Where the base
+//! is zero at an end, the rule has the power as its weight.
 
 use super::numbers::{largest, root};
 use super::path::Course;
@@ -10,17 +10,18 @@ use super::quadrature::{SIX, TEN};
 use super::segment::Segment;
 use libm::{fabs, sqrt};
 
-/// Half of Gauss's rule with six points is exact to rounding for the power of a polynomial that has no zero within this
-/// distance of the middle of its interval, in halves of it; likewise the rule with ten, and the one for a base that is zero
-/// at an end. Found on random polynomials: their errors are below 2e-16, 1e-16 and 3e-16.
+/// Six points of Gauss's rule are exact to rounding for the power 1.5 of a polynomial that has no zero within this distance of
+/// the middle of its interval, in half-widths. The other two constants are for the rule with ten points and for the rule whose
+/// base is zero at an end. They were found on random polynomials; the errors are below 2e-16, 1e-16 and 3e-16.
 const FREE_FOR_SIX: f64 = 8.0;
 const FREE_FOR_TEN: f64 = 2.4;
 const FREE_AT_ORIGIN: f64 = 3.3;
 
-/// The shortest panel, as a part of the way: the power has no more than 1e-18 of its integral there if it begins there.
+/// The shortest panel, as a fraction of the path. If the power begins there, this panel contains less than 1e-18 of its
+/// integral.
 const SHORTEST: f64 = 1.0 / 16_777_216.0;
 
-/// Far more panels than there are between the shortest and the whole.
+/// Far more panels than fit between the shortest panel and the whole path.
 const MOST_PANELS: u32 = 500;
 
 /// Nodes and weights of the Gauss-Jacobi rule on `[0, 1]` with the weight `w^1.5`, eight points.
@@ -37,8 +38,8 @@ const WITH_POWER: [(f64, f64); 8] = [
     (0.983_102_957_656_961_2, 0.042_030_556_691_067_806),
 ];
 
-/// Impulse \[N.s\] on `segment` along `course`, from one time \[s\] and indentation \[m\] to another. In between the indentation
-/// is nowhere below the origin of the segment.
+/// Impulse \[N.s\] on `segment` along `course`, from one time \[s\] and indentation \[m\] to another. In between, the
+/// indentation must not be below the origin of the segment.
 pub fn impulse_on(segment: &Segment, course: &Course, (start, from): (f64, f64), (end, to): (f64, f64)) -> f64 {
     if course.is_held() {
         return (end - start) * segment.mean_force(from, to);
@@ -81,7 +82,7 @@ pub fn impulse_on(segment: &Segment, course: &Course, (start, from): (f64, f64),
     sum
 }
 
-/// A polynomial on `[-1, 1]`, by its coefficients.
+/// A polynomial on `[-1, 1]`, given by its coefficients.
 #[derive(Clone, Copy)]
 struct Panel {
     middle: f64,
@@ -91,7 +92,7 @@ struct Panel {
 }
 
 impl Panel {
-    /// `base` \[m\] and the way from there over `length` \[s\].
+    /// `base` \[m\] plus the distance covered over `length` \[s\].
     #[inline(always)]
     fn of(base: f64, course: &Course, length: f64) -> Panel {
         let half = 0.5 * length;
@@ -104,7 +105,7 @@ impl Panel {
         }
     }
 
-    /// Whether it certainly has no zero within `distance` from the middle, in the complex plane.
+    /// Whether it certainly has no zero within `distance` of the middle, in the complex plane.
     #[inline(always)]
     fn is_free(&self, distance: f64) -> bool {
         let farthest = fabs(self.second) + distance * fabs(self.third);
@@ -123,7 +124,7 @@ impl Panel {
             + third * third / 7.0
     }
 
-    /// The mean of its power 1.5; none if that isn't smooth.
+    /// The mean of its power 1.5; `None` if the power is not smooth.
     #[inline(always)]
     fn power(&self) -> Option<f64> {
         let rule = match self.is_free(FREE_FOR_SIX) {
@@ -142,12 +143,12 @@ impl Panel {
     }
 }
 
-/// The mean of the power 1.5 of the way over `length` \[s\]; none if that over the time isn't smooth.
+/// The mean of the power 1.5 of the distance covered over `length` \[s\]; `None` if distance over time is not smooth.
 fn power_from_zero(course: &Course, length: f64) -> Option<f64> {
     let Course { rate, slope, bend } = *course;
     let (zeroth, first, second) =
         (rate * length, 0.5 * slope * length * length, bend * length * length * length * (1.0 / 6.0));
-    // of the way over the part of the time, on [-1, 1]
+    // distance over the fraction of the time, on [-1, 1]
     let ratio = Panel {
         middle: zeroth + 0.5 * first + 0.25 * second,
         first: 0.5 * (first + second),

@@ -1,34 +1,33 @@
-//! The indentation over time: its course over a step, and a sum that loses nothing.
+//! The indentation over time: its course over a step, and a sum that loses no digits.
 
 use super::numbers::{quotient, root};
 use libm::fabs;
 
-/// A change so small, as a part of what it is compared with, is beyond rounding when squared.
+/// A relative change so small that its square is below rounding.
 const NEAR: f64 = 1e-8;
 
-/// Numbers above it are not squared.
+/// Larger numbers are not squared.
 const HUGE: f64 = 1e150;
 
 /// A sum of many small increments, carried to twice the precision of `f64`.
 ///
-/// `value` is the sum as it would be without care, `rest` the sum of what the roundings lost. After 1e8 steps
-/// [`Sum::total`] is off by no more than a few units in the last place of the largest sum on the way, however small an
-/// increment is beside it: what an increment smaller than the sum loses is known exactly. One larger than the sum, near
-/// zero, may lose half a unit in its own last place. No addition waits for the rest of the one before, so that a step takes
-/// no longer than with a plain sum.
+/// `value` is the plain sum, and `rest` is the sum of its rounding errors. After 1e8 steps, [`Sum::total`] is off by at most a
+/// few units in the last place of the largest intermediate sum. The rounding error of an increment smaller than the sum is
+/// known exactly, however small the increment is. An increment larger than the sum, near zero, may lose half a unit in its own
+/// last place. No addition waits for the rest of the one before, so a step takes no longer than with a plain sum.
 ///
-/// Reference: A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen", *ZAMM* 54 (1974)
-/// 39-51; T. J. Dekker, *Numer. Math.* 18 (1971) 224-242, for the error of a sum whose larger term is known.
+/// Reference: A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen", *ZAMM* 54 (1974) 39-51. T.
+/// J. Dekker, *Numer. Math.* 18 (1971) 224-242, for the error of a sum whose larger term is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sum {
-    /// The sum, with its roundings.
+    /// The sum, with its rounding errors.
     pub value: f64,
-    /// What is missing in `value`.
+    /// The part that `value` misses.
     pub rest: f64,
 }
 
 impl Sum {
-    /// The sum that is `value` so far.
+    /// A sum that starts at `value`.
     pub const fn new(value: f64) -> Sum {
         Sum { value, rest: 0.0 }
     }
@@ -47,7 +46,7 @@ impl Sum {
     }
 }
 
-/// The rate over one step: `rate + slope t + bend t^2/2`. The indentation is then a polynomial of third degree.
+/// The rate over one step: `rate + slope t + bend t^2/2`. The indentation is then a cubic polynomial.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Course {
     /// Rate at the start of the step \[m/s\].
@@ -59,49 +58,49 @@ pub struct Course {
 }
 
 impl Course {
-    /// The rate held.
+    /// A constant rate.
     pub const fn held(rate: f64) -> Course {
         Course { rate, slope: 0.0, bend: 0.0 }
     }
 
-    /// Whether the rate is held.
+    /// Whether the rate is constant.
     #[inline(always)]
     pub fn is_held(&self) -> bool {
         self.slope == 0.0 && self.bend == 0.0
     }
 
-    /// The rate after `time` \[s\], \[m/s\].
+    /// The rate after `time` \[s\], in m/s.
     #[inline]
     pub fn rate_after(&self, time: f64) -> f64 {
         self.rate + time * (self.slope + 0.5 * self.bend * time)
     }
 
-    /// The way after `time` \[s\], \[m\].
+    /// The distance covered after `time` \[s\], in m.
     #[inline]
     pub fn way(&self, time: f64) -> f64 {
         time * (self.rate + time * (0.5 * self.slope + self.bend * time * (1.0 / 6.0)))
     }
 
-    /// The course that is left after `time` \[s\].
+    /// The course that remains after `time` \[s\].
     #[inline(always)]
     pub fn after(&self, time: f64) -> Course {
         Course { rate: self.rate_after(time), slope: self.slope + self.bend * time, bend: self.bend }
     }
 
-    /// The course that leads to where this one begins, backwards in time.
+    /// The course backwards in time, which leads to the start of this one.
     pub fn reversed(&self) -> Course {
         Course { rate: -self.rate, slope: self.slope, bend: -self.bend }
     }
 
-    /// When, between `low` and `high` \[s\], the way is `way` \[m\]; the rate keeps its sign there.
+    /// The time between `low` and `high` \[s\] at which the distance is `way` \[m\]. The rate must keep its sign there.
     pub fn when_at(&self, way: f64, low: f64, high: f64) -> f64 {
         let (before, after) = (self.way(low) - way, self.way(high) - way);
         let part = quotient(before, before - after, fabs(before) < fabs(before - after), 0.5);
         self.when(|time| self.way(time) - way, (low, high), low + part * (high - low))
     }
 
-    /// When, between two times \[s\], `beyond` changes its sign, whose derivative is the rate: Newton's method in a bracket, from
-    /// `time` \[s\] on.
+    /// The time between two bounds \[s\] at which `beyond`, a function whose derivative is the rate, changes its sign. Newton's
+    /// method within a bracket, starting at `time` \[s\].
     pub fn when(&self, beyond: impl Fn(f64) -> f64, (low, high): (f64, f64), mut time: f64) -> f64 {
         let end = high;
         let (mut low, mut high) = (low, high);
@@ -110,7 +109,7 @@ impl Course {
         for _ in 0..200 {
             let beyond = beyond(time);
             *(if (beyond < 0.0) == below_at_end { &mut high } else { &mut low }) = time;
-            // no division by a rate at which the step would lead out of the bracket, as where the direction changes
+            // no division by a rate whose step would leave the bracket, such as where the direction changes
             let Course { rate, slope, .. } = self.after(time);
             let leads = fabs(beyond) < fabs(rate) * (high - low);
             let newton = time - quotient(beyond, rate, leads, f64::MAX);
@@ -120,7 +119,7 @@ impl Course {
             }
             let change = fabs(next - time);
             time = next;
-            // what is then missing is a part of the change that is as small again
+            // the remaining error is then as small a fraction of the change
             if change < near && change * fabs(slope) < NEAR * fabs(rate) && next == newton && slope != 0.0 {
                 break;
             }
@@ -128,8 +127,9 @@ impl Course {
         if time < end { time } else { end }
     }
 
-    /// Whether the rate certainly keeps its sign over `step` \[s\]. It is a mean of three numbers with weights that aren't
-    /// negative (Bernstein's form), so that it does if they have one sign; a course that keeps its direction may still have two.
+    /// Whether the rate certainly keeps its sign over `step` \[s\]. The rate is a weighted mean of three numbers with
+    /// non-negative weights (Bernstein form), so it keeps its sign if the three have the same sign. The converse does not hold:
+    /// the three may differ in sign although the direction never changes.
     #[inline]
     pub fn keeps_direction(&self, step: f64) -> bool {
         let (middle, end) = (self.rate + 0.5 * self.slope * step, self.rate_after(step));
@@ -137,7 +137,7 @@ impl Course {
         forward || self.rate <= 0.0 && middle <= 0.0 && end <= 0.0
     }
 
-    /// The motions of a step \[m\], each in one direction, and zero for those that there aren't. Their sum is the way.
+    /// The monotone motions of a step \[m\]; unused entries are zero. Their sum is the distance covered.
     pub fn motions(&self, step: f64) -> [f64; 3] {
         let mut from = 0.0;
         self.monotone_ends(step).map(|end| {
@@ -146,28 +146,29 @@ impl Course {
         })
     }
 
-    /// The ends of the monotone parts of a step \[s\]: where the rate changes its sign inside of it, in order, and the end of the
-    /// step for the parts that there aren't.
+    /// The times at which the monotone parts of a step end \[s\]: the sign changes of the rate inside the step, in order.
+    /// Unused entries are the end of the step.
     #[inline]
     pub fn monotone_ends(&self, step: f64) -> [f64; 3] {
         if self.keeps_direction(step) { [step; 3] } else { self.turns(step) }
     }
 
-    /// The ends of the monotone parts of a course that may turn.
+    /// The ends of the monotone parts of a course that may change direction.
     #[cold]
     #[inline(never)]
     fn turns(&self, step: f64) -> [f64; 3] {
-        // the roots don't depend on it, and no square overflows
+        // scaling does not change the roots, and prevents overflow of the squares
         let huge = [self.rate, self.slope, self.bend].iter().any(|number| fabs(*number) > HUGE);
         let unit = if huge { 1.0 / HUGE } else { 1.0 };
         let (rate, half, bend) = (unit * self.rate, 0.5 * unit * self.slope, 0.5 * unit * self.bend);
         let discriminant = half * half - bend * rate;
-        // no real root, or one that only touches: the sign doesn't change
+        // no real root, or a double root: the sign does not change
         let negative = discriminant <= 0.0 && bend != 0.0;
         if negative || self.is_held() {
             return [step; 3];
         }
-        // the two roots of bend t^2/2 + slope t + rate, in the form that doesn't cancel; no quotient that isn't inside
+        // the two roots of bend t^2/2 + slope t + rate, in the form without cancellation; quotients outside the step are not
+        // computed
         let q = -(half + if half >= 0.0 { root(discriminant) } else { -root(discriminant) });
         let inside = |dividend: f64, divisor: f64| {
             let is_inside = dividend * divisor.signum() > 0.0 && fabs(dividend) < fabs(divisor) * step;

@@ -1,4 +1,4 @@
-//! The smooth pieces of the law along which a contact moves.
+//! The smooth pieces of a law.
 
 use super::Model;
 use super::history::History;
@@ -6,7 +6,7 @@ use super::loading::Loading;
 use super::segment::Segment;
 use super::unloading::{Peak, Unloading};
 
-/// A smooth piece of the law.
+/// A smooth piece of a law.
 pub struct Piece<'a, L, U> {
     model: &'a Model<L, U>,
     kind: Kind,
@@ -14,10 +14,10 @@ pub struct Piece<'a, L, U> {
     pub lower: f64,
     /// Upper end of the piece \[m\].
     pub upper: f64,
-    /// The whole piece, if it is one segment; else the segment somewhere on it.
+    /// The segment that covers the whole piece, if there is one; otherwise a segment somewhere on it.
     segment: Segment,
     is_whole: bool,
-    /// Where unloading began, and the ends of its path, if the path is no segment.
+    /// The start of unloading and the ends of its path, if the path is not a segment.
     unloading: Option<(Peak, Segment)>,
 }
 
@@ -36,12 +36,12 @@ impl<L, U> Clone for Piece<'_, L, U> {
 }
 
 impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
-    /// The piece on which a contact goes on that is `rising`, or else falling.
+    /// The piece on which a contact continues, depending on whether it is `rising` or falling.
     pub fn of(history: &History, model: &'a Model<L, U>, rising: bool) -> Piece<'a, L, U> {
         Piece::at(model, history.indentation(), history.max_indentation(), rising)
     }
 
-    /// The same for a contact at `indentation` that never was deeper than `largest` \[m\].
+    /// The same for a contact at `indentation` that was never deeper than `largest` \[m\].
     pub fn at(model: &'a Model<L, U>, indentation: f64, largest: f64, rising: bool) -> Piece<'a, L, U> {
         let yields_at = model.loading.yield_point(&model.pair).indentation;
         if largest <= yields_at && !(rising && indentation >= yields_at) {
@@ -58,25 +58,25 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         Piece::below(model, largest)
     }
 
-    /// The way back on a `path` that is one segment.
+    /// The piece of an unloading `path` that is one segment.
     pub fn on_path(model: &'a Model<L, U>, path: Segment) -> Piece<'a, L, U> {
         let Segment { lower, upper, .. } = path;
         Piece { model, kind: Kind::Unloading, lower, upper, segment: path, is_whole: true, unloading: None }
     }
 
-    /// The way back from `largest` \[m\], beyond yield.
+    /// The unloading piece from `largest` \[m\], beyond yield.
     fn below(model: &'a Model<L, U>, largest: f64) -> Piece<'a, L, U> {
         let peak = model.peak(largest);
         let path = model.unloading.path(&model.pair, &peak);
         let middle = 0.5 * (path.lower + largest);
         let segment = if U::SEGMENTED { path } else { model.unloading.tangent(&model.pair, &peak, &path, middle) };
-        // a path that is no segment has a tangent for every point
+        // a path that is not a segment has a different tangent at every point
         let is_whole = U::SEGMENTED || segment.upper >= largest;
         let unloading = (!is_whole).then_some((peak, path));
         Piece { model, kind: Kind::Unloading, lower: path.lower, upper: largest, segment, is_whole, unloading }
     }
 
-    /// The segment to take at `indentation` \[m\]. A law without segments is asked at every point.
+    /// The segment that holds at `indentation` \[m\]. A law without segments is evaluated at every point.
     fn segment_at(&self, indentation: f64) -> Segment {
         let pair = &self.model.pair;
         match self.unloading {
@@ -91,33 +91,33 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         indentation > self.lower || self.kind == Kind::Loading
     }
 
-    /// \[N\]; zero below the surface.
+    /// Force \[N\]; zero below the surface.
     pub fn force(&self, indentation: f64) -> f64 {
         if self.presses_at(indentation) { self.segment_at(indentation).force(indentation) } else { 0.0 }
     }
 
-    /// Whether the whole piece is one segment. The compiler knows it of laws that are made of segments, and leaves out what others
-    /// need.
+    /// Whether one segment covers the whole piece. For laws made of segments the compiler knows this, and omits the code that
+    /// other laws need.
     fn is_whole(&self) -> bool {
         self.model.is_segmented() || self.is_whole
     }
 
-    /// The segment that the whole piece is, if it is one.
+    /// The segment that covers the whole piece, if there is one.
     pub fn whole(&self) -> Option<&Segment> {
         self.is_whole().then_some(&self.segment)
     }
 
-    /// \[N/m\]
+    /// Stiffness dF/d(indentation) \[N/m\].
     pub fn stiffness(&self, indentation: f64) -> f64 {
         if self.presses_at(indentation) { self.segment_at(indentation).stiffness(indentation) } else { 0.0 }
     }
 
-    /// The tangent at `indentation` \[m\], written from the origin of the piece.
+    /// The tangent at `indentation` \[m\], with `z` counted from the origin of the piece.
     pub fn tangent(&self, indentation: f64) -> Segment {
         Segment { origin: self.origin(), linear: self.stiffness(indentation), ..Segment::NOTHING }
     }
 
-    /// The indentation from which the force may grow as a fractional power \[m\]; never above the piece.
+    /// The indentation from which the force may grow as a fractional power \[m\]. It is never above the piece.
     pub fn origin(&self) -> f64 {
         match self.kind {
             _ if self.is_whole() => self.segment.origin,
@@ -126,7 +126,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
         }
     }
 
-    /// Whether the piece is a part of the loading curve beyond yield, where the way back is another.
+    /// Whether the piece is a part of the loading curve beyond yield, where unloading follows another path.
     pub fn is_loading(&self) -> bool {
         self.kind == Kind::Loading
     }

@@ -1,9 +1,9 @@
-//! Integrals of smooth functions with a fractional power at an end.
+//! Integrals of smooth functions that may have a fractional power at an end.
 
 use libm::{exp, fabs, log};
 
-/// Integral over `[low, high]` with panels that shrink towards both ends, where a fractional power may begin. The sign of
-/// the interval counts as usual.
+/// Integral over `[low, high]` on panels that shrink towards both ends, where a fractional power may begin. Swapping the bounds
+/// changes the sign, as usual.
 pub fn graded_integral(low: f64, high: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
     const PANELS: u32 = 12;
     let middle = 0.5 * (low + high);
@@ -48,13 +48,14 @@ pub fn gauss(from: f64, to: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
     sum * half
 }
 
-/// Points of the larger rule, and coefficients of the polynomial through them.
+/// Number of points of the larger rule, and of coefficients of the polynomial through them.
 pub const POINTS: usize = 16;
 
-/// Nodes and weights of the Gauss-Legendre rule with sixteen points, and the weights of the coefficients of `P_14` and `P_15`: half
-/// of them, by symmetry.
+/// Nodes and weights of the Gauss-Legendre rule with sixteen points, and the weights of the coefficients of `P_14` and `P_15`.
+/// By symmetry, half of them are enough.
 ///
-/// Reference: Abramowitz and Stegun, as for [`gauss`]; a coefficient is `(k + 1/2)` times the rule's sum of `P_k f`.
+/// Reference: Abramowitz and Stegun, as for [`gauss`]. A coefficient is `(k + 1/2)` times the sum that the rule gives for
+/// `P_k f`.
 const RULE: [(f64, f64, f64, f64); POINTS / 2] = [
     (0.095_012_509_837_637_44, 0.189_450_610_455_068_5, -0.109_041_815_957_682_07, -0.593_615_928_942_801_8),
     (0.281_603_550_779_258_9, 0.182_603_415_044_923_58, 0.305_833_437_439_604, 0.561_746_144_829_279_1),
@@ -66,22 +67,23 @@ const RULE: [(f64, f64, f64, f64); POINTS / 2] = [
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_096, 0.062_705_450_453_123_47, 0.032_781_303_963_861_74),
 ];
 
-/// What a rule finds of an integral, and of the integrand.
+/// The integral by the rule, and the smoothness of the integrand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
     /// The integral.
     pub integral: f64,
-    /// The size of the last two Legendre coefficients of the integrand: about what a polynomial through its samples misses.
+    /// The size of the last two Legendre coefficients of the integrand. It estimates the error of a polynomial through the
+    /// samples.
     ///
-    /// If the coefficients fall like a geometric series, the integral is better by far: its relative error is about a
-    /// thousandth of the square of this, taken relative to the mean.
+    /// If the coefficients fall like a geometric series, the integral is far more accurate: its relative error is about a
+    /// thousandth of the square of this number, taken relative to the mean.
     pub tail: f64,
 }
 
-/// The largest tail, as a part of the mean of the integrand, of an integral that is right to rounding.
+/// The largest tail, as a fraction of the mean of the integrand, for which the integral is right to rounding.
 pub const SMOOTH: f64 = 2e-6;
 
-/// Integral over `[from, to]` by sixteen points of Gauss's rule, which says how smooth the integrand is for it.
+/// Integral over `[from, to]` by Gauss's rule with sixteen points, with an estimate of how smooth the integrand is.
 pub fn sixteen(from: f64, to: f64, integrand: impl Fn(f64) -> f64) -> Sampled {
     let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
     let (mut sum, mut even, mut odd) = (0.0, 0.0, 0.0);
@@ -94,10 +96,11 @@ pub fn sixteen(from: f64, to: f64, integrand: impl Fn(f64) -> f64) -> Sampled {
     Sampled { integral: sum * half, tail: fabs(even) + fabs(odd) }
 }
 
-/// The coefficients of `1, t, t^2, ...` of the polynomial that is `function` at sixteen points of `[0, 1]`, and the size of
-/// its last two Legendre coefficients: about what it misses between them.
+/// The coefficients of `1, t, t^2, ...` of the polynomial that equals `function` at sixteen points of `[0, 1]`, and the size of
+/// its last two Legendre coefficients, which estimates its error between the points.
 ///
-/// The powers lose digits where the Legendre coefficients don't fall faster than `5.8^-k`, and so only where much is missed.
+/// The powers lose digits only where the Legendre coefficients do not fall faster than `5.8^-k`; the error is large there
+/// anyway.
 pub fn powers(function: impl Fn(f64) -> f64) -> ([f64; POINTS], f64) {
     let mut legendre = [0.0; POINTS];
     for (node, weight, ..) in RULE {
@@ -126,14 +129,14 @@ pub fn powers(function: impl Fn(f64) -> f64) -> ([f64; POINTS], f64) {
     (powers, tail)
 }
 
-/// Integral of a function of the powers of `y` over `[low, high]`, `0 < low`: in `u = ln y` powers are entire functions, and
-/// equal panels of Gauss's rule converge to rounding. They are wide where only one power is left.
+/// Integral of a function of the powers of `y` over `[low, high]`, with `0 < low`. In `u = ln y` powers are entire functions,
+/// and equal panels of Gauss's rule converge to rounding. The panels are wide where only one power is left.
 pub fn logarithmic_integral(low: f64, high: f64, integrand: &impl Fn(f64) -> f64) -> f64 {
     const NARROW: f64 = 0.5;
     const WIDE: f64 = 2.0;
-    /// `ln y` from which panels are wide.
+    /// `ln y` from which the panels are wide.
     const FAR: f64 = 18.0;
-    /// More than there are between the logarithms of any two numbers, so that one up to infinity ends too.
+    /// More panels than fit between the logarithms of any two numbers, so that an integral up to infinity also ends.
     const MOST_PANELS: u32 = 2000;
     let (mut from, end) = (log(low), log(high));
     let mut sum = 0.0;

@@ -6,16 +6,16 @@ use libm::sqrt;
 
 /// A piece of a force-indentation curve: `F = c0 + c1 z + c2 z^1.5 + c3 z^2`, `z = indentation - origin`.
 ///
-/// Every branch of the project's own laws has this form: Hertz and its shifted copies by `c2`, the linear ones by `c1`, the
-/// unloading of the law `brinell` by `c2` and `c3`. It holds for `lower <= indentation < upper`. Below `origin` `z` counts as
-/// zero, and the force is `c0`.
+/// Every branch of this project's own laws has this form: Hertz's law and its shifted copies use `c2`, linear laws use `c1`,
+/// the unloading of the law `brinell` uses `c2` and `c3`. It holds for `lower <= indentation < upper`. Below `origin`, `z`
+/// counts as zero and the force is `c0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// Smallest indentation on the branch \[m\].
     pub lower: f64,
-    /// The indentation where the next branch begins \[m\].
+    /// Indentation where the next branch begins \[m\].
     pub upper: f64,
-    /// Where `z` is zero \[m\].
+    /// Indentation where `z` is zero \[m\].
     pub origin: f64,
     /// `c0` \[N\].
     pub constant: f64,
@@ -28,7 +28,7 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// No force anywhere: what the segments of the laws are written on.
+    /// No force anywhere: the base from which the laws build their segments.
     pub const NOTHING: Segment =
         Segment { lower: 0.0, upper: 0.0, origin: 0.0, constant: 0.0, linear: 0.0, power: 0.0, square: 0.0 };
 
@@ -37,8 +37,8 @@ impl Segment {
         Segment { lower, upper, origin: -LARGEST_INDENTATION, ..Segment::NOTHING }
     }
 
-    /// The tangent of a curve that has no segments, at `indentation` \[m\] with `force` \[N\] and `stiffness` \[N/m\]. It holds at
-    /// that one point: after any motion the law is asked again.
+    /// The tangent of a curve that has no segments, at `indentation` \[m\] with `force` \[N\] and `stiffness` \[N/m\]. It holds
+    /// at that point only: after any motion, the law is evaluated again.
     pub fn tangent(indentation: f64, force: f64, stiffness: f64) -> Segment {
         Segment {
             lower: indentation,
@@ -56,16 +56,16 @@ impl Segment {
         indentation >= self.lower && indentation < self.upper
     }
 
-    /// Whether the branch begins at its origin, or just above it, with no force.
+    /// Whether the branch begins without force at its origin or just above it.
     #[inline]
     pub fn begins_at_origin(&self) -> bool {
         self.constant == 0.0 && (self.lower == self.origin || self.lower == next_above(self.origin))
     }
 
-    /// `z` \[m\], and zero below the origin.
+    /// `z` \[m\]; zero below the origin.
     #[inline(always)]
     fn above_origin(&self, indentation: f64) -> f64 {
-        // in this order the comparison and the difference have their second number in memory
+        // this order lets the comparison and the difference take their second operand from memory
         let reached = if indentation > self.origin { indentation } else { self.origin };
         reached - self.origin
     }
@@ -77,14 +77,15 @@ impl Segment {
         self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
     }
 
-    /// The same for a branch without `c3`, which most laws never have \[N\].
+    /// The same for a branch without `c3`, which most laws never use \[N\].
     #[inline(always)]
     pub fn force_without_square(&self, indentation: f64) -> f64 {
         let z = self.above_origin(indentation);
         self.constant + z * (self.linear + self.power * sqrt(z))
     }
 
-    /// Mean of the force over the way `from`..`to` \[m\], in either direction, in a form that doesn't cancel on a short one \[N\].
+    /// Mean force over the distance from `from` to `to` \[m\], in either direction, without cancellation over short distances
+    /// \[N\].
     pub fn mean_force(&self, from: f64, to: f64) -> f64 {
         let (y, z) = (self.above_origin(from), self.above_origin(to));
         let (p, q) = (sqrt(y), sqrt(z));
@@ -109,8 +110,8 @@ impl Segment {
         self.linear + 1.5 * self.power * sqrt(z) + 2.0 * self.square * z
     }
 
-    /// Integral of the force from the lower end of the branch to `indentation` \[J\]: not a difference of two integrals, which
-    /// has no digits on a way that is short beside the distance from the origin.
+    /// Integral of the force from the lower end of the branch to `indentation` \[J\]. It is not computed as a difference of two
+    /// integrals, which would lose all digits over a distance that is short compared with the distance from the origin.
     pub fn work(&self, indentation: f64) -> f64 {
         self.mean_force(self.lower, indentation) * (indentation - self.lower)
     }

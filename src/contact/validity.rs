@@ -1,39 +1,41 @@
-//! The range in which the laws are valid: small compared with the bodies, and slow compared with elastic waves. No law stops
-//! there; leaving the range is reported.
+//! The range in which the laws are valid: contacts that are small compared with the bodies, and speeds that are low compared
+//! with elastic waves. Leaving the range logs a warning; the laws continue.
 
 use libm::sqrt;
 
-/// Contact radius over effective radius `R` up to which the laws of a paraboloid at small strain hold.
+/// Ratio of contact radius to effective radius `R` up to which the laws hold: they assume a paraboloid and small strain.
 ///
-/// Against finite elements with large deformation, at `E*/S = 100`, they are off by 0.6 % at most up to there, and by 6 % at
-/// 0.5: see DESIGN.md.
+/// Compared with finite elements with large deformation at `E*/S = 100`, the error is at most 0.6 % up to this ratio, and 6 %
+/// at 0.5: see DESIGN.md.
 pub const LARGEST_RADIUS_RATIO: f64 = 0.3;
 
-/// Closing speed over the speed of waves in a rod of the target, `c0 = sqrt(E/rho)`, up to which elastic waves can be left out.
+/// Ratio of closing speed to the wave speed in a rod of the target, `c0 = sqrt(E/rho)`, up to which elastic waves are
+/// negligible.
 ///
-/// Of the energy of an elastic impact they take about `1.04 (v/c0)^(3/5)`: here 6.5 %, which no law has.
+/// Waves take a fraction of about `1.04 (v/c0)^(3/5)` of the energy of an elastic impact. At this ratio it is 6.5 %, which no
+/// law includes.
 ///
 /// Reference: S. C. Hunter, *Journal of the Mechanics and Physics of Solids* 5 (1957) 162-171; J. Reed, *Journal of Physics D*
 /// 18 (1985) 2329-2337.
 pub const LARGEST_SPEED_RATIO: f64 = 0.01;
 
-/// Guesses after which a search ends. Some six are enough, since the contact area nearly is a straight line.
+/// Largest number of iterations of the search. About six are enough, because the contact area is nearly linear.
 const GUESSES: u32 = 60;
 
-/// The largest error of the contact area, relative, that a search leaves.
+/// Largest relative error of the contact area after the search.
 const AREA_TOLERANCE: f64 = 1e-12;
 
-/// The indentation up to which a law is valid on a sphere of effective `radius` \[m\]: where its `contact_radius`, a function of
-/// the indentation \[m\], reaches [`LARGEST_RADIUS_RATIO`].
+/// The indentation \[m\] up to which a law is valid on a sphere of effective `radius` \[m\]: the point where `contact_radius`,
+/// a function of the indentation \[m\], reaches [`LARGEST_RADIUS_RATIO`].
 ///
-/// It rises with every law, and at an indentation of `R`, where Hertz's is `R`, it is far above that. The search is the
-/// Illinois method.
+/// The contact radius rises with the indentation for every law. At an indentation of `R`, where Hertz's contact radius is `R`,
+/// it is far above the limit. The search uses the Illinois method.
 ///
 /// Reference: M. Dowell, P. Jarratt, *BIT* 11 (1971) 168-174.
 #[inline(never)]
 pub fn largest_indentation(radius: f64, contact_radius: impl Fn(f64) -> f64) -> f64 {
     let allowed = LARGEST_RADIUS_RATIO * LARGEST_RADIUS_RATIO;
-    // squares of ratios, since squares of small radii may be zero
+    // ratios are squared, because the square of a small radius may underflow
     let excess = |depth: f64| {
         let ratio = contact_radius(depth) / radius;
         ratio * ratio - allowed
@@ -48,7 +50,7 @@ pub fn largest_indentation(radius: f64, contact_radius: impl Fn(f64) -> f64) -> 
         }
         let is_above = found > 0.0;
         let again = was_above == Some(is_above);
-        // an end that stays where it is counts for half
+        // the value at an end that stays is halved
         if is_above {
             above = (depth, found);
             below.1 *= if again { 0.5 } else { 1.0 };
@@ -61,7 +63,8 @@ pub fn largest_indentation(radius: f64, contact_radius: impl Fn(f64) -> f64) -> 
     depth
 }
 
-/// The closing speed \[m/s\] up to which elastic waves can be left out in a target of `youngs_modulus` \[Pa\] and `density` \[kg/m^3\].
+/// The closing speed \[m/s\] up to which elastic waves are negligible in a target of `youngs_modulus` \[Pa\] and `density`
+/// \[kg/m^3\].
 pub fn largest_speed(youngs_modulus: f64, density: f64) -> f64 {
     LARGEST_SPEED_RATIO * wave_speed(youngs_modulus, density)
 }

@@ -1,6 +1,6 @@
-//! Numbers as words to be stored, and back: the one loop for everything that is saved.
+//! Numbers as words for saved states, and back. Everything that is saved uses this loop.
 
-/// Hands each of `numbers` to `store`.
+/// Passes each of `numbers` to `store`.
 #[inline(never)]
 pub(crate) fn store_numbers(numbers: &[f64], store: &mut impl FnMut(u64)) {
     for number in numbers {

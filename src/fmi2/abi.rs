@@ -1,12 +1,12 @@
 //! The types of `fmi2TypesPlatform.h` and `fmi2FunctionTypes.h`.
 //!
-//! Enumerations are plain integers here, since C may pass any value.
+//! Enumerations are plain integers here, because C may pass any value.
 
 use core::ffi::{c_char, c_int, c_uint, c_void};
 
 /// Pointer to a [`Component`](super::component::Component).
 pub type fmi2Component = *mut c_void;
-/// The importer's own pointer, handed back to its callbacks.
+/// The importer's own pointer, passed back to its callbacks.
 pub type fmi2ComponentEnvironment = *mut c_void;
 /// Pointer to a saved state.
 pub type fmi2FMUstate = *mut c_void;
@@ -20,7 +20,7 @@ pub type fmi2Integer = c_int;
 pub type fmi2Boolean = c_int;
 /// `char`.
 pub type fmi2Char = c_char;
-/// A string that ends with 0.
+/// A null-terminated string.
 pub type fmi2String = *const fmi2Char;
 /// A byte of a serialized state.
 pub type fmi2Byte = c_char;
@@ -28,52 +28,51 @@ pub type fmi2Byte = c_char;
 pub type fmi2Status = c_int;
 /// Model exchange or co-simulation.
 pub type fmi2Type = c_int;
-/// What fmi2GetStatus asks for.
+/// The kind of status that a call of fmi2GetStatus requests.
 pub type fmi2StatusKind = c_int;
 
-/// Done.
+/// Success.
 pub const fmi2OK: fmi2Status = 0;
-/// Not available; the instance is as it was.
+/// Not available; the instance has not changed.
 pub const fmi2Discard: fmi2Status = 2;
-/// Refused; the instance can be read, reset, restored and freed.
+/// Rejected; the instance can only be read, reset, restored and freed.
 pub const fmi2Error: fmi2Status = 3;
 
 /// False.
 pub const fmi2False: fmi2Boolean = 0;
 
-/// Of fmi2Type: co-simulation.
+/// A value of fmi2Type: co-simulation.
 pub const fmi2CoSimulation: fmi2Type = 1;
 
-/// Of fmi2StatusKind: the status of a step that runs on.
+/// A value of fmi2StatusKind: the status of an asynchronous step.
 pub const fmi2DoStepStatus: fmi2StatusKind = 0;
-/// Of fmi2StatusKind: the time up to which the last step came.
+/// A value of fmi2StatusKind: the end of the last successful step.
 pub const fmi2LastSuccessfulTime: fmi2StatusKind = 2;
-/// Of fmi2StatusKind: whether the unit wants to end.
+/// A value of fmi2StatusKind: whether the FMU wants to end the simulation.
 pub const fmi2Terminated: fmi2StatusKind = 3;
 
-/// The importer's log function; `message` is a format of printf.
+/// The importer's log function; `message` is a printf format.
 pub type fmi2CallbackLogger =
     unsafe extern "C" fn(fmi2ComponentEnvironment, fmi2String, fmi2Status, fmi2String, fmi2String, ...);
 
-/// The importer's function for memory: as many objects as the first argument says, of the size of the second \[bytes\], all
-/// zeros.
+/// The importer's function to allocate memory: the number of objects, and the size of each \[bytes\]. The memory is zeroed.
 pub type fmi2CallbackAllocateMemory = unsafe extern "C" fn(usize, usize) -> *mut c_void;
 
-/// The importer's function that takes memory back.
+/// The importer's function to free memory.
 pub type fmi2CallbackFreeMemory = unsafe extern "C" fn(*mut c_void);
 
-/// The importer's functions. A unit uses the logger, and its memory if it is standalone.
+/// The importer's callbacks. An FMU uses the logger; a standalone FMU also uses the memory functions.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fmi2CallbackFunctions {
     /// May be null.
     pub logger: Option<fmi2CallbackLogger>,
-    /// Used by standalone units only: see `canNotUseMemoryManagementFunctions`.
+    /// Used only by standalone FMUs: see `canNotUseMemoryManagementFunctions`.
     pub allocateMemory: Option<fmi2CallbackAllocateMemory>,
     /// The same.
     pub freeMemory: Option<fmi2CallbackFreeMemory>,
-    /// Not used: no step runs on after its call.
+    /// Not used: no step is asynchronous.
     pub stepFinished: Option<unsafe extern "C" fn(fmi2ComponentEnvironment, fmi2Status)>,
-    /// Handed to the logger.
+    /// Passed to the logger.
     pub componentEnvironment: fmi2ComponentEnvironment,
 }

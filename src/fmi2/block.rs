@@ -1,4 +1,4 @@
-//! The block of a prebuilt library: a section of its own, which the exporter writes into the finished file.
+//! The block of a prebuilt library: a section of its own, which the exporter overwrites in the finished file.
 
 use crate::scene::kind::Library;
 use crate::scene::prebuilt::block::Block;
@@ -15,7 +15,7 @@ pub struct Section;
 #[cfg_attr(not(target_vendor = "apple"), unsafe(link_section = ".brinell"))]
 static BLOCK: Block = Block::unfilled(Library::LIBRARY);
 
-// the numbers in it lie there as the exporter writes them
+// the numbers in the block have the byte order in which the exporter writes them
 const _: () = assert!(cfg!(target_endian = "little"));
 
 impl Source for Section {
@@ -23,16 +23,16 @@ impl Source for Section {
     #[expect(clippy::pointers_in_nomem_asm_block, reason = "there is nothing that could read what it points to")]
     fn block() -> &'static Block {
         let mut block = &raw const BLOCK;
-        // SAFETY: nothing is done. But for all that the compiler knows the pointer could be any other afterwards, so that it
-        // makes no use of what the block is at compile time.
+        // SAFETY: it does nothing. The compiler must assume that the pointer may have changed, so it makes no use of the
+        // contents of the block at compile time.
         unsafe { core::arch::asm!("/* {} */", inout(reg) block, options(pure, nomem, nostack, preserves_flags)) };
-        // SAFETY: it is still the pointer to the block. That is never written to while the library is in memory, and any bits in
-        // it are numbers.
+        // SAFETY: it is still the pointer to the block. The block never changes while the library is loaded, and any bits are
+        // valid numbers.
         unsafe { &*block }
     }
 
     fn words() -> &'static [u64; Block::WORDS] {
-        // SAFETY: a block is made of words without gaps, which its size proves.
+        // SAFETY: a block consists of words without padding, as its size proves.
         unsafe { &*core::ptr::from_ref(Section::block()).cast() }
     }
 }

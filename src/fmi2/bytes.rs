@@ -1,12 +1,13 @@
-//! The functions that compilers make of copies and loops over memory, for systems whose C library an FMU can't rely on.
+//! The functions to which compilers translate copies and loops over memory, for systems without a C library that an FMU can
+//! rely on.
 //!
-//! The exporter compiles this file as a crate of its own and without knowledge of these functions (`no_builtins`): the
-//! compiler would otherwise replace their loops by calls of themselves. The linker takes what the library uses.
+//! The exporter compiles this file as a separate crate in which the compiler does not know these functions (`no_builtins`).
+//! Otherwise the compiler would replace their loops by calls of themselves. The linker takes only what the library uses.
 //!
 //! # Safety
-//! As in the C standard: the pointers are valid for as many bytes as given, and those of `memcpy` don't overlap.
+//! As in the C standard: the pointers are valid for the given number of bytes, and those of `memcpy` do not overlap.
 
-/// Bytes that are moved at once.
+/// Number of bytes moved at once.
 const WORD: usize = size_of::<u64>();
 
 /// Copies `count` bytes.
@@ -26,11 +27,11 @@ pub unsafe extern "C" fn memcpy(to: *mut u8, from: *const u8, count: usize) -> *
     to
 }
 
-/// Copies `count` bytes to a place that may overlap.
+/// Copies `count` bytes; the two ranges may overlap.
 #[cfg_attr(not(test), unsafe(no_mangle))]
 pub unsafe extern "C" fn memmove(to: *mut u8, from: *const u8, count: usize) -> *mut u8 {
     if to.addr().wrapping_sub(from.addr()) >= count {
-        // SAFETY: the target doesn't begin within the source, and a copy upwards reads every word before it is overwritten.
+        // SAFETY: the target does not begin within the source, and an ascending copy reads every word before it is overwritten.
         return unsafe { memcpy(to, from, count) };
     }
     let mut end = count;
@@ -81,18 +82,18 @@ pub unsafe extern "C" fn memcmp(one: *const u8, other: *const u8, count: usize) 
     0
 }
 
-/// 0 if the bytes are the same.
+/// 0 if the bytes are equal.
 #[cfg_attr(not(test), unsafe(no_mangle))]
 pub unsafe extern "C" fn bcmp(one: *const u8, other: *const u8, count: usize) -> i32 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { memcmp(one, other, count) }
 }
 
-/// The number of bytes before the zero that ends `text`.
+/// Number of bytes before the null byte that ends `text`.
 #[cfg_attr(not(test), unsafe(no_mangle))]
 pub unsafe extern "C" fn strlen(text: *const u8) -> usize {
     let mut count = 0;
-    // SAFETY: no byte behind the zero is read.
+    // SAFETY: no byte after the null byte is read.
     while unsafe { text.add(count).read() } != 0 {
         count += 1;
     }
@@ -104,7 +105,7 @@ mod tests {
     use super::{bcmp, memcmp, memcpy, memmove, memset, strlen};
     use std::vec::Vec;
 
-    /// Longer than several words.
+    /// longer than several words
     const LENGTH: usize = 40;
 
     fn bytes() -> Vec<u8> {
@@ -158,7 +159,7 @@ mod tests {
         for length in 0..LENGTH {
             let mut text = bytes();
             text[length] = 0;
-            // SAFETY: the zero is there.
+            // SAFETY: the null byte exists.
             assert_eq!(unsafe { strlen(text.as_ptr()) }, length);
         }
     }

@@ -1,4 +1,4 @@
-//! The categories of log messages, and the bits that say which of them are logged.
+//! The categories of log messages, and the bits for the categories that are logged.
 
 use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status, fmi2String};
 use super::complaint::Complaint;
@@ -12,18 +12,18 @@ pub enum Category {
     Discard,
     /// `logStatusError`
     Error,
-    /// `logStatusWarning`: what a user should know of a simulation that goes on all the same.
+    /// `logStatusWarning`: something that the user should know; the simulation continues.
     Warning,
 }
 
-/// The bit of [`Category::Discard`] among those that are logged.
+/// The bit of [`Category::Discard`] in the set of logged categories.
 pub const DISCARD: u8 = 1;
 
-/// That of [`Category::Error`], which has no effect.
+/// The bit of [`Category::Error`], which has no effect because errors are always logged.
 const ERROR: u8 = 2;
 
-/// The bit of [`Warning::Guarded`](crate::instance::Warning::Guarded). Each warning is told once: then its bit is off, until the
-/// importer switches its category on again.
+/// The bit of [`Warning::Guarded`](crate::instance::Warning::Guarded). Each warning is given once: its bit is then cleared
+/// until the importer enables its category again.
 pub const GUARD: u8 = 4;
 /// The bit of [`Warning::Deep`](crate::instance::Warning::Deep).
 pub const DEEP: u8 = 8;
@@ -35,7 +35,7 @@ pub const MISWIRED: u8 = 32;
 /// The bit of [`Warning::Unstable`](crate::instance::Warning::Unstable).
 pub const UNSTABLE: u8 = 64;
 
-/// Those of [`Category::Warning`].
+/// The bits of [`Category::Warning`].
 const WARNINGS: u8 = GUARD | DEEP | FAST | MISWIRED | UNSTABLE;
 
 impl Category {
@@ -48,7 +48,7 @@ impl Category {
         }
     }
 
-    /// Where the message about a refused call belongs.
+    /// The category of the message about a rejected call.
     pub fn of(complaint: &Complaint) -> Category {
         match complaint {
             Complaint::Unavailable => Category::Discard,
@@ -56,22 +56,22 @@ impl Category {
         }
     }
 
-    /// What a call returns with such a message.
+    /// The status that a call with such a message returns.
     pub fn status(self) -> fmi2Status {
         match self {
             Category::Discard => fmi2Discard,
             Category::Error => fmi2Error,
-            // many an importer stops at any other status
+            // many importers stop at any other status
             Category::Warning => fmi2OK,
         }
     }
 
-    /// The bits that the declared category `name` stands for.
+    /// The bits of the declared category `name`.
     ///
     /// # Safety
-    /// `name` ends with 0.
+    /// `name` is null-terminated.
     pub unsafe fn bits(name: fmi2String) -> Option<u8> {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         let is = |own| unsafe { is_same(name, own) };
         if is("logStatusDiscard") {
             Some(DISCARD)

@@ -2,22 +2,22 @@
 
 use crate::instance::{Fault, Phase};
 
-/// A refused call.
+/// A rejected call.
 #[derive(Clone, Copy, Debug)]
 pub enum Complaint {
-    /// The instance refuses it.
+    /// The instance rejects it.
     Instance(Fault),
-    /// An instance can't be made.
+    /// An instance cannot be created.
     BadInstance {
-        /// Why.
+        /// The reason.
         reason: &'static str,
     },
-    /// The call doesn't belong in this phase.
+    /// The call is not allowed in this phase.
     OutOfOrder {
         /// The phase the instance is in.
         phase: Phase,
     },
-    /// A pointer that must not be null is.
+    /// A pointer that must not be null is null.
     NullPointer {
         /// Name of the argument.
         argument: &'static str,
@@ -29,18 +29,18 @@ pub enum Complaint {
         /// The reference.
         reference: u32,
     },
-    /// The unit doesn't have this capability.
+    /// The FMU does not have this capability.
     Unsupported,
-    /// There is no such information.
+    /// This information does not exist.
     Unavailable,
-    /// Logging of a category that isn't declared.
+    /// The log category is not declared.
     UnknownCategory,
-    /// A state that this unit didn't make, or a damaged one.
+    /// A state that this FMU did not create, or a damaged state.
     BadState {
-        /// What is wrong with it.
+        /// The defect.
         reason: &'static str,
     },
-    /// The host gave no memory.
+    /// The host provided no memory.
     NoMemory,
 }
 

@@ -1,4 +1,4 @@
-//! What an `fmi2Component` points to, and the guard that every call passes.
+//! The object behind an `fmi2Component`, and the guard that every call passes.
 
 use super::abi::fmi2ComponentEnvironment;
 use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2Error, fmi2OK, fmi2Status, fmi2String};
@@ -13,87 +13,87 @@ use crate::instance::{Instance, Phase, Warning};
 use crate::scene::{Presence, Scene};
 use core::ffi::c_char;
 
-/// An instance with what its importer gave it. The name of the instance follows it in memory.
+/// An instance with the data from its importer. The name of the instance follows it in memory.
 #[repr(C)]
 pub struct Component<S: Scene> {
     /// The instance.
     pub instance: Instance<S>,
     /// The importer's logger.
     pub logger: Logger,
-    /// Where it takes memory from.
+    /// The source of its memory.
     pub memory: Memory,
-    /// Categories that are logged; errors always are.
+    /// The logged categories. Errors are always logged.
     pub categories: u8,
 }
 
 impl<S: Scene> Handle for Component<S> {}
 
 impl<S: Scene> Component<S> {
-    /// Proof that a component of zeros is one, at compile time: the compiler refuses a constant that isn't a value of its type.
-    /// What isn't listed here is a number, a `bool`, a pointer that may be null, or an array of such.
+    /// Proof at compile time that a component of zeros is valid: the compiler rejects a constant that is not a value of its
+    /// type. All fields that are not listed here are numbers, `bool`s, pointers that may be null, or arrays of them.
     ///
-    /// Zeros are what the system's memory has; a component of 100,000 contacts would not fit on every stack.
+    /// Newly allocated memory consists of zeros. A component of 100,000 contacts would not fit on every stack.
     pub const ZEROS: (S::Contact, S::Values, Phase, Logger, Memory) =
-        // SAFETY: that it is evaluated is the proof.
+        // SAFETY: the evaluation of the constant is the proof.
         unsafe {
             (core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed(), core::mem::zeroed())
         };
 }
 
-/// Where messages go.
+/// The recipient of messages.
 #[derive(Clone, Copy)]
 pub struct Logger {
     function: Option<fmi2CallbackLogger>,
     environment: fmi2ComponentEnvironment,
 }
 
-/// The beginning of a message about the function that has this `name` behind `fmi2`.
+/// The beginning of a message about a function with this `name` after `fmi2`.
 #[inline(never)]
 fn begin<'a>(text: &'a mut Text, name: &str) -> &'a mut Text {
     text.string(PREFIX).string(name).string(": ")
 }
 
 impl Logger {
-    /// The logger among the importer's functions.
+    /// The logger in the importer's callbacks.
     pub fn of(callbacks: &fmi2CallbackFunctions) -> Logger {
         Logger { function: callbacks.logger, environment: callbacks.componentEnvironment }
     }
 
-    /// Hands the message `text` of this `category` to the importer; without logger it is lost.
+    /// Passes the message `text` of this `category` to the importer. Without a logger it is lost.
     ///
     /// # Safety
-    /// `instance_name` is a string that ends with 0.
+    /// `instance_name` is a null-terminated string.
     #[inline(never)]
     unsafe fn send(&self, instance_name: fmi2String, text: &Text, category: Category) {
         let Some(function) = self.function else { return };
-        // SAFETY: the importer's function, with strings that end with 0 and a format without commands.
+        // SAFETY: the importer's function gets null-terminated strings and a format without conversions.
         unsafe {
             function(self.environment, instance_name, category.status(), category.name().as_ptr(), text.as_ptr())
         };
     }
 
-    /// Logs why the function refuses a call that has this `name` behind `fmi2`.
+    /// Logs why a call is rejected. `name` is the name of the function after `fmi2`.
     ///
     /// # Safety
-    /// `instance_name` is a string that ends with 0.
+    /// `instance_name` is a null-terminated string.
     #[cold]
     #[inline(never)]
     pub unsafe fn log<S: Scene>(&self, instance_name: fmi2String, name: &str, complaint: &Complaint) {
         let mut text = Text::new();
         describe::<S>(begin(&mut text, name), complaint);
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.send(instance_name, &text, Category::of(complaint)) };
     }
 }
 
 impl<S: Scene> Component<S> {
-    /// The name of the instance, which lies behind the component.
+    /// The name of the instance, which follows the component in memory.
     fn name(&self) -> fmi2String {
-        // SAFETY: fmi2Instantiate allocates the component and the name behind it in one piece.
+        // SAFETY: fmi2Instantiate allocates the component and the name after it in one piece.
         unsafe { core::ptr::from_ref(self).add(1).cast::<c_char>() }
     }
 
-    /// Warns of a contact that is deeper or closes faster than its law is valid for, if there is one.
+    /// Warns if a contact is deeper or closes faster than its law is valid.
     #[cold]
     #[inline(never)]
     pub fn warn_of_limits(&mut self, function: Function) {
@@ -106,16 +106,16 @@ impl<S: Scene> Component<S> {
         }
     }
 
-    /// Warns of a master that applies the force in another order than the scene is made for.
+    /// Warns if the importer applies the force in another order than the scene assumes.
     pub fn warn_of_wiring(&mut self, function: Function) {
         if let Some(warning) = self.instance.take_miswired() {
             self.warn(function, MISWIRED, &warning);
         }
     }
 
-    /// Warns that the passivity guard acts, if there is one and it does.
+    /// Warns if the passivity guard acts, once.
     pub fn warn_of_guard(&mut self, function: Function) {
-        // a look at every contact, for nothing if there has been a warning
+        // this checks every contact, which is pointless after the warning has been given
         if S::GUARD.is_some() && self.categories & GUARD != 0 && self.instance.is_held_back() {
             self.warn(function, GUARD, &Warning::Guarded);
         }
@@ -128,12 +128,12 @@ impl<S: Scene> Component<S> {
             self.categories &= !bit;
             let mut text = Text::new();
             describe_warning::<S>(begin(&mut text, function.name()), warning);
-            // SAFETY: the name ends with 0.
+            // SAFETY: the name is null-terminated.
             unsafe { self.logger.send(self.name(), &text, Category::Warning) };
         }
     }
 
-    /// Logs why `function` refuses a call and gives the status to return; an error ends the simulation.
+    /// Logs why `function` rejects a call, and returns the status. An error ends the simulation.
     #[cold]
     #[inline(never)]
     fn refuse(&mut self, function: Function, complaint: &Complaint) -> fmi2Status {
@@ -142,26 +142,26 @@ impl<S: Scene> Component<S> {
             self.instance.fail();
         }
         if category != Category::Discard || self.categories & DISCARD != 0 {
-            // SAFETY: the name ends with 0.
+            // SAFETY: the name is null-terminated.
             unsafe { self.logger.log::<S>(self.name(), function.name(), complaint) };
         }
         category.status()
     }
 }
 
-/// The guard: refuses a null component and a call out of order, runs `body`, and turns a complaint into a status.
+/// The guard: rejects a null component and a call out of order, runs `body`, and converts a complaint to a status.
 ///
 /// # Safety
-/// `c` is null, or came from fmi2Instantiate, was not freed, and no other call is using it.
+/// `c` is null, or it comes from fmi2Instantiate, has not been freed, and no other call is using it.
 ///
-/// The functions that are called in every step look for the plain case before they come here; what they find to be
-/// anything else is repeated here with every check and its message.
+/// Functions that are called in every step handle the plain case before they call the guard. All other cases are then processed
+/// here, with every check and message.
 pub unsafe fn call<S: Scene>(
     c: fmi2Component,
     function: Function,
     body: impl FnOnce(&mut Component<S>) -> Result<(), Complaint>,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let Some(component) = (unsafe { opened::<S>(c, function) }) else { return fmi2Error };
     match body(component) {
         Ok(()) => fmi2OK,
@@ -169,13 +169,13 @@ pub unsafe fn call<S: Scene>(
     }
 }
 
-/// The component, if it is there and the call is in order; otherwise that is logged.
+/// The component, if there is one and the call is in order. Otherwise the reason is logged.
 ///
 /// # Safety
 /// As for [`call`].
 #[inline(never)]
 unsafe fn opened<'a, S: Scene>(c: fmi2Component, function: Function) -> Option<&'a mut Component<S>> {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let component = unsafe { Component::<S>::behind(c) }?;
     let phase = component.instance.phase();
     if function.is_allowed_in(phase) {
@@ -188,10 +188,10 @@ unsafe fn opened<'a, S: Scene>(c: fmi2Component, function: Function) -> Option<&
 /// The array of `length` elements at `pointer`.
 ///
 /// # Errors
-/// [`Complaint::NullPointer`] if it is null and not empty.
+/// [`Complaint::NullPointer`] if it is null and the array is not empty.
 ///
 /// # Safety
-/// A pointer that isn't null points to `length` initialized elements that nothing writes to meanwhile.
+/// A pointer that is not null points to `length` initialized elements, which nothing modifies meanwhile.
 #[inline]
 pub unsafe fn array<'a, T>(pointer: *const T, length: usize, argument: &'static str) -> Result<&'a [T], Complaint> {
     if length == 0 {
@@ -199,12 +199,12 @@ pub unsafe fn array<'a, T>(pointer: *const T, length: usize, argument: &'static 
     } else if pointer.is_null() {
         Err(Complaint::NullPointer { argument })
     } else {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         Ok(unsafe { core::slice::from_raw_parts(pointer, length) })
     }
 }
 
-/// The array of `length` elements at `pointer`, to be written to.
+/// The array of `length` elements at `pointer`, for writing.
 ///
 /// # Errors
 /// As for [`fn@array`].
@@ -222,20 +222,20 @@ pub unsafe fn array_mut<'a, T>(
     } else if pointer.is_null() {
         Err(Complaint::NullPointer { argument })
     } else {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         Ok(unsafe { core::slice::from_raw_parts_mut(pointer, length) })
     }
 }
 
-/// The object at `pointer`, to be written to.
+/// The object at `pointer`, for writing.
 ///
 /// # Errors
 /// [`Complaint::NullPointer`] if it is null.
 ///
 /// # Safety
-/// A pointer that isn't null points to an object that nothing else uses meanwhile.
+/// A pointer that is not null points to an object that nothing else uses meanwhile.
 #[inline]
 pub unsafe fn object<'a, T>(pointer: *mut T, argument: &'static str) -> Result<&'a mut T, Complaint> {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { pointer.as_mut() }.ok_or(Complaint::NullPointer { argument })
 }

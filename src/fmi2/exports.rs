@@ -1,7 +1,7 @@
 //! The C functions of the scene that this library is built for.
 //!
-//! Each is written out: cbindgen, which proves the signatures against the official headers, does not expand macros, and neither
-//! does a reader.
+//! Each function is written out. cbindgen, which proves the signatures against the official headers, does not expand macros,
+//! and plain functions are easier to read.
 
 use super::abi::*;
 use super::{lifecycle, states, status, stepping, variables};
@@ -14,21 +14,21 @@ use crate::scene::exported::Exported;
 /// The platform types: those of `fmi2TypesPlatform.h`, "default".
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetTypesPlatform() -> *const fmi2Char {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { lifecycle::get_types_platform() }
 }
 
 /// The version of the standard, "2.0".
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetVersion() -> *const fmi2Char {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { lifecycle::get_version() }
 }
 
-/// Makes an instance. The name and the callbacks are copied; resources and `visible` are not used.
+/// Creates an instance. The name and the callbacks are copied; the resource location and `visible` are not used.
 ///
-/// Returns null, with a message if there is a logger, for a missing name, a GUID other than that of the model
-/// description, a type other than co-simulation, or missing callbacks.
+/// Returns null for a missing name, a GUID other than that of the model description, a type other than co-simulation, or
+/// missing callbacks. If there is a logger, it gets a message.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Instantiate(
     instanceName: fmi2String,
@@ -39,7 +39,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     visible: fmi2Boolean,
     loggingOn: fmi2Boolean,
 ) -> fmi2Component {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         lifecycle::instantiate::<Exported>(
             instanceName,
@@ -56,11 +56,11 @@ pub unsafe extern "C" fn fmi2Instantiate(
 /// Frees an instance; null is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { lifecycle::free_instance::<Exported>(c) }
 }
 
-/// Switches logging of the named categories on or off, of all if none is named. Errors are logged in any case.
+/// Enables or disables logging of the named categories, or of all if none is named. Errors are always logged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetDebugLogging(
     c: fmi2Component,
@@ -68,11 +68,11 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     nCategories: usize,
     categories: *const fmi2String,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { lifecycle::set_debug_logging::<Exported>(c, loggingOn, nCategories, categories) }
 }
 
-/// Sets start and stop time; may be called again before initialization. The tolerance is not used: steps are exact.
+/// Sets start and stop time. It may be called again before initialization. The tolerance is not used: steps are exact.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetupExperiment(
     c: fmi2Component,
@@ -82,37 +82,37 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     stopTimeDefined: fmi2Boolean,
     stopTime: fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         lifecycle::setup_experiment::<Exported>(c, toleranceDefined, tolerance, startTime, stopTimeDefined, stopTime)
     }
 }
 
-/// Begins initialization; fmi2SetupExperiment must have been called.
+/// Begins initialization. fmi2SetupExperiment must have been called.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterInitializationMode(c: fmi2Component) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { lifecycle::enter_initialization_mode::<Exported>(c) }
 }
 
-/// Ends initialization; refused if the parameters don't fit together.
+/// Ends initialization. It is rejected if the parameters do not fit together.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { lifecycle::exit_initialization_mode::<Exported>(c) }
 }
 
 /// Ends the simulation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { lifecycle::terminate::<Exported>(c) }
 }
 
-/// Makes the instance as it was after fmi2Instantiate. Name, callbacks and log settings stay.
+/// Resets the instance to its state after fmi2Instantiate. Name, callbacks and log settings do not change.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { lifecycle::reset::<Exported>(c) }
 }
 
@@ -124,7 +124,7 @@ pub unsafe extern "C" fn fmi2GetReal(
     nvr: usize,
     value: *mut fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { variables::get_real::<Exported>(c, vr, nvr, value) }
 }
 
@@ -136,11 +136,11 @@ pub unsafe extern "C" fn fmi2GetInteger(
     nvr: usize,
     value: *mut fmi2Integer,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { variables::get_integer::<Exported>(c, vr, nvr, value) }
 }
 
-/// Sets Real variables: the input, and parameters before initialization ends. If one is refused none is set.
+/// Sets Real variables: the inputs, and parameters before initialization ends. If one is rejected, none is set.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetReal(
     c: fmi2Component,
@@ -148,7 +148,7 @@ pub unsafe extern "C" fn fmi2SetReal(
     nvr: usize,
     value: *const fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { variables::set_real::<Exported>(c, vr, nvr, value) }
 }
 
@@ -160,7 +160,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
     nvr: usize,
     value: *mut fmi2Boolean,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { variables::get_boolean::<Exported>(c, vr, nvr, value) }
 }
 
@@ -172,11 +172,11 @@ pub unsafe extern "C" fn fmi2GetString(
     nvr: usize,
     value: *mut fmi2String,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { variables::get_string::<Exported>(c, vr, nvr, value) }
 }
 
-/// No Integer variable can be set: they are outputs.
+/// No Integer variable can be set: all are outputs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetInteger(
     c: fmi2Component,
@@ -184,7 +184,7 @@ pub unsafe extern "C" fn fmi2SetInteger(
     nvr: usize,
     value: *const fmi2Integer,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { variables::set_integer::<Exported>(c, vr, nvr, value) }
 }
 
@@ -196,7 +196,7 @@ pub unsafe extern "C" fn fmi2SetBoolean(
     nvr: usize,
     value: *const fmi2Boolean,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { variables::set_boolean::<Exported>(c, vr, nvr, value) }
 }
 
@@ -208,11 +208,11 @@ pub unsafe extern "C" fn fmi2SetString(
     nvr: usize,
     value: *const fmi2String,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { variables::set_string::<Exported>(c, vr, nvr, value) }
 }
 
-/// Moves the contact over a step with the indentation rate held; complete when it returns.
+/// Moves the contact through a step at constant indentation rate. The step is complete when the call returns.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DoStep(
     c: fmi2Component,
@@ -220,7 +220,7 @@ pub unsafe extern "C" fn fmi2DoStep(
     communicationStepSize: fmi2Real,
     noSetFMUStatePriorToCurrentPoint: fmi2Boolean,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         stepping::do_step::<Exported>(
             c,
@@ -231,14 +231,14 @@ pub unsafe extern "C" fn fmi2DoStep(
     }
 }
 
-/// Refused: no step is ever in progress.
+/// Rejected: no step is ever in progress.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { stepping::cancel_step::<Exported>(c) }
 }
 
-/// Sets derivatives of inputs for the next step, after the inputs themselves. If one is refused none is set.
+/// Sets derivatives of inputs for the next step; call it after setting the inputs. If one is rejected, none is set.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     c: fmi2Component,
@@ -247,11 +247,11 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     order: *const fmi2Integer,
     value: *const fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { stepping::set_real_input_derivatives::<Exported>(c, vr, nvr, order, value) }
 }
 
-/// Reads derivatives of forces by time, at the end of the last step.
+/// Reads derivatives of outputs with respect to time, at the end of the last step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     c: fmi2Component,
@@ -260,11 +260,11 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     order: *const fmi2Integer,
     value: *mut fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { stepping::get_real_output_derivatives::<Exported>(c, vr, nvr, order, value) }
 }
 
-/// Refused: see `providesDirectionalDerivative`.
+/// Derivatives of outputs in the direction `dvKnown` of the inputs, at the present time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     c: fmi2Component,
@@ -275,7 +275,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     dvKnown: *const fmi2Real,
     dvUnknown: *mut fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         stepping::get_directional_derivative::<Exported>(
             c,
@@ -289,17 +289,17 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     }
 }
 
-/// For fmi2DoStepStatus: fmi2OK, since no step runs on after its call.
+/// For fmi2DoStepStatus: fmi2OK, because every step is complete when its call returns.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { status::get_status::<Exported>(c, s, value) }
 }
 
 /// For fmi2LastSuccessfulTime: the end of the last step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealStatus(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { status::get_real_status::<Exported>(c, s, value) }
 }
 
@@ -310,18 +310,18 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(
     s: fmi2StatusKind,
     value: *mut fmi2Integer,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { status::get_integer_status::<Exported>(c, s, value) }
 }
 
-/// For fmi2Terminated: false, since the unit never wants to end by itself.
+/// For fmi2Terminated: false, because the FMU never ends the simulation itself.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetBooleanStatus(
     c: fmi2Component,
     s: fmi2StatusKind,
     value: *mut fmi2Boolean,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { status::get_boolean_status::<Exported>(c, s, value) }
 }
 
@@ -332,43 +332,43 @@ pub unsafe extern "C" fn fmi2GetStringStatus(
     s: fmi2StatusKind,
     value: *mut fmi2String,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { status::get_string_status::<Exported>(c, s, value) }
 }
 
-/// Copies the instance into a state; memory is allocated only if `FMUstate` points to null.
+/// Copies the instance to a state. Memory is allocated only if `FMUstate` points to null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { states::get_fmu_state::<Exported>(c, FMUstate) }
 }
 
-/// Makes the instance as it was when the state was saved, parameters and phase included.
+/// Resets the instance to the saved state, including parameters and phase.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, FMUstate: fmi2FMUstate) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { states::set_fmu_state::<Exported>(c, FMUstate) }
 }
 
-/// Frees a state and sets the pointer to null; null and a pointer to null are ignored.
+/// Frees a state and sets the pointer to null. Null and a pointer to null are ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { states::free_fmu_state::<Exported>(c, FMUstate) }
 }
 
-/// The length of a serialized state \[bytes\]; the same for every state of this unit.
+/// The length of a serialized state \[bytes\]. It is the same for every state of this FMU.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
     c: fmi2Component,
     FMUstate: fmi2FMUstate,
     size: *mut usize,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { states::serialized_fmu_state_size::<Exported>(c, FMUstate, size) }
 }
 
-/// Writes a state as bytes that work in another instance and in another process.
+/// Writes a state as bytes that another instance or another process can read.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializeFMUstate(
     c: fmi2Component,
@@ -376,11 +376,11 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     serializedState: *mut fmi2Byte,
     size: usize,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { states::serialize_fmu_state::<Exported>(c, FMUstate, serializedState, size) }
 }
 
-/// Makes a state from bytes. If they are refused `FMUstate` is left alone.
+/// Creates a new state from bytes. If they are rejected, `FMUstate` does not change.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     c: fmi2Component,
@@ -388,6 +388,6 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     size: usize,
     FMUstate: *mut fmi2FMUstate,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe { states::deserialize_fmu_state::<Exported>(c, serializedState, size, FMUstate) }
 }

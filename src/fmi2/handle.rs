@@ -1,29 +1,29 @@
-//! The pointers that this library returns, each with the one type that it points to.
+//! The pointers that this library returns, each with its single type.
 
 use core::ffi::c_void;
 
-/// What a pointer points to that this library has handed out as `void *`.
+/// The object behind a pointer that this library has returned as `void *`.
 ///
 /// All casts between the two are here.
 pub trait Handle: Sized {
-    /// The pointer as C sees it.
+    /// The pointer as `void *`.
     fn handle(object: *mut Self) -> *mut c_void {
         object.cast()
     }
 
-    /// The memory behind the pointer, as an object of this type.
+    /// The pointer as a pointer to this type.
     fn pointer(handle: *mut c_void) -> *mut Self {
         handle.cast()
     }
 
-    /// The object behind the pointer; none if that is null.
+    /// The object behind the pointer; `None` for a null pointer.
     ///
     /// # Safety
-    /// A pointer that isn't null came from [`Handle::handle`] of an object of this type that lives, and that nothing else uses
-    /// meanwhile.
+    /// A pointer that is not null comes from [`Handle::handle`] of an object of this type. The object still exists, and nothing
+    /// else uses it meanwhile.
     #[inline(always)]
     unsafe fn behind<'a>(handle: *mut c_void) -> Option<&'a mut Self> {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         unsafe { Self::pointer(handle).as_mut() }
     }
 }

@@ -27,10 +27,10 @@ pub unsafe fn get_version() -> *const fmi2Char {
     c"2.0".as_ptr()
 }
 
-/// Makes an instance. The name and the callbacks are copied; resources and `visible` are not used.
+/// Creates an instance. The name and the callbacks are copied; the resource location and `visible` are not used.
 ///
-/// Returns null, with a message if there is a logger, for a missing name, a GUID other than that of the model
-/// description, a type other than co-simulation, or missing callbacks.
+/// Returns null for a missing name, a GUID other than that of the model description, a type other than co-simulation, or
+/// missing callbacks. If there is a logger, it gets a message.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -44,10 +44,10 @@ pub unsafe fn instantiate<S: Scene>(
     loggingOn: fmi2Boolean,
 ) -> fmi2Component {
     let _ = (fmuResourceLocation, visible);
-    // SAFETY: the callbacks are null or live during this call.
+    // SAFETY: the callbacks are null or valid during this call.
     let Some(callbacks) = (unsafe { functions.as_ref() }) else { return core::ptr::null_mut() };
     let logger = Logger::of(callbacks);
-    // SAFETY: the caller's strings are null or end with 0.
+    // SAFETY: the caller's strings are null or null-terminated.
     let made = Memory::of(callbacks).and_then(|memory| unsafe {
         make::<S>(instanceName, fmuType, fmuGUID, logger, memory, loggingOn != fmi2False)
     });
@@ -55,7 +55,7 @@ pub unsafe fn instantiate<S: Scene>(
         Ok(component) => component,
         Err(complaint) => {
             let name = if instanceName.is_null() { c"".as_ptr() } else { instanceName };
-            // SAFETY: the name ends with 0.
+            // SAFETY: the name is null-terminated.
             unsafe { logger.log::<S>(name, "Instantiate", &complaint) };
             core::ptr::null_mut()
         }
@@ -63,7 +63,7 @@ pub unsafe fn instantiate<S: Scene>(
 }
 
 /// # Safety
-/// `name` and `guid` are null or end with 0.
+/// `name` and `guid` are null or null-terminated.
 unsafe fn make<S: Scene>(
     name: fmi2String,
     kind: fmi2Type,
@@ -76,14 +76,14 @@ unsafe fn make<S: Scene>(
     if name.is_null() || guid.is_null() {
         return Err(Complaint::NullPointer { argument: if name.is_null() { "instanceName" } else { "fmuGUID" } });
     }
-    // SAFETY: neither is null, and both end with 0.
+    // SAFETY: neither is null, and both are null-terminated.
     let ((length, says_something), fits) = unsafe { (extent(name), is_same(guid, S::guid())) };
     if !says_something {
         return Err(Complaint::BadInstance { reason: "instanceName is empty" });
     }
     if kind != fmi2CoSimulation {
         return Err(Complaint::BadInstance {
-            reason: "fmuType must be fmi2CoSimulation: this unit has no model exchange",
+            reason: "fmuType must be fmi2CoSimulation: this FMU has no model exchange",
         });
     }
     if !fits {
@@ -96,13 +96,13 @@ unsafe fn make<S: Scene>(
         return Err(Complaint::NoMemory);
     }
     let _ = Component::<S>::ZEROS;
-    // SAFETY: the memory is large enough for the component and, behind it, the name, and aligned for any object; it is all
-    // zeros, and so is a component: `ZEROS` proves it.
+    // SAFETY: the memory is large enough for the component and the name after it, and aligned for any object. It is zeroed, and
+    // zeros are a valid component, as `ZEROS` proves.
     unsafe {
         let component = Component::<S>::pointer(made);
         let copy = component.add(1).cast::<c_char>();
         let mut place = 0;
-        // the final 0 is there already
+        // the terminating 0 is already there
         while *name.add(place) != 0 {
             *copy.add(place) = *name.add(place);
             place += 1;
@@ -124,7 +124,7 @@ unsafe fn make<S: Scene>(
 /// # Safety
 /// See [the module](super#safety).
 pub unsafe fn free_instance<S: Scene>(c: fmi2Component) {
-    // SAFETY: it came from fmi2Instantiate, and the caller doesn't use it again.
+    // SAFETY: it comes from fmi2Instantiate, and the caller does not use it again.
     unsafe {
         if let Some(component) = Component::<S>::behind(c) {
             let memory = component.memory;
@@ -133,7 +133,7 @@ pub unsafe fn free_instance<S: Scene>(c: fmi2Component) {
     }
 }
 
-/// Switches logging of the named categories on or off, of all if none is named. Errors are logged in any case.
+/// Enables or disables logging of the named categories, or of all if none is named. Errors are always logged.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -155,7 +155,7 @@ pub unsafe fn set_debug_logging<S: Scene>(
             }
             if loggingOn != fmi2False {
                 component.categories |= bits;
-                // what is so already is told, too
+                // warnings that apply already are given again
                 component.instance.look();
             } else {
                 component.categories &= !bits;
@@ -165,7 +165,7 @@ pub unsafe fn set_debug_logging<S: Scene>(
     }
 }
 
-/// Sets start and stop time; may be called again before initialization. The tolerance is not used: steps are exact.
+/// Sets start and stop time. It may be called again before initialization. The tolerance is not used: steps are exact.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -185,7 +185,7 @@ pub unsafe fn setup_experiment<S: Scene>(
     }
 }
 
-/// Begins initialization; fmi2SetupExperiment must have been called.
+/// Begins initialization. fmi2SetupExperiment must have been called.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -196,7 +196,7 @@ pub unsafe fn enter_initialization_mode<S: Scene>(c: fmi2Component) -> fmi2Statu
     }
 }
 
-/// Ends initialization; refused if the parameters don't fit together.
+/// Ends initialization. It is rejected if the parameters do not fit together.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -219,7 +219,7 @@ pub unsafe fn terminate<S: Scene>(c: fmi2Component) -> fmi2Status {
     }
 }
 
-/// Makes the instance as it was after fmi2Instantiate. Name, callbacks and log settings stay.
+/// Resets the instance to its state after fmi2Instantiate. Name, callbacks and log settings do not change.
 ///
 /// # Safety
 /// See [the module](super#safety).

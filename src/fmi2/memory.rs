@@ -1,10 +1,10 @@
 //! Memory for instances and states.
 //!
-//! It comes from the process: from the C library, or from kernel32 where a library has no C library to rely on. FMI 2.0.2
-//! advises against the importer's memory functions; the model description says that they are not used.
+//! It is the memory of the process: from the C library, or from kernel32 where there is no C library to rely on. FMI 2.0.2
+//! advises against the importer's memory functions; the model description declares that they are not used.
 //!
-//! A standalone unit (feature `standalone`) takes nothing from the process. Its memory comes from `allocateMemory` and
-//! `freeMemory` of its importer, and its model description says so.
+//! A standalone FMU (feature `standalone`) needs nothing from the process. Its memory comes from `allocateMemory` and
+//! `freeMemory` of its importer, as its model description declares.
 
 use super::abi::fmi2CallbackFunctions;
 use super::complaint::Complaint;
@@ -39,11 +39,11 @@ mod process {
             fn HeapFree(heap: *mut c_void, flags: u32, memory: *mut c_void) -> i32;
         }
         pub unsafe fn calloc(count: usize, size: usize) -> *mut c_void {
-            // SAFETY: a null result is passed on; the only caller asks for one object, so that the product can't overflow.
+            // SAFETY: a null result is passed on; the only caller requests one object, so the product cannot overflow.
             unsafe { HeapAlloc(GetProcessHeap(), HEAP_ZERO_MEMORY, count * size) }
         }
         pub unsafe fn free(memory: *mut c_void) {
-            // SAFETY: the caller's memory came from `calloc` above.
+            // SAFETY: the caller's memory comes from `calloc` above.
             unsafe { HeapFree(GetProcessHeap(), 0, memory) };
         }
     }
@@ -53,7 +53,7 @@ mod process {
     pub struct Memory;
 
     impl Memory {
-        /// The memory for an instance with these callbacks, which are not used.
+        /// The memory for an instance; the callbacks are not used.
         ///
         /// # Errors
         /// None.
@@ -61,18 +61,18 @@ mod process {
             Ok(Memory)
         }
 
-        /// `size` bytes, all zero, aligned for any object; null if there is no memory.
+        /// `size` bytes of zeroed memory, aligned for any object; null if there is no memory.
         pub fn allocate(self, size: usize) -> *mut c_void {
             // SAFETY: calloc has no precondition.
             unsafe { system::calloc(1, size) }
         }
 
-        /// Gives back what [`Memory::allocate`] gave.
+        /// Frees memory from [`Memory::allocate`].
         ///
         /// # Safety
-        /// `memory` came from [`Memory::allocate`] and is not used afterwards.
+        /// `memory` comes from [`Memory::allocate`] and is not used afterwards.
         pub unsafe fn release(self, memory: *mut c_void) {
-            // SAFETY: as the caller promises.
+            // SAFETY: guaranteed by the caller.
             unsafe { system::free(memory) }
         }
     }
@@ -104,19 +104,19 @@ mod importer {
             Ok(Memory { allocate, free })
         }
 
-        /// `size` bytes, all zero, aligned for any object; null if there is no memory.
+        /// `size` bytes of zeroed memory, aligned for any object; null if there is no memory.
         pub fn allocate(self, size: usize) -> *mut c_void {
             // SAFETY: the importer's function; it has no precondition.
             self.allocate.map_or(core::ptr::null_mut(), |allocate| unsafe { allocate(1, size) })
         }
 
-        /// Gives back what [`Memory::allocate`] gave.
+        /// Frees memory from [`Memory::allocate`].
         ///
         /// # Safety
-        /// `memory` came from [`Memory::allocate`] and is not used afterwards.
+        /// `memory` comes from [`Memory::allocate`] and is not used afterwards.
         pub unsafe fn release(self, memory: *mut c_void) {
             if let Some(free) = self.free {
-                // SAFETY: as the caller promises.
+                // SAFETY: guaranteed by the caller.
                 unsafe { free(memory) }
             }
         }

@@ -1,19 +1,19 @@
 //! The C interface of FMI 2.0 for co-simulation: 34 functions, and the only `unsafe` of the library.
 //!
-//! The functions are written once for any [`Scene`](crate::scene::Scene). `exports` makes the C symbols of them, for the scene
-//! that the exporter has written, or for the one in the block of a prebuilt library.
+//! The functions are written once for any [`Scene`](crate::scene::Scene). `exports` instantiates them as C symbols for the
+//! scene that the exporter has written, or for the one in the block of a prebuilt library.
 //!
 //! | module | content |
 //! |---|---|
 //! | [`abi`] | the types of the standard's headers |
-//! | [`component`] | what an `fmi2Component` points to; the guard that every call passes |
+//! | [`component`] | the object behind an `fmi2Component`; the guard that every call passes |
 //! | [`order`] | which function may be called in which phase: the standard's state table |
-//! | [`complaint`] | why a call is refused |
-//! | [`category`] | the categories of the log, and the status of a refused call |
-//! | [`report`] | a refused call or a warning as text |
-//! | [`text`] | text without allocation and without panic |
+//! | [`complaint`] | the reason why a call is rejected |
+//! | [`category`] | the categories of the log, and the status of a rejected call |
+//! | [`report`] | the text of a rejected call or a warning |
+//! | [`text`] | text without allocation or panic |
 //! | [`memory`] | memory from the process, or from the importer |
-//! | `bytes` | copying and comparing of bytes, compiled apart, for systems without a C library to rely on |
+//! | `bytes` | copying and comparing bytes, compiled separately, for systems without a C library to rely on |
 //! | [`handle`] | the pointers that importers get, each with its type |
 //! | [`state`] | FMU states and their bytes |
 //! | [`lifecycle`], [`variables`], [`stepping`], [`status`], [`states`] | the functions, for any scene |
@@ -21,8 +21,8 @@
 //! | `block` | the data of a prebuilt library |
 //!
 //! # Safety
-//! Every function trusts its caller in what C cannot check: a component that this library created and has not freed, arrays
-//! as long as announced, strings that are terminated. Null pointers, unknown references, calls out of order and damaged states
+//! Every function relies on its caller for what C cannot check: components that this library has created and not freed, arrays
+//! of the given length, and null-terminated strings. Null pointers, unknown references, calls out of order and damaged states
 //! are rejected.
 #![allow(unsafe_code)]
 #![allow(non_camel_case_types, non_snake_case, non_upper_case_globals, clippy::missing_safety_doc)]
@@ -49,8 +49,8 @@ pub mod stepping;
 pub mod text;
 pub mod variables;
 
-// A panic would kill the importer's process. There is none: this handler calls a function that nobody defines, so that a
-// panic path that survives shows up as an undefined symbol, which the exporter refuses.
+// A panic would kill the importer's process. There is none: this handler calls an undefined function, so a panic path that the
+// compiler cannot remove becomes an undefined symbol, and the exporter rejects the library.
 #[cfg(feature = "fmu")]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo) -> ! {

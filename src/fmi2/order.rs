@@ -1,12 +1,12 @@
-//! Which function may be called in which phase: the table of section 4.2.4 of FMI 2.0.5, as data.
+//! The phases in which each function may be called: the table of section 4.2.4 of FMI 2.0.5, as data.
 //!
-//! The states of an asynchronous step don't occur here: every step is complete when its call returns.
+//! The states of an asynchronous step are missing here: every step is complete when its call returns.
 
 use crate::instance::Phase;
 
-/// A function with its place in the order of calls.
+/// A function and the phases in which it may be called.
 ///
-/// Its name is a piece of `NAMES`: a pointer to it would be an address that the loader has to write, in each of them.
+/// Its name is a part of `NAMES`. A pointer to each name would be an address that the loader has to relocate.
 #[derive(Clone, Copy)]
 pub struct Function {
     begin: u16,
@@ -14,11 +14,11 @@ pub struct Function {
     phases: u8,
 }
 
-/// What the names of all functions begin with.
+/// The common beginning of the names of all functions.
 pub const PREFIX: &str = "fmi2";
 
-/// The rest of the names, as far as the functions pass the guard. Some are the beginning or the end of another one, as
-/// `GetReal` is of `GetRealStatus`.
+/// The rest of the names of all functions that pass the guard. Some names are the beginning or the end of others, such as
+/// `GetReal` of `GetRealStatus`.
 const NAMES: &str = "\
     SetDebugLoggingSetupExperimentEnterInitializationModeExitInitializationModeTerminateResetSetInteger\
     SetBooleanSetStringGetFMUstateSetFMUstateFreeFMUstateSerializedFMUstateSizeDeSerializeFMUstate\
@@ -39,7 +39,7 @@ impl Function {
     const fn new(name: &str, phases: u8) -> Function {
         let (name, names) = (name.as_bytes(), NAMES.as_bytes());
         let mut begin = 0;
-        // a name that isn't among them ends the search with an error of the compiler
+        // a name that is not in the list causes a compile error here
         loop {
             let mut length = PREFIX.len();
             while length < name.len() && names[begin + length - PREFIX.len()] == name[length] {
@@ -52,7 +52,7 @@ impl Function {
         }
     }
 
-    /// Its name behind [`PREFIX`], for messages.
+    /// Its name after [`PREFIX`], for messages.
     pub fn name(self) -> &'static str {
         let begin = usize::from(self.begin);
         NAMES.get(begin..begin + usize::from(self.length)).unwrap_or("")
@@ -69,7 +69,7 @@ pub(super) const SET_DEBUG_LOGGING: Function = Function::new("fmi2SetDebugLoggin
 pub(super) const SETUP_EXPERIMENT: Function = Function::new("fmi2SetupExperiment", INSTANTIATED);
 pub(super) const ENTER_INITIALIZATION_MODE: Function = Function::new("fmi2EnterInitializationMode", INSTANTIATED);
 pub(super) const EXIT_INITIALIZATION_MODE: Function = Function::new("fmi2ExitInitializationMode", INITIALIZATION);
-// wider than the table: importers terminate twice, or without having initialized, and nothing is lost by it
+// more permissive than the table: importers terminate twice, or without initialization, and it does no harm
 pub(super) const TERMINATE: Function = Function::new("fmi2Terminate", INSTANTIATED | STEP | TERMINATED);
 pub(super) const RESET: Function = Function::new("fmi2Reset", ANY);
 pub(super) const GET_REAL: Function = Function::new("fmi2GetReal", READING);

@@ -1,4 +1,4 @@
-//! The text of a rejected call or a warning: the one place where it is worded.
+//! The texts of rejected calls and warnings; all of them are here.
 
 use super::complaint::Complaint;
 use super::text::Text;
@@ -17,7 +17,7 @@ fn phase_name(phase: Phase) -> &'static str {
     }
 }
 
-/// Names a contact, if there are several.
+/// Writes the name of a contact, if there are several.
 fn contact_name<S: Scene>(text: &mut Text, contact: usize) -> &mut Text {
     if S::CONTACTS == 1 {
         return text;
@@ -30,7 +30,7 @@ fn contact_name<S: Scene>(text: &mut Text, contact: usize) -> &mut Text {
     text.string(": ")
 }
 
-/// Writes `template` with the next of `words` in place of each `@`, and the next of `numbers` in place of each `~`.
+/// Writes `template`, replacing each `@` by the next of `words` and each `~` by the next of `numbers`.
 #[inline(never)]
 fn fill(text: &mut Text, template: &str, words: [&str; 2], numbers: [f64; 3]) {
     let (mut words, mut numbers) = (words.iter(), numbers.iter());
@@ -43,12 +43,12 @@ fn fill(text: &mut Text, template: &str, words: [&str; 2], numbers: [f64; 3]) {
     }
 }
 
-/// The text below says them.
+/// The texts below contain these numbers.
 const _: () = assert!(LARGEST_RADIUS_RATIO == 0.3 && LARGEST_SPEED_RATIO == 0.01);
 
-/// What a message is made of: a template with words and numbers, and the contact that it is about.
+/// The parts of a message: a template with words and numbers, and the contact that it is about.
 ///
-/// It is filled field by field: a value for each case would be written out whole in each, which is twice the code.
+/// It is filled field by field. A complete value for each case would double the code size.
 struct Message {
     template: &'static str,
     words: [&'static str; 2],
@@ -67,7 +67,7 @@ impl Message {
     }
 }
 
-/// The contact that a fault is one of; none if it is one of all.
+/// The contact that a fault concerns; `None` if it concerns all.
 fn contact_of<S: Scene>(fault: Fault) -> Option<usize> {
     match fault {
         Fault::NoPointContact { contact, .. } | Fault::TooDeep { contact, .. } | Fault::TooLong { contact, .. } => {
@@ -78,7 +78,7 @@ fn contact_of<S: Scene>(fault: Fault) -> Option<usize> {
     }
 }
 
-/// Writes why a call is refused.
+/// Writes why a call is rejected.
 pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
     let mut message = Message::BLANK;
     message.template = match *complaint {
@@ -98,14 +98,14 @@ pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
             "the argument @ is null"
         }
         Complaint::UnknownReference { kind, reference } => {
-            // a number is written with nine digits, and this may have ten
+            // numbers are written with nine digits, and a reference may have ten
             text.string("there is no variable of type ")
                 .string(kind)
                 .string(" with value reference ")
                 .integer(reference);
             return;
         }
-        Complaint::Unsupported => "this unit doesn't have this capability (see its model description)",
+        Complaint::Unsupported => "this FMU doesn't have this capability (see its model description)",
         Complaint::Unavailable => "not available: every step is complete when its call returns",
         Complaint::UnknownCategory => {
             "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll"
@@ -119,7 +119,7 @@ pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
     message.write::<S>(text);
 }
 
-/// The template for `fault`, whose words and numbers are put into `message`.
+/// The template for `fault`. Its words and numbers are stored in `message`.
 #[inline]
 fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str {
     let Message { words, numbers, .. } = message;
@@ -151,7 +151,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
                 "@ = ~ is out of range: allowed is ~ to ~ @"
             }
         }
-        // what a scene hasn't got is not in its library
+        // a library contains no text for features that its scene lacks
         Fault::MassOutOfRange { .. } if !<S::Coupling as Coupling>::Mass::IS_PRESENT => "",
         Fault::MassOutOfRange { mass } => {
             *numbers = [mass, *MASSES.start(), *MASSES.end()];
@@ -201,18 +201,18 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         }
         Fault::NoDerivative { of } => {
             words[0] = of;
-            "there are derivatives of @ only"
+            "only derivatives of @ exist"
         }
-        Fault::DerivativeNotFinite => "the derivative is beyond all numbers",
-        Fault::NotAnInput => "there are derivatives by indentation_rate only",
+        Fault::DerivativeNotFinite => "the derivative is not finite",
+        Fault::NotAnInput => "only derivatives by indentation_rate exist",
         Fault::NoInputDerivatives if S::has_input(Real::ExternalAcceleration) => {
-            "inputs of this unit have no derivatives: external_acceleration is the input for the acceleration"
+            "inputs of this FMU have no derivatives: external_acceleration is the input for the acceleration"
         }
-        Fault::NoInputDerivatives => "inputs of this unit have no derivatives: its law depends on the rate",
+        Fault::NoInputDerivatives => "inputs of this FMU have no derivatives: its law depends on the rate",
     }
 }
 
-/// Writes what a user should know.
+/// Writes a warning.
 pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
     let mut message = Message::BLANK;
     let guard = S::GUARD.map_or("", |guard| guard.words);
@@ -231,14 +231,14 @@ pub fn describe_warning<S: Scene>(text: &mut Text, warning: &Warning) {
             (message.numbers[0], message.numbers[1]) = (step, mass);
             "steps of ~ s are unstable with a mass of ~ kg: make them shorter, or let the unit move it by [coupling]"
         }
-        // what a scene hasn't got is not in its library
+        // a library contains no text for features that its scene lacks
         _ if <S::Coupling as Coupling>::Ending::IS_PRESENT => miswired(&mut message, *warning, guard),
         _ => guard,
     };
     message.write::<S>(text);
 }
 
-/// The template for a master of the other order of execution, or else for the passivity `guard`.
+/// The template for an importer with the other order of execution, otherwise that of the passivity `guard`.
 fn miswired(message: &mut Message, warning: Warning, guard: &'static str) -> &'static str {
     let Warning::Miswired { contact, rate, expected, parallel } = warning else { return guard };
     message.contact = Some(contact);

@@ -1,4 +1,4 @@
-//! FMU states: a copy in memory, and bytes that another process can read.
+//! FMU states: as a copy in memory, and as bytes that another process can read.
 
 use super::abi::fmi2FMUstate;
 use super::complaint::Complaint;
@@ -7,26 +7,26 @@ use super::memory::Memory;
 use crate::instance::Instance;
 use crate::scene::Scene;
 
-/// What an `fmi2FMUstate` points to.
+/// The object behind an `fmi2FMUstate`.
 ///
-/// The instance comes first, as in a component: both then have it at the same alignment, and a processor hands the stores
-/// of a save straight on to the loads of a restore.
+/// The instance comes first, as in a component. Both then have the same alignment, and the processor can forward the stores of
+/// a save to the loads of a restore.
 #[repr(C)]
 pub struct Snapshot<S: Scene> {
-    /// The instance as it was.
+    /// The saved instance.
     pub instance: Instance<S>,
     mark: u64,
 }
 
 impl<S: Scene> Handle for Snapshot<S> {}
 
-/// What the marks of all scenes have in common ("snapshot" in ASCII).
+/// The common part of the marks of all scenes ("snapshot" in ASCII).
 const MARK: u64 = u64::from_be_bytes(*b"snapshot");
 
-/// First bytes of a serialized state: what it is, and the version of its layout.
+/// First bytes of a serialized state, with the version of its layout.
 const MAGIC: [u8; 8] = *b"brinell\x03";
 
-/// Layout, in words: magic, identity of the scene, number of words, the words of the instance, checksum; all little-endian.
+/// Layout in words: magic, identity of the scene, number of words, the words of the instance, checksum; all little-endian.
 const IDENTITY_AT: usize = 1;
 const COUNT_AT: usize = 2;
 const WORDS_AT: usize = 3;
@@ -37,7 +37,7 @@ impl<S: Scene> Snapshot<S> {
     /// Length of a serialized state \[bytes\].
     pub const SERIALIZED_SIZE: usize = 8 * (Self::CHECKSUM_AT + 1);
 
-    /// Tells a state of this scene from those of other scenes, which may be as long.
+    /// The mark that distinguishes states of this scene from those of other scenes, which may have the same length.
     fn mark() -> u64 {
         MARK ^ S::identity()
     }
@@ -45,26 +45,26 @@ impl<S: Scene> Snapshot<S> {
     /// The snapshot behind `state`.
     ///
     /// # Errors
-    /// [`Complaint::NullPointer`], and [`Complaint::BadState`] for a state of another unit.
+    /// [`Complaint::NullPointer`]; [`Complaint::BadState`] for a state of another FMU.
     ///
     /// # Safety
-    /// `state` is null or points to at least as much memory as a snapshot has, which nothing else uses meanwhile.
+    /// `state` is null or points to at least the size of a snapshot, and nothing else uses that memory meanwhile.
     pub unsafe fn at<'a>(state: fmi2FMUstate) -> Result<&'a mut Snapshot<S>, Complaint> {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         let snapshot = unsafe { Self::behind(state) }.ok_or(Complaint::NullPointer { argument: "FMUstate" })?;
         if snapshot.mark == Self::mark() {
             Ok(snapshot)
         } else {
-            Err(Complaint::BadState { reason: "it was not made by this unit" })
+            Err(Complaint::BadState { reason: "it was not made by this FMU" })
         }
     }
 
-    /// Puts `instance` into the snapshot at `state`, which is made of `memory` if there is none.
+    /// Copies `instance` to the snapshot at `state`. If there is none, it is allocated from `memory`.
     ///
     /// # Safety
     /// As for [`Snapshot::at`].
     pub unsafe fn store(state: &mut fmi2FMUstate, instance: &Instance<S>, memory: Memory) -> Result<(), Complaint> {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             if state.is_null() {
                 *state = Self::allocate(memory)?;
@@ -74,21 +74,22 @@ impl<S: Scene> Snapshot<S> {
         Ok(())
     }
 
-    /// A snapshot of nothing.
+    /// A snapshot of zeros.
     fn allocate(memory: Memory) -> Result<fmi2FMUstate, Complaint> {
         let made = memory.allocate(size_of::<Snapshot<S>>());
-        // SAFETY: the memory is large enough and aligned for any object, and zeros are a snapshot as they are a component.
+        // SAFETY: the memory is large enough and aligned for any object; zeros are a valid snapshot, as they are a valid
+        // component.
         unsafe { Self::behind(made) }.ok_or(Complaint::NoMemory)?.mark = Self::mark();
         Ok(made)
     }
 
-    /// Frees the snapshot at `state`, which came from this `memory`; null is nothing to free.
+    /// Frees the snapshot at `state`, which was allocated from this `memory`. Null is ignored.
     ///
     /// # Safety
     /// As for [`Snapshot::at`], and the snapshot is not used afterwards.
     pub unsafe fn free(state: &mut fmi2FMUstate, memory: Memory) -> Result<(), Complaint> {
         if !state.is_null() {
-            // SAFETY: as the caller promises; a snapshot came from `allocate`.
+            // SAFETY: guaranteed by the caller; a snapshot comes from `allocate`.
             unsafe {
                 Self::at(*state)?;
                 memory.release(*state);
@@ -98,10 +99,10 @@ impl<S: Scene> Snapshot<S> {
         Ok(())
     }
 
-    /// Writes the snapshot into `bytes`.
+    /// Writes the snapshot to `bytes`.
     ///
     /// # Errors
-    /// [`Complaint::BadState`] if they are fewer than [`Snapshot::SERIALIZED_SIZE`].
+    /// [`Complaint::BadState`] if there are fewer bytes than [`Snapshot::SERIALIZED_SIZE`].
     pub fn serialize(&self, bytes: &mut [u8]) -> Result<(), Complaint> {
         let (slots, _) = bytes.as_chunks_mut();
         if slots.len() <= Self::CHECKSUM_AT {
@@ -117,15 +118,15 @@ impl<S: Scene> Snapshot<S> {
         Ok(())
     }
 
-    /// A new snapshot from what [`Snapshot::serialize`] wrote.
+    /// A new snapshot from the bytes of [`Snapshot::serialize`].
     ///
     /// # Errors
-    /// [`Complaint::BadState`] for another length, another unit or version, and damaged bytes.
+    /// [`Complaint::BadState`] for another length, another FMU or version, or damaged bytes.
     pub fn deserialize(bytes: &[u8], memory: Memory) -> Result<fmi2FMUstate, Complaint> {
         let bad = |reason| Err(Complaint::BadState { reason });
         let (words, rest) = bytes.as_chunks();
         if words.len() != Self::CHECKSUM_AT + 1 || !rest.is_empty() {
-            return bad("it doesn't have the length of a state of this unit");
+            return bad("it doesn't have the length of a state of this FMU");
         }
         let known =
             [(0, u64::from_le_bytes(MAGIC)), (IDENTITY_AT, S::identity()), (COUNT_AT, Instance::<S>::WORDS as u64)];
@@ -139,7 +140,7 @@ impl<S: Scene> Snapshot<S> {
         }
         let made = Self::allocate(memory)?;
         let own = words.get(WORDS_AT..Self::CHECKSUM_AT).unwrap_or(&[]);
-        // SAFETY: it was made here, nobody else knows it, and it is released here.
+        // SAFETY: it was created here, nothing else refers to it, and it is freed here.
         unsafe {
             if !Self::at(made)?.instance.load(own) {
                 memory.release(made);
@@ -150,7 +151,7 @@ impl<S: Scene> Snapshot<S> {
     }
 }
 
-/// Words that are written one after the other, and the checksum of those written so far.
+/// A writer of consecutive words, with the checksum of the words written so far.
 struct Writer<'a> {
     slots: core::slice::IterMut<'a, [u8; 8]>,
     sum: u64,
@@ -172,10 +173,10 @@ fn word(words: &[[u8; 8]], place: usize) -> u64 {
     words.get(place).map_or(0, |word| u64::from_le_bytes(*word))
 }
 
-/// What a checksum begins with.
+/// Initial value of the checksum.
 const CHECKSUM_START: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// FNV-1a, 64 bits, byte by byte: any single changed byte changes it.
+/// FNV-1a, 64 bits, byte by byte. A change of any single byte changes it.
 ///
 /// Reference: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm".
 fn checksum(sum: u64, word: &[u8; 8]) -> u64 {

@@ -7,7 +7,7 @@ use super::order;
 use super::state::Snapshot;
 use crate::scene::Scene;
 
-/// Copies the instance into a state; memory is allocated only if `FMUstate` points to null.
+/// Copies the instance to a state. Memory is allocated only if `FMUstate` points to null.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -16,7 +16,7 @@ pub unsafe fn get_fmu_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUst
     unsafe {
         if let (Some(component), Some(state)) = (Component::<S>::behind(c), FMUstate.as_ref())
             && let Ok(snapshot) = Snapshot::<S>::at(*state)
-            // in order in every phase
+            // allowed in every phase
             && snapshot.instance.copy_alike(&component.instance)
         {
             return fmi2OK;
@@ -25,13 +25,13 @@ pub unsafe fn get_fmu_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUst
     }
 }
 
-/// Every saving that isn't plain, with all checks.
+/// Saves a state in all other cases, with all checks.
 ///
 /// # Safety
 /// The caller's component and state.
 #[inline(never)]
 unsafe fn get_any_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         call::<S>(c, order::GET_FMU_STATE, |component| {
             Snapshot::<S>::store(object(FMUstate, "FMUstate")?, &component.instance, component.memory)
@@ -39,7 +39,7 @@ unsafe fn get_any_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUstate)
     }
 }
 
-/// Makes the instance as it was when the state was saved, parameters and phase included.
+/// Resets the instance to the saved state, including parameters and phase.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -47,7 +47,7 @@ pub unsafe fn set_fmu_state<S: Scene>(c: fmi2Component, FMUstate: fmi2FMUstate) 
     // SAFETY: the caller's component and state.
     unsafe {
         if let (Some(component), Ok(snapshot)) = (Component::<S>::behind(c), Snapshot::<S>::at(FMUstate))
-            // in order in every phase
+            // allowed in every phase
             && component.instance.copy_alike(&snapshot.instance)
         {
             return fmi2OK;
@@ -56,14 +56,14 @@ pub unsafe fn set_fmu_state<S: Scene>(c: fmi2Component, FMUstate: fmi2FMUstate) 
     }
 }
 
-/// Every restoring that isn't plain, with all checks.
+/// Restores a state in all other cases, with all checks.
 ///
 /// # Safety
 /// The caller's component and state.
 #[cold]
 #[inline(never)]
 unsafe fn set_any_state<S: Scene>(c: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         call::<S>(c, order::SET_FMU_STATE, |component| {
             component.instance.copy(&Snapshot::<S>::at(state)?.instance);
@@ -72,7 +72,7 @@ unsafe fn set_any_state<S: Scene>(c: fmi2Component, state: fmi2FMUstate) -> fmi2
     }
 }
 
-/// Frees a state and sets the pointer to null; null and a pointer to null are ignored.
+/// Frees a state and sets the pointer to null. Null and a pointer to null are ignored.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -85,7 +85,7 @@ pub unsafe fn free_fmu_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUs
     }
 }
 
-/// The length of a serialized state \[bytes\]; the same for every state of this unit.
+/// The length of a serialized state \[bytes\]. It is the same for every state of this FMU.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -104,7 +104,7 @@ pub unsafe fn serialized_fmu_state_size<S: Scene>(
     }
 }
 
-/// Writes a state as bytes that work in another instance and in another process.
+/// Writes a state as bytes that another instance or another process can read.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -114,7 +114,7 @@ pub unsafe fn serialize_fmu_state<S: Scene>(
     serializedState: *mut fmi2Byte,
     size: usize,
 ) -> fmi2Status {
-    // SAFETY: the caller's component and state, and an array as long as announced.
+    // SAFETY: the caller's component and state, and an array of the given length.
     unsafe {
         call::<S>(c, order::SERIALIZE_FMU_STATE, |_| {
             let snapshot = Snapshot::<S>::at(FMUstate)?;
@@ -123,7 +123,7 @@ pub unsafe fn serialize_fmu_state<S: Scene>(
     }
 }
 
-/// Makes a new state from bytes. If they are refused `FMUstate` is left alone.
+/// Creates a new state from bytes. If they are rejected, `FMUstate` does not change.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -133,12 +133,12 @@ pub unsafe fn deserialize_fmu_state<S: Scene>(
     size: usize,
     FMUstate: *mut fmi2FMUstate,
 ) -> fmi2Status {
-    // SAFETY: the caller's component and state, and an array as long as announced.
+    // SAFETY: the caller's component and state, and an array of the given length.
     unsafe {
         call::<S>(c, order::DESERIALIZE_FMU_STATE, |component| {
             let bytes = array(serializedState.cast::<u8>(), size, "serializedState")?;
             let state = object(FMUstate, "FMUstate")?;
-            // what was there before is not read: by the standard it need not be anything
+            // the old pointer is not read: the standard does not require it to be valid
             *state = Snapshot::<S>::deserialize(bytes, component.memory)?;
             Ok(())
         })

@@ -7,7 +7,7 @@ use super::order::{self, Function};
 use crate::instance::Instance;
 use crate::scene::Scene;
 
-/// Writes the `answer`, if there is one.
+/// Writes the `answer` if there is one.
 ///
 /// # Safety
 /// The caller's component and pointer.
@@ -17,7 +17,7 @@ unsafe fn status<S: Scene, T: Copy>(
     value: *mut T,
     answer: impl FnOnce(&Instance<S>) -> Option<T>,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         call::<S>(c, function, |component| {
             let value = object(value, "value")?;
@@ -27,7 +27,7 @@ unsafe fn status<S: Scene, T: Copy>(
     }
 }
 
-/// For fmi2DoStepStatus: fmi2OK, since no step runs on after its call.
+/// For fmi2DoStepStatus: fmi2OK, because every step is complete when its call returns.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -59,7 +59,7 @@ pub unsafe fn get_integer_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, 
     unsafe { status::<S, _>(c, order::GET_INTEGER_STATUS, value, |_| None) }
 }
 
-/// For fmi2Terminated: false, since the unit never wants to end by itself.
+/// For fmi2Terminated: false, because the FMU never ends the simulation itself.
 ///
 /// # Safety
 /// See [the module](super#safety).

@@ -12,7 +12,7 @@ use crate::scene::{Presence, Scene};
 /// Reference of the input of the first contact.
 const INPUT: fmi2ValueReference = 0;
 
-/// Moves the contact over a step with the indentation rate held; complete when it returns.
+/// Moves the contact through a step at constant indentation rate. The step is complete when the call returns.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -31,7 +31,7 @@ pub unsafe fn do_step<S: Scene>(
         };
         match component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize) {
             Plain::Done => {
-                // one contact that goes too deep leaves its branch
+                // a single contact leaves its branch when it becomes too deep
                 if S::CONTACTS > 1 && component.instance.is_deep() {
                     component.warn_of_limits(order::DO_STEP);
                 }
@@ -49,13 +49,13 @@ pub unsafe fn do_step<S: Scene>(
     }
 }
 
-/// A step with derivatives of the input, if it is plain but for them.
+/// A step with derivatives of the input that is otherwise plain.
 ///
 /// # Safety
 /// The caller's component.
 #[inline(never)]
 unsafe fn do_course_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         if let Some(component) = Component::<S>::behind(c)
             && component.instance.do_course_step(time, step)
@@ -66,7 +66,7 @@ unsafe fn do_course_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fm
     }
 }
 
-/// The step of one contact that leaves its branch, and is plain otherwise.
+/// A step of a single contact that leaves its branch and is otherwise plain.
 #[inline(never)]
 fn do_branch_step<S: Scene>(component: &mut Component<S>, time: f64, step: f64) -> fmi2Status {
     if component.instance.do_branch_step(time, step) && !component.instance.is_deep() {
@@ -77,14 +77,14 @@ fn do_branch_step<S: Scene>(component: &mut Component<S>, time: f64, step: f64) 
     unsafe { do_any_step::<S>(c, time, step) }
 }
 
-/// Every step that isn't plain, with all checks; of one that is done already what there is to warn of.
+/// All other steps, with all checks; for a step that is already done, the warnings.
 ///
 /// # Safety
 /// The caller's component.
 #[cold]
 #[inline(never)]
 unsafe fn do_any_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         call::<S>(c, order::DO_STEP, |component| {
             if component.instance.is_deep() {
@@ -100,7 +100,7 @@ unsafe fn do_any_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2S
     }
 }
 
-/// Refused: no step is ever in progress.
+/// Rejected: no step is ever in progress.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -109,7 +109,7 @@ pub unsafe fn cancel_step<S: Scene>(c: fmi2Component) -> fmi2Status {
     unsafe { call::<S>(c, order::CANCEL_STEP, |_| Err(Complaint::Unsupported)) }
 }
 
-/// Sets derivatives of inputs for the next step, after the inputs themselves. If one is refused none is set.
+/// Sets derivatives of inputs for the next step; call it after setting the inputs. If one is rejected, none is set.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -120,7 +120,7 @@ pub unsafe fn set_real_input_derivatives<S: Scene>(
     order: *const fmi2Integer,
     value: *const fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: the caller's component, and arrays as long as announced.
+    // SAFETY: the caller's component, and arrays of the given length.
     unsafe {
         if S::CONTACTS == 1
             && S::Course::IS_PRESENT
@@ -130,7 +130,7 @@ pub unsafe fn set_real_input_derivatives<S: Scene>(
             && !value.is_null()
             && component.instance.set_plain_derivatives((0..nvr).map(|index| {
                 let (reference, order) = (*vr.add(index), *order.add(index));
-                // no derivative of any other variable has an order
+                // other variables get order 0, which no derivative has
                 (if reference == INPUT { order } else { 0 }, *value.add(index))
             }))
         {
@@ -140,10 +140,10 @@ pub unsafe fn set_real_input_derivatives<S: Scene>(
     }
 }
 
-/// Every setting of derivatives that isn't plain, with all checks.
+/// Sets derivatives in all other cases, with all checks.
 ///
 /// # Safety
-/// The caller's component, and arrays as long as announced.
+/// The caller's component, and arrays of the given length.
 #[cold]
 #[inline(never)]
 unsafe fn set_any_input_derivatives<S: Scene>(
@@ -153,7 +153,7 @@ unsafe fn set_any_input_derivatives<S: Scene>(
     order: *const fmi2Integer,
     value: *const fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         call::<S>(c, order::SET_REAL_INPUT_DERIVATIVES, |component| {
             let references = array(vr, nvr, "vr")?;
@@ -163,7 +163,7 @@ unsafe fn set_any_input_derivatives<S: Scene>(
             for ((&reference, &order), &value) in all() {
                 component.instance.check_input_derivative(any_real::<S>(reference)?, order, value)?;
             }
-            // those of one contact are set already, if there is nothing to complain of
+            // those of a single contact have already been set if they were valid
             for ((&reference, &order), &value) in all().filter(|_| S::CONTACTS > 1) {
                 component.instance.set_input_derivative(any_real::<S>(reference)?.1, order, value);
             }
@@ -172,7 +172,7 @@ unsafe fn set_any_input_derivatives<S: Scene>(
     }
 }
 
-/// Reads derivatives of outputs by time, at the end of the last step.
+/// Reads derivatives of outputs with respect to time, at the end of the last step.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -183,7 +183,7 @@ pub unsafe fn get_real_output_derivatives<S: Scene>(
     order: *const fmi2Integer,
     value: *mut fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: the caller's component, and arrays as long as announced.
+    // SAFETY: the caller's component, and arrays of the given length.
     unsafe {
         call::<S>(c, order::GET_REAL_OUTPUT_DERIVATIVES, |component| {
             let references = array(vr, nvr, "vr")?;
@@ -197,7 +197,7 @@ pub unsafe fn get_real_output_derivatives<S: Scene>(
     }
 }
 
-/// Derivatives of outputs in the direction `dvKnown` of the inputs, at this moment.
+/// Derivatives of outputs in the direction `dvKnown` of the inputs, at the present time.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -210,7 +210,7 @@ pub unsafe fn get_directional_derivative<S: Scene>(
     dvKnown: *const fmi2Real,
     dvUnknown: *mut fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: the caller's component, and arrays as long as announced.
+    // SAFETY: the caller's component, and arrays of the given length.
     unsafe {
         call::<S>(c, order::GET_DIRECTIONAL_DERIVATIVE, |component| {
             let unknowns = array(vUnknown_ref, nUnknown, "vUnknown_ref")?;
@@ -218,7 +218,7 @@ pub unsafe fn get_directional_derivative<S: Scene>(
             let directions = array(dvKnown, nKnown, "dvKnown")?;
             let derivatives = array_mut(dvUnknown, nUnknown, "dvUnknown")?;
             for (derivative, &unknown) in derivatives.iter_mut().zip(unknowns) {
-                // the regime is an output, too, and the same for inputs near by
+                // the regime is also an output; a small change of the inputs does not change it
                 let output = if S::integer(unknown).is_some() { None } else { Some(real::<S>(unknown)?) };
                 let mut sum = 0.0;
                 for (&known, &direction) in knowns.iter().zip(directions) {

@@ -1,26 +1,27 @@
-//! Text without allocation and without panic, for log messages.
+//! Text without allocation or panic, for log messages.
 
 use core::ffi::c_char;
 
-/// Whether the string at `text` is `own`. Byte by byte: a function of the C library would have to be bound by the loader.
+/// Whether the string at `text` is equal to `own`. It does not use the C library, whose functions the loader would have to
+/// bind.
 ///
 /// # Safety
-/// `text` ends with 0.
+/// `text` is null-terminated.
 #[inline(never)]
 pub unsafe fn is_same(text: *const c_char, own: &str) -> bool {
     let mut bytes = own.bytes().chain([0]).enumerate();
-    // SAFETY: there is a next byte where all before were those of `own`, and not the final 0.
+    // SAFETY: there is a next byte if all bytes before were equal to those of `own`, and not the terminating 0.
     bytes.all(|(place, byte)| unsafe { *text.add(place) } as u8 == byte)
 }
 
-/// Length of the string at `text` with its final 0 \[bytes\], and whether there is anything but white space in it.
+/// Length of the string at `text` with its terminating 0 \[bytes\], and whether it contains anything but white space.
 ///
 /// # Safety
-/// `text` ends with 0.
+/// `text` is null-terminated.
 pub unsafe fn extent(text: *const c_char) -> (usize, bool) {
     let (mut length, mut says_something) = (0, false);
     loop {
-        // SAFETY: none before was the final 0.
+        // SAFETY: no byte before was the terminating 0.
         let byte = unsafe { *text.add(length) } as u8;
         length += 1;
         if byte == 0 {
@@ -30,27 +31,27 @@ pub unsafe fn extent(text: *const c_char) -> (usize, bool) {
     }
 }
 
-/// Room for a message with its final 0.
+/// Capacity for a message with its terminating 0.
 const CAPACITY: usize = 320;
 
-/// A message as the importer's logger takes it: a format of printf without arguments, ended by 0.
+/// A message for the importer's logger: a null-terminated printf format without arguments.
 pub struct Text {
     bytes: [u8; CAPACITY],
     length: usize,
 }
 
 impl Text {
-    /// No text yet.
+    /// An empty text.
     pub(super) fn new() -> Text {
         Text { bytes: [0; CAPACITY], length: 0 }
     }
 
-    /// The text as C sees it.
+    /// The text as a C string.
     pub fn as_ptr(&self) -> *const c_char {
         self.bytes.as_ptr().cast()
     }
 
-    /// Appends `text`; what doesn't fit is cut off. `%` and `#` are doubled: they are commands to printf and to the
+    /// Appends `text`; what does not fit is cut off. `%` and `#` are doubled, because they are special to printf and to the
     /// importer's logger (FMI 2.0.5, section 2.1.5).
     #[inline(never)]
     pub fn string(&mut self, text: &str) -> &mut Text {
@@ -66,7 +67,7 @@ impl Text {
     /// Appends `byte`, if it fits.
     #[inline(never)]
     pub(super) fn byte(&mut self, byte: u8) -> &mut Text {
-        // the last byte stays 0
+        // the last byte remains 0
         if self.length < CAPACITY - 1
             && let Some(slot) = self.bytes.get_mut(self.length)
         {
@@ -81,8 +82,8 @@ impl Text {
         self.digits(value, 0)
     }
 
-    /// Appends the digits of `value`, with a point behind the first `before_point` of them. If they are fewer zeros follow; if it
-    /// is not positive there is no point.
+    /// Appends the digits of `value`, with a decimal point after the first `before_point` of them. Zeros are added if there are
+    /// fewer digits. There is no point if `before_point` is not positive.
     #[inline(never)]
     fn digits(&mut self, mut value: u32, before_point: i32) -> &mut Text {
         let mut reversed = [0; MOST_DIGITS];
@@ -100,14 +101,14 @@ impl Text {
             if place == before_point && place > 0 {
                 self.byte(b'.');
             }
-            // there is nothing behind the last digit
+            // after the last digit there is none
             let digit = reversed.get((count - 1 - place) as usize);
             self.byte(b'0' + digit.copied().unwrap_or(0));
         }
         self
     }
 
-    /// Appends `value` as `%.9g` would, up to the last digit, which may be off by one: scaling by powers of ten rounds.
+    /// Appends `value` like `%.9g`, except that the last digit may be off by one, because scaling by powers of ten rounds.
     #[inline(never)]
     pub fn number(&mut self, value: f64) -> &mut Text {
         if value.is_nan() {
@@ -138,10 +139,10 @@ impl Text {
     }
 }
 
-/// Digits of the largest number that occurs, 2^32.
+/// Number of digits of the largest value, 2^32.
 const MOST_DIGITS: usize = 10;
 
-/// The digits of a positive finite number, without trailing zeros, and the power of ten of the first one.
+/// The digits of a positive finite number, without trailing zeros, and the power of ten of the first digit.
 fn nine_digits(mut mantissa: f64) -> (u32, i32) {
     let mut exponent = 0;
     while mantissa >= 10.0 {

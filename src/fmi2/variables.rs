@@ -8,46 +8,47 @@ use super::order::{self, Function};
 use crate::instance::Fault;
 use crate::scene::{Real, Scene};
 
-/// [`real`] where it needn't be quick.
+/// [`real`], not inlined, where speed does not matter.
 #[inline(never)]
 pub(super) fn any_real<S: Scene>(reference: fmi2ValueReference) -> Result<(Real, usize), Complaint> {
     real::<S>(reference)
 }
 
-/// The Real variable with this reference. Inlined, so that what isn't among them is left out of what follows.
+/// The Real variable with this reference. It is inlined so that the compiler removes the code for variables that the scene
+/// lacks.
 #[inline(always)]
 pub(super) fn real<S: Scene>(reference: fmi2ValueReference) -> Result<(Real, usize), Complaint> {
     S::real(reference).ok_or(Complaint::UnknownReference { kind: "Real", reference })
 }
 
-/// The place of the inputs and of the forces among the kinds of variables that a contact has.
+/// The positions of the inputs and of the forces among the kinds of variables of a contact.
 const RATE: u32 = 0;
 const FORCE: u32 = 1;
 
 /// The contact whose variable of this `kind` has this reference.
 #[inline(always)]
 fn contact_of<S: Scene>(kind: u32, reference: fmi2ValueReference) -> Option<usize> {
-    // of a smaller reference the difference is a very large number
+    // for a smaller reference, the difference is a very large number
     let contact = reference.wrapping_sub(kind * S::CONTACTS as u32) as usize;
     (contact < S::CONTACTS).then_some(contact)
 }
 
-/// The contact that a call for one variable of this `kind` is for, with pointers that aren't null.
+/// The contact of a call for a single variable of this `kind`, if the pointers are not null.
 ///
 /// # Safety
-/// A pointer to references that isn't null points to as many as announced.
+/// If the pointer to references is not null, it points to `nvr` of them.
 #[inline(always)]
 unsafe fn only_one<S: Scene>(kind: u32, vr: *const fmi2ValueReference, nvr: usize) -> Option<usize> {
     if nvr != 1 {
         return None;
     }
-    // SAFETY: nothing is done; but the compiler can't make one test of the two, which would take two instructions more.
+    // SAFETY: it does nothing, but keeps the compiler from merging the two tests, which would take two more instructions.
     unsafe { core::arch::asm!("", options(nomem, nostack, preserves_flags)) };
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     contact_of::<S>(kind, *unsafe { vr.as_ref() }?)
 }
 
-/// The first contact of those whose variables of this `kind` have these references, one after the other.
+/// The first contact of consecutive contacts whose variables of this `kind` have these references.
 fn run_of<S: Scene>(kind: u32, references: &[fmi2ValueReference]) -> Option<usize> {
     let &first = references.first().filter(|_| S::CONTACTS > 1)?;
     let mut other = false;
@@ -68,7 +69,7 @@ pub unsafe fn get_real<S: Scene>(
     nvr: usize,
     value: *mut fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: the caller's component, and arrays as long as announced.
+    // SAFETY: the caller's component, and arrays of the given length.
     unsafe {
         if let Some(contact) = only_one::<S>(FORCE, vr, nvr)
             && let Some(component) = Component::<S>::behind(c)
@@ -82,10 +83,10 @@ pub unsafe fn get_real<S: Scene>(
     }
 }
 
-/// Every reading that isn't plain, with all checks.
+/// Reads Real variables in all other cases, with all checks.
 ///
 /// # Safety
-/// The caller's component, and arrays as long as announced.
+/// The caller's component, and arrays of the given length.
 #[inline(never)]
 unsafe fn get_any_real<S: Scene>(
     c: fmi2Component,
@@ -93,7 +94,7 @@ unsafe fn get_any_real<S: Scene>(
     nvr: usize,
     value: *mut fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         call::<S>(c, order::GET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
@@ -121,7 +122,7 @@ pub unsafe fn get_integer<S: Scene>(
     nvr: usize,
     value: *mut fmi2Integer,
 ) -> fmi2Status {
-    // SAFETY: the caller's component, and arrays as long as announced.
+    // SAFETY: the caller's component, and arrays of the given length.
     unsafe {
         call::<S>(c, order::GET_INTEGER, |component| {
             let references = array(vr, nvr, "vr")?;
@@ -135,7 +136,7 @@ pub unsafe fn get_integer<S: Scene>(
     }
 }
 
-/// Sets Real variables: the input, and parameters before initialization ends. If one is refused none is set.
+/// Sets Real variables: the inputs, and parameters before initialization ends. If one is rejected, none is set.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -146,7 +147,7 @@ pub unsafe fn set_real<S: Scene>(
     nvr: usize,
     value: *const fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: the caller's component, and arrays as long as announced.
+    // SAFETY: the caller's component, and arrays of the given length.
     unsafe {
         if let Some(contact) = only_one::<S>(RATE, vr, nvr)
             && let Some(component) = Component::<S>::behind(c)
@@ -159,10 +160,10 @@ pub unsafe fn set_real<S: Scene>(
     }
 }
 
-/// Every setting that isn't plain, with all checks.
+/// Sets Real variables in all other cases, with all checks.
 ///
 /// # Safety
-/// The caller's component, and arrays as long as announced.
+/// The caller's component, and arrays of the given length.
 #[inline(never)]
 unsafe fn set_any_real<S: Scene>(
     c: fmi2Component,
@@ -170,7 +171,7 @@ unsafe fn set_any_real<S: Scene>(
     nvr: usize,
     value: *const fmi2Real,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         call::<S>(c, order::SET_REAL, |component| {
             let references = array(vr, nvr, "vr")?;
@@ -190,7 +191,7 @@ unsafe fn set_any_real<S: Scene>(
             if parameters {
                 component.instance.parameters_are_set();
             }
-            // among many a look at each would take long
+            // with many contacts, checking each of them takes long
             if S::CONTACTS == 1 || values.iter().any(|&value| component.instance.may_be_fast(value)) {
                 component.warn_of_limits(order::SET_REAL);
             }
@@ -199,7 +200,7 @@ unsafe fn set_any_real<S: Scene>(
     }
 }
 
-/// The answer of a function for a type that only outputs, or no variables, have: nothing to do, or a refusal.
+/// The result of a function for a type without variables, or with outputs only: success for an empty array, otherwise an error.
 ///
 /// # Safety
 /// The caller's component, and an array of `length` references.
@@ -210,7 +211,7 @@ unsafe fn none_of_type<S: Scene>(
     references: *const fmi2ValueReference,
     length: usize,
 ) -> fmi2Status {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         call::<S>(c, function, |_| match array(references, length, "vr")?.first() {
             Some(&reference) => Err(match S::integer(reference) {
@@ -233,7 +234,7 @@ pub unsafe fn get_boolean<S: Scene>(
     value: *mut fmi2Boolean,
 ) -> fmi2Status {
     let _ = value;
-    // SAFETY: the caller's component, and an array as long as announced.
+    // SAFETY: the caller's component, and an array of the given length.
     unsafe { none_of_type::<S>(c, order::GET_BOOLEAN, "Boolean", vr, nvr) }
 }
 
@@ -248,13 +249,13 @@ pub unsafe fn get_string<S: Scene>(
     value: *mut fmi2String,
 ) -> fmi2Status {
     let _ = value;
-    // SAFETY: the caller's component, and an array as long as announced.
+    // SAFETY: the caller's component, and an array of the given length.
     unsafe { none_of_type::<S>(c, order::GET_STRING, "String", vr, nvr) }
 }
 
 /// No Integer variable can be set: they are outputs.
 ///
-/// # Safety
+/// No Integer variable can be set: all are outputs.
 /// See [the module](super#safety).
 pub unsafe fn set_integer<S: Scene>(
     c: fmi2Component,
@@ -263,7 +264,7 @@ pub unsafe fn set_integer<S: Scene>(
     value: *const fmi2Integer,
 ) -> fmi2Status {
     let _ = value;
-    // SAFETY: the caller's component, and an array as long as announced.
+    // SAFETY: the caller's component, and an array of the given length.
     unsafe { none_of_type::<S>(c, order::SET_INTEGER, "Integer", vr, nvr) }
 }
 
@@ -278,7 +279,7 @@ pub unsafe fn set_boolean<S: Scene>(
     value: *const fmi2Boolean,
 ) -> fmi2Status {
     let _ = value;
-    // SAFETY: the caller's component, and an array as long as announced.
+    // SAFETY: the caller's component, and an array of the given length.
     unsafe { none_of_type::<S>(c, order::SET_BOOLEAN, "Boolean", vr, nvr) }
 }
 
@@ -293,6 +294,6 @@ pub unsafe fn set_string<S: Scene>(
     value: *const fmi2String,
 ) -> fmi2Status {
     let _ = value;
-    // SAFETY: the caller's component, and an array as long as announced.
+    // SAFETY: the caller's component, and an array of the given length.
     unsafe { none_of_type::<S>(c, order::SET_STRING, "String", vr, nvr) }
 }

@@ -1,25 +1,25 @@
-//! What a contact that moves its bodies remembers for its importer: how the last step ended, and the momentum in transit.
+//! The data that a contact of known mass keeps for its importer: how the last step ended, and the momentum in transit.
 //!
 //! A *serial* importer (Gauss-Seidel) steps the contact first and applies its force over the same step. A *parallel* importer
 //! (Jacobi) steps all FMUs at once: over a step, it applies the force that the contact showed before that step. The contact
-//! therefore keeps an account. Its debt is the impulse that it has given and the importer has not applied. The bodies really close
-//! at the given rate less debt over mass. A step adds the impulse of the contact to the debt and subtracts what the importer has
-//! applied. The force to apply over the next step is the debt over the length of a step. Momentum is neither lost nor given twice,
-//! however long the steps are.
+//! therefore keeps an account. Its debt is the impulse that the contact has exerted and the importer has not yet applied. The
+//! bodies actually close at the given rate minus debt over mass. A step adds the impulse of the contact to the debt and
+//! subtracts what the importer has applied. The force to apply over the next step is the debt over the length of a step.
+//! Momentum is neither lost nor applied twice, however long the steps are.
 
 use super::*;
 use crate::contact::words::{load_numbers, store_numbers};
 use crate::scene::Real;
 
-/// How the last step ended, as the master has been told.
+/// The end of the last step, as reported to the importer.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Ending {
-    /// Closing speed that the bodies had reached \[m/s\].
+    /// Closing speed of the bodies at the end \[m/s\].
     pub speed: f64,
-    /// Force to apply: over the step that has been made by a serial master, over the next one by a parallel one \[N\].
+    /// Force to apply \[N\]: over the same step by a serial importer, over the next step by a parallel one.
     pub force: f64,
-    /// Speed that the change of that force makes in a step of the same length \[m/s\]: what a master with the other order of
-    /// execution adds or takes.
+    /// Change of speed that the change of this force causes in a step of the same length \[m/s\]. An importer with the other
+    /// order of execution adds or subtracts it.
     pub jump: f64,
 }
 
@@ -43,32 +43,32 @@ impl Ending {
     }
 }
 
-/// The account of momentum between a contact and a parallel master.
+/// The account of momentum between a contact and a parallel importer.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Account {
-    /// Impulse that the contact has given and the master has not applied yet \[N.s\].
+    /// Impulse that the contact has exerted and the importer has not yet applied \[N.s\].
     pub debt: f64,
-    /// How long the next step is taken to be at least \[s\].
+    /// Lower limit of the assumed length of the next step \[s\].
     span: f64,
 }
 
-/// What of the longest step is kept in mind from step to step. A debt over a short step, applied over a long one, would come
-/// back larger; steps that alternate would let it grow.
+/// Factor by which the longest step fades from step to step. A debt divided by a short step and applied over a long one would
+/// come back larger, and alternating step sizes would let it grow.
 const FADING: f64 = 0.75;
 
 impl Account {
     /// Number of words that hold an account.
     pub const WORDS: usize = 2;
 
-    /// Books a step \[s\] in which the contact has given `impulse` \[N.s\] and the master has applied the force `applied` \[N\].
-    /// The result is the force to apply over the next step \[N\].
+    /// Records a step \[s\] in which the contact has exerted `impulse` \[N.s\] and the importer has applied the force `applied`
+    /// \[N\]. Returns the force to apply over the next step \[N\].
     fn book(&mut self, impulse: f64, applied: f64, step: f64) -> f64 {
         self.debt += impulse - applied * step;
         let longest = if step > self.span { step } else { self.span };
         let faded = FADING * longest;
         self.span = if step > faded { step } else { faded };
         let force = self.debt / longest;
-        // a debt waits for steps that are long enough for it
+        // the debt remains until steps are long enough for it
         if force.is_finite() { force } else { 0.0 }
     }
 
@@ -83,14 +83,14 @@ impl Account {
     }
 }
 
-/// A change of speed below this part of the speeds themselves says nothing of the master.
+/// A change of speed below this fraction of the speeds does not reveal the order of execution.
 const TELLING: f64 = 1e-6;
 
-/// Rounding of a master's own sums, as a part of such a change.
+/// Rounding error of the importer's own sums, as a fraction of such a change.
 const ROUNDING: f64 = 1e-8;
 
 impl<S: Scene> Instance<S> {
-    /// Whether the unit moves the bodies.
+    /// Whether the FMU moves the bodies.
     pub(super) const MOVES: bool = <S::Coupling as Coupling>::Ending::IS_PRESENT;
 
     /// Effective mass of `contact` \[kg\].
@@ -101,8 +101,8 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// Closing acceleration of `contact` by all forces but its own \[m/s^2\]: the input, where there is one, or else the `slope`
-    /// of the rate.
+    /// Closing acceleration of `contact` by all forces except the contact force \[m/s^2\]: the input if there is one, otherwise
+    /// the `slope` of the rate.
     pub(super) fn acceleration(&self, contact: usize, slope: f64) -> f64 {
         match self.contacts.accelerations.as_ref().get(contact) {
             Some(&acceleration) if S::has_input(Real::ExternalAcceleration) => acceleration,
@@ -110,12 +110,12 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// What of the given rate of `contact` is momentum that the master has yet to take off \[m/s\].
+    /// The part of the given rate of `contact` that the importer has yet to remove \[m/s\].
     pub(super) fn owed(&self, contact: usize) -> f64 {
         self.contacts.accounts.as_ref().get(contact).map_or(0.0, |account| account.debt / self.mass(contact))
     }
 
-    /// Notes how a step of `contact` ended that was `step` \[s\] long: with this `speed` \[m/s\], after this `mean_force` \[N\].
+    /// Records the end of a `step` \[s\] of `contact`: its `speed` \[m/s\] and its `mean_force` \[N\].
     pub(super) fn end_step(&mut self, contact: usize, speed: f64, mean_force: f64, step: f64) {
         let mass = self.mass(contact);
         let Contacts { endings, accounts, .. } = &mut self.contacts;
@@ -127,14 +127,14 @@ impl<S: Scene> Instance<S> {
         *ending = Ending { speed, force, jump: (force - ending.force) * step / mass };
     }
 
-    /// Looks whether the rate that `contact` is given for the next step is that of a master with the other order of execution.
+    /// Checks whether the rate of `contact` for the next step comes from an importer with the other order of execution.
     pub(super) fn check_wiring(&mut self, contact: usize) {
         let (Some(ending), Some(&rate)) = (self.contacts.endings.as_ref().get(contact), self.rates().get(contact))
         else {
             return;
         };
         let expected = ending.speed + self.owed(contact);
-        // a serial master has applied the new force already, a parallel one still the old one
+        // a serial importer has already applied the new force, a parallel one still the old force
         let other = if is_parallel::<S>() { -ending.jump } else { ending.jump };
         let size = rate.abs() + ending.speed.abs() + expected.abs();
         if other.abs() > TELLING * size && (rate - expected - other).abs() <= ROUNDING * other.abs() {
@@ -143,7 +143,7 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// Whether the last step began with the rate of a master with the other order of execution; the warning, once.
+    /// The warning, once, that the last step began with the rate of an importer with the other order of execution.
     pub fn take_miswired(&mut self) -> Option<Warning> {
         let Miswired { contact, rate, expected } = core::mem::take(self.contacts.miswired.as_mut().first_mut()?);
         let contact = contact.checked_sub(1)? as usize;
@@ -151,12 +151,12 @@ impl<S: Scene> Instance<S> {
     }
 }
 
-/// Whether the scene is made for a master that steps all units at once.
+/// Whether the scene is for an importer that steps all FMUs at once.
 fn is_parallel<S: Scene>() -> bool {
     <S::Coupling as Coupling>::Account::IS_PRESENT
 }
 
-/// A contact whose rate was that of a master with the other order of execution, until its user hears of it.
+/// A contact whose rate came from an importer with the other order of execution, until the warning is taken.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Miswired {
     /// The contact, counted from 1; 0 is none.

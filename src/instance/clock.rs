@@ -2,71 +2,71 @@
 
 use super::fault::Fault;
 
-/// The phases in which an instance can be, as bits: a set of phases is their sum.
+/// The phases of an instance, as bits: a set of phases is their sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Phase {
-    /// Memory that isn't an instance yet.
+    /// Memory that is not an instance yet.
     Blank = 0,
-    /// Just made, or reset.
+    /// Just created, or reset.
     Instantiated = 1,
     /// Between entering and leaving Initialization Mode.
     Initialization = 2,
-    /// Ready for a step.
+    /// Ready for the next step.
     StepComplete = 4,
     /// Ended by the importer.
     Terminated = 8,
-    /// A call failed; only reading, resetting and restoring are left.
+    /// A call failed. Only reading, resetting and restoring are possible.
     Error = 16,
 }
 
 impl Phase {
-    /// Every phase that an instance can be in.
+    /// All phases of an instance.
     pub const ALL: [Phase; 5] =
         [Phase::Instantiated, Phase::Initialization, Phase::StepComplete, Phase::Terminated, Phase::Error];
 }
 
-/// The latest time, and the opposite of the earliest one \[s\]. While no rate is above [`FASTEST`](super::FASTEST) no contact
-/// leaves the range of a law that is made of segments before.
+/// The latest time, and the negative of the earliest one \[s\]. As long as no rate exceeds [`FASTEST`](super::FASTEST), no
+/// contact leaves the range of a law with segments up to this time.
 pub const LATEST: f64 = 1e50;
 
-/// How far a communication point may be from the end of the last step, in steps. Masters count `t += h` or `start + i h`;
-/// either is within rounding of the last end, and half a step off is a mistake.
+/// Largest difference between a communication point and the end of the last step, in steps. Importers compute `t += h` or
+/// `start + i h`; both are within rounding of the last end. Half a step off is a mistake.
 const TIME_TOLERANCE: f64 = 0.1;
 
-/// How far a step may end behind the stop time, in steps: room for the rounding of some thousand sums, far below the
-/// hundredth of a step that would be a mistake.
+/// How far a step may end beyond the stop time, in steps. This allows for the rounding of a few thousand sums, and is far below
+/// a hundredth of a step, which would be a mistake.
 const STOP_TOLERANCE: f64 = 1e-3;
 
-/// A limit before every time \[s\].
+/// A limit that is before every time \[s\].
 const NOWHERE: f64 = f64::NEG_INFINITY;
 
-/// A [`Clock::lowest_rate`] that no rate is above.
+/// A value of [`Clock::lowest_rate`] that no rate satisfies.
 const NO_RATE: f64 = f64::INFINITY;
 
-/// Room for rounding of a time far from zero, as a fraction of it.
+/// Tolerance for rounding of a time far from zero, as a fraction of it.
 const TIME_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// Phase and time.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(super) struct Clock {
-    /// End of the last step \[s\], or the start time.
+    /// End of the last step, or the start time \[s\].
     pub time: f64,
-    /// Where plain steps end \[s\]: at the stop time while stepping, and nowhere otherwise.
+    /// Latest end of a plain step \[s\]: the stop time while stepping, before every time otherwise.
     limit: f64,
-    /// From here to its opposite \[m/s\] an input may be set without a further look: between steps, and beyond all otherwise.
-    /// Negative, so that the comparison has its second number in memory.
+    /// Negative of the largest absolute value to which an input may be set without further checks \[m/s\]; no rate qualifies
+    /// except between steps. It is negative so that the comparison takes its second operand from memory.
     lowest_rate: f64,
     stop: f64,
     pub phase: Phase,
     pub experiment_defined: bool,
-    /// A derivative of an input is set, or was in the last step: no step is plain then.
+    /// Whether a derivative of an input is set or was set in the last step; no step is plain then.
     pub curved: bool,
 }
 
 impl Clock {
-    /// Before anything is set.
+    /// The clock before anything is set.
     pub const START: Clock = Clock {
         time: 0.0,
         limit: NOWHERE,
@@ -77,7 +77,7 @@ impl Clock {
         curved: false,
     };
 
-    /// Whether a step from `time` to `end`, `step` \[s\] long, is plainly in order.
+    /// Whether a step from `time` to `end`, of length `step` \[s\], needs no further checks.
     #[inline(always)]
     pub fn takes(&self, time: f64, end: f64, step: f64) -> bool {
         // an infinite step ends beyond the limit
@@ -85,27 +85,27 @@ impl Clock {
         self.follows(time, step) && !beyond
     }
 
-    /// The same for a step while [held](Clock::hold), if it is one in which [inputs may be set](Clock::takes_rate).
+    /// The same for a step while plain steps are [held off](Clock::hold), if [inputs may be set](Clock::takes_rate).
     #[inline(always)]
     pub fn takes_held(&self, time: f64, end: f64, step: f64) -> bool {
         self.follows(time, step) && end <= self.stop && end <= LATEST
     }
 
-    /// Whether an input may be set to `rate` \[m/s\] without a further look.
+    /// Whether an input may be set to `rate` \[m/s\] without further checks.
     #[inline(always)]
     pub fn takes_rate(&self, rate: f64) -> bool {
-        // a NaN is not
+        // false for NaN
         -rate.abs() >= self.lowest_rate
     }
 
-    /// Whether a step from `time` that is `step` \[s\] long plainly follows the last one: one that is zero, negative or NaN is not
-    /// larger than any distance.
+    /// Whether a step of length `step` \[s\] from `time` clearly follows the last one. It is false if the step is zero,
+    /// negative or NaN, because no distance is smaller than such a step.
     #[inline(always)]
     fn follows(&self, time: f64, step: f64) -> bool {
         (time - self.time).abs() * (1.0 / TIME_TOLERANCE) < step
     }
 
-    /// Whether such a step is in order.
+    /// Checks a step.
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::TooLate`], [`Fault::BeyondStopTime`].
@@ -147,7 +147,7 @@ impl Clock {
         Ok(())
     }
 
-    /// Sets the phase; `lowest_rate` \[m/s\] holds where inputs may be set.
+    /// Sets the phase. `lowest_rate` \[m/s\] applies in the phases in which inputs may be set.
     pub fn set_phase(&mut self, phase: Phase, lowest_rate: f64) {
         self.phase = phase;
         self.lowest_rate = if phase == Phase::StepComplete { lowest_rate } else { NO_RATE };
@@ -155,12 +155,12 @@ impl Clock {
         self.release();
     }
 
-    /// From here on no step is plain.
+    /// Prevents plain steps from now on.
     pub fn hold(&mut self) {
         self.limit = NOWHERE;
     }
 
-    /// Steps may be plain again.
+    /// Allows plain steps again.
     pub fn release(&mut self) {
         if self.phase == Phase::StepComplete {
             self.limit = if self.stop < LATEST { self.stop } else { LATEST };
@@ -172,7 +172,7 @@ impl Clock {
         self.stop
     }
 
-    /// The clock with these times and flags; `None` if a time isn't in range.
+    /// The clock with these times and flags; `None` if a time is out of range.
     pub fn of(time: f64, stop: f64, phase: Phase, experiment_defined: bool) -> Option<Clock> {
         // a NaN is in no range
         let in_range = (-LATEST..=LATEST).contains(&time) && stop.is_finite();

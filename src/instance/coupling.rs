@@ -1,19 +1,19 @@
-//! What a contact stores beside its state for accurate coupling: the course of its input within a step, and the momentum of the
-//! last step.
+//! The data for accurate coupling that a contact stores in addition to its state: the course of its input within a step, and
+//! the momentum of the last step.
 
 use crate::contact::path::{Course, Sum};
 use crate::contact::words::{load_numbers, store_numbers};
 
-/// The course of the input over the next step, and how the last one ended.
+/// The course of the input over the next step, and the end of the last step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Curve {
     /// First derivative of the rate over the next step \[m/s^2\].
     pub slope: f64,
     /// Second derivative \[m/s^3\].
     pub bend: f64,
-    /// Rate at the end of the last step, if that had derivatives or a mass of its own \[m/s\].
+    /// Rate at the end of the last step \[m/s\], if that step had derivatives or the bodies have a mass.
     pub end_rate: f64,
-    /// Its derivative there \[m/s^2\].
+    /// Its derivative at the end of the last step \[m/s^2\].
     pub end_slope: f64,
 }
 
@@ -21,18 +21,18 @@ impl Curve {
     /// Number of words that hold a curve.
     pub const WORDS: usize = 4;
 
-    /// Whether the rate won't be held.
+    /// Whether the rate changes during the next step.
     #[inline]
     pub fn is_curved(&self) -> bool {
         self.slope != 0.0 || self.bend != 0.0
     }
 
-    /// The course over the next step of a contact with this `rate` \[m/s\].
+    /// The course of the next step, for a contact with this `rate` \[m/s\].
     pub fn course(&self, rate: f64) -> Course {
         Course { rate, slope: self.slope, bend: self.bend }
     }
 
-    /// Notes the end of a step of length `step` \[s\] on `course`; derivatives hold for one step.
+    /// Records the end of a step of length `step` \[s\] along `course`. Derivatives apply to one step only.
     pub fn end_of(&mut self, course: &Course, step: f64) {
         *self = Curve {
             end_rate: course.rate_after(step),
@@ -56,12 +56,12 @@ impl Curve {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Momentum {
     impulse: Sum,
-    /// Impulse of the last step over its length \[N\].
+    /// Mean force of the last step \[N\]: impulse over length.
     pub mean_force: f64,
 }
 
 impl Momentum {
-    /// Number of words that hold a momentum.
+    /// Number of words that hold the momentum.
     pub const WORDS: usize = 3;
 
     /// A contact before any motion, with this `force` \[N\].
@@ -76,7 +76,7 @@ impl Momentum {
         self.mean_force = mean_force;
     }
 
-    /// Since the start \[N.s\].
+    /// Impulse since the start \[N.s\].
     pub fn impulse(&self) -> f64 {
         self.impulse.total()
     }

@@ -3,12 +3,12 @@
 use super::*;
 
 impl<S: Scene> Instance<S> {
-    /// Whether a step with derivatives of the input is that of one contact which follows its input.
+    /// Whether a step with derivatives of the input concerns a single contact that follows its input.
     pub(super) const ALONE: bool = S::CONTACTS == 1 && Self::PLAIN && S::Course::IS_PRESENT;
 
-    /// The step with derivatives of the input, and plain otherwise: at once if the rate keeps its sign and the contact its branch.
-    /// It does what [`Instance::do_step`] does. The result is false if it isn't such a step, and nothing is done; or if it has led
-    /// [too deep](Instance::is_deep).
+    /// A step with derivatives of the input that is otherwise plain. It is fastest if the rate keeps its sign and the contact
+    /// stays on its branch. The result is the same as that of [`Instance::do_step`]. Returns false if it is not such a step,
+    /// without changing anything, or if the step has led [too deep](Instance::is_deep).
     #[inline(always)]
     pub fn do_course_step(&mut self, time: f64, step: f64) -> bool {
         let end = time + step;
@@ -28,7 +28,7 @@ impl<S: Scene> Instance<S> {
         let short =
             course.keeps_direction(step) && history.stays_within(bodies.depth) && history.short_step(course.way(step));
         if !short {
-            // of what is too deep there is more to say
+            // a step that led too deep needs a warning
             return self.advance_on_course(end, step).is_ok() && !self.is_deep();
         }
         for momentum in momenta.as_mut() {
@@ -40,7 +40,7 @@ impl<S: Scene> Instance<S> {
         true
     }
 
-    /// Moves the one contact over `step` \[s\], to the time `end` \[s\], on the course of its input.
+    /// Moves the single contact for `step` \[s\], to the time `end` \[s\], along the course of its input.
     #[inline(never)]
     pub(super) fn advance_on_course(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         let Contacts { histories, rates, curves, .. } = &self.contacts;
@@ -67,7 +67,7 @@ impl<S: Scene> Instance<S> {
                     && !self.contacts.histories.as_mut().iter_mut().all(|history| history.short_step(increment))
                     && let Err(deepest) = self.move_one(increment, 1.0)
                 {
-                    // one motion alone leaves the contact where it was
+                    // if a single motion fails, the contact has not changed
                     before.into_iter().for_each(|before| self.contacts.histories.as_mut().fill(before));
                     self.deep = deep;
                     return Err(too_deep(0, deepest));

@@ -1,4 +1,4 @@
-//! Derivatives: of inputs and outputs by time, and of outputs by the input.
+//! Derivatives: of inputs and outputs with respect to time, and of outputs with respect to the input.
 
 use super::*;
 use crate::contact::Regime;
@@ -7,14 +7,14 @@ use crate::scene::Real;
 use core::f64::consts::PI;
 
 impl<S: Scene> Instance<S> {
-    /// The highest order of a derivative of an input.
+    /// The highest order of the derivative of an input.
     pub const INPUT_ORDER: i32 = if S::FOLLOW.is_some() { 1 } else { 2 };
 
-    /// Whether the derivative of this `order` of an input may be set to `value` now.
+    /// Checks whether the derivative of this `order` of an input may be set to `value` now.
     ///
     /// # Errors
-    /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`], [`Fault::NotFinite`],
-    /// [`Fault::NoInputDerivatives`] for a law that follows the rate, and where the acceleration is an input.
+    /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`], [`Fault::NotFinite`];
+    /// [`Fault::NoInputDerivatives`] for a rate-dependent law, and where the acceleration is an input.
     pub fn check_input_derivative(&self, (variable, _): (Real, usize), order: i32, value: f64) -> Result<(), Fault> {
         if !S::Course::IS_PRESENT || S::has_input(Real::ExternalAcceleration) {
             return Err(Fault::NoInputDerivatives);
@@ -30,7 +30,7 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// Sets a derivative that [`Instance::check_input_derivative`] has allowed; it holds for the next step.
+    /// Sets a derivative that [`Instance::check_input_derivative`] has accepted. It applies to the next step.
     pub fn set_input_derivative(&mut self, contact: usize, order: i32, value: f64) {
         if value != 0.0 || self.clock.curved {
             self.curve();
@@ -40,8 +40,8 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// Sets derivatives of the input of the one contact, by their orders, and reports true if that is all there is to do: they
-    /// may be set now, and are numbers. Otherwise it sets none.
+    /// Sets derivatives of the input of a single contact, given with their orders, and returns true, provided that no further
+    /// checks are needed: they may be set now and are finite. Otherwise it sets none and returns false.
     #[inline(always)]
     pub fn set_plain_derivatives(&mut self, derivatives: impl Iterator<Item = (i32, f64)>) -> bool {
         let phases = Phase::Instantiated as u8 | Phase::Initialization as u8 | Phase::StepComplete as u8;
@@ -65,13 +65,13 @@ impl<S: Scene> Instance<S> {
         in_order
     }
 
-    /// Whether this is one contact that follows its input, which has derivatives, or had some in the last step.
+    /// Whether a single contact follows its input and the input has derivatives, or had some in the last step.
     #[inline(always)]
     pub fn is_on_course(&self) -> bool {
         Self::ALONE && self.clock.curved
     }
 
-    /// From here on inputs have derivatives; none is set yet.
+    /// Prepares the inputs for derivatives; none is set yet.
     #[inline(always)]
     fn curve(&mut self) {
         if self.clock.curved {
@@ -85,12 +85,13 @@ impl<S: Scene> Instance<S> {
         self.clock.hold();
     }
 
-    /// The derivative of this `order` of an output by time, at the end of the last step: one-sided at corners of the law, in
-    /// the direction of the last motion. What belongs to a whole step, `mean_force` and `predicted_force`, doesn't change
-    /// within it.
+    /// The derivative of this `order` of an output with respect to time, at the end of the last step. At a corner of the law,
+    /// it is one-sided, in the direction of the last motion. Variables of a whole step, `mean_force` and `predicted_force`, do
+    /// not change within it.
     ///
     /// # Errors
-    /// [`Fault::NoDerivative`] for a variable that is no output, [`Fault::DerivativeOrder`], [`Fault::DerivativeNotFinite`].
+    /// [`Fault::NoDerivative`] for a variable that is not an output, [`Fault::DerivativeOrder`],
+    /// [`Fault::DerivativeNotFinite`].
     #[inline(always)]
     pub fn output_derivative(&self, (variable, contact): (Real, usize), order: i32) -> Result<f64, Fault> {
         if !variable.is_output() {
@@ -104,7 +105,7 @@ impl<S: Scene> Instance<S> {
         if derivative.is_finite() { Ok(derivative) } else { Err(Fault::DerivativeNotFinite) }
     }
 
-    /// First and second derivative of an output by time.
+    /// First and second derivative of an output with respect to time.
     #[inline(always)]
     fn derivatives(&self, variable: Real, contact: usize) -> Option<(f64, f64)> {
         let history = self.histories().get(contact)?;
@@ -112,7 +113,7 @@ impl<S: Scene> Instance<S> {
         let model = self.model(contact);
         let (force, stiffness) = (history.force(rate), history.stiffness(rate));
         let work = (force * rate, stiffness * rate * rate + force * slope);
-        // of what is a function of the indentation, with these derivatives
+        // for a function of the indentation with these derivatives
         let by_time = |(first, second): (f64, f64)| (first * rate, second * rate * rate + first * slope);
         let along: fn(&S::Contact, &S::Model, f64) -> f64 = match variable {
             Real::Force => return Some(by_time((stiffness, history.curvature(&model, rate)))),
@@ -124,13 +125,13 @@ impl<S: Scene> Instance<S> {
             Real::Work => return Some(work),
             Real::Impulse => return Some((force, stiffness * rate)),
             Real::MeanForce | Real::PredictedForce => return Some((0.0, 0.0)),
-            // the force changes with the way
+            // the force changes with the distance
             Real::ClosingSpeed if Self::MOVES => return Some((slope, -stiffness * rate / self.mass(contact))),
             Real::ResidualIndentation => |contact, model, _| contact.residual_indentation(model),
             Real::ContactRadius => |contact, model, _| contact.contact_radius(model),
             Real::MeanPressure => |contact, model, rate| contact.mean_pressure(model, rate),
             Real::Stiffness => |contact, _, rate| contact.stiffness(rate),
-            // heat isn't a function of the indentation, but the rest of the work
+            // the heat is not a function of the indentation, but the remaining part of the work is
             Real::DissipatedEnergy if !S::Contact::FOLLOWS_RATE => |contact, model, _| contact.dissipated_energy(model),
             Real::ElasticEnergy | Real::DissipatedEnergy => |contact, model, _| contact.elastic_energy(model),
             _ => return None,
@@ -143,11 +144,11 @@ impl<S: Scene> Instance<S> {
         Some(if rest { (work.0 - first, work.1 - second) } else { (first, second) })
     }
 
-    /// The derivative of a variable by the input of contact `by`, at this moment: zero for all but `predicted_force`, and with
-    /// a rate-dependent law the force, the mean pressure and the stiffness.
+    /// The derivative of a variable with respect to the input of contact `by` at the present time. It is zero except for
+    /// `predicted_force` and, with a rate-dependent law, the force, the mean pressure and the stiffness.
     ///
     /// # Errors
-    /// [`Fault::NoDerivative`] for a variable that is no output, [`Fault::NotAnInput`], [`Fault::DerivativeNotFinite`].
+    /// [`Fault::NoDerivative`] for a variable that is not an output, [`Fault::NotAnInput`], [`Fault::DerivativeNotFinite`].
     #[inline(always)]
     pub fn derivative_by_input(
         &self,
@@ -196,20 +197,20 @@ impl<S: Scene> Instance<S> {
     /// dF/d(rate) of the predicted force \[N.s/m\].
     fn prediction_by_input(&self, contact: usize, model: &S::Model, rate: f64) -> Option<f64> {
         if self.clock.curved {
-            // the prediction goes on from the end of a step with derivatives, whatever the input is now
+            // after a step with derivatives, the prediction continues from its end, whatever the input is now
             return Some(0.0);
         }
         if !S::Contact::FOLLOWS_RATE {
             return Some(self.predicted(contact, model, rate)?.stiffness(rate) * self.last_step());
         }
-        // the speed of a touch within the step depends on the input, too
+        // the speed of a first touch within the step also depends on the input
         let width = if rate == 0.0 { SLOW } else { NEAR * rate.abs() };
         let at = |rate: f64| Some(self.predicted(contact, model, rate)?.force(rate));
         Some((at(rate + width)? - at(rate - width)?) / (2.0 * width))
     }
 }
 
-/// The distance of two rates, as a part of them, for the slope of a force between them.
+/// The difference between two rates, as a fraction of them, for the slope of a force.
 const NEAR: f64 = 1e-5;
 
 /// The same for a rate of zero \[m/s\].

@@ -1,72 +1,72 @@
-//! Reasons to refuse a call, and warnings for the user.
+//! Reasons to reject a call, and warnings for the user.
 
-/// Why an instance refuses something. It is then as it was.
+/// The reason why an instance rejects a call. The instance does not change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
     /// The variable is an output.
     NotSettable,
-    /// A parameter after initialization.
+    /// A parameter cannot be set after initialization.
     FixedParameter {
-        /// Its place among those that can be set.
+        /// Its index among the settable values.
         index: usize,
     },
     /// NaN or infinite.
     NotFinite {
-        /// What it is.
+        /// Name of the variable.
         name: &'static str,
-        /// The value.
+        /// Its value.
         value: f64,
     },
-    /// A rate beyond [`FASTEST`](super::FASTEST).
+    /// A rate with an absolute value above [`FASTEST`](super::FASTEST).
     RateOutOfRange {
         /// The rate \[m/s\].
         rate: f64,
     },
-    /// A rate at which the force of a rate-dependent law is beyond all numbers.
+    /// A rate at which the force of a rate-dependent law would not be finite.
     TooFast {
         /// The rate \[m/s\].
         rate: f64,
     },
-    /// Outside the limits of the parameter.
+    /// A value outside the limits of its parameter.
     OutOfRange {
-        /// Its place among those that can be set.
+        /// Its index among the settable values.
         index: usize,
         /// The value.
         value: f64,
     },
-    /// An effective mass out of its range.
+    /// An effective mass outside its range.
     MassOutOfRange {
         /// The mass \[kg\].
         mass: f64,
     },
-    /// The impactor doesn't fit into the socket.
+    /// The impactor does not fit into the socket.
     NoPointContact {
-        /// Which contact, counted from 0.
+        /// The contact, counted from 0.
         contact: usize,
         /// Radius of the impactor \[m\].
         impactor: f64,
         /// Radius of the target \[m\], negative.
         target: f64,
     },
-    /// Times that are out of range, or a stop before the start.
+    /// Times out of range, or a stop time before the start time.
     Experiment {
         /// Start time \[s\].
         start: f64,
         /// Stop time \[s\].
         stop: f64,
     },
-    /// Initialization without start time.
+    /// Initialization without a start time.
     NoExperiment,
-    /// A step that is not positive and finite.
+    /// A step size that is not positive and finite.
     StepSize {
-        /// The step \[s\].
+        /// The step size \[s\].
         step: f64,
     },
-    /// A step that doesn't begin where the last one ended.
+    /// A step that does not begin where the last one ended.
     CommunicationPoint {
-        /// Begin of the step \[s\].
+        /// Start of the step \[s\].
         given: f64,
-        /// End of the last one \[s\].
+        /// End of the last step \[s\].
         expected: f64,
     },
     /// A step beyond the stop time.
@@ -81,63 +81,63 @@ pub enum Fault {
         /// End of the step \[s\].
         end: f64,
     },
-    /// An indentation for which the law can't be evaluated.
+    /// An indentation at which the law cannot be evaluated.
     TooDeep {
-        /// Which contact, counted from 0.
+        /// The contact, counted from 0.
         contact: usize,
         /// The indentation \[m\].
         indentation: f64,
     },
-    /// A step in which the bodies meet more often than can be followed.
+    /// A step in which the bodies touch more often than can be computed.
     TooLong {
-        /// Which contact, counted from 0.
+        /// The contact, counted from 0.
         contact: usize,
-        /// The step \[s\].
+        /// The step size \[s\].
         step: f64,
     },
-    /// A derivative of an order that there isn't.
+    /// A derivative of an order that does not exist.
     DerivativeOrder {
-        /// The order asked for.
+        /// The requested order.
         order: i32,
-        /// The largest there is.
+        /// The highest order that exists.
         largest: i32,
     },
-    /// A derivative by time of a variable that is not an output, or of an input that is none.
+    /// A derivative with respect to time of a variable that is not an output, or of an input that is not an input.
     NoDerivative {
-        /// Of what there are derivatives.
+        /// The variables that have derivatives.
         of: &'static str,
     },
-    /// A derivative of an output that is beyond all numbers.
+    /// A derivative of an output that is not finite.
     DerivativeNotFinite,
-    /// A derivative by a variable that is not the input.
+    /// A derivative with respect to a variable that is not the input.
     NotAnInput,
-    /// Inputs of this scene have no derivatives: its law follows the rate, or the acceleration is an input of its own.
+    /// Inputs of this scene have no derivatives: its law depends on the rate, or the acceleration is a separate input.
     NoInputDerivatives,
 }
 
-/// What a user should know of a simulation that goes on all the same.
+/// Something that the user should know. The simulation continues.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Warning {
     /// The passivity guard acts.
     Guarded,
     /// A contact is too wide for its law.
     Deep {
-        /// Which contact, counted from 0.
+        /// The contact, counted from 0.
         contact: usize,
         /// Its largest indentation \[m\].
         indentation: f64,
-        /// Up to which the law is valid \[m\].
+        /// The indentation up to which the law is valid \[m\].
         allowed: f64,
     },
-    /// The master applies the force in another order than the scene is made for.
+    /// The importer applies the force in another order than the scene assumes.
     Miswired {
-        /// Which contact, counted from 0.
+        /// The contact, counted from 0.
         contact: usize,
         /// Its rate \[m/s\].
         rate: f64,
-        /// What its rate had to be \[m/s\].
+        /// The expected rate \[m/s\].
         expected: f64,
-        /// Whether the scene is made for a master that steps all units at once.
+        /// Whether the scene is for an importer that steps all FMUs at once.
         parallel: bool,
     },
     /// A mass that answers the force is stepped further than is stable.
@@ -147,13 +147,13 @@ pub enum Warning {
         /// The mass of the scene's impact \[kg\].
         mass: f64,
     },
-    /// A contact closes so fast that waves take more energy than can be left out.
+    /// A contact closes so fast that elastic waves are not negligible.
     Fast {
-        /// Which contact, counted from 0.
+        /// The contact, counted from 0.
         contact: usize,
         /// Its rate \[m/s\].
         rate: f64,
-        /// Up to which the law is valid \[m/s\].
+        /// The rate up to which the law is valid \[m/s\].
         allowed: f64,
     },
 }

@@ -39,41 +39,41 @@ use clock::Clock;
 use coupling::{Curve, Momentum};
 use start::{Bodies, BodiesOf, model_of};
 
-/// The fastest rate of an input, in either direction \[m/s\].
+/// The largest absolute value of the rate of an input \[m/s\].
 pub const FASTEST: f64 = 1e40;
 
-/// Something of each contact of a scene, if `P` is present.
+/// One value for each contact of a scene, if `P` is present.
 type IfPresent<P, S, T> = <P as Presence>::Of<T, <S as Scene>::Contacts<T>>;
 
-/// What belongs to the contacts. A plain step and a reading of the force touch what comes first.
+/// The data of the contacts. A plain step and a reading of the force use the first fields only.
 #[repr(C)]
 struct Contacts<S: Scene> {
     histories: S::Contacts<S::Contact>,
-    /// \[m/s\]
+    /// Rates \[m/s\].
     rates: S::Contacts<f64>,
-    /// \[N\]
+    /// Forces \[N\].
     forces: IfPresent<S::Forces, S, f64>,
     momenta: IfPresent<S::Momentum, S, Momentum>,
     curves: IfPresent<S::Course, S, Curve>,
-    /// Length of the last step \[s\], where a force is predicted from it.
+    /// Length of the last step \[s\], if a force is predicted from it.
     last_step: <S::Prediction as Presence>::Of<f64, [f64; 1]>,
     endings: IfPresent<<S::Coupling as Coupling>::Ending, S, Ending>,
     accounts: IfPresent<<S::Coupling as Coupling>::Account, S, Account>,
-    /// By all other forces \[m/s^2\].
+    /// Accelerations by all forces except the contact force \[m/s^2\].
     accelerations: IfPresent<<S::Coupling as Coupling>::Acceleration, S, f64>,
-    /// Effective masses \[kg\], where they are inputs.
+    /// Effective masses \[kg\], if they are inputs.
     masses: IfPresent<<S::Coupling as Coupling>::Mass, S, f64>,
     /// Rates of the last steps that left their branch \[m/s\], where it is noticed that steps are too long.
     watched: IfPresent<S::Watch, S, f64>,
     miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
 }
 
-/// What follows from the parameters.
+/// Values that follow from the parameters.
 #[repr(C)]
 struct Settings<S: Scene> {
-    /// From here to its opposite \[m/s\] an input needs no further look.
+    /// Negative of the largest absolute value of an input that needs no further check \[m/s\].
     lowest_rate: f64,
-    /// A hash of all that: states with the same one have the same parameters, and needn't copy them.
+    /// A hash of all parameters: saved states with the same hash have the same parameters and need not copy them.
     stamp: u64,
     bodies: S::Groups<BodiesOf<S>>,
     values: S::Values,
@@ -83,16 +83,16 @@ struct Settings<S: Scene> {
 /// that was too long to be [stable](stability).
 #[derive(Clone, Copy)]
 struct Deep {
-    /// The contact, counted from 1; 0 is none.
+    /// The contact, counted from 1; 0 for none.
     contact: u32,
     /// Its largest indentation \[m\], or the step \[s\].
     indentation: f64,
 }
 
-/// One instance of a scene: everything that a saved state holds.
+/// One instance of a scene: everything that a saved state contains.
 ///
-/// Memory full of zeros is one too, of no use before it is [reset](Instance::reset): an instance of many contacts is too large
-/// to be moved.
+/// Memory full of zeros is a valid instance, but must be [reset](Instance::reset) before use. An instance of many contacts is
+/// too large to be moved.
 #[repr(C)]
 pub struct Instance<S: Scene> {
     clock: Clock,
@@ -106,20 +106,20 @@ fn too_deep(contact: usize, TooDeep { indentation }: TooDeep) -> Fault {
 }
 
 impl<S: Scene> Settings<S> {
-    /// What is in contact in `group`, and by which laws. Whoever asks is in no hurry: inlined it would be everywhere.
+    /// The bodies and laws of `group`. It is not inlined, to keep the code small where speed does not matter.
     #[inline(never)]
     fn model(&self, group: usize) -> S::Model {
         self.model_at_once(group)
     }
 
-    /// The same for the steps of many contacts.
+    /// The same, inlined, for the steps of many contacts.
     #[inline(always)]
     fn model_at_once(&self, group: usize) -> S::Model {
         let none = Bodies::default();
         model_of::<S>(group, self.bodies.as_ref().get(group).unwrap_or(&none), &self.values)
     }
 
-    /// Up to which indentation the law of `group` is valid \[m\].
+    /// The indentation up to which the law of `group` is valid \[m\].
     fn valid_depth(&mut self, group: usize) -> f64 {
         let known = self.bodies.as_ref().get(group).map_or(f64::NAN, |bodies| bodies.depth);
         if known != 0.0 {
@@ -132,7 +132,7 @@ impl<S: Scene> Settings<S> {
 }
 
 impl<S: Scene> Instance<S> {
-    /// Whether every step is plain that takes each contact no more than a few comparisons.
+    /// Whether a step is plain if it takes only a few comparisons for each contact.
     const PLAIN: bool = S::FOLLOW.is_none();
 
     fn histories(&self) -> &[S::Contact] {
@@ -143,14 +143,14 @@ impl<S: Scene> Instance<S> {
         self.contacts.rates.as_ref()
     }
 
-    /// Forgets the derivatives of inputs.
+    /// Discards the derivatives of the inputs.
     fn straighten(&mut self) {
         self.clock.curved = false;
         self.contacts.curves.as_mut().fill(Curve::default());
         self.clock.release();
     }
 
-    /// Writes down the forces, where they are kept.
+    /// Stores the forces, if the scene keeps them.
     fn note_forces(&mut self) {
         let Contacts { histories, rates, forces, .. } = &mut self.contacts;
         let contacts = histories.as_ref().iter().zip(rates.as_ref());
@@ -159,7 +159,7 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// The phase the instance is in.
+    /// The present phase.
     #[inline]
     pub fn phase(&self) -> Phase {
         self.clock.phase
@@ -172,26 +172,26 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// After a failed call: nothing but reading, resetting and restoring is left.
+    /// Enters the phase after a failed call, in which only reading, resetting and restoring are possible.
     pub fn fail(&mut self) {
         self.set_phase(Phase::Error);
     }
 
-    /// End of the last step \[s\], or the start time.
+    /// End of the last step, or the start time \[s\].
     pub fn time(&self) -> f64 {
         self.clock.time
     }
 
-    /// Sets start and stop time \[s\]; the last call before initialization counts.
+    /// Sets start and stop time \[s\]. The last call before initialization counts.
     ///
     /// # Errors
-    /// [`Fault::Experiment`] for a time that is not finite, a start beyond [`LATEST`] and a stop before the start.
+    /// [`Fault::Experiment`] for a time that is not finite, a start beyond [`LATEST`], or a stop before the start.
     pub fn set_experiment(&mut self, start: f64, stop: Option<f64>) -> Result<(), Fault> {
         self.clock.set_experiment(start, stop)
     }
 
     /// # Errors
-    /// [`Fault::NoExperiment`] without start time.
+    /// [`Fault::NoExperiment`] without a start time.
     pub fn enter_initialization(&mut self) -> Result<(), Fault> {
         if !self.clock.experiment_defined {
             return Err(Fault::NoExperiment);
@@ -201,36 +201,37 @@ impl<S: Scene> Instance<S> {
     }
 
     /// # Errors
-    /// [`Fault::NoPointContact`] if the parameters don't fit together, [`Fault::TooFast`] if they don't fit the input.
+    /// [`Fault::NoPointContact`] if the bodies do not fit together, [`Fault::TooFast`] if the input is too fast for the
+    /// parameters.
     pub fn exit_initialization(&mut self) -> Result<(), Fault> {
         self.start()?;
         for (history, &rate) in self.histories().iter().zip(self.rates()) {
             check_rate(history, rate)?;
         }
-        // what moves has its speed from the start
+        // moved bodies have their speed from the start
         for (ending, &rate) in self.contacts.endings.as_mut().iter_mut().zip(self.contacts.rates.as_ref()) {
             ending.speed = rate;
         }
         self.set_phase(Phase::StepComplete);
-        // a contact may begin anywhere
+        // a contact may begin at any indentation
         self.look();
         Ok(())
     }
 
-    /// Ends the simulation. An instance that was never initialized, or has ended already, stays as it is.
+    /// Ends the simulation. An instance that was never initialized or has already ended does not change.
     pub fn terminate(&mut self) {
         if self.phase() == Phase::StepComplete {
             self.set_phase(Phase::Terminated);
         }
     }
 
-    /// Whether the passivity guard has shortened the path on which the load comes off, or came off.
+    /// Whether the passivity guard shortens the unloading path of the present dent of any contact.
     pub fn is_held_back(&self) -> bool {
         let Some(guard) = &S::GUARD else { return false };
         self.histories().iter().enumerate().any(|(contact, history)| (guard.acts)(history, &self.model(contact)))
     }
 
-    /// What is in contact, and by which laws.
+    /// The bodies and laws of a contact.
     fn model(&self, contact: usize) -> S::Model {
         let group = S::group(contact);
         self.settings.model(group)
@@ -239,14 +240,14 @@ impl<S: Scene> Instance<S> {
 
 /// Whether a parameter may have this `value`.
 fn allows(settable: &Settable, value: f64) -> bool {
-    // written positively, so that a NaN fails
+    // written positively to reject NaN
     value >= settable.minimum && value <= settable.maximum
 }
 
-/// Allowed effective masses \[kg\].
+/// Range of effective masses \[kg\].
 pub const MASSES: core::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
-/// Whether this is an effective mass \[kg\].
+/// Whether an effective mass \[kg\] is in this range.
 fn is_mass(mass: f64) -> bool {
     // a NaN is in no range
     MASSES.contains(&mass)

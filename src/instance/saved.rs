@@ -4,11 +4,11 @@ use super::start::pair_of;
 use super::*;
 use crate::contact::words::{load_numbers, store_numbers};
 
-/// The words of an instance that don't belong to a contact, a group or a parameter.
+/// Number of words of an instance that do not belong to a contact, a group or a parameter.
 const OWN_WORDS: usize = 5;
 
 impl<S: Scene> Instance<S> {
-    /// The words of a contact.
+    /// Number of words of a contact.
     const CONTACT_WORDS: usize = 1
         + S::Contact::WORDS
         + if S::Course::IS_PRESENT { Curve::WORDS } else { 0 }
@@ -22,8 +22,7 @@ impl<S: Scene> Instance<S> {
     pub const WORDS: usize =
         OWN_WORDS + <S::Values as Store<f64>>::LENGTH + 2 * S::GROUPS + Self::CONTACT_WORDS * S::CONTACTS;
 
-    /// Makes this instance the same as `other` and reports true. If their parameters differ nothing is done, and the result is
-    /// false.
+    /// Makes this instance equal to `other` and returns true. If the parameters differ, it changes nothing and returns false.
     #[inline(always)]
     pub fn copy_alike(&mut self, other: &Instance<S>) -> bool {
         if self.settings.stamp != other.settings.stamp {
@@ -44,7 +43,7 @@ impl<S: Scene> Instance<S> {
         own.accounts.as_mut().copy_from_slice(given.accounts.as_ref());
         own.accelerations.as_mut().copy_from_slice(given.accelerations.as_ref());
         own.masses.as_mut().copy_from_slice(given.masses.as_ref());
-        // what isn't curved has curves of no meaning
+        // without derivatives, the stored curves are meaningless
         if other.clock.curved {
             own.curves.as_mut().copy_from_slice(given.curves.as_ref());
         }
@@ -52,7 +51,7 @@ impl<S: Scene> Instance<S> {
         true
     }
 
-    /// Makes this instance the same as `other`, whatever its parameters are.
+    /// Makes this instance equal to `other`, whatever its parameters are.
     #[inline(never)]
     pub fn copy(&mut self, other: &Instance<S>) {
         let (own, given) = (&mut self.settings, &other.settings);
@@ -62,7 +61,7 @@ impl<S: Scene> Instance<S> {
         self.copy_alike(other);
     }
 
-    /// Hands the [`Instance::WORDS`] words of the instance to `store`. Equal instances have equal words.
+    /// Passes the [`Instance::WORDS`] words of the instance to `store`. Equal instances have equal words.
     pub fn save(&self, mut store: impl FnMut(u64)) {
         let last_step = self.contacts.last_step.as_ref().first().copied().unwrap_or(0.0);
         let flags = u64::from(self.clock.experiment_defined) | u64::from(self.clock.curved) << 1;
@@ -77,9 +76,9 @@ impl<S: Scene> Instance<S> {
         for (contact, (history, rate)) in self.histories().iter().zip(self.rates()).enumerate() {
             store(rate.to_bits());
             history.save(&mut store);
-            // of contacts with neither there are none
+            // the slice is empty if the contacts have neither derivatives nor mass
             if let Some(curve) = curves.get(contact) {
-                // what isn't curved has curves of no meaning
+                // without derivatives, the stored curves are meaningless
                 let curve = if self.clock.curved { *curve } else { Curve::default() };
                 curve.save(&mut store);
             }
@@ -90,14 +89,14 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// Makes this the instance that [`Instance::save`] has stored, each word as little-endian bytes, and reports true. If the
-    /// words don't make one nothing is done.
+    /// Makes this the instance that [`Instance::save`] has stored, with each word as little-endian bytes, and returns true. If
+    /// the words are not valid, it changes nothing and returns false.
     pub fn load(&mut self, words: &[[u8; 8]]) -> bool {
-        // first a look at all that there is, and then the same again in earnest
+        // the first pass checks everything, the second pass writes
         words.len() == Self::WORDS && self.read(words, false).is_some() && self.read(words, true).is_some()
     }
 
-    /// Reads everything, and puts it in place if it is `in_earnest`; `None` if the words don't make an instance.
+    /// Reads all words, and writes the values if `in_earnest`; `None` if the words are not a valid instance.
     #[inline(never)]
     fn read(&mut self, words: &[[u8; 8]], in_earnest: bool) -> Option<()> {
         let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
@@ -124,7 +123,7 @@ impl<S: Scene> Instance<S> {
             let [radius, modulus] = load_numbers(&mut words)?;
             let (radius, modulus) = match pair_of::<S>(group, &values) {
                 Ok(pair) => (pair.radius, pair.modulus),
-                // parameters that don't fit together leave the bodies that there were before
+                // with parameters that do not fit together, the previous bodies stay
                 Err(_) if unfit && radius > 0.0 && modulus > 0.0 => (radius, modulus),
                 Err(_) => return None,
             };
@@ -168,14 +167,14 @@ impl<S: Scene> Instance<S> {
             self.clock.set_phase(phase, self.settings.lowest_rate);
             self.clock.curved = flags & 2 != 0;
             self.contacts.last_step.as_mut().fill(last_step);
-            // what came before is not known here
+            // the earlier warnings are not known here
             self.look();
             self.note_forces();
         }
         Some(())
     }
 
-    /// Hands what `contact` remembers for its master to `store`.
+    /// Passes the data that `contact` keeps for its importer to `store`.
     fn save_coupling(&self, contact: usize, store: &mut impl FnMut(u64)) {
         let Contacts { endings, accounts, accelerations, masses, .. } = &self.contacts;
         if let Some(ending) = endings.as_ref().get(contact) {
@@ -189,7 +188,7 @@ impl<S: Scene> Instance<S> {
     }
 }
 
-/// Puts what `load` finds into its slot, if the scene has one and this is `in_earnest`; `None` if nothing can be found.
+/// Writes the result of `load` to its slot, if the scene has one and this is `in_earnest`; `None` if `load` fails.
 fn put<T>(slot: Option<&mut T>, in_earnest: bool, load: impl FnOnce() -> Option<T>) -> Option<()> {
     if let Some(slot) = slot {
         let value = load()?;

@@ -1,42 +1,42 @@
-//! An instance before any motion: the bodies that its parameters describe, and where they are.
+//! An instance before any motion: its bodies, as the parameters describe them, and their positions.
 
 use super::*;
 use crate::contact::{Body, Pair};
 
-/// What the parameters of a group say of its bodies, as far as it is worth keeping.
+/// The bodies of a group, as far as their properties are worth caching.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub(super) struct Bodies<K> {
-    /// What steps that leave their branch ask for.
+    /// Values needed by steps that leave their branch.
     pub kept: K,
     /// Effective radius \[m\].
     pub radius: f64,
     /// Effective modulus \[Pa\].
     pub modulus: f64,
-    /// Indentation up to which the law is valid \[m\]: zero until a contact closes, since it takes a while to be found.
+    /// Indentation up to which the law is valid \[m\]. It is zero until a contact closes, because computing it is slow.
     pub depth: f64,
 }
 
-/// The bodies of a scene.
+/// The type of the bodies of a scene.
 pub(super) type BodiesOf<S> = Bodies<<<S as Scene>::Contact as Contact<<S as Scene>::Model>>::Kept>;
 
 impl<K> Bodies<K> {
-    /// Takes what is kept of `pair`; the rest is found when all parameters are known.
+    /// Caches the properties of `pair`. The rest is computed once all parameters are known.
     pub fn take(&mut self, pair: &Pair) {
         (self.radius, self.modulus) = (pair.radius, pair.modulus);
     }
 }
 
-/// 2^64 over the golden ratio, odd: what hashes are mixed with.
+/// 2^64 over the golden ratio, odd: the multiplier of the hash.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The first contact of a group.
 fn first_of<S: Scene>(group: usize) -> usize {
-    // where there is but one group nothing is looked for
+    // without several groups there is nothing to search
     group.checked_sub(1).filter(|_| S::GROUPS > 1).map_or(0, S::end)
 }
 
-/// The pair of bodies of `group` that `values` describe.
+/// The pair of bodies of `group` for these `values`.
 pub(super) fn pair_of<S: Scene>(group: usize, values: &S::Values) -> Result<Pair, Fault> {
     let value = |parameter| S::parameter(parameter, group, values);
     let impactor = Body {
@@ -54,7 +54,7 @@ pub(super) fn pair_of<S: Scene>(group: usize, values: &S::Values) -> Result<Pair
     pair.ok_or(Fault::NoPointContact { contact: first_of::<S>(group), impactor, target })
 }
 
-/// What is in contact in `group`, whose `bodies` are those of `values`.
+/// The bodies and laws of `group`; its `bodies` are those of `values`.
 pub(super) fn model_of<S: Scene>(group: usize, bodies: &BodiesOf<S>, values: &S::Values) -> S::Model {
     let value = |parameter| S::parameter(parameter, group, values);
     let pair = Pair {
@@ -77,7 +77,7 @@ fn start_of<S: Scene>(group: usize, values: &S::Values) -> Result<(Pair, S::Cont
 }
 
 impl<S: Scene> Instance<S> {
-    /// An instance before anything is set. Of many contacts it is large: see [`Instance::reset`] for one in place.
+    /// An instance before anything is set. With many contacts it is large: [`Instance::reset`] initializes one in place.
     ///
     /// # Errors
     /// As for [`Instance::reset`].
@@ -107,10 +107,10 @@ impl<S: Scene> Instance<S> {
         Ok(instance)
     }
 
-    /// Makes the instance as it is before anything is set, the same bit for bit each time.
+    /// Sets the instance to its state before anything is set, bit for bit the same each time.
     ///
     /// # Errors
-    /// [`Fault::NoPointContact`] if the start values of the scene don't fit together.
+    /// [`Fault::NoPointContact`] if the start values of the scene do not fit together.
     pub fn reset(&mut self) -> Result<(), Fault> {
         self.settings.values = S::start_values();
         self.contacts.rates.as_mut().fill(0.0);
@@ -125,14 +125,14 @@ impl<S: Scene> Instance<S> {
         self.start()
     }
 
-    /// Puts all contacts where they are before any motion; if one can't be there nothing is done.
+    /// Puts all contacts at their initial positions. If one of them cannot be there, it changes nothing.
     pub(super) fn start(&mut self) -> Result<(), Fault> {
         let started = self.start_contacts();
         self.stamp_parameters();
         started
     }
 
-    /// Makes the stamp that of the parameters and of the bodies that follow from them, and finds what else does.
+    /// Updates the hash of the parameters and of the bodies, and the other values that follow from them.
     #[cold]
     #[inline(never)]
     pub(super) fn stamp_parameters(&mut self) {
@@ -142,7 +142,7 @@ impl<S: Scene> Instance<S> {
             let mixed = (sum ^ value.to_bits()).wrapping_mul(GOLDEN);
             mixed ^ mixed >> 32
         };
-        // blank memory has the stamp zero
+        // zeroed memory has the hash zero
         let present = values.as_ref().iter().copied().chain(sizes).fold(GOLDEN, mix) | 1;
         if present != *stamp {
             *stamp = present;

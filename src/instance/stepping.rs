@@ -1,4 +1,4 @@
-//! Steps: the plain step, and every other kind.
+//! Steps: the plain step, and all others.
 
 use super::stability::watch;
 use super::*;
@@ -6,39 +6,40 @@ use crate::contact::motion::{Drive, NoMotion};
 use crate::contact::numbers::largest;
 use crate::contact::path::Course;
 
-/// What has become of a step that might be a plain one.
+/// Result of an attempt at a plain step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plain {
-    /// It is done.
+    /// The step is done.
     Done,
-    /// It leaves the branch that the one contact is on, and is plain otherwise: [`Instance::do_branch_step`] makes it.
+    /// It leaves the branch of the single contact and is otherwise plain: use [`Instance::do_branch_step`].
     OffBranch,
-    /// It is another one: [`Instance::do_step`] makes it.
+    /// It is not plain: use [`Instance::do_step`].
     Other,
 }
 
-/// A contact after a step that it has yet to make.
+/// The state of a contact after a step that is not committed yet.
 struct Moved<C> {
     history: C,
-    /// The course that ends as the step did.
+    /// A course with the same end as the step.
     course: Course,
     mean_force: f64,
-    /// Closing speed at the end, of bodies that the unit moves \[m/s\].
+    /// Closing speed of the bodies at the end, if the FMU moves them \[m/s\].
     speed: f64,
-    /// The largest indentation on the way \[m\].
+    /// The largest indentation during the step \[m\].
     deepest: f64,
 }
 
 impl<S: Scene> Instance<S> {
-    /// Moves the contacts from `time` over `step` \[s\] with the rates held. Then [`Instance::take_deep`] may have a warning.
+    /// Moves the contacts from `time` for `step` \[s\] with constant rates. Afterwards, [`Instance::take_deep`] may return a
+    /// warning.
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
-    /// [`Fault::TooLong`]; every contact is then where it was.
+    /// [`Fault::TooLong`]; no contact changes then.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.clock.check(time, step)?;
         self.advance(time + step, step)?;
-        // it may have been asked to look
+        // a search for deep contacts may have been requested
         if !self.clock.curved {
             self.clock.release();
         }
@@ -48,14 +49,15 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// The step that nearly every step is: plainly in order, and of one contact on the branch that it is on. It does what
-    /// [`Instance::do_step`] does. If it isn't such a step nothing is done, and the result says why.
+    /// The most frequent kind of step: no further checks are needed, and a single contact stays on its branch. The result is
+    /// the same as that of [`Instance::do_step`]. If it is not such a step, it changes nothing, and the result gives the
+    /// reason.
     #[inline(always)]
     pub fn do_plain_step(&mut self, time: f64, step: f64) -> Plain {
         let end = time + step;
         let in_order = self.clock.takes(time, end, step);
         if S::CONTACTS > 1 {
-            // what the passivity guard does must be logged
+            // actions of the passivity guard must be logged
             let plain = in_order && Self::PLAIN && S::GUARD.is_none();
             return if plain && self.advance(end, step).is_ok() { Plain::Done } else { Plain::Other };
         }
@@ -78,33 +80,33 @@ impl<S: Scene> Instance<S> {
         Plain::Done
     }
 
-    /// Whether a step is that of one contact with its rate held, and nothing to do or look for but the depth up to which its law
-    /// is valid.
+    /// Whether a step concerns a single contact with a constant rate, and needs no other check than that of the indentation up
+    /// to which the law is valid.
     const SIMPLE: bool = S::CONTACTS == 1 && Self::PLAIN && !S::Momentum::IS_PRESENT && S::GUARD.is_none();
 
-    /// The step of which [`Instance::do_plain_step`] has found that it is plain but [leaves its branch](Plain::OffBranch). It does
-    /// what [`Instance::do_step`] does; if that would fail nothing is done, and the result is false. Then
-    /// [`Instance::take_deep`] may have a warning.
+    /// A step that [`Instance::do_plain_step`] has found to be plain except that it [leaves its branch](Plain::OffBranch). The
+    /// result is the same as that of [`Instance::do_step`]. If that would fail, it changes nothing and returns false.
+    /// Afterwards, [`Instance::take_deep`] may return a warning.
     #[inline(always)]
     pub fn do_branch_step(&mut self, time: f64, step: f64) -> bool {
         self.advance_one(time + step, step).is_ok()
     }
 
-    /// Moves the one contact of a simple instance over `step` \[s\], to the time `end` \[s\].
+    /// Moves the contact of a simple instance for `step` \[s\], to the time `end` \[s\].
     #[inline(always)]
     fn advance_one(&mut self, end: f64, step: f64) -> Result<(), TooDeep> {
         let Contacts { histories, rates, watched, .. } = &mut self.contacts;
         let (Some(history), Some(&rate)) = (histories.as_ref().first(), rates.as_ref().first()) else { return Ok(()) };
         let long = watch::<S>(watched, 0, history, rate, step);
         self.move_one(rate, step)?;
-        // the depth is told by a later step
+        // a later step will report the depth
         self.deep = long.unwrap_or(self.deep);
         self.contacts.last_step.as_mut().fill(step);
         self.clock.time = end;
         Ok(())
     }
 
-    /// Moves the one contact of an instance with `rate` \[m/s\] held over `step` \[s\].
+    /// Moves the single contact of an instance at constant `rate` \[m/s\] for `step` \[s\].
     #[inline(never)]
     pub(super) fn move_one(&mut self, rate: f64, step: f64) -> Result<(), TooDeep> {
         let Settings { bodies, values, .. } = &self.settings;
@@ -119,7 +121,7 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// Finds up to which depth the law of the one contact is valid, and notes whether the contact is deeper.
+    /// Computes the indentation up to which the law of the single contact is valid, and records whether the contact is deeper.
     #[cold]
     #[inline(never)]
     fn note_depth(&mut self) {
@@ -128,12 +130,12 @@ impl<S: Scene> Instance<S> {
         let reached = history.max_indentation();
         if !history.stays_within(depth) {
             let Deep { contact, indentation } = self.deep;
-            // a fresh surface may have forgotten what was deeper in the same step
+            // a fresh surface may have forgotten the largest indentation within the same step
             self.note_deep(0, if contact == 0 { reached } else { largest(reached, indentation) });
         }
     }
 
-    /// Moves all contacts over `step` \[s\], to the time `end` \[s\], or none of them.
+    /// Moves all contacts for `step` \[s\], to the time `end` \[s\], or none of them.
     #[inline]
     fn advance(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         if Self::ALONE && self.clock.curved && self.contacts.curves.as_ref().iter().any(Curve::is_curved) {
@@ -143,18 +145,18 @@ impl<S: Scene> Instance<S> {
             true => self.advance_one(end, step).map_err(|deep| too_deep(0, deep))?,
             false => self.advance_all(end, step)?,
         }
-        // how a step with derivatives ended is known until the next one, which isn't plain for that reason
+        // the end of a step with derivatives stays known until the next step, which is not plain for this reason
         if Self::ALONE && self.clock.curved {
             self.straighten();
         }
         Ok(())
     }
 
-    /// Moves all contacts of an instance that isn't simple, or none of them.
+    /// Moves all contacts of an instance that is not simple, or none of them.
     #[inline]
     fn advance_all(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         if S::CONTACTS > 1 {
-            // within the limits of rates and times a law that is made of segments can't refuse
+            // within the limits of rate and time, a law with segments cannot fail
             let looks_ahead = self.clock.curved || !Self::PLAIN || S::Contact::may_refuse(&self.model(0));
             if looks_ahead {
                 for contact in 0..S::CONTACTS {
@@ -174,7 +176,7 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// Moves all contacts with their rates held.
+    /// Moves all contacts at constant rates.
     #[inline]
     fn advance_held(&mut self, step: f64) -> Result<(), Fault> {
         let Contacts { histories, rates, forces, momenta, watched, .. } = &mut self.contacts;
@@ -183,7 +185,7 @@ impl<S: Scene> Instance<S> {
         for (contact, (history, &rate)) in histories.as_mut().iter_mut().zip(rates.as_ref()).enumerate() {
             let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
             let before = *history;
-            // one contact has been tried before, or is only looked at: its momentum is then that of a plain step, too
+            // a single contact has been tried before; when its momentum is an output, it is computed as in a plain step
             let short = (S::CONTACTS > 1 || S::Momentum::IS_PRESENT) && history.short_step(rate * step);
             let group = S::group(contact);
             let kept = || settings.bodies.as_ref().get(group).map(|bodies| bodies.kept).unwrap_or_default();
@@ -214,7 +216,7 @@ impl<S: Scene> Instance<S> {
         Ok(())
     }
 
-    /// Moves all contacts, each on the course of its input, or by its mass.
+    /// Moves all contacts, along the course of their inputs or by their masses.
     #[cold]
     fn advance_any(&mut self, step: f64) -> Result<(), Fault> {
         let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(Curve::is_curved);
@@ -242,14 +244,14 @@ impl<S: Scene> Instance<S> {
                 *force = history.force(course.rate);
             }
         }
-        // how the step ended is known until the next one, which isn't plain for that reason
+        // the end of the step stays known until the next step, which is not plain for this reason
         if !curved {
             self.straighten();
         }
         Ok(())
     }
 
-    /// Where `contact` will be after `step` \[s\].
+    /// The state of `contact` after `step` \[s\].
     fn moved(&self, contact: usize, step: f64) -> Result<Moved<S::Contact>, Fault> {
         let (Some(history), Some(&rate)) = (self.histories().get(contact), self.rates().get(contact)) else {
             return Err(Fault::StepSize { step });
@@ -267,7 +269,7 @@ impl<S: Scene> Instance<S> {
                 NoMotion::TooLong => Fault::TooLong { contact, step },
             })?;
             let mean_force = mass * outcome.taken / step;
-            // as if the rate had gone there in a straight line
+            // as if the rate had changed linearly to this value
             let slope = drive.acceleration - history.force(outcome.speed) / mass;
             course = Course { rate: outcome.speed - slope * step, slope, bend: 0.0 };
             return Ok(Moved { history, course, mean_force, speed: outcome.speed, deepest: outcome.deepest });

@@ -1,42 +1,42 @@
-//! Detects that a simulation leaves the validity of its law. The simulation continues; the messages are written elsewhere.
+//! Detects that a simulation leaves the valid range of its law. The simulation continues; other modules write the messages.
 
 use super::*;
 use crate::contact::validity;
 
-/// The closing speed \[m/s\] up to which elastic waves can be left out in `group`; any, if its density isn't known.
+/// The closing speed \[m/s\] up to which elastic waves are negligible in `group`; infinite if the density is unknown.
 fn largest_speed<S: Scene>(group: usize, values: &S::Values) -> f64 {
     let modulus = S::parameter(Parameter::TargetYoungsModulus, group, values);
     S::density(group).map_or(FASTEST, |density| validity::largest_speed(modulus, density))
 }
 
-/// The opposite of the rate up to which an input needs no further look in any group \[m/s\].
+/// Negative of the rate up to which an input needs no further check in any group \[m/s\].
 pub(super) fn lowest_rate<S: Scene>(values: &S::Values) -> f64 {
     let speeds = (0..S::GROUPS).map(|group| largest_speed::<S>(group, values));
     -speeds.fold(FASTEST, |least, speed| if speed < least { speed } else { least })
 }
 
 impl<S: Scene> Instance<S> {
-    /// Makes the next step look at every contact, wherever it is: its user hasn't heard of it yet.
+    /// Makes the next step check every contact, so that warnings are given again.
     pub fn look(&mut self) {
         self.clock.hold();
     }
 
-    /// Whether this may be too fast for an input \[m/s\].
+    /// Whether this rate may be too fast for an input \[m/s\].
     pub fn may_be_fast(&self, rate: f64) -> bool {
         rate > -self.settings.lowest_rate
     }
 
-    /// Up to which indentation the law of `contact` is valid \[m\].
+    /// The indentation up to which the law of `contact` is valid \[m\].
     pub(super) fn valid_depth(&mut self, contact: usize) -> f64 {
         self.settings.valid_depth(S::group(contact))
     }
 
-    /// Notes that `contact` has been as deep as `indentation` \[m\].
+    /// Records that `contact` has reached `indentation` \[m\].
     pub(super) fn note_deep(&mut self, contact: usize, indentation: f64) {
         self.deep = Deep { contact: contact as u32 + 1, indentation };
     }
 
-    /// Looks for a contact that is deeper than its law is valid for.
+    /// Searches for a contact that is deeper than its law is valid.
     #[cold]
     pub(super) fn find_deep(&mut self) {
         let Instance { contacts, settings, .. } = self;
@@ -49,14 +49,14 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// Whether the last step has left a contact deeper than its law is valid for, or had it there on the way, and nobody has
-    /// [taken](Instance::take_deep) the warning yet.
+    /// Whether a contact is or was deeper in the last step than its law is valid, and the warning has not been
+    /// [taken](Instance::take_deep) yet.
     #[inline(always)]
     pub fn is_deep(&self) -> bool {
         self.deep.contact != 0
     }
 
-    /// The warning of that contact, once.
+    /// The warning about that contact, once.
     pub fn take_deep(&mut self) -> Option<Warning> {
         let contact = core::mem::take(&mut self.deep.contact).checked_sub(1)? as usize;
         if S::Watch::IS_PRESENT && contact + 1 == stability::UNSTABLE as usize {
@@ -71,7 +71,7 @@ impl<S: Scene> Instance<S> {
             if !self.may_be_fast(rate) {
                 return None;
             }
-            // the bound of the one group is known
+            // with a single group, the limit is known
             let only = S::GROUPS == 1;
             let values = &self.settings.values;
             let allowed = if only { -self.settings.lowest_rate } else { largest_speed::<S>(S::group(contact), values) };

@@ -4,7 +4,7 @@ use super::*;
 use crate::scene::{Integer, Real};
 
 impl<S: Scene> Instance<S> {
-    /// Whether `variable` of `contact` may be set to `value` now.
+    /// Checks whether `variable` of `contact` may be set to `value` now.
     ///
     /// # Errors
     /// [`Fault::NotFinite`], [`Fault::RateOutOfRange`], [`Fault::TooFast`], [`Fault::OutOfRange`], [`Fault::NotSettable`],
@@ -28,8 +28,8 @@ impl<S: Scene> Instance<S> {
         if allows(&settable, value) { Ok(()) } else { Err(Fault::OutOfRange { index, value }) }
     }
 
-    /// Sets a variable to a `value` that [`Instance::check_real`] has allowed; true for a parameter, which takes effect
-    /// when [`Instance::parameters_are_set`] is called.
+    /// Sets a variable to a `value` that [`Instance::check_real`] has accepted. Returns true for a parameter, which takes
+    /// effect when [`Instance::parameters_are_set`] is called.
     pub fn set_real(&mut self, (variable, contact): (Real, usize), value: f64) -> bool {
         let slot = match variable {
             Real::IndentationRate => self.contacts.rates.as_mut().get_mut(contact),
@@ -44,8 +44,9 @@ impl<S: Scene> Instance<S> {
         matches!(variable, Real::Parameter(_))
     }
 
-    /// What is read before the first step follows the parameters set so far. Bodies that don't fit are noticed when
-    /// initialization ends: another parameter may still come. What is set between steps holds for the steps that follow.
+    /// Applies the parameters. Outputs that are read before the first step follow them. If the bodies do not fit together, this
+    /// is detected only at the end of initialization, because other parameters may still follow. Parameters set between steps
+    /// apply to the next steps.
     pub fn parameters_are_set(&mut self) {
         if S::FOLLOW.is_some() && self.phase() == Phase::StepComplete {
             self.stamp_parameters();
@@ -54,8 +55,7 @@ impl<S: Scene> Instance<S> {
         let _ = self.start();
     }
 
-    /// Sets the input of `contact` and reports true if that is all there is to do: the input may be set now, and `rate`
-    /// is plain.
+    /// Sets the input of `contact` and returns true, provided that `rate` needs no further checks and the input may be set now.
     #[inline(always)]
     pub fn set_plain_rate(&mut self, contact: usize, rate: f64) -> bool {
         let Contacts { histories, rates, .. } = &mut self.contacts;
@@ -69,7 +69,7 @@ impl<S: Scene> Instance<S> {
         plain
     }
 
-    /// Sets the inputs of the contacts from `first` on and reports true, as [`Instance::set_plain_rate`] does; or sets none.
+    /// Like [`Instance::set_plain_rate`] for the contacts from `first` on. It sets all of them or none.
     pub fn set_plain_rates(&mut self, first: usize, rates: &[f64]) -> bool {
         let end = first.wrapping_add(rates.len());
         let Contacts { histories, rates: slots, .. } = &mut self.contacts;
@@ -89,7 +89,7 @@ impl<S: Scene> Instance<S> {
         plain
     }
 
-    /// The force of `contact` \[N\], if outputs are plainly there: during the simulation.
+    /// The force of `contact` \[N\], if it can be read without further checks: during the simulation.
     #[inline(always)]
     pub fn plain_force(&self, contact: usize) -> Option<f64> {
         let force = match self.contacts.forces.as_ref().get(contact) {
@@ -99,7 +99,7 @@ impl<S: Scene> Instance<S> {
         (self.clock.phase == Phase::StepComplete).then_some(force)
     }
 
-    /// Copies the forces \[N\] of the contacts from `first` on and reports true, if they are there.
+    /// Copies the forces \[N\] of the contacts from `first` on and returns true, if they are stored.
     pub fn copy_plain_forces(&self, first: usize, forces: &mut [f64]) -> bool {
         let end = first.wrapping_add(forces.len());
         let (Some(histories), Some(rates)) = (self.histories().get(first..end), self.rates().get(first..end)) else {
@@ -119,7 +119,7 @@ impl<S: Scene> Instance<S> {
         true
     }
 
-    /// The value of a variable now.
+    /// The present value of a variable.
     pub fn real(&self, (variable, contact): (Real, usize)) -> f64 {
         let (Some(history), Some(&rate)) = (self.histories().get(contact), self.rates().get(contact)) else {
             return f64::NAN;
@@ -155,11 +155,11 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// The force \[N\] of `contact`, whose state is `history`, at the end of the next step, if that is as long as the last one.
+    /// The force \[N\] of `contact`, with the state `history`, at the end of a next step as long as the last one.
     fn predicted_force(&self, contact: usize, history: &S::Contact) -> f64 {
         let rate = self.rates().get(contact).copied().unwrap_or(0.0);
         let end_rate = self.end_of(contact).0;
-        // on the branch a copy of a few numbers will do
+        // on the branch, a copy of a few numbers is enough
         let mut next = *history;
         match next.short_step(end_rate * self.last_step()) {
             true => next.force(rate),
@@ -167,8 +167,8 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// `contact` at the end of the next step, if that is as long as the last one and its rate is `rate` \[m/s\]. Where the law
-    /// ends it is where it is now.
+    /// `contact` at the end of a next step as long as the last one, at `rate` \[m/s\]. Where the law ends, the state does not
+    /// change.
     #[inline(never)]
     pub(super) fn predicted(&self, contact: usize, model: &S::Model, rate: f64) -> Option<S::Contact> {
         let history = *self.histories().get(contact)?;
@@ -179,12 +179,12 @@ impl<S: Scene> Instance<S> {
         Some(if moved { next } else { history })
     }
 
-    /// Length of the last step \[s\], where a force is predicted from it.
+    /// Length of the last step \[s\], if a force is predicted from it.
     pub(super) fn last_step(&self) -> f64 {
         self.contacts.last_step.as_ref().first().copied().unwrap_or(0.0)
     }
 
-    /// Rate \[m/s\] and its derivative \[m/s^2\] of `contact` at this moment: how the last step ended, or the input.
+    /// Rate \[m/s\] and its derivative \[m/s^2\] of `contact` at the present time: from the end of the last step, or the input.
     pub(super) fn end_of(&self, contact: usize) -> (f64, f64) {
         match self.contacts.curves.as_ref().get(contact) {
             Some(curve) if self.clock.curved => (curve.end_rate, curve.end_slope),
@@ -192,7 +192,7 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// The value of a variable now.
+    /// The present value of a variable.
     pub fn integer(&self, (variable, contact): (Integer, usize)) -> i32 {
         match variable {
             Integer::Regime => self.histories().get(contact).map_or(0, |history| history.regime() as i32),
@@ -200,7 +200,7 @@ impl<S: Scene> Instance<S> {
     }
 }
 
-/// Whether this input, which is not the rate, may have this `value`.
+/// Checks whether an input other than the rate may have this `value`.
 fn check_input(variable: Real, value: f64) -> Result<(), Fault> {
     match variable {
         Real::EffectiveMass if !is_mass(value) => Err(Fault::MassOutOfRange { mass: value }),

@@ -1,16 +1,17 @@
-//! How a scene that moves its bodies is coupled with the importer that steps it.
+//! The coupling between a scene that moves its bodies and the importer that steps it.
 
 use super::storage::{Absent, Presence, Present};
 use core::marker::PhantomData;
 
-/// What a scene knows of its master. A scene that doesn't move its bodies knows nothing: [`Absent`].
+/// The properties of the coupling with the importer. [`Absent`] for a scene that does not move its bodies.
 pub trait Coupling {
-    /// Whether the end of the last step is remembered: a scene that moves its bodies tells by it what a master does with its force.
+    /// Whether the end of the last step is stored. A scene that moves its bodies uses it to detect how the importer applies the
+    /// force.
     type Ending: Presence;
-    /// Whether the master applies the force of a step over the next one, as one does that steps all units at once: an account is
-    /// kept of the momentum that is on its way.
+    /// Whether the importer applies the force of a step over the next step, as importers do that step all FMUs at once. The
+    /// scene then keeps an account of the momentum in transit.
     type Account: Presence;
-    /// Whether the acceleration by all other forces is an input.
+    /// Whether the acceleration by all forces except the contact force is an input.
     type Acceleration: Presence;
     /// Whether the effective mass is an input.
     type Mass: Presence;
@@ -23,8 +24,8 @@ impl Coupling for Absent {
     type Mass = Absent;
 }
 
-/// The coupling of a scene that moves its bodies: with an account `D` of momentum, and with the inputs `A`, the acceleration,
-/// and `M`, the mass.
+/// The coupling of a scene that moves its bodies: `D` for the account of momentum, `A` for the acceleration as an input, `M`
+/// for the mass as an input.
 pub struct Coupled<D = Absent, A = Absent, M = Absent>(PhantomData<(D, A, M)>);
 
 impl<D: Presence, A: Presence, M: Presence> Coupling for Coupled<D, A, M> {

@@ -1,21 +1,21 @@
 //! The scene of this library.
 //!
-//! `brinell export` writes this file for every scene that it builds. The one in the source tree is that of
-//! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
+//! `brinell export` writes this file for every scene that it builds. The file in the source tree is that
+//! of `scenes/steel_ball.toml`, without identification; a test compares it with the output of the exporter.
 
 use crate::contact::{self, Pair, Surface, loading, unloading};
 use crate::scene::variable::kind_and_contact;
 use crate::scene::{Absent, Integer, Parameter, Present, Real, Scene, Settable, identity_of};
 
-/// The scene that the exporter has been given.
+/// The scene of the FMU.
 pub struct Exported;
 
-/// What the model description and the binary recognise each other by.
+/// Identification that the model description and the binary share.
 const GUID: &str = "unpacked";
 
-/// How many contacts there are.
+/// Number of contacts.
 const CONTACTS: usize = 1;
-/// How many groups of equal contacts they form.
+/// Number of groups of equal contacts.
 const GROUPS: usize = 1;
 
 /// The parameters that can be set.
@@ -39,7 +39,7 @@ const LOADING: loading::BigAlabo = loading::BigAlabo {
 /// The unloading law with its constants.
 const UNLOADING: unloading::ContactRadius = unloading::ContactRadius;
 
-/// How many variables a contact has, beside the parameters.
+/// Number of variables of a contact, without parameters.
 const KINDS: u32 = 5;
 
 impl Scene for Exported {

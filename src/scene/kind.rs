@@ -1,16 +1,16 @@
-//! What this library has, if it is a prebuilt one.
+//! The features of this library, if it is a prebuilt one.
 //!
-//! `brinell prebuild` writes this file for every library that it builds. The one in the source tree is that of the kind `force`
-//! with the laws of `scenes/steel_ball.toml`; a test compares it with what the program writes.
+//! `brinell prebuild` writes this file for every library that it builds. The file in the source tree is that of the kind
+//! `force` with the laws of `scenes/steel_ball.toml`; a test compares it with the output of the program.
 
 use crate::contact::{self, Pair, Surface, loading, unloading};
 use crate::scene::prebuilt::Kind;
 use crate::scene::{Absent, Integer, Parameter, Present, Real, identity_of};
 
-/// The library that the exporter fills in.
+/// A library that the exporter fills in with a scene.
 pub struct Library;
 
-/// What the library was made from.
+/// Hash of the source files of the library.
 const MADE_FROM: &str = "unpacked";
 
 /// The loading law with its constants.

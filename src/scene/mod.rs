@@ -1,9 +1,8 @@
-//! The scene: its contacts, their laws, what can be set, and which outputs it requests.
+//! The scene: its contacts, their laws, its settable values and the outputs that it requests.
 //!
 //! A scene is a type. An [`Instance`](crate::instance::Instance) is compiled for one, so that features that the scene does not
 //! request take neither memory nor time. The exporter writes [`exported::Exported`] for the scene of each FMU; a program may
-//! write its own. The scene of a
-//! prebuilt library, [`prebuilt::Prebuilt`], is read from memory.
+//! write its own. The scene of a prebuilt library, [`prebuilt::Prebuilt`], is read from memory.
 
 pub mod coupling;
 #[cfg(not(feature = "prebuilt"))]
@@ -21,78 +20,78 @@ pub use variable::{Integer, Parameter, Real, Settable};
 use crate::contact::motion::Follow;
 use crate::contact::{Contact, Pair};
 
-/// A scene: `CONTACTS` contacts in groups of equal ones, with their parameters and variables.
+/// A scene: `CONTACTS` contacts in groups of equal contacts, with their parameters and variables.
 ///
-/// Contacts are counted from 0, and so are groups. The contacts of a group follow each other. Everything that depends on
-/// parameters is asked for with their present values, in the order of [`Scene::Values`].
+/// Contacts and groups are counted from 0. The contacts of a group are consecutive. Functions that depend on parameters get
+/// their present values, in the order of [`Scene::Values`].
 pub trait Scene: Sized {
-    /// What is in contact, and by which laws.
+    /// The type of the bodies and their laws.
     type Model: Copy;
-    /// What a contact remembers.
+    /// The type of the state of a contact.
     type Contact: Contact<Self::Model>;
 
-    /// Something of each contact: an array as long as there are contacts.
+    /// One value for each contact: an array whose length is the number of contacts.
     type Contacts<T: Copy>: Store<T>;
-    /// Something of each group of contacts.
+    /// One value for each group of contacts.
     type Groups<T: Copy>: Store<T>;
-    /// The values of the parameters that can be set, and maybe of others.
+    /// The values of the parameters that can be set, and possibly of others.
     type Values: Store<f64> + Copy;
 
-    /// Whether forces are kept in memory. One contact computes its force when it is asked for, and so do those whose force
-    /// follows the rate; of many the step has it at hand.
+    /// Whether forces are stored. With many contacts, the step stores the forces because it has them at hand. A single contact,
+    /// or one whose force depends on the rate, computes its force on request.
     type Forces: Presence;
-    /// Whether an output shows the momentum of a step.
+    /// Whether an output needs the momentum of a step.
     type Momentum: Presence;
-    /// Whether the course of the input inside of a step can be given. Contacts whose force follows the rate have none.
+    /// Whether the input may have derivatives. Contacts whose force depends on the rate have none.
     type Course: Presence;
     /// Whether an output predicts the force at the end of the next step.
     type Prediction: Presence;
 
-    /// How a scene that knows the mass works together with its master; [`Absent`] in all others.
+    /// The coupling of a scene that knows the mass with its importer; [`Absent`] in all others.
     type Coupling: Coupling;
 
-    /// Whether it is noticed that steps are too long for a mass like that of the scene's impact.
+    /// Whether the scene detects steps that are too long for a mass like that of its impact.
     type Watch: Presence;
 
-    /// How the bodies move through a step, if the scene knows their mass.
+    /// The function that moves the bodies through a step, if the scene knows their mass.
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
     /// The passivity guard, if there is one.
     const GUARD: Option<Guard<Self>> = None;
 
-    /// How many contacts there are.
+    /// The number of contacts.
     const CONTACTS: usize = <Self::Contacts<u8> as Store<u8>>::LENGTH;
-    /// How many groups they form.
+    /// The number of groups.
     const GROUPS: usize = <Self::Groups<u8> as Store<u8>>::LENGTH;
 
-    /// The GUID of the model description that belongs to the scene.
+    /// The GUID of the model description of the scene.
     fn guid() -> &'static str;
 
-    /// A number that no other scene has, to know saved states by.
+    /// A number that identifies the scene in saved states; no other scene has it.
     fn identity() -> u64;
 
     /// The group of a contact.
     fn group(contact: usize) -> usize;
 
-    /// The contact behind the last one of a group.
+    /// The contact after the last one of a group.
     fn end(group: usize) -> usize;
 
-    /// The name of a contact, and its number from 1 on if contacts of that name are counted, or else 0.
+    /// The name of a contact, with its number counted from 1 if contacts of that name are counted, otherwise 0.
     fn contact_name(contact: usize) -> (&'static str, usize);
 
-    /// The parameter whose value has this `index` among [`Scene::Values`], if it can be set, with its limits; and its contact, if
-    /// each contact has a value of its own.
+    /// The parameter with this `index` among [`Scene::Values`] and its limits, if it can be set; also the contact, if each
+    /// contact has its own value.
     fn settable(index: usize) -> Option<(Settable, Option<usize>)>;
 
-    /// Whether the value with this `index` may be set between steps, too.
+    /// Whether the value with this `index` may also be set between steps.
     fn is_tunable(_index: usize) -> bool {
         false
     }
 
-    /// The values of the parameters before anyone sets them.
+    /// The initial values of the parameters.
     fn start_values() -> Self::Values;
 
-    /// The value of any parameter for the contacts of a group: set, or constant in this scene. A parameter that the scene
-    /// hasn't got has the value at which it does nothing.
+    /// The value of any parameter for the contacts of a group: a set value, or a constant of the scene. For a parameter that
+    /// the scene does not have, it is the value without effect.
     fn parameter(parameter: Parameter, group: usize, values: &Self::Values) -> f64;
 
     /// The bodies of a group with the laws of the scene.
@@ -107,7 +106,7 @@ pub trait Scene: Sized {
         f64::NAN
     }
 
-    /// Whether `variable` is an input of the scene beside the rate.
+    /// Whether `variable`, which is not the rate, is an input of the scene.
     #[inline(always)]
     fn has_input(variable: Real) -> bool {
         match variable {
@@ -120,7 +119,7 @@ pub trait Scene: Sized {
     /// Whether the scene can be used.
     ///
     /// # Errors
-    /// Why it can't. Only a scene that is read from memory can be unusable.
+    /// The reason why it cannot be used. Only a scene that is read from memory can be unusable.
     #[inline(always)]
     fn verify() -> Result<(), &'static str> {
         Ok(())
@@ -136,13 +135,13 @@ pub trait Scene: Sized {
 /// The passivity guard of a scene.
 #[derive(Clone, Copy)]
 pub struct Guard<S: Scene> {
-    /// Where it acts, for the log.
+    /// Description of where it acts, for the log.
     pub words: &'static str,
-    /// Whether it shortens the path on which the load of a contact comes off.
+    /// Whether it shortens the unloading path of a contact.
     pub acts: fn(&S::Contact, &S::Model) -> bool,
 }
 
-/// The identity of a scene with this GUID: its FNV-1a hash of 64 bits.
+/// The identity of a scene with this GUID: its 64-bit FNV-1a hash.
 ///
 /// Reference: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm".
 pub const fn identity_of(guid: &str) -> u64 {

@@ -2,10 +2,10 @@
 
 /// An array of [`Store::LENGTH`] values.
 pub trait Store<T>: AsRef<[T]> + AsMut<[T]> {
-    /// How many there are.
+    /// The number of values.
     const LENGTH: usize;
 
-    /// The array with `value` everywhere.
+    /// The array with every element equal to `value`.
     fn filled(value: T) -> Self
     where
         T: Copy;
@@ -22,19 +22,19 @@ impl<T, const LENGTH: usize> Store<T> for [T; LENGTH] {
     }
 }
 
-/// Whether something is there: [`Present`] or [`Absent`].
+/// Whether a feature is present: [`Present`] or [`Absent`].
 pub trait Presence {
-    /// Whether it is.
+    /// Whether it is present.
     const IS_PRESENT: bool;
 
-    /// What takes the place of `S`, an array of `T`: itself, or an empty one.
+    /// The type in place of `S`, an array of `T`: `S` itself, or an empty array.
     type Of<T, S: Store<T>>: Store<T>;
 }
 
-/// It is there.
+/// The feature is present.
 pub struct Present;
 
-/// It isn't, and takes no memory.
+/// The feature is absent, and takes no memory.
 pub struct Absent;
 
 impl Presence for Present {

@@ -1,23 +1,23 @@
 //! The variables that a scene can have; `modelDescription/variables.toml` is their table.
 
-/// A parameter that a scene can have; each scene has a value or a variable for it.
+/// A parameter of contacts. Each scene has either a constant or a variable for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
     /// `impactor.radius` \[m\].
     ImpactorRadius,
     /// `impactor.youngs_modulus` \[Pa\]; infinite for a rigid impactor.
     ImpactorYoungsModulus,
-    /// `impactor.poissons_ratio`.
+    /// `impactor.poissons_ratio` \[-\].
     ImpactorPoissonsRatio,
     /// `target.radius` \[m\]; infinite for a flat target.
     TargetRadius,
     /// `target.youngs_modulus` \[Pa\].
     TargetYoungsModulus,
-    /// `target.poissons_ratio`.
+    /// `target.poissons_ratio` \[-\].
     TargetPoissonsRatio,
     /// `target.yield_strength` \[Pa\]; infinite for an elastic contact.
     TargetYieldStrength,
-    /// `restitution`, which the damping of a rate-dependent law is made for.
+    /// `restitution` \[-\], for which the damping of a rate-dependent law is computed.
     Restitution,
     /// `effective_mass` \[kg\].
     EffectiveMass,
@@ -26,7 +26,7 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    /// How many there are.
+    /// The number of parameters.
     pub const COUNT: usize = Parameter::InitialGap as usize + 1;
 }
 
@@ -35,7 +35,7 @@ impl Parameter {
 pub struct Settable {
     /// Name of the variable.
     pub name: &'static str,
-    /// Unit, or "".
+    /// Unit; empty if there is none.
     pub unit: &'static str,
     /// Smallest value allowed.
     pub minimum: f64,
@@ -43,16 +43,16 @@ pub struct Settable {
     pub maximum: f64,
 }
 
-/// Values of one settable parameter, which follow each other.
+/// Consecutive values of one settable parameter.
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
-    /// The index behind the last one.
+    /// The index after the last one.
     pub end: usize,
-    /// The contact of the first one, if each contact has a value of its own. Otherwise there is one value.
+    /// The contact of the first value, if each contact has its own. Otherwise there is one value.
     pub first_contact: Option<usize>,
 }
 
-/// Which of the `runs` the value with this `index` belongs to, and its contact if each contact has a value of its own.
+/// The index of the run to which the value with this `index` belongs, and its contact if each contact has its own value.
 pub fn run_of(runs: &[Run], index: usize) -> Option<(usize, Option<usize>)> {
     let place = runs.partition_point(|run| run.end <= index);
     let begin = place.checked_sub(1).and_then(|before| runs.get(before)).map_or(0, |run| run.end);
@@ -60,7 +60,7 @@ pub fn run_of(runs: &[Run], index: usize) -> Option<(usize, Option<usize>)> {
     Some((place, first.map(|first| first + (index - begin))))
 }
 
-/// The values of all `runs`, each of which begins with the value at its place in `starts`.
+/// The values of all `runs`. All values of a run are equal to its element of `starts`.
 pub fn spread<const VALUES: usize>(runs: &[Run], starts: &[f64]) -> [f64; VALUES] {
     let mut values = [0.0; VALUES];
     let mut slots = values.iter_mut();
@@ -72,32 +72,32 @@ pub fn spread<const VALUES: usize>(runs: &[Run], starts: &[f64]) -> [f64; VALUES
     values
 }
 
-/// The name of a contact and its number, as [`Scene::contact_name`](super::Scene::contact_name) has them: its group has the place
-/// `group` among these names, which say whether contacts are counted, and among the `ends`.
+/// The name of a contact and its number, as for [`Scene::contact_name`](super::Scene::contact_name). `names` and `ends` have
+/// one element for each group; the flag in `names` is true if contacts are counted.
 pub fn name_in(names: &[(&'static str, bool)], ends: &[usize], group: usize, contact: usize) -> (&'static str, usize) {
     let (name, counted) = names.get(group).copied().unwrap_or(("", false));
     let first = group.checked_sub(1).and_then(|before| ends.get(before)).copied().unwrap_or(0);
     (name, if counted { contact + 1 - first } else { 0 })
 }
 
-/// Where a parameter has its value from, if groups of contacts differ.
+/// The origin of the value of a parameter, if groups of contacts differ.
 #[derive(Clone, Copy, Debug)]
 pub enum Source {
-    /// From the parameter with this index among [`Scene::Values`](super::Scene::Values).
+    /// The parameter with this index among [`Scene::Values`](super::Scene::Values).
     Settable(usize),
-    /// From the values of a settable parameter that each contact has for itself: that of contact 0 would have this index.
+    /// A settable parameter with one value for each contact: contact 0 would have this index.
     PerContact(usize),
-    /// From the scene.
+    /// A constant of the scene.
     Constant(f64),
 }
 
 impl Source {
-    /// The value that a parameter of `contact` has from `source`; NaN without one.
+    /// The value of a parameter of `contact` with this `source`; NaN without a source.
     pub fn value(source: Option<&Source>, contact: usize, settable: &[f64]) -> f64 {
         let index = match source {
             Some(Source::Constant(value)) => return *value,
             Some(Source::Settable(index)) => *index,
-            // the first contact of a group that has such values may be a later one than its first value
+            // the first contact of a group with such values may come after the contact of the first value
             Some(Source::PerContact(index)) => index.wrapping_add(contact),
             None => return f64::NAN,
         };
@@ -108,39 +108,39 @@ impl Source {
 /// A variable of type Real.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Real {
-    /// The input \[m/s\].
+    /// Indentation rate, the input \[m/s\].
     IndentationRate,
-    /// \[N\]
+    /// Force \[N\].
     Force,
-    /// \[m\]
+    /// Indentation \[m\].
     Indentation,
-    /// \[m\]
+    /// Largest indentation \[m\].
     MaxIndentation,
-    /// \[m\]
+    /// Residual indentation \[m\].
     ResidualIndentation,
-    /// \[m\]
+    /// Contact radius \[m\].
     ContactRadius,
-    /// \[Pa\]
+    /// Mean pressure \[Pa\].
     MeanPressure,
-    /// \[N/m\]
+    /// Stiffness \[N/m\].
     Stiffness,
-    /// \[J\]
+    /// Work done on the contact \[J\].
     Work,
-    /// \[J\]
+    /// Elastic energy \[J\].
     ElasticEnergy,
-    /// \[J\]
+    /// Dissipated energy \[J\].
     DissipatedEnergy,
-    /// \[N.s\]
+    /// Impulse since the start \[N.s\].
     Impulse,
-    /// \[N\]
+    /// Mean force of the last step \[N\].
     MeanForce,
-    /// \[N\]
+    /// Predicted force at the end of the next step \[N\].
     PredictedForce,
     /// Closing speed at the end of a step \[m/s\].
     ClosingSpeed,
-    /// The acceleration by all other forces, an input \[m/s^2\].
+    /// Acceleration by all forces except the contact force, an input \[m/s^2\].
     ExternalAcceleration,
-    /// The effective mass as an input \[kg\].
+    /// Effective mass, as an input \[kg\].
     EffectiveMass,
     /// The settable parameter with this index among [`Scene::Values`](super::Scene::Values).
     Parameter(usize),
@@ -165,7 +165,7 @@ pub enum Integer {
     Regime,
 }
 
-/// Which kind of variable a value reference means, and of which contact: those of a kind follow each other.
+/// The kind of variable that a value reference denotes, and its contact. The variables of a kind are consecutive.
 #[inline(always)]
 pub fn kind_and_contact(value_reference: u32, contacts: usize) -> (u32, usize) {
     let contacts = contacts as u32;

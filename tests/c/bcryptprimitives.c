@@ -1,5 +1,5 @@
-/* ProcessPrng of Windows 10, by what Windows had before: Wine before 9 has no bcryptprimitives.dll, which Rust's standard
-   library takes its random numbers from. Beside a program it stands in for the missing one. */
+/* ProcessPrng of Windows 10, implemented with a function of older Windows: Wine before 9 has no bcryptprimitives.dll, from
+   which Rust's standard library takes its random numbers. Beside a program it replaces the missing one. */
 #include <windows.h>
 
 BOOLEAN NTAPI SystemFunction036(PVOID buffer, ULONG length);

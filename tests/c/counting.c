@@ -1,7 +1,7 @@
-/* Counts what a unit's library takes from the process and gives back.
+/* Counts the memory that an FMU's library takes from the process and gives back.
 
-   The program is linked with -rdynamic and comes before the C library when the loader looks for a name, so that the unit
-   finds these functions. With NO_COUNTING nothing is defined here: valgrind puts its own functions in these places. */
+   The program is linked with -rdynamic and precedes the C library when the loader looks up a name, so the FMU finds these
+   functions. With NO_COUNTING nothing is defined here: valgrind uses its own functions instead. */
 #define _GNU_SOURCE
 #include "unit.h"
 
@@ -26,7 +26,7 @@ bool counts_allocations = false;
 #else
 bool counts_allocations = true;
 
-/* the C library's own, under names that stay when the usual ones are taken */
+/* the C library's own functions, under names that are not replaced */
 extern void *__libc_malloc(size_t);
 extern void *__libc_calloc(size_t, size_t);
 extern void *__libc_realloc(void *, size_t);

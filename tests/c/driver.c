@@ -1,4 +1,4 @@
-/* A unit's library under a C program: driver LIBRARY GUID RATE FORCE PARAMETER INTEGER, the last four being value
+/* An FMU's library called by a C program: driver LIBRARY GUID RATE FORCE PARAMETER INTEGER, the last four being value
    references. Prints a line for each check; the exit status is the number of those that failed. */
 #include "unit.h"
 
@@ -19,14 +19,14 @@ void check(const char *name, bool good) {
     failed += !good;
 }
 
-/* commands of printf, and the sign by which a message refers to a variable: nothing of a name may be taken for those */
+/* printf conversions, and the character with which a message refers to a variable: no part of a name may be taken for one */
 const char instance_name[] = "100%n %s #r1#";
 int environment;
 
 int messages, wrong_messages;
 char last_message[1024];
 
-/* Whether printf prints the text without looking for arguments, and nothing in it refers to a variable. */
+/* Whether printf prints the text without reading arguments, and no part of it refers to a variable. */
 static bool is_complete(const char *text) {
     for (; *text != 0; text++) {
         if (*text == '%' || *text == '#') {
@@ -39,7 +39,7 @@ static bool is_complete(const char *text) {
     return true;
 }
 
-/* A message belongs to one of the declared categories, is whole without arguments, and is one line without its end. */
+/* A message has a declared category, is complete without arguments, and is one line without a line end. */
 static bool is_good(fmi2Status status, const char *category, const char *message) {
     static const char *const categories[] = {"logStatusError", "logStatusDiscard"};
     static const fmi2Status statuses[] = {fmi2Error, fmi2Discard};
@@ -117,7 +117,7 @@ double step(fmi2Component c, int number, double value) {
     return get(c, force);
 }
 
-/* A pointer to a function isn't a pointer to an object; POSIX has it that the bytes are the same. */
+/* A pointer to a function is not a pointer to an object, but POSIX guarantees the same bytes. */
 static bool load(void *library, const char *name, void *function) {
     void *symbol = dlsym(library, name);
     memcpy(function, &symbol, sizeof symbol);

@@ -1,7 +1,6 @@
 /* A host that traps floating-point exceptions: exceptions LIBRARY GUID RATES DERIVATIVES OUTPUT..., where RATES is the number of
    inputs (the first value references), DERIVATIVES is "d" if they have derivatives, and the others are value references
-   of Real outputs. A call that divides by zero, or
-   makes infinity or no number, ends this program by SIGFPE. */
+   of Real outputs. A call that divides by zero, overflows or computes NaN ends this program with SIGFPE. */
 #define _GNU_SOURCE
 #include "fmi2Functions.h"
 
@@ -31,7 +30,7 @@ int main(int count, char **arguments) {
     fmi2Status worst = SetupExperiment(c, 0, 0, 0, 0, 0);
     worst |= EnterInitializationMode(c);
     worst |= ExitInitializationMode(c);
-    /* touched at next to no speed, a law that follows the rate refuses a faster one */
+    /* after a touch at almost zero speed, a rate-dependent law rejects a faster rate */
     double const least = arguments[4][0] == 'd' ? 1e-300 : 1e-3;
     double const some[] = {0.0, -0.0, 1.0, 1.0, -0.3, -8.0, -least, least, 1e-3, 5.0, -1.0, 0.0, 9.0, -0.7, 0.01, -50.0};
     double time = 0, sum = 0;
@@ -43,7 +42,7 @@ int main(int count, char **arguments) {
             worst |= SetReal(c, &rate, 1, &value);
             fmi2Integer const first = 1;
             double const acceleration = step % 5 ? 0.0 : -9.81;
-            /* units whose law follows the rate have none */
+            /* FMUs with a rate-dependent law have none */
             if (arguments[4][0] == 'd') {
                 worst |= SetRealInputDerivatives(c, &rate, 1, &first, &acceleration);
             }

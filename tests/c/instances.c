@@ -1,4 +1,4 @@
-/* Instances: what fmi2Instantiate accepts, and that each is alone in the world. */
+/* Instances: what fmi2Instantiate accepts, and their independence of each other. */
 #include "unit.h"
 
 #include <math.h>
@@ -34,7 +34,7 @@ static void arguments(void) {
     check("and a message", strstr(last_message, "fmuGUID") != NULL);
     check("model exchange gives no instance", with(instance_name, fmi2ModelExchange, guid, "", &callbacks) == NULL);
     check("and a message", strstr(last_message, "fmuType") != NULL);
-    /* the logger is given no name then, which is not the one that it expects */
+    /* the logger then gets no name, which differs from the one that it expects */
     fmi2CallbackFunctions silent = callbacks;
     silent.logger = NULL;
     check("a NULL name gives no instance", with(NULL, fmi2CoSimulation, guid, "", &silent) == NULL);
@@ -69,10 +69,10 @@ static void copies(void) {
     fmi.FreeInstance(c);
 }
 
-/* A rate that presses, lifts and presses again, different for each number; like any other when numbers are equal. */
+/* A rate that loads, unloads and loads again, different for each number and the same for equal numbers. */
 static double rate_of(int number, int i) { return (0.2 + 1e-4 * number) * cos(0.01 * i * (1 + number % 7)); }
 
-/* One after the other, then all of them in turns: the forces must have the same bits. */
+/* One after the other, then all of them in turn: the forces must have the same bits. */
 static void many(void) {
     static fmi2Component c[MANY];
     static double alone[MANY];
@@ -135,7 +135,7 @@ static void threads(void) {
     check("8 threads with an instance each get the same bits as one", same);
 }
 
-/* fmi2Terminate is not called, nor is the instance initialized to its end. */
+/* fmi2Terminate is not called, and the initialization is not completed. */
 static void early_end(void) {
     fmi2Component c = instantiate();
     fmi.FreeInstance(c);

@@ -1,6 +1,6 @@
 /*
- * A body for the tests of importers: `force` slows down the rate at which it closes, and the force is held over a step.
- * All functions of co-simulation are there, since many an importer loads them all; what a body has no use for is refused.
+ * A body for the tests of importers: `force` reduces its closing speed, and is constant over a step. All functions of
+ * co-simulation exist, because many importers load them all; those that a body does not need return an error.
  */
 #include "../../benches/units/fmi2.h"
 
@@ -82,7 +82,7 @@ fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time, fmi2Real step, fmi
     return fmi2OK;
 }
 
-/* logging is accepted, and there is none; no value of any other type is accepted, but none at all is */
+/* logging is accepted but never happens; for other types, only calls without values are accepted */
 fmi2Status fmi2SetDebugLogging(fmi2Component component) { return (void)component, fmi2OK; }
 
 #define NO_OTHER_TYPE(function) \

@@ -1,17 +1,17 @@
-/* Memory: none is taken while stepping or saving into a state that is there, and all of it is given back. */
+/* Memory: none is allocated by steps or by saving to an existing state, and all of it is freed. */
 #include "unit.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Counts are known only where the process's functions can be replaced. */
+/* Counts are available only where the functions of the process can be replaced. */
 static void check_count(const char *name, bool good) {
     if (counts_allocations) {
         check(name, good);
     }
 }
 
-/* The checks below would be content if nothing were counted at all. */
+/* The checks below would pass if nothing were counted at all. */
 static void counting_counts(void) {
     count_from_here();
     fmi2Component c = instantiate();
@@ -37,7 +37,7 @@ static void stepping(fmi2Component c) {
     check_count("setting, stepping and reading take no memory", allocations() == 0 && releases() == 0);
 }
 
-/* Saves, steps, restores, steps: the same bits, through the state and through its bytes, which make a new state each time. */
+/* Saves, steps, restores, steps: the same bits, with the state and with its bytes, which create a new state each time. */
 static void states(fmi2Component c, fmi2FMUstate *state, fmi2FMUstate *other) {
     size_t size = 0;
     bool good = fmi.GetFMUstate(c, state) == fmi2OK && fmi.SerializedFMUstateSize(c, *state, &size) == fmi2OK;
@@ -51,7 +51,7 @@ static void states(fmi2Component c, fmi2FMUstate *state, fmi2FMUstate *other) {
         good &= fmi.SerializedFMUstateSize(c, *state, &size) == fmi2OK;
         good &= fmi.SerializeFMUstate(c, *state, bytes, size) == fmi2OK;
         good &= fmi.FreeFMUstate(c, other) == fmi2OK;
-        /* whatever the pointer is: it is only written */
+        /* the old pointer does not matter: it is only written */
         *other = (fmi2FMUstate)(size_t)(i % 2 ? 0x10 : 0);
         good &= fmi.DeSerializeFMUstate(c, bytes, size, other) == fmi2OK;
         double there = step(c, 1000 + i, 0.3);
@@ -65,7 +65,7 @@ static void states(fmi2Component c, fmi2FMUstate *state, fmi2FMUstate *other) {
     free(bytes);
 }
 
-/* When memory runs out an error must still be told. */
+/* When memory runs out, the error must still be reported. */
 static void errors(fmi2Component c) {
     double value = -1.0;
     count_from_here();

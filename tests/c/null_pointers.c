@@ -1,4 +1,4 @@
-/* Null pointers: the caller is at fault, but a crash in the importer is what the user would see. */
+/* Null pointers: the caller is at fault, but the user would see a crash of the importer. */
 #include "unit.h"
 
 #include <stdio.h>
@@ -61,7 +61,7 @@ static fmi2FMUstate restored(void) {
 #define REFUSED(name, ...) \
     check(#name "(c, " #__VA_ARGS__ ") is refused with a message", \
           restored() && fmi.name(c, __VA_ARGS__) == fmi2Error && strstr(last_message, "fmi2" #name ": ") != NULL)
-/* and a message that says that something is null */
+/* and a message that an argument is null */
 #define NULL_REFUSED(name, ...) \
     do { \
         REFUSED(name, __VA_ARGS__); \
@@ -136,7 +136,7 @@ static void nothing_of_nothing(void) {
     ACCEPTED(SetDebugLogging, fmi2True, 0, NULL);
 }
 
-/* Text from outside, which a unit might repeat in its message, must not become a command of printf. */
+/* Foreign text that an FMU might repeat in its message must not become a printf conversion. */
 static void foreign_text(void) {
     REFUSED(SetDebugLogging, fmi2True, 1, (fmi2String[]){"%s%n%n#r0#"});
     int before_it = messages;

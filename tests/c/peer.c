@@ -1,6 +1,6 @@
 /*
- * A unit as another maker may write it: a linear spring without damping. It takes its memory from the importer, insists on
- * an address of its resources, warns of every step, and has neither parameters nor other outputs than the force.
+ * An FMU as another vendor may write it: a linear spring without damping. It takes its memory from the importer, requires
+ * the location of its resources, warns in every step, and has no parameters and no output except the force.
  */
 #include "../../benches/units/fmi2.h"
 

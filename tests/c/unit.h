@@ -1,4 +1,4 @@
-/* A unit's library as a C program loads it, and the named checks of the driver. */
+/* An FMU's library, loaded by a C program, and the named checks of the driver. */
 #ifndef UNIT_H
 #define UNIT_H
 
@@ -19,7 +19,7 @@
 #define MEMBER(name) fmi2##name##TYPE *name;
 struct unit { FUNCTIONS(MEMBER) };
 
-/* the unit under test: its functions, and what its model description says */
+/* the FMU under test: its functions, and the values from its model description */
 extern struct unit fmi;
 extern const char *guid;
 extern fmi2ValueReference rate, force, parameter, integer;
@@ -27,11 +27,11 @@ extern fmi2ValueReference rate, force, parameter, integer;
 /* prints "ok NAME" or "FAIL NAME" and counts */
 void check(const char *name, bool good);
 
-/* the name that instances get unless a check needs another; the environment that the logger must be given */
+/* the default name of instances; the environment that the logger must get */
 extern const char instance_name[];
 extern int environment;
 
-/* what the logger has seen; `last_message` is the last message as printf prints it */
+/* the messages of the logger; `last_message` is the last one, as printed by printf */
 extern int messages, wrong_messages;
 extern char last_message[1024];
 void logger(fmi2ComponentEnvironment, fmi2String, fmi2Status, fmi2String, fmi2String, ...);
@@ -41,11 +41,11 @@ extern int forbidden_calls;
 extern const fmi2CallbackFunctions callbacks;
 
 fmi2Component instantiate(void);
-/* an instance that is ready for steps from time 0 on */
+/* an instance ready for steps from time 0 */
 fmi2Component ready(void);
 fmi2Status set_rate(fmi2Component, double);
 double get(fmi2Component, fmi2ValueReference);
-/* sets the rate, makes a step of 1e-7 s, gives the force */
+/* sets the rate, makes a step of 1e-7 s, returns the force */
 double step(fmi2Component, int number, double rate);
 
 /* calloc, malloc, realloc and free of the process while `counting`; in counting.c */

@@ -1,4 +1,4 @@
-"""Ways through the law for the tests of derivatives and momentum: held rates, and polynomials in time."""
+"""Paths through the law for the tests of derivatives and momentum: constant rates, and polynomials in time."""
 
 from fractions import Fraction
 
@@ -37,11 +37,11 @@ def course(made, rate, slope, bend):
 
 
 def way(rate, slope, bend, time):
-    """In exact arithmetic."""
+    """The displacement in exact arithmetic."""
     rate, slope, bend, time = map(Fraction, (rate, slope, bend, time))
     return time * (rate + time * (slope / 2 + bend * time / 6))
 
 
 def at_course_after(rate, slope, bend, time):
-    """The same polynomial, begun later."""
+    """The same polynomial, starting later."""
     return (rate + time * (slope + 0.5 * bend * time), slope + bend * time, bend)

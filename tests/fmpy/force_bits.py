@@ -1,6 +1,6 @@
-"""The forces of a unit over a history, as the 16 hexadecimal digits of their bits: force_bits.py UNIT HISTORY.
+"""The forces of an FMU over a history, as the 16 hexadecimal digits of their bits: force_bits.py UNIT HISTORY.
 
-Each line of HISTORY holds an indentation rate [m/s] and a step [s]. The program in tests/importers/ does the same with
+Each line of HISTORY contains an indentation rate [m/s] and a step [s]. The program in tests/importers/ does the same with
 the `fmi` crate.
 """
 

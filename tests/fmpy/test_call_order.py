@@ -1,4 +1,4 @@
-"""Calls out of order, wrong references and wrong types are refused; what importers do anyway is tolerated."""
+"""Calls out of order, wrong references and wrong types are rejected; harmless calls of real importers are tolerated."""
 
 from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_uint, c_void_p
 
@@ -70,15 +70,15 @@ CALLS = {
     "CancelStep": lambda made: made.try_("CancelStep"),
 }
 
-# FMI 2.0.5, section 4.2.4, for a unit whose steps are complete when the call returns
+# FMI 2.0.5, section 4.2.4, for an FMU whose steps are complete when the call returns
 ALWAYS = {"Reset", "SetDebugLogging", "GetFMUstate"}
 READING = {"GetReal", "GetInteger"}
 ALLOWED = {
-    # reading before Initialization Mode: not in the table, and nothing is lost if a unit allows it
+    # reading before Initialization Mode: not in the table, but harmless
     "instantiated": (instance, ALWAYS | {"SetupExperiment"}, READING | {"SetReal", "Terminate", "GetRealStatus"}),
     "initializing": (initializing, ALWAYS | READING | {"ExitInitializationMode", "SetReal"}, {"Terminate"}),
     "ready": (ready, ALWAYS | READING | {"SetReal", "DoStep", "Terminate", "GetRealStatus"}, set()),
-    # a second Terminate: importers' destructors do it
+    # a second Terminate: importers' destructors call it
     "terminated": (terminated, ALWAYS | READING | {"GetRealStatus", "Terminate"}, set()),
     "after an error": (failed, ALWAYS | READING | {"GetRealStatus"}, set()),
 }
@@ -243,7 +243,7 @@ def test_status_functions_answer_what_there_is(make):
     assert status.value in (OK, 7)
     assert made.try_("GetStringStatus", 1, byref(text)) == DISCARD
     assert made.try_("GetIntegerStatus", 2, byref(number)) == DISCARD
-    # a discarded question changes nothing
+    # a discarded query changes nothing
     assert made.get("force") is not None
 
 
@@ -258,7 +258,7 @@ def test_an_unknown_kind_of_status_is_refused(function, value, kind):
 
 @pytest.mark.parametrize("order", [0, -1, 4, 77])
 def test_impossible_orders_of_derivatives_are_refused(order):
-    # order 0 is the value itself; no unit of this project goes beyond 3
+    # order 0 is the value itself; no FMU of this project goes beyond 3
     made = ready()
     reference = (c_uint * 1)(unit("steel_ball").reference["indentation_rate"])
     assert made.try_("SetRealInputDerivatives", reference, 1, (c_int * 1)(order), (c_double * 1)(1.0)) == ERROR

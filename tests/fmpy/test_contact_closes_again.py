@@ -1,4 +1,4 @@
-"""After the bodies have parted the contact closes again: at the dent that remained, or at 0 on a fresh surface."""
+"""After the bodies have separated, the contact closes again: at the remaining dent, or at 0 on a fresh surface."""
 
 import fmpy
 import numpy as np
@@ -9,7 +9,7 @@ DEPTH = 2e-6  # m, 34 times the indentation at first yield: a dent of some 0.7 u
 
 
 def pressed_and_released(name):
-    """An instance that was pressed to `DEPTH` and then taken `DEPTH` away from the surface; and the dent's depth."""
+    """An instance that was pressed to `DEPTH` and then moved to `DEPTH` above the surface; and the depth of the dent."""
     instance = unit(name).ready()
     instance.step(1e-3, DEPTH / 1e-3)
     residual = instance.get("residual_indentation")
@@ -41,7 +41,7 @@ def test_a_dented_surface_is_reloaded_along_the_unloading_path():
         approach(down, residual + part * (DEPTH - residual))
         up, _ = pressed_and_released("dented")
         approach(up, down.get("indentation"))
-        # the same branch; the indentations differ by the rounding of a step, 1e-16 of 2 um beside 5 % of the recovery
+        # the same branch; the indentations differ by the rounding of a step, 1e-16 relative to 2 um with a recovery of 5 %
         assert up.get("force") == pytest.approx(down.get("force"), rel=1e-12)
         assert up.get("dissipated_energy") == down.get("dissipated_energy")
 
@@ -57,7 +57,7 @@ def test_a_fresh_surface_carries_from_zero_on():
 
 
 def test_a_fresh_surface_forgets_only_when_the_bodies_part():
-    # apart from the dent, but not from the surface: the spot is still the same
+    # separated from the dent, but not from the surface: the spot is still the same
     instance = unit("fresh").ready()
     instance.step(1e-3, DEPTH / 1e-3)
     residual = instance.get("residual_indentation")
@@ -77,14 +77,14 @@ def test_on_a_fresh_surface_every_blow_costs_the_same_energy(steps):
             for _ in range(steps):
                 instance.step(1e-3 / steps, speed)
         losses.append(instance.get("dissipated_energy") - before)
-    # the sum of steps ends within rounding of 0, the energies within rounding of each other
+    # the sum of steps ends within rounding of 0, and the energies agree within rounding
     assert losses[0] > 0.0 and losses == pytest.approx([losses[0]] * 3, rel=1e-9)
 
 
 @pytest.mark.parametrize("name", ["dented", "fresh"])
 @pytest.mark.parametrize("interval", [1e-4, 3.7e-5])
 def test_a_signal_drives_it_through_simulate_fmu(name, interval):
-    # in, out, and in again, as steps of the rate: a point on both sides of each change holds it until there
+    # in, out, and in again, as a step function of the rate: a point on each side of every change keeps it constant
     speed = DEPTH / 1e-3
     changes = [0.0, 1e-3, 3e-3, 6e-3]
     rates = [speed, -speed, speed]
@@ -102,7 +102,7 @@ def test_a_signal_drives_it_through_simulate_fmu(name, interval):
     residual = unit(name).ready()
     residual.step(1e-3, speed)
     dent = residual.get("residual_indentation")
-    # fmpy interpolates the signal on both sides of an event: within one interval the rate isn't the prescribed one
+    # fmpy interpolates the signal across an event: within one interval the rate is not the prescribed one
     second = result[result["time"] > 3e-3 + 2.0 * interval]
     touching = second[second["force"] > 0.0]["indentation"]
     border = dent if name == "dented" else 0.0

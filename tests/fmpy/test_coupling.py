@@ -1,4 +1,4 @@
-"""What the guide says about coupling: the error and the order of each way, as examples/coupling.py measures them."""
+"""The guide's claims about coupling: error and order of each method, as measured by examples/coupling.py."""
 
 import functools
 import math
@@ -18,7 +18,7 @@ GRAVITY = 9.81
 
 @functools.cache
 def impact(tmp=Path(os.environ.get("TMPDIR", "/tmp"))):
-    """The prediction of the program, from the scene that the unit carries along."""
+    """The prediction of the program, for the scene inside the FMU."""
     scene = Path(unit("coupled").folder) / "resources" / "scene.toml"
     command = [os.environ["BRINELL_TEST_PROGRAM"], "predict", scene, "--json"]
     printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
@@ -71,8 +71,8 @@ def test_input_derivatives_locate_the_contact_time():
 
 
 def rebound_under_gravity(speed, mass):
-    """Closing speed squared at which the ball leaves the dent: along the loading curve until the energy is used up, and back
-    with what is elastic. The heights count from the surface. Energies are those of a unit that doesn't know the mass."""
+    """Square of the closing speed at which the ball leaves the dent: along the loading curve until the energy is used up, and
+    back with the elastic part. Heights are relative to the surface. Energies are those of an FMU without known mass."""
     probe = coupled_with_energies()
 
     def missing(depth):
@@ -115,7 +115,7 @@ def test_a_dropped_ball_rebounds_as_predicted_with_steps_of_a_millisecond():
     expected = math.sqrt(rebound_under_gravity(met, mass))
     assert ball.get("force") == 0.0 and risen > 0.0
     assert abs(rebound / expected - 1.0) <= 1e-6
-    # gravity acts within the contact, too, which a prediction for the speed alone doesn't know
+    # gravity also acts during the contact; a prediction for the speed alone does not include it
     assert abs(rebound / met / impact().restitution - 1.0) < 1e-2
 
 
@@ -130,7 +130,7 @@ def test_a_ball_bounces_many_times_as_a_chain_of_predictions():
         speed += step * (GRAVITY - ball.get("mean_force") / mass)
     kinetic = 0.5 * mass * speed**2
     lost = potential + mass * GRAVITY * ball.get("indentation") - kinetic - ball.get("dissipated_energy")
-    # what is left is stored in the contact, if the ball lies in its dent
+    # if the ball lies in its dent, the rest is stored in the contact
     assert -1e-12 * potential < lost < potential
     if ball.get("force") == 0.0:
         assert abs(lost) < 1e-10 * potential

@@ -1,4 +1,4 @@
-"""Bytes that aren't a state of this unit are refused: with a message, without a crash, and the instance goes on."""
+"""Bytes that are not a state of this FMU are rejected: with a message, without a crash, and the instance continues."""
 
 import random
 from ctypes import byref, c_char, c_size_t, c_void_p
@@ -95,6 +95,6 @@ def test_null_states_are_refused(pressed):
 
 
 def test_the_scenes_are_two_different_units():
-    # the test of another unit's bytes would otherwise test nothing
+    # otherwise the test with the bytes of another FMU would test nothing
     assert paths()["steel_ball"] != paths()["everything"]
     assert unit("steel_ball").description.guid != unit("everything").description.guid

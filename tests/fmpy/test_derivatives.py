@@ -1,4 +1,4 @@
-"""Input and output derivatives: what each call means, and what is refused."""
+"""Input and output derivatives: the meaning of each call, and what is rejected."""
 
 import ctypes
 import math
@@ -90,7 +90,7 @@ def test_derivatives_of_zero_leave_a_plain_step():
         ((1.0, -2.0e6, 0.0), Fraction(1, 2) * Fraction(1e-6)),
         # the rate (t - 3e-7)(t - 8e-7) bend/2: in up to the first root, out up to the second, and in again
         ((4.0, -3.6666666666666664e7, 3.3333333333333331e13), None),
-        # and one that only slows down
+        # and a rate that only slows down
         ((2.0, -1.9e6, 0.0), Fraction(1e-6)),
     ],
 )
@@ -123,7 +123,7 @@ def test_a_step_is_the_same_as_its_parts(name):
 
 
 def refusals(name):
-    """Array of references, orders, values, and what the message must name."""
+    """Array of references, orders, values, and the words that the message must contain."""
     rate = "left.indentation_rate" if name == "two_plain" else "indentation_rate"
     force = rate.replace("indentation_rate", "force")
     cases = [(rate, order, 1.0, [f"order {order}"]) for order in (0, 3, -1, 17)]
@@ -146,7 +146,7 @@ def test_wrong_derivatives_are_refused_with_their_value_and_set_nothing(name):
         assert status == ERROR, (variable, order, value)
         message = made.log[-1][3]
         assert all(word.lower() in message.lower() for word in words), message
-        # fmpy hands messages to the logger that was made last
+        # fmpy passes messages to the logger created last
         other = prepared(name)
         assert other.try_step(0.0, -1.0) == ERROR
         assert made.state() == other.state(), "an instance that failed for another reason"
@@ -226,7 +226,7 @@ def test_output_derivatives_are_those_of_the_force_at_the_end_of_the_step(name):
         made.step(end)
         return made.get("force")
 
-    # the force by time, from the left: four points a little apart, scaled so that neither error speaks
+    # the force over time, from the left: four neighbouring points, spaced so that neither error dominates
     wide = 2e-3 * STEP
     values = [force(STEP - index * wide) for index in range(5)]
     assert force(STEP) == values[0]

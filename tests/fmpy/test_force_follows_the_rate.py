@@ -1,4 +1,4 @@
-"""Rate-dependent laws: the force follows the input at the same instant, and the model description says so."""
+"""Rate-dependent laws: the force depends on the input at the same instant, as the model description declares."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Values before the first step: those of the model description, and dependent on what it says."""
+"""Values before the first step: they equal those of the model description, and depend on the parameters listed there."""
 
 import math
 
@@ -28,7 +28,7 @@ def test_start_values_are_the_same_bits_in_the_xml_and_in_the_binary(name):
 
 @every_unit
 def test_no_output_is_a_negative_zero(name):
-    # a gap of 0 must not show as an indentation of -0.0
+    # a gap of 0 must not give an indentation of -0.0
     for instance in (initializing(name), unit(name).ready()):
         for key, value in instance.outputs().items():
             assert bits(value) != bits(-0.0), key
@@ -41,7 +41,7 @@ def test_a_negative_zero_as_gap_is_an_indentation_of_zero():
 
 
 def dependencies(name):
-    """The parameters that each output depends on before the first step, by the model description."""
+    """The parameters on which each output depends before the first step, according to the model description."""
     return {
         unknown.variable.name: {dependency.name for dependency in unknown.dependencies}
         for unknown in unit(name).description.initialUnknowns
@@ -49,9 +49,9 @@ def dependencies(name):
 
 
 def bases(name):
-    """Parameters to start from: pressed in from below yield up to fully plastic, since a contact that is apart shows
-    nothing. They are closer to each other than the smallest variation moves the first yield, so that `regime` shows
-    each of them."""
+    """Initial parameters: indented from below yield up to fully plastic, because most outputs are zero while apart. They
+    are closer together than the smallest change of a parameter moves first yield, so that each parameter affects
+    `regime`."""
     if "initial_gap" not in unit(name).parameters:
         return [{}]
     return [{"initial_gap": 1e-3}] + [{"initial_gap": -1e-8 * 1.04**power} for power in range(240)]
@@ -65,7 +65,7 @@ def variations(name, key, base):
 
 
 def changes(name):
-    """For each parameter the outputs that change with it at one of the bases, in Initialization Mode and after it."""
+    """For each parameter, the outputs that change with it for one of the bases, in Initialization Mode and after it."""
     changed = {key: set() for key in unit(name).parameters}
     for base in bases(name):
         reference = initializing(name, **base)
@@ -91,9 +91,9 @@ def test_initial_values_depend_on_exactly_what_the_model_description_lists(name)
     for output in listed:
         really = {key for key in changed if output in changed[key]}
         if output == "closing_speed":
-            # a speed before the first step is the one that is given: see the next but one
+            # a speed before the first step is the given one: see two tests further down
             really.add("indentation_rate")
-        # what a rate-dependent law does with its parameters differs from law to law: it may list too many
+        # the effect of the parameters of a rate-dependent law differs from law to law: the FMU may list too many
         assert really == listed[output] or (follows_rate(name) and really < listed[output]), output
 
 

@@ -1,4 +1,4 @@
-"""Inputs: what isn't a finite number is refused, and no input makes an output that isn't one."""
+"""Inputs: values that are not finite are rejected, and no input leads to an output that is not finite."""
 
 import ctypes
 import math
@@ -17,7 +17,7 @@ def test_an_input_that_is_not_finite_is_refused(name, value):
     instance.step(1e-6, 0.5)
     assert instance.try_set("indentation_rate", value) in (DISCARD, ERROR)
     assert "indentation_rate" in instance.log[0][3]
-    # the old value stays
+    # the old value remains
     assert instance.get("indentation_rate") == 0.5
     assert all(math.isfinite(output) for output in instance.outputs().values())
 
@@ -64,7 +64,7 @@ def test_denormal_and_zero_inputs_are_harmless(name, value):
     instance.step(1e-6, 0.5)
     force = instance.get("force")
     instance.step(1e-6, value)
-    # a rate-dependent law pushes less at rest, and a mass that the unit knows moves on
+    # a rate-dependent law pushes less at rest, and a mass known to the FMU continues to move
     follows = any(unknown.dependencies for unknown in unit(name).description.outputs) or unit(name).knows_mass()
     assert instance.get("force") == force or (follows and 0.0 < instance.get("force") < force)
     assert instance.log == []

@@ -1,4 +1,4 @@
-"""Instances share nothing: a thousand at once, or eight threads, give the bits of a single one."""
+"""Instances share nothing: a thousand at once, or eight threads, give the same bits as a single one."""
 
 import threading
 
@@ -8,7 +8,7 @@ STEPS = 200
 
 
 def rate(number, index):
-    """Different for each instance, so that one that reads another's memory shows."""
+    """Different for each instance, so that reading another's memory would be noticed."""
     return (1.0 + 0.01 * number) * (1.0 if index % 7 < 4 else -0.9)
 
 
@@ -44,7 +44,7 @@ def test_freed_instances_leave_the_others_alone():
         for number, instance in enumerate(instances):
             if instance is not None:
                 advance(instance, number, index)
-        # one of two goes, in the middle of the run
+        # every other instance is freed in the middle of the run
         if index == STEPS // 2:
             instances = [instance if number % 2 else None for number, instance in enumerate(instances)]
     for number in (1, 41, 99):

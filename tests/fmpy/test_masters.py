@@ -1,4 +1,4 @@
-"""Masters of both orders of execution, with steps of any length: the ball rebounds as the energy balance says."""
+"""Importers with both orders of execution and steps of any length: the ball rebounds according to the energy balance."""
 
 import ctypes
 import math
@@ -29,7 +29,7 @@ def steps(size, pattern):
 
 
 class Master:
-    """A ball that is moved against the contact: first the contact (serial), or both at once (parallel)."""
+    """A ball that moves against the contact: contact first (serial), or both at once (parallel)."""
 
     def __init__(self, name, order, speed, gap=0.0, gravity=0.0):
         self.order, self.speed, self.gravity, self.mass = order, speed, gravity, MASS
@@ -77,7 +77,7 @@ def test_a_ball_bounces_ten_times_to_the_same_height(name, pattern, size, gravit
     monkeypatch.setattr(test_coupling, "GRAVITY", gravity)
     fall = 0.25
     master = Master(name, name.split("_")[0], fall, gravity=gravity)
-    # at the dent; in it all later impacts are elastic
+    # at the dent, in which all later impacts are elastic
     expected = 0.5 * test_coupling.rebound_under_gravity(fall, MASS)
     impulse, bounces = 0.0, 0
     for step in steps(size if size < 5e-3 else 4e-3, pattern):
@@ -201,7 +201,7 @@ def test_the_closing_speed_follows_the_input_before_the_first_step_and_no_longer
     assert contact.get("closing_speed") == 0.7 and by_rate() == 0.0
     contact.step(1e-6)
     assert 0.0 < contact.get("closing_speed") < 0.2
-    # its derivative by time is the deceleration by the force
+    # its time derivative is the deceleration by the force
     slope = (c_double * 1)()
     contact.call("GetRealOutputDerivatives", output, 1, (c_int * 1)(1), slope)
     assert abs(slope[0] / (-contact.get("force") / MASS) - 1.0) < 1e-12

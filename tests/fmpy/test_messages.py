@@ -1,4 +1,4 @@
-"""Messages: each refusal is told in full and under a declared category; where nothing is wrong there is silence."""
+"""Messages: each rejected call is reported completely and in a declared category; otherwise nothing is logged."""
 
 import ctypes
 import re
@@ -12,7 +12,7 @@ DECLARED = {category.name for category in unit("steel_ball").description.logCate
 
 
 def wrong_calls(instance):
-    """Makes one mistake of each kind, and gives the number of mistakes."""
+    """Makes one mistake of each kind, and returns their number."""
     saved = instance.state()
     mistakes = [
         lambda: instance.try_step(instance.time, -1.0),
@@ -50,7 +50,7 @@ def test_errors_are_logged_with_name_category_and_whole_text(logging):
         assert category in DECLARED
         assert re.match(r"fmi2\w+: ", message), "a message begins with the function"
         assert len(message) > 20 and message == message.strip()
-        # nothing of a printf format may be left after the importer has carried it out
+        # no part of a printf format may remain after the importer has processed it
         assert "%" not in message and "#" not in message and "\n" not in message
 
 
@@ -147,7 +147,7 @@ def test_without_a_logger_errors_are_still_errors():
 
 def test_names_and_callbacks_are_copied():
     instance = unit("steel_ball").instance(name="copied")
-    # the importer's struct may be used for something else once the instance is made
+    # the importer's struct may be reused once the instance is created
     keep = fmi2.fmi2CallbackFunctions.from_buffer_copy(instance.callbacks)
     ctypes.memset(byref(instance.callbacks), 0, ctypes.sizeof(instance.callbacks))
     instance.initialize()

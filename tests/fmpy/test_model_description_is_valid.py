@@ -1,4 +1,4 @@
-"""The model description obeys the schema and the rules behind it."""
+"""The model description conforms to the schema and to the further rules of the standard."""
 
 import re
 import zipfile
@@ -82,7 +82,7 @@ def outputs(description):
 
 @every_unit
 def test_every_output_says_that_it_depends_on_nothing_unless_it_follows_the_rate(name):
-    # a missing attribute would mean: on everything, and masters would see algebraic loops
+    # a missing attribute would mean a dependency on everything, and importers would find algebraic loops
     following = {"predicted_force"} | ({"force", "mean_pressure", "stiffness"} if name == "damped" else set())
     description = xml(name)
     unknowns = description.find("ModelStructure/Outputs")
@@ -104,7 +104,7 @@ def test_initial_unknowns_are_complete_and_name_parameters_only(name):
         assert unknown.get("dependencies") is not None
         for index in unknown.get("dependencies").split():
             known = variables[int(index) - 1]
-            # a speed before the first step is the one that is given
+            # a speed before the first step is the given one
             follows = variables[int(unknown.get("index")) - 1].get("name") == "closing_speed"
             assert known.get("causality") == ("input" if follows else "parameter")
 
@@ -115,7 +115,7 @@ def test_kinds_of_variables_are_those_of_the_standard(name):
     for variable in xml(name).find("ModelVariables"):
         variability, initial = expected[variable.get("causality")]
         if variable.get("name").split(".")[-1] == "effective_mass" and unit(name).moves_bodies():
-            # it may be another one from step to step
+            # it may change from step to step
             variability = {"parameter": "tunable"}.get(variable.get("causality"), variability)
         if variable.get("causality") == "output":
             variability = "discrete" if variable.find("Enumeration") is not None else "continuous"
@@ -164,13 +164,13 @@ def test_times_of_the_experiment_suit_each_other(name):
     experiment = xml(name).find("DefaultExperiment")
     start, stop, step = (float(experiment.get(key)) for key in ("startTime", "stopTime", "stepSize"))
     assert start == 0.0 and 0.0 < step
-    # an impact needs some hundred steps; millions would be a mistake
+    # an impact needs some hundred steps; millions would be an error
     assert 100 < (stop - start) / step < 1e5
 
 
 @every_unit
 def test_a_time_of_generation_is_in_utc(name):
-    # the strictest checkers want the final Z; leaving it out makes units reproducible
+    # the strictest checkers require the final Z; omitting the time makes FMUs reproducible
     moment = xml(name).get("generationDateAndTime")
     assert moment is None or re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", moment)
 

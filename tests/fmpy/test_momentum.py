@@ -1,4 +1,4 @@
-"""Impulse, mean and predicted force, and units that know the mass."""
+"""Impulse, mean and predicted force, and FMUs that know the mass."""
 
 import math
 
@@ -185,6 +185,6 @@ def test_one_long_step_of_a_known_mass_is_many_short_ones(total):
             assert ball.get("mean_force") >= 0.0
             speed += total / steps * (9.81 - ball.get("mean_force") / 4e-3)
         ends.append((speed, ball.get("indentation"), ball.get("dissipated_energy"), ball.get("impulse")))
-    # a bounce multiplies what rounding made of the one before
+    # a bounce amplifies the rounding error of the previous one
     for end in ends[1:]:
         assert end == pytest.approx(ends[0], rel=1e-7)

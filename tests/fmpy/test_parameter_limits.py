@@ -1,4 +1,4 @@
-"""Parameters: values within min and max are taken, all others refused with a message that helps."""
+"""Parameters: values within min and max are accepted, all others rejected with a helpful message."""
 
 import math
 
@@ -27,7 +27,7 @@ def initializing(name):
 
 
 def refusal(name, key, value):
-    """The status and the message of setting `key` to `value`, at the latest when Initialization Mode is left."""
+    """The status and the message when `key` is set to `value`, at the latest at the end of Initialization Mode."""
     instance = initializing(name)
     status = instance.try_set(key, value)
     if status == OK:
@@ -128,7 +128,7 @@ def test_parameters_that_fit_only_together_may_come_in_any_order():
     for name in paths():
         if "target.radius" in unit(name).parameters:
             instance = initializing(name)
-            # wider than the socket of the scene, until the wider socket comes
+            # wider than the socket of the scene, until the socket is widened
             instance.set(impactor__radius=1.0)
             instance.set(target__radius=-2.0)
             instance.call("ExitInitializationMode")

@@ -1,4 +1,4 @@
-"""Importers set parameters at three places; at each of them the same values give the same run."""
+"""Importers set parameters at three points in time; the same values always give the same run."""
 
 import pytest
 from unit import bits, unit

@@ -1,4 +1,4 @@
-"""A unit whose scene asks for the passivity guard says so when it first acts, and only then."""
+"""An FMU whose scene requests the passivity guard logs a message when it first acts, and only then."""
 
 import fmpy
 from unit import OK, unit
@@ -8,7 +8,7 @@ WITHIN, BEYOND = 3e-7, 3e-6
 
 
 def dent(instance, depth):
-    """In to `depth` and out again, in steps of a hundredth of the way."""
+    """Indentation to `depth` and back, in steps of a hundredth of the distance."""
     for rate in (1.0, -1.0):
         for _ in range(100):
             instance.step(depth / 100, rate)

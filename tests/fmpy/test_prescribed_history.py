@@ -1,7 +1,7 @@
-"""Indentation driven through a list of values gives the tabulated forces, however the way there is cut into steps.
+"""Indentation driven through a list of values gives the tabulated forces, however the path is divided into steps.
 
-The table is of the Big-Alabo law, normalised by the indentation and the force at first yield, computed independently of
-this project with 30 digits and printed with ten. The units are those of the case it was computed for.
+The table for the Big-Alabo law is normalised by indentation and force at first yield. It was computed independently of
+this project with 30 digits and printed with ten. The units are those of the case for which it was computed.
 """
 
 import math
@@ -10,7 +10,7 @@ import random
 import pytest
 from unit import unit
 
-# x to be reached, then f by the unloading law
+# x to be reached, then f for each unloading law
 TABLE = [
     # x, contact_radius, thornton, original_radius
     ("0.5", "0.3535533906", "0.3535533906", "0.3535533906"),
@@ -34,7 +34,7 @@ TABLE = [
 ]
 CLOSURES = ["contact_radius", "thornton", "original_radius"]
 
-# Ten digits were printed; zeros at the end are missing, so the last digit is the tenth, not the last one shown.
+# Ten digits were printed without trailing zeros, so the last digit is the tenth, not the last one shown.
 DIGITS = 10
 
 
@@ -55,7 +55,7 @@ def yield_point(instance):
 
 
 def drive(instance, to, steps):
-    """Brings the indentation of `instance` to `to` [m] in steps of the given lengths [s], at one speed."""
+    """Moves the indentation of `instance` to `to` [m] in steps of the given lengths [s], at constant speed."""
     rate = (to - instance.get("indentation")) / math.fsum(steps)
     for step in steps:
         instance.step(step, rate)
@@ -66,7 +66,7 @@ def equal_steps(count):
 
 
 def unequal_steps(index):
-    """From a nanosecond to a second, in an order of their own between any two points."""
+    """From a nanosecond to a second, in a different order between any two points."""
     source = random.Random(index)
     return [10.0 ** source.uniform(-9.0, 0.0) for _ in range(97)]
 
@@ -85,17 +85,17 @@ def test_the_force_is_that_of_the_table(closure, way):
         x = float(row[0])
         largest = max(largest, x)
         drive(instance, x * d_y, WAYS[way](index))
-        # the way is taken exactly: what is compared is the law, not the sum of the steps
+        # the distance is exact: the law is tested, not the sum of the steps
         assert instance.get("indentation") == pytest.approx(x * d_y, rel=1e-12)
         expected = pytest.approx(float(row[column]), rel=0, abs=tolerance(row[column]))
         assert instance.get("force") / f_y == expected, index
-        # to rounding: a last step may end an ulp short
+        # within rounding: the last step may end an ulp short
         assert instance.get("max_indentation") / d_y == pytest.approx(largest, rel=1e-12)
 
 
 @pytest.mark.parametrize("closure", CLOSURES)
 def test_the_case_is_the_one_of_the_table(closure):
-    # printed with 12 digits beside the table
+    # printed with 12 digits next to the table
     d_y, f_y = yield_point(unit(closure).ready())
     assert d_y == pytest.approx(5.89886558464e-8, rel=1e-11)
     assert f_y == pytest.approx(0.305775240956, rel=1e-11)
@@ -105,7 +105,7 @@ def test_the_case_is_the_one_of_the_table(closure):
 def test_the_regime_follows_the_law(closure):
     instance = unit(closure).ready()
     d_y, _ = yield_point(instance)
-    # borders of the law: x = 1, 13.93, 82.5
+    # boundaries of the law: x = 1, 13.93, 82.5
     for x, regime in [(0.9, 1), (0.2, 1), (5.0, 2), (4.0, 5), (13.0, 2), (20.0, 3), (80.0, 3), (90.0, 4), (85.0, 5)]:
         drive(instance, x * d_y, [1e-3] * 3)
         assert instance.get("regime") == regime, x
@@ -121,5 +121,5 @@ def test_starting_pressed_in_is_the_same_as_having_been_pressed_in(closure):
         driven = unit(closure).ready()
         drive(driven, x * d_y, [1e-3])
         for name, value in started.outputs().items():
-            # the step's rounding of the indentation, magnified at most by the steepest slope of the law
+            # the rounding of the indentation by the step, magnified at most by the steepest slope of the law
             assert driven.get(name) == pytest.approx(value, rel=1e-12), name

@@ -1,4 +1,4 @@
-"""Units with several contacts: their model description, and that it describes them."""
+"""FMUs with several contacts: their model description, and its agreement with the FMU."""
 
 import zipfile
 from pathlib import Path
@@ -15,7 +15,7 @@ every_unit = pytest.mark.parametrize("name", sorted(paths()))
 
 
 def variables(name):
-    """Name, causality and start of every variable, by its place, which counts from 1."""
+    """Name, causality and start value of every variable, by its index, counted from 1."""
     with zipfile.ZipFile(paths()[name]) as archive:
         description = etree.fromstring(archive.read("modelDescription.xml"))
     found = description.find("ModelVariables")
@@ -67,7 +67,7 @@ def test_before_the_first_step_an_output_follows_the_parameters_of_its_contact(n
         output = all_variables[int(unknown.get("index"))]["name"]
         names = [all_variables[int(place)]["name"] for place in unknown.get("dependencies").split()]
         own = {text.removeprefix("right.") for text in names if text.startswith("right.")}
-        # nobody else takes what a contact has for itself, and it takes that instead of what all have
+        # a value that a contact has for itself affects no other contact, and overrides the common value
         assert bool(own) == (contact(output) == "right."), (output, names)
         assert not own & set(names), (output, names)
 

@@ -1,4 +1,4 @@
-"""fmpy.simulate_fmu, the function most people call, works with its defaults."""
+"""fmpy.simulate_fmu, the most widely used function, works with its defaults."""
 
 import fmpy
 import numpy as np
@@ -18,7 +18,7 @@ def test_with_defaults(name, logging):
     experiment = unit(name).description.defaultExperiment
     assert result["time"][0] == 0.0
     assert result["time"][-1] == pytest.approx(float(experiment.stopTime), rel=1e-9)
-    # the input starts at 0, so the bodies rest
+    # the input starts at 0: the bodies are at rest
     assert np.all(result["force"] == 0.0)
 
 
@@ -31,7 +31,7 @@ def test_a_constant_input_presses(name):
     # the same in one step
     instance = unit(name).ready()
     instance.step(float(experiment.stopTime), 1e-3)
-    # the sum of the steps is exact but for the rounding of their lengths
+    # the sum of the steps is exact except for the rounding of their lengths
     assert result["force"][-1] == pytest.approx(instance.get("force"), rel=1e-12)
 
 

@@ -1,4 +1,4 @@
-"""`brinell ssp`: packages are valid against the schemas of SSP 1.0, say what their unit says, and run in fmpy."""
+"""`brinell ssp`: packages are valid for the schemas of SSP 1.0, agree with their FMU, and run in fmpy."""
 
 import os
 import subprocess
@@ -26,7 +26,7 @@ def brinell(folder, *arguments):
 
 @pytest.fixture(scope="module", params=list(paths()))
 def package(request, tmp_path_factory):
-    """The name of a scene, and the package of it."""
+    """The name of a scene, and its package."""
     folder = tmp_path_factory.mktemp(request.param)
     brinell(folder, Path(unit(request.param).folder) / "resources" / "scene.toml")
     return request.param, folder / f"{request.param}.ssp"
@@ -105,7 +105,7 @@ def test_the_system_runs_as_its_unit_does(package):
     rates = [n for n in unit(name).variables if n.split(".")[-1] == "indentation_rate"]
     force = next(n for n in unit(name).outputs if n.split(".")[-1] == "force")
     alone = []
-    # what goes in at the system's own connector is with the unit one step later
+    # an input of the system reaches the FMU one step later
     for step in range(len(system)):
         instance.set(**{rate: 0.3 if step else 0.0 for rate in rates})
         instance.step(1e-6)

@@ -1,4 +1,4 @@
-"""Saved states: run on, restore, run on gives the same bits, in this process and in another one."""
+"""Saved states: continuing after a restore gives the same bits, in this process and in another one."""
 
 import subprocess
 import sys
@@ -63,7 +63,7 @@ def test_a_state_in_memory_can_be_set_many_times(name):
         instance.time = time
         traces.append(run(instance, RATES[3:]))
     assert traces[0] == traces[1] == traces[2]
-    # a second get into the same pointer overwrites it
+    # a second get to the same pointer overwrites it
     address = pointer.value
     instance.call("GetFMUstate", byref(pointer))
     assert pointer.value == address
@@ -111,7 +111,7 @@ def test_another_process_continues_with_the_same_bits(name):
     instance = unit(name).ready()
     run(instance, RATES[:4])
     saved, time = instance.state(), instance.time
-    # into an instance that has never been initialized: the phase belongs to the state
+    # to an instance that was never initialized: the phase is a part of the state
     arguments = [unit(name).path, saved.hex(), time.hex(), *map(repr, RATES[4:])]
     other = subprocess.run(
         [sys.executable, "-c", CONTINUE, *arguments], cwd=Path(__file__).parent, capture_output=True, text=True

@@ -1,4 +1,4 @@
-"""Steps: mistakes are refused, the rounding of an honest master is not."""
+"""Steps: wrong steps are rejected, but not the rounding errors of a correct importer."""
 
 import math
 import time
@@ -34,14 +34,14 @@ def test_a_communication_point_that_is_not_finite_is_refused(point):
 @pytest.mark.parametrize("start", [0.0, 1.0, -3.0, 1e5, -1e5])
 @pytest.mark.parametrize("step", [1e-3, 1e-6 / 3.0, 0.1])
 def test_both_ways_of_counting_time_are_taken(start, step):
-    # at 1e5 a third of a microsecond is some 20,000 ulps: the way of rounding shows, and half a step is still far off
+    # at 1e5, a third of a microsecond is about 20,000 ulps: the kind of rounding matters, and half a step is still far off
     summed, counted, mixed = ready(start), ready(start), ready(start)
     time = start
     for index in range(1000):
         point = start + index * step
         assert summed.try_step(time, step) == OK, (index, summed.log)
         assert counted.try_step(point, step) == OK, (index, counted.log)
-        # the step as the difference of two points, as masters with events have it
+        # the step as the difference of two points, as in importers with events
         assert mixed.try_step(point, (start + (index + 1) * step) - point) == OK, (index, mixed.log)
         time += step
 
@@ -70,7 +70,7 @@ def last_successful_time(instance):
 
 
 def test_errors_of_time_do_not_pile_up():
-    # the unit goes by the points it is given, not by a sum of its own
+    # the FMU uses the given points, not its own sum
     instance = ready()
     for index in range(20_000):
         instance.call("DoStep", index * 1e-4, 1e-4, True)
@@ -92,8 +92,8 @@ def test_a_sum_of_steps_may_end_a_rounding_behind_the_stop_time(start, step):
     points = [start]
     for _ in range(1999):
         points.append(points[-1] + step)
-    # the stop time as another master computes it; and as far before the end of the sum as a sum of 1999 steps can go
-    # astray: half an ulp of the largest point a step
+    # the stop time as computed by another importer, and as far before the end of the sum as a sum of 1999 steps can
+    # deviate: half an ulp of the largest point per step
     furthest = points[-1] - 1999 * 0.5 * math.ulp(points[-1])
     for stop in (start + 1999 * step, furthest):
         instance = ready(start, stop)
@@ -102,7 +102,7 @@ def test_a_sum_of_steps_may_end_a_rounding_behind_the_stop_time(start, step):
 
 
 def test_far_from_zero_the_rounding_of_time_itself_is_no_mistake():
-    # at 1e5 s a nanosecond is 68.7 ulps and each sum makes it 69: ten of them end 3 ulps, 4 % of a step, too late
+    # at 1e5 s a nanosecond is 68.7 ulps and each sum makes it 69: ten steps end 3 ulps late, 4 % of a step
     start, step = 1e5, 1e-9
     stop = start + 10 * step
     instance = ready(start, stop)
@@ -122,7 +122,7 @@ def test_a_step_one_per_cent_beyond_the_stop_time_is_refused(start):
 def test_a_small_step_at_the_stop_time_is_measured_by_itself():
     instance = ready(0.0, 1.0)
     instance.step(1.0)
-    # behind the end, however small
+    # beyond the end, however slightly
     assert instance.try_step(1.0, 1e-6) == ERROR
 
 
@@ -144,7 +144,7 @@ def test_a_tiny_step_changes_next_to_nothing():
     instance.step(1e-15, 1.0)
     after = instance.outputs()
     assert after["indentation"] == pytest.approx(before["indentation"] + 1e-15, rel=1e-12)
-    # 1e-15 m beside 1e-6 m
+    # 1e-15 m compared with 1e-6 m
     assert after["force"] == pytest.approx(before["force"], rel=1e-8)
 
 
@@ -172,13 +172,13 @@ def test_cutting_a_step_does_not_change_the_result():
         cut = ready()
         for _ in range(pieces):
             cut.step(1e-5 / pieces, 0.7)
-        # the length of a piece is rounded once, the sum is exact: 3 ulps of the indentation, 3/2 of that for the force
+        # the length of a part is rounded once, the sum is exact: 3 ulps of the indentation, 3/2 of that for the force
         assert cut.get("indentation") == pytest.approx(whole.get("indentation"), rel=1e-15)
         assert cut.get("force") == pytest.approx(whole.get("force"), rel=3e-15)
 
 
 def test_many_small_increments_add_up_exactly():
-    # each is 6e7 times smaller than the indentation: a plain sum loses digits at each, 1e-12 of the whole in the end
+    # each is 6e7 times smaller than the indentation: a plain sum loses digits in each step, 1e-12 of the total in the end
     instance = ready()
     instance.step(1e-3, 1e-2)
     increment = 1e-6 * 1.7e-7

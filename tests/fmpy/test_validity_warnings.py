@@ -1,4 +1,4 @@
-"""A unit says once where a simulation leaves the validity of its law, and goes on."""
+"""An FMU warns once when a simulation leaves the validity of its law, and continues."""
 
 import re
 
@@ -6,7 +6,7 @@ import fmpy
 import pytest
 from unit import OK, bits, unit
 
-# rigid sphere of 5 mm: a = 0.3 R at the depth that the unit tells
+# rigid sphere of 5 mm: a = 0.3 R at the depth that the FMU reports
 RADIUS = 5e-3
 STEEL_WAVES = (206e9 / 7850.0) ** 0.5
 
@@ -29,7 +29,7 @@ def numbers(message):
 
 
 def depth_of(name):
-    """Up to which indentation the unit's law is valid, as it says itself."""
+    """The indentation up to which the FMU's law is valid, according to its own message."""
     instance = ready(name)
     instance.step(1e-3, 1.0)
     (message,) = warnings(instance)
@@ -37,7 +37,7 @@ def depth_of(name):
 
 
 def press(instance, way, steps, name="indentation_rate"):
-    """In by `way` at 1 m/s, in so many steps."""
+    """Indentation by `way` at 1 m/s, in `steps` steps."""
     instance.set(**{name.replace(".", "__"): 1.0 if way > 0 else -1.0})
     for _ in range(steps):
         instance.step(abs(way) / steps)
@@ -140,7 +140,7 @@ def test_a_unit_that_knows_the_mass_tells_of_a_whole_impact_within_a_step(name):
 
 @pytest.mark.parametrize("name", ["plain", "fresh_and_deep"])
 def test_a_step_with_derivatives_tells_of_its_deepest_point(name):
-    # in and out again within the step: at most v^2/(2 a) deep
+    # in and out again within the step: the depth is at most v^2/(2 a)
     for deepest, expected in ((1e-4, 0), (4e-4, 1)):
         instance = ready(name)
         instance.set(indentation_rate=1.0)
@@ -152,7 +152,7 @@ def test_a_step_with_derivatives_tells_of_its_deepest_point(name):
 
 @pytest.mark.parametrize("name", ["plain", "tangents", "momentum", "own_densities"])
 def test_what_is_told_changes_nothing(name):
-    """The same bits with a look and without, and however the border is crossed."""
+    """The same bits with and without the check, however the limit is crossed."""
     rate = "row[1].indentation_rate" if name == "own_densities" else "indentation_rate"
     force = rate.replace("indentation_rate", "force")
     ways = [1e-4, 1e-4, 1e-4, -1e-5, 3e-5, 2e-4, -1e-3, 1e-3]
@@ -255,7 +255,7 @@ def test_without_density_or_logging_no_speed_is_told():
 
 
 def test_each_contact_has_the_density_of_its_own_target():
-    # left is of lead-like density, row of aluminium, right of none that is known
+    # left has a density like lead, row like aluminium, right an unknown one
     instance = ready("own_densities")
     instance.set(**{"right__indentation_rate": 1e4, "left__indentation_rate": 10.0, "row[5]__indentation_rate": 45.0})
     assert warnings(instance) == []

@@ -1,4 +1,4 @@
-"""A unit as the tests use it: every C function by its name, its status instead of an exception, its log as a list."""
+"""An FMU for the tests: every C function by its name, with its status instead of an exception, and its log as a list."""
 
 import atexit
 import ctypes
@@ -17,7 +17,7 @@ CO_SIMULATION = fmi2.fmi2CoSimulation
 
 
 def paths():
-    """Path of each exported unit, by the name of its scene."""
+    """Path of each exported FMU, by the name of its scene."""
     return json.loads(os.environ["BRINELL_TEST_UNITS"])
 
 
@@ -27,7 +27,7 @@ def unit(name):
 
 
 class Unit:
-    """An unpacked unit with its library."""
+    """An unpacked FMU with its library."""
 
     def __init__(self, path):
         self.path = path
@@ -45,13 +45,13 @@ class Unit:
         self.outputs = [name for name, v in self.variables.items() if v.causality == "output"]
 
     def moves_bodies(self):
-        """Whether it moves the bodies itself within a step: it then says what force to apply."""
+        """Whether it moves the bodies itself within a step; it then reports the force to apply."""
         masses = [name for name in self.variables if name.split(".")[-1] == "effective_mass"]
         return bool(masses) and any(name.split(".")[-1] == "mean_force" for name in self.variables) and not any(
             name.split(".")[-1] == "restitution" for name in self.variables)
 
     def knows_mass(self):
-        """Whether it moves the bodies itself within a step, so that the rate isn't held over it."""
+        """Whether it moves the bodies itself within a step, so that the rate is not constant over it."""
         return "effective_mass" in self.variables and self.moves_bodies()
 
     def instance(self, **arguments):
@@ -65,7 +65,7 @@ class Unit:
 
 
 class Refused(Exception):
-    """A call didn't return fmi2OK."""
+    """A call did not return fmi2OK."""
 
     def __init__(self, function, status, log):
         super().__init__(f"{function} returned {status}: {log}")
@@ -78,7 +78,7 @@ class Instance:
     def __init__(self, unit, name="instance", guid=None, kind=CO_SIMULATION, logging=False, logger=True, resources=""):
         self.unit = unit
         self.time = 0.0
-        # (instance name, status, category, message) as the importer sees them: with the printf format carried out
+        # (instance name, status, category, message) as seen by the importer, with the printf format processed
         self.log = []
         self.callbacks = fmi2.fmi2CallbackFunctions()
         if logger:
@@ -185,7 +185,7 @@ class Instance:
         return self.try_("DoStep", time, step, True)
 
     def step(self, step, rate=None):
-        """One step from where the last one ended."""
+        """One step from the end of the last one."""
         if rate is not None:
             self.set(indentation_rate=rate)
         self.call("DoStep", self.time, step, True)
@@ -208,7 +208,7 @@ class Instance:
     def try_deserialize(self, data):
         """Status and pointer of fmi2DeSerializeFMUstate."""
         pointer = c_void_p()
-        # a buffer of exactly this length, so that a read beyond its end isn't hidden by a final 0
+        # a buffer of exactly this length, so that a read beyond its end is not hidden by a final 0
         buffer = (c_char * len(data)).from_buffer_copy(data)
         return self.try_("DeSerializeFMUstate", buffer, len(data), byref(pointer)), pointer
 
@@ -221,5 +221,5 @@ class Instance:
 
 
 def bits(value):
-    """The bits of a number: unlike ==, they tell 0.0 from -0.0 and are equal for NaN."""
+    """The bits of a number: unlike ==, they distinguish 0.0 from -0.0 and are equal for NaN."""
     return value.hex() if isinstance(value, float) else value

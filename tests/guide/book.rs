@@ -1,4 +1,4 @@
-//! The book, built by mdBook of a pinned version, which the first run compiles into the target folder.
+//! The book, built by a pinned version of mdBook, which the first run compiles into the target folder.
 
 use crate::python::target_folder;
 use crate::root;
@@ -22,14 +22,14 @@ fn mdbook() -> PathBuf {
     let folder = target_folder().join("tools").join(format!("mdbook-{VERSION}"));
     let program = folder.join("bin").join(format!("mdbook{}", env::consts::EXE_SUFFIX));
     fs::create_dir_all(&folder).expect("the target folder can be written to");
-    // two runs of the tests don't build it at the same time
+    // two runs of the tests must not build it at the same time
     let lock = File::create(folder.join("lock")).expect("the target folder can be written to");
     lock.lock().expect("the target folder is on a file system with locks");
     if !program.exists() {
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["install", "mdbook", "--version", VERSION, "--locked", "--no-default-features", "--root"]);
         cargo.arg(&folder).arg("--target-dir").arg(folder.join("build"));
-        // unoptimised and without debug information: it compiles in less than a minute, and runs once
+        // without optimization and debug information it compiles in less than a minute
         succeed(cargo.args(["--profile", "dev"]).env("CARGO_PROFILE_DEV_DEBUG", "0"));
         // only the program is needed
         let _ = fs::remove_dir_all(folder.join("build"));

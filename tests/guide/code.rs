@@ -1,10 +1,10 @@
-//! The code of README and guide runs, page by page from top to bottom, each page in a folder of its own.
+//! The code in README and guide runs, page by page from top to bottom, each page in its own folder.
 //!
 //! - `toml` blocks are scenes, or parts of one: `brinell predict` reads them. "Save this as `x.toml`" writes a file for what follows.
-//! - `sh` and `python` blocks run beside the files that earlier blocks left.
-//! - A `text` block behind the comment `<!-- output -->` is all that the block before it prints; behind `<!-- check -->` some
-//!   lines of it.
-//! - `<!-- not run: why -->` before a block leaves it out.
+//! - `sh` and `python` blocks run in the folder with the files of earlier blocks.
+//! - A `text` block after the comment `<!-- output -->` is the complete output of the block before it; after `<!-- check -->`,
+//!   it is a part of it.
+//! - `<!-- not run: why -->` before a block excludes it.
 //! - `rust` blocks are tests of the documentation; see the end of src/lib.rs.
 
 use crate::markdown::{Block, Page};
@@ -19,20 +19,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use tempfile::TempDir;
 
-/// Packages of engines, which a block may import.
+/// Packages of engines that a block may import.
 const ENGINES: [&str; 3] = ["mujoco", "exudyn", "pydrake"];
 
-/// Pages whose code is not run: decisions and history speak of the inside.
+/// Pages whose code is not run, because it is about internals.
 const NOT_RUN: [&str; 4] = ["CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "truth/README.md"];
 
 /// A page in a folder of its own.
 struct Run {
     page: PathBuf,
     folder: TempDir,
-    /// What the last block printed.
+    /// The output of the last block.
     printed: String,
     mistakes: Vec<String>,
-    /// Outputs that have changed, and what they are.
+    /// Outputs that have changed, with their new text.
     changes: Vec<(std::ops::Range<usize>, String)>,
 }
 
@@ -71,7 +71,7 @@ impl Run {
         }
     }
 
-    /// A scene, whose name and bodies may be missing if only another part of it is shown.
+    /// A scene. Name and bodies may be missing if only another part is shown.
     fn scene(&mut self, block: &Block) {
         let mut text = block.text.clone();
         if let Some(file) = &block.file {
@@ -120,7 +120,7 @@ impl Run {
         self.call(command);
     }
 
-    /// Runs `command` in the folder of the page, with the program and the Python module at hand.
+    /// Runs `command` in the folder of the page, with the program and the Python module available.
     fn call(&mut self, mut command: Command) {
         let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
         let mut path = vec![program.parent().unwrap().to_path_buf(), python::python().parent().unwrap().to_path_buf()];
@@ -142,11 +142,11 @@ impl Run {
         }
     }
 
-    /// Writes the outputs into the page, or complains about those that differ.
+    /// Writes the outputs to the page, or reports those that differ.
     fn finish(mut self) -> Vec<String> {
         if is_writing() && !self.changes.is_empty() {
             let mut text = read(&self.page);
-            // from the end, so that places before stay right
+            // from the end, so that earlier positions remain valid
             for (range, output) in self.changes.into_iter().rev() {
                 text.replace_range(range, &format!("```text\n{output}\n```"));
             }
@@ -164,7 +164,7 @@ fn the_code_runs_and_prints_what_is_shown() {
     let mut pages = pages();
     pages.retain(|page| !NOT_RUN.iter().any(|name| page == Path::new(name)));
     let (next, mistakes) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    // an environment that has to be made is made once, before anything waits for it
+    // a missing environment is created once, before other threads wait for it
     python::python();
     let work = || {
         while let Some(page) = pages.get(next.fetch_add(1, Ordering::Relaxed)) {

@@ -1,4 +1,4 @@
-//! Links and names of files.
+//! Links and file names.
 
 use crate::markdown::Page;
 use crate::{pages, read, root};
@@ -16,7 +16,7 @@ fn normal(path: &Path) -> PathBuf {
     })
 }
 
-/// What is wrong with the link from `page` to `target`, if something is.
+/// The error in the link from `page` to `target`, if any.
 fn mistake(page: &Path, target: &str) -> Option<String> {
     if target.starts_with("http://") || target.starts_with("https://") {
         return None;
@@ -29,7 +29,7 @@ fn mistake(page: &Path, target: &str) -> Option<String> {
     if !root().join(&file).exists() {
         return Some(format!("there is no {}", file.display()));
     }
-    // the book has no other files
+    // the book contains no other files
     if page.starts_with("docs") && !file.starts_with("docs") {
         return Some(format!("{} isn't in the book: name it in `code`", file.display()));
     }
@@ -81,12 +81,12 @@ const FOLDERS: [&str; 12] = [
 fn files_that_are_named_exist() {
     let mut missing = Vec::new();
     for page in pages() {
-        // the history of the project names what there was
+        // the changelog also names files that no longer exist
         if page.ends_with("CHANGELOG.md") {
             continue;
         }
         for name in Page::parse(&read(&page)).code {
-            // patterns and commands are no names
+            // patterns and commands are not names
             let is_name = FOLDERS.iter().any(|folder| name.starts_with(folder)) && !name.contains(['*', ' ', '{']);
             if is_name && !root().join(&name).exists() {
                 missing.push(format!("{}: {name}", page.display()));

@@ -1,7 +1,7 @@
-//! README and guide: links lead somewhere, code runs and prints what is shown, tables are those of `modelDescription/`, and the
-//! book builds.
+//! README and guide: links are valid, code runs with the output shown, tables agree with `modelDescription/`, and the book
+//! builds.
 //!
-//! `BRINELL_WRITE=1 cargo test --release --test guide` writes tables and outputs anew instead of comparing them.
+//! `BRINELL_WRITE=1 cargo test --release --test guide` rewrites tables and outputs instead of comparing them.
 
 mod book;
 mod code;
@@ -21,7 +21,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Every Markdown file that people read, as a path below the repository.
+/// Every Markdown file for readers, as a path in the repository.
 fn pages() -> Vec<PathBuf> {
     let own = ["README.md", "CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "python/README.md", "truth/README.md"];
     let mut pages: Vec<_> = own.map(PathBuf::from).into();
@@ -47,12 +47,12 @@ fn read(page: &Path) -> String {
     fs::read_to_string(root().join(page)).unwrap_or_else(|error| panic!("{}: {error}", page.display()))
 }
 
-/// Whether texts are to be written rather than compared.
+/// Whether texts are written instead of compared.
 fn is_writing() -> bool {
     env::var_os("BRINELL_WRITE").is_some()
 }
 
-/// Writes past the test harness, which shows the output of a test only if it fails.
+/// Prints past the test harness, which hides the output of a test that passes.
 fn tell(what: &str) {
     writeln!(std::io::stderr(), "{what}").expect("standard error is open");
 }

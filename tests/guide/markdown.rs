@@ -1,4 +1,4 @@
-//! What the tests need of a Markdown page.
+//! The parts of a Markdown page that the tests need.
 
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 use std::collections::HashMap;
@@ -7,14 +7,14 @@ use std::ops::Range;
 /// A fenced block of code.
 #[derive(Debug)]
 pub struct Block {
-    /// First word behind the fence: "sh", "python", ...
+    /// First word after the fence: "sh", "python", ...
     pub language: String,
     pub text: String,
-    /// Where it is in the page, with its fences.
+    /// Its position in the page, including its fences.
     pub range: Range<usize>,
-    /// The HTML comment right before it.
+    /// The HTML comment immediately before it.
     pub comment: Option<String>,
-    /// The file that the text before it names: "Save this as `ball.toml`".
+    /// The file named in the text before it: "Save this as `ball.toml`".
     pub file: Option<String>,
 }
 
@@ -29,7 +29,7 @@ pub struct Page {
     pub anchors: Vec<String>,
 }
 
-/// What happened before the next block of code.
+/// The content since the last block of code.
 #[derive(Default)]
 struct Before {
     comment: Option<String>,
@@ -89,7 +89,7 @@ fn anchor(text: &str) -> String {
     kept.map(|letter| if letter == ' ' { '-' } else { letter.to_ascii_lowercase() }).collect()
 }
 
-/// The second heading of the same text has the number 1 behind it, and so on.
+/// The second heading with the same text gets the suffix 1, and so on.
 fn numbered(anchors: Vec<String>) -> Vec<String> {
     let mut seen = HashMap::<String, usize>::new();
     let number = |anchor: String| {

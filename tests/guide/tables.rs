@@ -1,4 +1,4 @@
-//! Tables of the guide that come from `modelDescription/`, and the keys of a scene.
+//! Tables of the guide generated from `modelDescription/`, and the keys of a scene.
 
 use crate::markdown::Page;
 use crate::{is_writing, read, root};
@@ -24,13 +24,13 @@ fn number(entry: &Table, key: &str) -> Option<f64> {
     entry.get(key).and_then(Value::as_float)
 }
 
-/// `value` in few characters: 0.5, 1e18.
+/// `value` in short form: 0.5, 1e18.
 fn short(value: f64) -> String {
     let [plain, exponent] = [format!("{value}"), format!("{value:e}")];
     if plain.len() <= exponent.len() + 1 { plain } else { exponent }
 }
 
-/// Allowed values, if there are limits.
+/// The allowed values, if there are limits.
 fn allowed(entry: &Table) -> String {
     match (number(entry, "minimum"), number(entry, "maximum")) {
         (Some(least), Some(most)) => format!("{} to {}", short(least), short(most)),
@@ -105,7 +105,7 @@ fn materials() -> String {
     table
 }
 
-/// Each law of `kind`, with the texts and constants that `brinell laws` shows.
+/// Each law of `kind`, with the texts and constants of `brinell laws`.
 fn laws(kind: &str) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_brinell")).args(["laws", "--json"]).output();
     let output = output.expect("cargo has built the program");
@@ -135,7 +135,7 @@ fn laws(kind: &str) -> String {
     page
 }
 
-/// The table of the constants of a law; nothing if it has none.
+/// The table of the constants of a law; empty if it has none.
 fn constants(constants: &Json) -> String {
     let mut table = String::new();
     for constant in constants.as_array().expect("a list of constants") {
@@ -148,7 +148,7 @@ fn constants(constants: &Json) -> String {
     if table.is_empty() { table } else { heading(&["constant", "value", "unit", "allowed", "meaning"]) + &table + "\n" }
 }
 
-/// Compares what is between the comments of the table `name` in `page` with `table`, or writes it.
+/// Compares the text between the comments of the table `name` in `page` with `table`, or writes it.
 fn shows(page: &str, name: &str, table: &str) {
     let path = Path::new("docs/guide").join(page);
     let whole = read(&path);
@@ -179,7 +179,7 @@ fn tables_are_those_of_the_model_description() {
     shows("all-laws.md", "rate-dependent laws", &laws("damped"));
 }
 
-/// The keys of a table of a scene file: the public fields of this struct of the exporter.
+/// The keys of a table in a scene file: the public fields of this struct of the exporter.
 fn fields(structure: &str) -> Vec<String> {
     let source = read(Path::new("src/bin/brinell/scene/file.rs"));
     let (_, rest) =

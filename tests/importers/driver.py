@@ -1,8 +1,8 @@
-"""What every importer is asked to do, and how its answer is written down.
+"""The task of every importer, and the format of its results.
 
-A driver `with_TOOL.py FOLDER RESULT` finds in FOLDER `contact.fmu`, `serial.fmu`, `parallel.fmu`, `mass.fmu`,
-`ball.ssp` and `history.txt`, and writes to RESULT what it found as JSON; `tests/importers.rs` judges it. A driver has ways: a name, the order
-of execution, and what to do.
+A driver `with_TOOL.py FOLDER RESULT` finds in FOLDER `contact.fmu`, `serial.fmu`, `parallel.fmu`, `mass.fmu`, `ball.ssp` and
+`history.txt`, and writes its results to RESULT as JSON; `tests/importers.rs` evaluates them. A driver has several methods, each
+with a name, the order of execution, and its functions.
 """
 
 import importlib.metadata
@@ -18,7 +18,7 @@ from pathlib import Path
 
 # each line of the history is a rate [m/s] and a step [s], all of this length
 STEP = 1e-6
-# the ball meets the block within the first of them or soon after, and has left it long before the last
+# the ball touches the block within the first of them or soon after, and has left it long before the last
 BALL_STEPS = 100
 BALL_SIZES = [1e-6, 1e-4, 2e-3]
 
@@ -26,7 +26,7 @@ folder, result_file = (Path(argument).resolve() for argument in sys.argv[1:3])
 rates = [float(line.split()[0]) for line in (folder / "history.txt").read_text().splitlines()]
 
 
-# the ball of a parallel master as a system
+# the ball for a parallel importer, as a system
 package = str(folder / "ball.ssp")
 
 
@@ -35,7 +35,7 @@ def unit(name):
 
 
 class Watch:
-    """How long the steps took [s], without what a tool does before and after them, where it can be told apart."""
+    """Duration of the steps [s], without the tool's work before and after them where that can be separated."""
 
     def __init__(self):
         self.seconds = 0.0
@@ -48,7 +48,7 @@ class Watch:
 
 
 def answer(make, steps):
-    """What `make(watch)` gives, with the steps per second; or its error."""
+    """The result of `make(watch)` with the steps per second, or its error."""
     watch = Watch()
     try:
         value = make(watch)
@@ -59,10 +59,10 @@ def answer(make, steps):
 
 
 def run(package, ways, version=None):
-    """Goes all `ways`: a list of (name, order, history, ball), where order is "serial", "parallel" or "-".
+    """Runs all `ways`: a list of (name, order, history, ball), where order is "serial", "parallel" or "-".
 
-    `history(watch)` gives the force after each step of the history, `ball(contact, step, watch)` the rate of the ball in the end.
-    A tool that can't do one of the two has None there.
+    `history(watch)` returns the force after each step of the history, `ball(contact, step, watch)` the final rate of the ball.
+    A tool that cannot do one of the two has None there.
     """
     os.chdir(tempfile.mkdtemp(prefix="brinell-"))
     result = {"version": version or importlib.metadata.version(package), "ways": []}
@@ -75,7 +75,7 @@ def run(package, ways, version=None):
                 {"step": step} | answer(lambda watch: ball(unit(order), step, watch), BALL_STEPS) for step in BALL_SIZES
             ]
         result["ways"].append(way)
-        # after each way: a tool that crashes in the next one has done this one
+        # written after each method, in case the tool crashes in the next one
         result_file.write_text(json.dumps(result))
     here = os.getcwd()
     os.chdir("/")

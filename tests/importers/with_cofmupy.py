@@ -1,4 +1,4 @@
-"""CoFMUpy: its two ways to step a loop of units, Jacobi (all at once) and Gauss-Seidel (one after the other)."""
+"""CoFMUpy: its two methods to step a loop of FMUs, Jacobi (all at once) and Gauss-Seidel (one after the other)."""
 
 import csv
 
@@ -11,7 +11,7 @@ def end(of, variable):
 
 
 def started(units, connections, method):
-    """`connections` by source and target, in a run that has begun. Units step in the order of `units`."""
+    """`connections` by source and target, in a run that has begun. FMUs step in the order of `units`."""
     coordinator = Coordinator()
     coordinator.start({
         "fmus": [{"id": name, "path": path, "initialization": values} for name, (path, values) in units.items()],
@@ -30,7 +30,7 @@ def history(method):
         with open("rates.csv", "w", newline="") as file:
             table = csv.writer(file)
             table.writerow(["t", "rate"])
-            # each value begins half a step early: the coordinator adds steps up to its time
+            # each value begins half a step early, because the coordinator sums steps to get its time
             table.writerows([(index - 0.5) * STEP, rate] for index, rate in enumerate([*rates, 0.0]))
         source = {"type": "csv", "path": "rates.csv", "variable": "rate", "interpolation": "previous"}
         coordinator = started({"contact": (unit("contact"), {})}, [(source, end("contact", "indentation_rate"))], method)
@@ -44,13 +44,13 @@ def history(method):
 
 def ball(method):
     def rate(path, step, watch):
-        # the rate that the ball begins with is no output of a step before
+        # the initial rate of the ball is not an output of an earlier step
         units = {"contact": (path, {"indentation_rate": 1.0}), "mass": (unit("mass"), {})}
         coordinator = started(units, [
             (end("contact", "mean_force"), end("mass", "force")),
             (end("mass", "rate"), end("contact", "indentation_rate")),
         ], method)
-        # otherwise the order follows the hashes of the names, which differ from process to process
+        # otherwise the order depends on the hashes of the names, which differ from process to process
         coordinator.master.sequence_order = [["contact", "mass"]]
         with watch.running():
             for _ in range(BALL_STEPS):

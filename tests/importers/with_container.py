@@ -1,4 +1,4 @@
-"""fmu-manipulation-toolbox: its checker reads each unit, its containers are units made of units, run by fmpy."""
+"""fmu-manipulation-toolbox: its checker reads each FMU; its containers are FMUs made of FMUs, run by fmpy."""
 
 import logging
 from pathlib import Path
@@ -13,7 +13,7 @@ from fmu_manipulation_toolbox.operations import FMU
 
 def container(name, lines, step, sequential):
     Path(f"{name}.csv").write_text("\n".join(["rule;from_fmu;from_port;to_fmu;to_port", *lines]) + "\n")
-    # auto_link would connect what has the same name
+    # auto_link would connect variables of equal names
     Assembly(f"{name}.csv", default_step_size=step, default_sequential=sequential, default_auto_link=False,
              default_auto_input=False, default_auto_output=False, fmu_directory=Path.cwd()).make_fmu(fmi_version=2)
     return f"{name}.fmu"

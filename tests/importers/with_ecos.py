@@ -1,9 +1,9 @@
-"""Ecos, by `ecospy`: all units step at once."""
+"""Ecos, with `ecospy`: all FMUs step at once."""
 
 import ctypes
 import sys
 
-# Ecos links it, and neither brings it along nor names it as a requirement
+# Ecos links it, but neither includes it nor lists it as a requirement
 ctypes.CDLL(f"{sys.prefix}/lib/libtbb.so.12", ctypes.RTLD_GLOBAL)
 
 from driver import BALL_STEPS, STEP, package, rates, run, unit

@@ -1,4 +1,4 @@
-"""FMI++, by its class for one FMU of FMI 2.0: a program of one's own connects the FMUs, one after the other or all at once."""
+"""FMI++, with its class for one FMU of FMI 2.0: the driver connects the FMUs, one after the other or all at once."""
 
 import functools
 import os
@@ -9,14 +9,14 @@ from fmipp import FMUCoSimulationV2, extractFMU
 
 @functools.cache
 def extracted(path):
-    """Once: a library that is loaded must not be written again."""
+    """Once only: a loaded library must not be overwritten."""
     return extractFMU(path, os.getcwd())
 
 
 class Slave:
     def __init__(self, path):
         name = os.path.splitext(os.path.basename(path))[0]
-        # it wants the model identifier
+        # it requires the model identifier
         identifier = "steel_ball" if name == "contact" else name
         self.fmu = FMUCoSimulationV2(extracted(path), identifier, False, 1e-12)
         self.checked(self.fmu.instantiate(name, 0.0, False, False))

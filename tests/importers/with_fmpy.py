@@ -1,4 +1,4 @@
-"""fmpy: `simulate_fmu`, its classes one by one, and its simulation of SSP packages."""
+"""fmpy: `simulate_fmu`, its classes individually, and its simulation of SSP packages."""
 
 from concurrent.futures import ProcessPoolExecutor
 
@@ -10,7 +10,7 @@ from fmpy.ssp.simulation import simulate_ssp
 
 
 class Slave:
-    """An instance that is ready for steps, by the names of its variables."""
+    """An instance ready for steps, with its variables by name."""
 
     def __init__(self, path):
         description = fmpy.read_model_description(path)
@@ -64,7 +64,7 @@ def parallel(path, step, watch):
 
 def simulated(watch):
     dtype = [("time", float), ("indentation_rate", float)]
-    # a rate that is held: each value twice, the second time where the next one begins
+    # a constant rate: each value twice, the second time where the next one begins
     points = [(end * STEP, rate) for index, rate in enumerate(rates) for end in (index, index + 1)]
     with watch.running():
         result = fmpy.simulate_fmu(unit("contact"), stop_time=len(rates) * STEP, step_size=STEP, output_interval=STEP,
@@ -73,7 +73,7 @@ def simulated(watch):
 
 
 def eight_at_once(watch):
-    """The forces of the process that is farthest off the first one."""
+    """The forces of the process with the largest difference from the first one."""
     with watch.running(), ProcessPoolExecutor(8) as pool:
         first, *others = pool.map(simulated_alone, range(8))
     watch.seconds /= 8

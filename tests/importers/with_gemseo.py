@@ -22,12 +22,12 @@ def ball(mda):
         names = {"force": "mean_force", "rate": "indentation_rate"}
         mass = DoStepFMUDiscipline(unit("mass"), ["force"], ["rate"], final_time=end, time_step=step, variable_names=names)
         system = TimeSteppingSystem([contact, mass], end, step, do_step=True, restart=False, mda_name=mda,
-                                    # what makes an iteration converge faster makes a step wrong
+                                    # what accelerates the convergence of an iteration makes a step wrong
                                     mda_options={"acceleration_method": "NoTransformation"})
-        # the same inputs as in the step before aren't the same step
+        # equal inputs in the next step do not mean that it is the same step
         system.set_cache(system.CacheType.NONE)
         state = {"indentation_rate": array([1.0]), "mean_force": array([0.0])}
-        # who is stepped first decides what the system takes
+        # the order of the disciplines decides which values the system uses
         state = {name: value for name, value in state.items() if name in system.input_grammar}
         with watch.running():
             for _ in range(BALL_STEPS):

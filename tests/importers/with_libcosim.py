@@ -1,4 +1,4 @@
-"""libcosim of the Open Simulation Platform, by `libcosimpy`: all units step at once, with a clock of nanoseconds."""
+"""libcosim of the Open Simulation Platform, with `libcosimpy`: all FMUs step at once, with a clock of nanoseconds."""
 
 import zipfile
 
@@ -54,7 +54,7 @@ def ball(path, step, watch):
 
 
 def system(_path, step, watch):
-    # it wants the folder, and finds the parts of the package there
+    # it requires the folder, and finds the parts of the package there
     zipfile.ZipFile(package).extractall("system")
     execution, observer = CosimExecution.from_ssp_file("system", round(step * 1e9)), CosimObserver.create_last_value()
     execution.add_observer(observer)

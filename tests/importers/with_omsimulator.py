@@ -1,4 +1,4 @@
-"""OMSimulator, by its C interface in Python: a weakly coupled system, whose master `oms_ma` steps all units at once."""
+"""OMSimulator, through its C interface in Python: a weakly coupled system, whose algorithm `oms_ma` steps all FMUs at once."""
 
 from driver import BALL_STEPS, STEP, rates, run, unit
 from OMSimulator.capi import Capi
@@ -9,7 +9,7 @@ WEAKLY_COUPLED = 2
 class Model:
     def __init__(self, step, **units):
         self.interface = Capi()
-        # a model keeps its name until it is deleted
+        # the name of a model stays in use until the model is deleted
         self.call("setTempDirectory", ".")
         self.call("newModel", "model")
         self.call("addSystem", "model.root", WEAKLY_COUPLED)

@@ -1,5 +1,5 @@
-"""PathSim, by the blocks of `pathsim-fmi`: a step of a unit is an event, and those of an instant happen in the order of the blocks,
-each with what the ones before it gave."""
+"""PathSim, with the blocks of `pathsim-fmi`: a step of an FMU is an event. Simultaneous events are in the order of the blocks,
+each with the results of those before it."""
 
 from driver import BALL_STEPS, STEP, rates, run, unit
 from pathsim import Connection, Simulation

@@ -1,4 +1,4 @@
-"""PyFMI: one FMU step by step, and its `Master`, which steps all units at once."""
+"""PyFMI: one FMU step by step, and its `Master`, which steps all FMUs at once."""
 
 from driver import BALL_STEPS, STEP, rates, run, unit
 from pyfmi import load_fmu

@@ -1,9 +1,9 @@
-/* A unit's library in a host of some kind: host LIBRARY GUID INPUT OUTPUT... < HISTORY
+/* An FMU's library in a host: host LIBRARY GUID INPUT OUTPUT... < HISTORY
 
-   INPUT and OUTPUT are value references. Each line of HISTORY has the value of the input and a step [s], each as the 16
-   hexadecimal digits of its bits; so has what is printed: the outputs after each step. Half of the way is gone again from a
-   state that went through its bytes. Behind the word "end" stand what the host is, how often the unit took and gave back
-   memory of the importer, and the message of a refused call. The exit status is 0 if every call gave what it should. */
+   INPUT and OUTPUT are value references. Each line of HISTORY contains the value of the input and a step [s], each as the
+   16 hexadecimal digits of its bits. The outputs after each step are printed in the same format. The second half is repeated
+   from a state that was serialized. After the word "end", the program prints the host, how often the FMU allocated and freed
+   memory of the importer, and the message of a rejected call. The exit status is 0 if every call succeeded as expected. */
 #include "load.h"
 #include "unit.h"
 
@@ -27,7 +27,7 @@ static void give_back(void *memory) {
     free(memory);
 }
 
-/* The library has each message complete; a host in C would print it all the same. */
+/* The library sends complete messages, which a host in C can print unchanged. */
 static void log_message(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
                         fmi2String text, ...) {
     (void)environment;
@@ -62,7 +62,7 @@ struct way {
     struct step *steps;
 };
 
-/* Goes from step `first` on to the end; `values` has the outputs of all steps. */
+/* Runs from step `first` to the end; `values` receives the outputs of all steps. */
 static void go(fmi2Component c, const struct way *way, size_t first, double *values) {
     double time = 0.0;
     for (size_t i = 0; i < way->step_count; i++) {
@@ -77,7 +77,7 @@ static void go(fmi2Component c, const struct way *way, size_t first, double *val
     }
 }
 
-/* The same from the middle on once more, from the bytes of a state. */
+/* Repeats the second half from the bytes of a state. */
 static void go_twice(fmi2Component c, struct way *way, double *values) {
     const size_t all = way->step_count, middle = all / 2, size = all * way->output_count * sizeof *values;
     fmi2FMUstate state = NULL, copy = NULL;

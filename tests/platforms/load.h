@@ -7,10 +7,10 @@
 
 /* The library at `path`; null with the reason in `message` of `size` bytes. */
 void *load_library(const char *path, char *message, size_t size);
-/* Puts the address of the function `name` at `function`. */
+/* Writes the address of the function `name` to `function`. */
 bool load_function(void *library, const char *name, void *function);
 void unload_library(void *library);
-/* What the host runs on. */
+/* The system on which the host runs. */
 const char *host_name(void);
 
 #endif

@@ -1,5 +1,5 @@
-/* The host loads the library by itself: it copies the segments and adds the address to what is relative to it. There is no
-   dynamic linker and no symbol to be had from the process. ELF, 64 bits, x86-64 and arm64. */
+/* The host loads the library itself: it copies the segments and relocates relative addresses. There is no dynamic linker,
+   and the process provides no symbols. ELF, 64 bits, x86-64 and arm64. */
 #define _GNU_SOURCE
 #include "load.h"
 
@@ -40,7 +40,7 @@ static char *read_file(const char *path) {
     return bytes;
 }
 
-/* The name of a symbol that the library wants from elsewhere; null if all relocations are done. */
+/* The name of an external symbol that the library needs; null if all relocations are done. */
 static const char *relocate(struct library *library, const Elf64_Rela *first, size_t size) {
     for (const Elf64_Rela *entry = first; (const char *)entry < (const char *)first + size; entry++) {
         uint64_t value = (uint64_t)entry->r_addend;
@@ -133,7 +133,7 @@ void *load_library(const char *path, char *message, size_t size) {
         ? library : fail(message, size, "the memory can't be made executable");
 }
 
-/* The table of GNU's linker: a chain for each bucket, in the order of the symbols, whose last hash is odd. */
+/* The GNU hash table: a chain for each bucket, in the order of the symbols; the last hash of a chain is odd. */
 bool load_function(void *handle, const char *name, void *function) {
     const struct library *library = handle;
     const uint32_t buckets = library->hash[0], first = library->hash[1], bloom = library->hash[2];

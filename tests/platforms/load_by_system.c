@@ -1,4 +1,4 @@
-/* The system loads the library; with NAMESPACE into one of its own, where nothing of the process is to be found. */
+/* The system loads the library; with NAMESPACE, into a separate namespace without access to the process. */
 #define _GNU_SOURCE
 #include "load.h"
 
@@ -25,7 +25,7 @@ bool load_function(void *library, const char *name, void *function) {
 
 void unload_library(void *library) { FreeLibrary((HMODULE)library); }
 
-/* wine answers to a function that Windows hasn't got */
+/* wine provides a function that Windows does not have */
 const char *host_name(void) {
     static char name[64];
     const char *(*version)(void) = NULL;
@@ -56,7 +56,7 @@ void *load_library(const char *path, char *message, size_t size) {
     return library;
 }
 
-/* A pointer to a function isn't a pointer to an object; POSIX has it that the bytes are the same. */
+/* A pointer to a function is not a pointer to an object, but POSIX guarantees the same bytes. */
 bool load_function(void *library, const char *name, void *function) {
     void *symbol = dlsym(library, name);
     memcpy(function, &symbol, sizeof symbol);

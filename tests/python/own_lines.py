@@ -1,7 +1,7 @@
-"""How many lines of an example are a user's own code: `own_lines.py EXAMPLE...` prints them.
+"""Number of lines of the user's own code in an example: `own_lines.py EXAMPLE...` prints them.
 
-Counted are lines with code, imports included. Left out is what only compares and draws: the functions `soft` (the engine's
-own contact) and `drawn` (what an animation shows), the block `if __name__`, and statements that name `judge` or a balance.
+Lines with code count, including imports. Code that only compares and draws does not: the functions `soft` (the engine's
+own contact) and `drawn` (for an animation), the block `if __name__`, and statements that use `judge` or a balance.
 """
 
 import ast

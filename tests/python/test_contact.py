@@ -1,4 +1,4 @@
-"""One contact: steps, values, forces, mistakes, and the end of its life."""
+"""One contact: steps, values, forces, errors, and the end of its life."""
 
 import copy
 import gc
@@ -35,7 +35,7 @@ def test_the_energy_that_the_impulse_takes_is_in_the_contact():
 
 
 def explicit(steps, **arguments):
-    """Restitution by a master that moves the mass itself, with a part of the contact time as its step."""
+    """Restitution with an importer that moves the mass itself, with a fraction of the contact time as its step size."""
     h, mass, speed, last = 2.948e-5 / steps, 4e-3, 1.0, 0.0
     derivatives = arguments.pop("derivatives", False)
     with contact("coupled", initial_gap=1.5 * h, **arguments) as made:
@@ -251,7 +251,7 @@ def test_a_mass_that_cannot_be_set_says_so():
             with pytest.raises(ContactError, match="fixed once a simulation has started"):
                 made.step(1e-6, 1.0, mass=1.0)
         made.reset(effective_mass=8e-3)
-        # the same energy makes the same dent
+        # the same energy causes the same dent
         speed = 0.5**0.5
         assert bounce(made, mass=8e-3, speed=speed) == pytest.approx(RESTITUTION * speed, rel=1e-9)
 
@@ -275,7 +275,7 @@ def test_a_mass_that_can_be_set_between_steps_counts_from_the_next_step():
 def test_a_contact_that_cannot_touch_goes_where_the_bodies_are():
     for name in ("mass_known", "coupled"):
         with contact(name, initial_gap=1e-3) as made:
-            # the simulation says 5 mm, and that the step takes the bodies 1.5 mm closer
+            # the simulation starts at 5 mm, and the step moves the bodies 1.5 mm closer
             assert made.step(1e-3, 1.0, 1e3, gap=5e-3) == 0.0
             assert made["indentation"] == pytest.approx(-3.5e-3, rel=1e-14)
             made.step(1e-3, -1.0, gap=np.float64(1e-3))

@@ -1,4 +1,4 @@
-"""What the exporter answers, as numbers and arrays."""
+"""Results of the exporter as numbers and arrays."""
 
 import brinell
 import numpy as np

@@ -1,4 +1,4 @@
-"""Units with several contacts: sequences in, arrays out."""
+"""FMUs with several contacts: sequences in, arrays out."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Studies: plans, runs, failures, files, and going on after a stop."""
+"""Studies: plans, runs, failures, files, and continuing after an interruption."""
 
 import os
 import subprocess
@@ -76,7 +76,7 @@ def test_samples_fill_their_ranges_evenly_and_repeat_with_their_seed(kind):
     columns = plan.runs(vary, f"{kind}:64", seed=3)
     assert np.array_equal(columns["a"], plan.runs(vary, f"{kind}:64", seed=3)["a"])
     assert not np.array_equal(columns["a"], plan.runs(vary, f"{kind}:64", seed=4)["a"])
-    # each eighth of either range has its eighth of the samples
+    # each eighth of either range contains its eighth of the samples
     assert set(np.histogram(columns["a"], bins=8, range=(0.0, 8.0))[0]) == {8}
     assert set(np.histogram(np.log10(columns["b"]), bins=8, range=(-3.0, 5.0))[0]) == {8}
 

@@ -1,4 +1,4 @@
-"""The units and scenes of these tests."""
+"""The FMUs and scenes of these tests."""
 
 import json
 import os
@@ -15,12 +15,12 @@ def contact(scene, **arguments):
 
 
 def bits(values):
-    """Numbers by their bits, to be compared."""
+    """Numbers as bits, for comparison."""
     return [float(value).hex() for value in values]
 
 
 def bounce(made, mass=4e-3, speed=1.0, h=1e-4, steps=3, gravity=0.0):
-    """The speed [m/s] after an impact in big steps, positive away from the surface."""
+    """The speed [m/s] after an impact in large steps, positive away from the surface."""
     for _ in range(steps):
         speed += h * (gravity - made.step(h, speed, gravity) / mass)
     return -speed

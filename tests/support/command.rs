@@ -1,4 +1,4 @@
-//! The program as a user runs it, each test in a folder of its own.
+//! The program, called like by a user, with a separate folder for each test.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use std::ffi::OsStr;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
 
-/// What a run of the program gave.
+/// The result of a run of the program.
 #[derive(Debug)]
 pub struct Run {
     pub status: Option<i32>,
@@ -16,21 +16,21 @@ pub struct Run {
 }
 
 impl Run {
-    /// The run, if it ended with `status`.
+    /// The run, which must have ended with `status`.
     #[track_caller]
     pub fn with_status(self, status: i32) -> Run {
         assert_eq!(self.status, Some(status), "wrong exit status of {self:#?}");
         self
     }
 
-    /// The one JSON document on standard output.
+    /// The single JSON document on standard output.
     #[track_caller]
     pub fn json(&self) -> serde_json::Value {
         serde_json::from_str(&self.out).unwrap_or_else(|error| panic!("no JSON ({error}): {self:#?}"))
     }
 }
 
-/// The program, which will run in `folder` with a cache that is not the user's, and without a toolchain that was fetched.
+/// The program, to run in `folder` with a separate cache and without a downloaded toolchain.
 pub fn brinell(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
     command.current_dir(folder).env("BRINELL_CACHE", cache()).env("BRINELL_TOOLCHAIN", cache().join("none"));
@@ -64,7 +64,7 @@ pub fn empty_folder() -> TempDir {
     tempfile::tempdir().expect("a folder for temporary files")
 }
 
-/// The names of what is in `folder`, hidden files too.
+/// The names of the entries of `folder`, including hidden files.
 pub fn contents(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a readable folder");
     let mut names: Vec<_> = entries.map(|e| e.expect("a readable folder").file_name().into_string().unwrap()).collect();
@@ -77,7 +77,7 @@ pub fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml")
 }
 
-/// The bytes of a unit of the default scene, exported under other circumstances.
+/// The bytes of an FMU of the default scene, exported under other circumstances.
 #[track_caller]
 pub fn exported(circumstances: impl FnOnce(&mut Command) -> &mut Command) -> Vec<u8> {
     let folder = empty_folder();

@@ -1,4 +1,5 @@
-//! A history of rates that goes everywhere: small and large steps, both ways, through yield, separation and deeper again.
+//! A history of rates through all states: small and large steps in both directions, through yield, separation and deeper
+//! indentation.
 
 use super::hosts::write_history;
 use std::collections::HashSet;
@@ -22,7 +23,7 @@ impl Random {
         ((word ^ (word >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Between `low` and `high`, each decade as often as another.
+    /// A log-uniform number between `low` and `high`.
     fn decades(&mut self, low: f64, high: f64) -> f64 {
         low * (high / low).powf(self.next())
     }
@@ -34,7 +35,7 @@ pub fn history() -> PathBuf {
         let mut random = Random(14);
         let (mut steps, mut depth) = (Vec::new(), 0.0);
         while steps.len() < STEPS {
-            // a depth to go to, in some steps; one in five is out of the contact
+            // a depth to reach in some steps; one in five is out of contact
             let size = random.decades(1e-9, 3e-5);
             let target = if random.next() < 0.2 { -size } else { size };
             let parts = (1.0 + 20.0 * random.next()).floor();
@@ -50,7 +51,7 @@ pub fn history() -> PathBuf {
     HISTORY.clone()
 }
 
-/// Whether the outputs after each step are worth a comparison: one line a step, most of them of their own.
+/// Checks that the outputs are worth comparing: one line for each step, most of them different.
 #[track_caller]
 pub fn assert_rich(bits: &str) {
     let lines: Vec<_> = bits.lines().collect();

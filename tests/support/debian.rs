@@ -1,7 +1,7 @@
-//! Packages of Debian for tests, unpacked in the target folder: other C libraries, emulators.
+//! Debian packages for tests, unpacked in the target folder: other C libraries, emulators.
 //!
-//! `apt-get` and `dpkg-deb` do it, as any user, with lists of their own. Versions can't be pinned, since the archive keeps the
-//! last one only; releases are, and apt checks signature and hash of whatever it gets.
+//! `apt-get` and `dpkg-deb` do this as any user, with their own package lists. Versions cannot be pinned, because the archive
+//! keeps only the last one. Releases are pinned, and apt checks signature and hash of every package.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use super::python::target_folder;
@@ -13,19 +13,19 @@ use std::sync::{Mutex, PoisonError};
 
 /// Some packages of one release.
 pub struct Packages {
-    /// The folder they are unpacked in.
+    /// The folder in which they are unpacked.
     pub folder: PathBuf,
-    /// Their names and versions, a line each.
+    /// Their names and versions, one on each line.
     pub versions: String,
 }
 
-/// The `packages` of `release` in the folder `name`; with everything they depend on that this system hasn't installed, if
-/// `with_dependencies`. They are fetched once.
+/// The `packages` of `release` in the folder `name`; if `with_dependencies`, with all dependencies that this system has not
+/// installed. They are downloaded once.
 ///
 /// # Errors
-/// Why they can't be had.
+/// The reason why they are not available.
 pub fn packages(name: &str, release: &str, packages: &[&str], with_dependencies: bool) -> Result<Packages, String> {
-    // one program at a time, and in it one thread: both would fetch the same lists
+    // one program at a time, and one thread in it: both would download the same lists
     static FETCHING: Mutex<()> = Mutex::new(());
     let _alone = FETCHING.lock().unwrap_or_else(PoisonError::into_inner);
     let root = target_folder().join("debian");
@@ -33,7 +33,7 @@ pub fn packages(name: &str, release: &str, packages: &[&str], with_dependencies:
     let lock = File::create(root.join("lock")).expect("the target folder can be written to");
     lock.lock().expect("the target folder is on a file system with locks");
     let folder = root.join(name);
-    // written last: a folder without it is unfinished
+    // written last: a folder without it is incomplete
     let marker = folder.join("packages.txt");
     if let Ok(versions) = fs::read_to_string(&marker) {
         return Ok(Packages { folder, versions });
@@ -50,7 +50,7 @@ pub fn packages(name: &str, release: &str, packages: &[&str], with_dependencies:
     Ok(Packages { folder, versions })
 }
 
-/// Unpacks all `archives`; their names and versions.
+/// Unpacks all `archives`; returns their names and versions.
 fn unpack(archives: &Path, folder: &Path) -> Result<String, String> {
     let mut versions = Vec::new();
     for entry in fs::read_dir(archives).map_err(|error| format!("{}: {error}", archives.display()))? {
@@ -63,13 +63,13 @@ fn unpack(archives: &Path, folder: &Path) -> Result<String, String> {
     Ok(versions.concat())
 }
 
-/// apt with lists of one release only.
+/// apt with the lists of a single release.
 struct Apt {
     options: Vec<String>,
 }
 
 impl Apt {
-    /// It knows what is `installed`, or of nothing.
+    /// It knows what is `installed`, or nothing.
     fn of(root: &Path, release: &str, installed: bool) -> Result<Apt, String> {
         let state = root.join(format!("apt-{release}"));
         let (lists, cache, sources) = (state.join("lists"), state.join("cache"), state.join("sources.list"));
@@ -84,16 +84,16 @@ impl Apt {
             "Dir::Etc::SourceParts=/dev/null".into(),
             "Acquire::Languages=none".into(),
             "Acquire::IndexTargets::deb::DEP-11::DefaultEnabled=false".into(),
-            // the folders are the user's, and so is who fetches
+            // the folders belong to the user, who also downloads
             "APT::Sandbox::User=".into(),
             "APT::Architecture=amd64".into(),
         ];
         let mut apt = Apt { options: options.into() };
         if !installed {
-            // of what is installed in another version apt would fetch that one
+            // apt would otherwise download packages that are installed in another version
             apt.options.push("Dir::State::Status=/dev/null".into());
         }
-        // old lists name versions that are gone
+        // old lists contain versions that no longer exist
         succeed(apt.command("apt-get").args(["--error-on=any", "update"]))?;
         Ok(apt)
     }
@@ -114,24 +114,24 @@ impl Apt {
     }
 }
 
-/// Where Debian has its keys.
+/// The location of Debian's keys.
 const KEYS: &str = "/usr/share/keyrings/debian-archive-keyring.gpg";
 
-/// The archive of Debian that this system is set up for, with the keys that it is signed with.
+/// The Debian archive configured on this system, with its keys.
 fn archive() -> Result<String, String> {
     let format = "$(REPO_URI)";
     let sources = succeed(Command::new("apt-get").args(["indextargets", "--format", format, "Created-By: Packages"]))?;
     let found = sources.lines().find(|archive| archive.trim_end_matches('/').ends_with("/debian"));
     let archive = found.ok_or("this system has no package source of Debian")?;
-    // otherwise with those that apt trusts anyway
+    // otherwise with the keys that apt trusts
     let keys = if Path::new(KEYS).exists() { format!("[signed-by={KEYS}] ") } else { String::new() };
     Ok(format!("{keys}{archive}"))
 }
 
-/// What `command` prints.
+/// The output of `command`.
 ///
 /// # Errors
-/// What it says if it fails.
+/// Its error message.
 fn succeed(command: &mut Command) -> Result<String, String> {
     let output = command.env("LC_ALL", "C").output().map_err(|error| format!("{command:?}: {error}"))?;
     let said = String::from_utf8_lossy(&output.stderr);

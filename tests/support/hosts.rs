@@ -1,4 +1,4 @@
-//! Hosts of several kinds for a unit's library: tests/platforms/host.c, compiled in one way or another, and what it says.
+//! Hosts of several kinds for an FMU's library: tests/platforms/host.c, compiled in different ways, and its output.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use super::python::site_packages_file;
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{fs, io};
 
-/// What of a unit's model description a host must know.
+/// The parts of a model description that a host needs.
 #[derive(Clone, Debug)]
 pub struct Interface {
     pub guid: String,
@@ -23,7 +23,7 @@ fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
 }
 
 impl Interface {
-    /// That of the unit whose model description is this `text`.
+    /// The interface of the FMU whose model description is this `text`.
     pub fn of(text: &str) -> Interface {
         let variables: Vec<_> = text.split("<ScalarVariable").skip(1).collect();
         let reference =
@@ -39,23 +39,23 @@ impl Interface {
         }
     }
 
-    /// That of the unit that `library` was unpacked from.
+    /// The interface of the FMU from which `library` was unpacked.
     pub fn beside(library: &Path) -> Interface {
         let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
         Interface::of(&fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library"))
     }
 }
 
-/// What a host has printed.
+/// The output of a host.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Said {
-    /// The bits of the outputs after each step, a line each.
+    /// The bits of the outputs after each step, one line each.
     pub bits: String,
-    /// What it runs on.
+    /// The system on which it runs.
     pub host: String,
-    /// How often memory of the importer was taken, and given back.
+    /// How often memory of the importer was allocated and freed.
     pub memory: (u32, u32),
-    /// The message of a refused call.
+    /// The message of a rejected call.
     pub message: String,
 }
 
@@ -64,7 +64,7 @@ pub struct Said {
 pub struct Host {
     /// The program and its first arguments.
     pub command: Vec<PathBuf>,
-    /// What it needs of the environment.
+    /// Environment variables that it needs.
     pub variables: Vec<(&'static str, PathBuf)>,
 }
 
@@ -73,17 +73,17 @@ impl Host {
         Host { command: vec![program], variables: Vec::new() }
     }
 
-    /// Runs the unit in `library` on the `history`, which is a file.
+    /// Runs the FMU in `library` on the file `history`.
     ///
     /// # Errors
-    /// What it says if it fails.
+    /// Its error message.
     pub fn run(&self, library: &Path, interface: &Interface, history: &Path) -> Result<Said, String> {
         let mut command = Command::new(&self.command[0]);
         command.args(&self.command[1..]).envs(self.variables.iter().map(|(name, value)| (name, value)));
         command.arg(library).arg(&interface.guid).arg(&interface.input).args(&interface.outputs);
         let output = command.stdin(File::open(history).expect("a history")).output();
         let output = output.map_err(|error| format!("{command:?}: {error}"))?;
-        // a program of Windows ends its lines in another way
+        // a Windows program has other line ends
         let out = String::from_utf8_lossy(&output.stdout).replace('\r', "");
         if !output.status.success() {
             let said = out.lines().rfind(|line| line.starts_with("FAIL")).map(String::from);
@@ -99,23 +99,23 @@ impl Host {
     }
 }
 
-/// How a host loads libraries.
+/// The way in which a host loads libraries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loading {
     BySystem,
-    /// By the system into a namespace of its own.
+    /// Through the system, into a separate namespace.
     IntoNamespace,
-    /// By itself.
+    /// By the host itself.
     ByHand,
 }
 
-/// The files of the program of this folder that a host consists of.
+/// The source files of a host.
 fn sources(program: &str, loading: Loading) -> [PathBuf; 2] {
     let by = if loading == Loading::ByHand { "load_by_hand.c" } else { "load_by_system.c" };
     [program, by].map(|name| folder().join(name))
 }
 
-/// Where the programs are.
+/// The folder of the programs.
 pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/platforms")
 }
@@ -123,7 +123,7 @@ pub fn folder() -> PathBuf {
 /// Compiles `program`, a file of tests/platforms, as `name`.
 ///
 /// # Errors
-/// What the compiler says.
+/// The compiler's error message.
 pub fn compile(
     name: &str,
     program: &str,
@@ -134,7 +134,7 @@ pub fn compile(
     let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("hosts");
     fs::create_dir_all(&place).expect("the target folder can be written to");
     let result = place.join(name);
-    // another test may be running the same program: it is replaced at once
+    // another test may be running the same program: it is replaced atomically
     let draft = result.with_extension(format!("{:?}", std::thread::current().id()));
     let mut command = Command::new(&compiler[0]);
     command.args(&compiler[1..]).args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror"]);
@@ -156,7 +156,7 @@ pub fn cc() -> Vec<PathBuf> {
     vec!["cc".into()]
 }
 
-/// Says past the harness, which keeps what a test prints unless it fails, that something could not be tried.
+/// Prints past the harness, which hides the output of a test that passes, that something could not be tested.
 pub fn skipped(what: &str, why: &str) {
     let _ = writeln!(stderr(), "SKIPPED: {what}: {why}");
 }

@@ -1,4 +1,4 @@
-//! The table of importers: what their drivers found, beside what is right.
+//! The table of importers: the results of their drivers, compared with the right ones.
 
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -7,24 +7,24 @@ use std::io::{Write as _, stderr};
 use std::path::Path;
 use std::process::Command;
 
-/// Largest difference of the force, over the largest force.
+/// Largest error of the force, over the largest force.
 const AGREEMENT: f64 = 1e-12;
 /// Largest relative error of the restitution.
 const RESTITUTION: f64 = 1e-9;
 
-/// What one tool did in one way.
+/// The results of one tool with one method.
 #[derive(Debug, Default)]
 pub struct Row {
     pub name: String,
     pub version: String,
     pub order: String,
-    /// Largest difference of the force from the C interface's, over the largest force.
+    /// Largest difference between the force and that of the C interface, over the largest force.
     pub agreement: Option<f64>,
-    /// Relative error of the restitution at each step of the ball.
+    /// Relative error of the restitution at each step size of the ball.
     pub errors: Vec<f64>,
-    /// Steps per second of the history, or of the ball if there is none.
+    /// Steps per second of the history; without a history, of the ball.
     pub steps_per_second: Option<f64>,
-    /// Why there is nothing else.
+    /// The reason why there are no other results.
     pub failure: Option<String>,
 }
 
@@ -33,7 +33,7 @@ impl Row {
         Row { name: name.into(), version: version.into(), order: order.into(), ..Row::default() }
     }
 
-    /// What is wrong with it.
+    /// A description of what is wrong.
     fn wrong(&self) -> Option<String> {
         let told = |what: String| Some(format!("{}: {what}", self.name));
         if let Some(failure) = &self.failure {
@@ -47,18 +47,18 @@ impl Row {
     }
 }
 
-/// The largest difference of two courses of the force, over the largest force; infinite if one is longer.
+/// The largest difference of two force histories, over the largest force; infinite if their lengths differ.
 pub fn difference(found: &[f64], forces: &[f64]) -> f64 {
     if found.len() != forces.len() {
         return f64::INFINITY;
     }
     let largest = forces.iter().copied().fold(0.0, f64::max);
-    // NaN must not be passed over
+    // NaN must not be ignored
     let differences = found.iter().zip(forces).map(|(found, force)| (found - force).abs());
     differences.fold(0.0, |sum: f64, next| if next <= sum { sum } else { next }) / largest
 }
 
-/// A row for each way in the result of a driver.
+/// A row for each method in the result of a driver.
 pub fn rows<'a>(result: &'a Value, forces: &'a [f64], restitution: f64) -> impl Iterator<Item = Row> + 'a {
     let version = result["version"].as_str().unwrap_or_default();
     let ways = result["ways"].as_array().map(Vec::as_slice).unwrap_or_default();
@@ -84,7 +84,7 @@ pub fn rows<'a>(result: &'a Value, forces: &'a [f64], restitution: f64) -> impl 
 #[derive(Default)]
 pub struct Table {
     pub rows: Vec<Row>,
-    /// Tools that didn't run, and why.
+    /// Tools that did not run, and the reason.
     pub not_run: Vec<(String, String)>,
 }
 
@@ -118,7 +118,7 @@ impl Table {
         text
     }
 
-    /// To where also a test that passes shows it.
+    /// Prints where the output of a passing test is also visible.
     pub fn print(&self) {
         let _ = stderr().write_all(format!("\n{}\n", self.markdown()).as_bytes());
     }

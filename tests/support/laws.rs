@@ -9,7 +9,7 @@ static TABLE: LazyLock<toml::Table> = LazyLock::new(|| {
     fs::read_to_string(path).expect("the table of laws").parse().expect("the table of laws is well-formed")
 });
 
-/// The entries of a kind of laws, in their order.
+/// The entries of a kind of law, in their order.
 pub fn entries(kind: &str) -> impl Iterator<Item = &'static toml::Table> {
     TABLE[kind].as_array().expect("a list of laws").iter().map(|law| law.as_table().expect("a law"))
 }
@@ -19,7 +19,7 @@ pub fn entry(kind: &str, name: &str) -> &'static toml::Table {
     entries(kind).find(|law| law["name"].as_str() == Some(name)).unwrap_or_else(|| panic!("no {kind} law {name}"))
 }
 
-/// Whether an entry says `key = true`.
+/// Whether an entry contains `key = true`.
 pub fn says(entry: &toml::Table, key: &str) -> bool {
     entry.get(key).is_some_and(|value| value.as_bool().expect("true or false"))
 }

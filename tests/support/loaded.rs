@@ -1,4 +1,4 @@
-//! A unit loaded as an importer loads it, and its instances.
+//! An FMU loaded like by an importer, and its instances.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use super::unit;
@@ -14,23 +14,23 @@ pub const OK: c_int = 0;
 pub const ERROR: c_int = 3;
 
 thread_local! {
-    /// The last message; a logger has no place of its own for it.
+    /// The last message; the logger has no other place for it.
     static MESSAGE: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// A logger as far as it looks at its arguments: there are none behind the format.
+/// A logger that ignores its variable arguments: there are none after the format.
 unsafe extern "C" fn logger(_: *mut c_void, _: *const c_char, _: c_int, _: *const c_char, message: *const c_char) {
-    // SAFETY: messages end with 0
+    // SAFETY: messages are null-terminated
     let text = unsafe { CStr::from_ptr(message) }.to_string_lossy().into_owned();
     MESSAGE.with(|last| *last.borrow_mut() = text);
 }
 
-/// The last message in this thread, once.
+/// The last message in this thread; it is removed.
 pub fn take_message() -> String {
     MESSAGE.take()
 }
 
-/// The importer's functions.
+/// The importer's callbacks.
 #[repr(C)]
 struct Callbacks {
     logger: unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
@@ -44,7 +44,7 @@ pub struct Unit {
     references: HashMap<String, u32>,
 }
 
-/// An instance of a unit.
+/// An instance of an FMU.
 pub struct Instance<'a> {
     unit: &'a Unit,
     component: *mut c_void,
@@ -57,18 +57,18 @@ fn attribute<'a>(element: &'a str, name: &str) -> &'a str {
 }
 
 impl Unit {
-    /// Exports and loads the unit of `scene`.
+    /// Exports and loads the FMU of `scene`.
     pub fn load(scene: &Path) -> Unit {
         Unit::open(&unit::export(scene))
     }
 
-    /// Loads the unit `fmu`.
+    /// Loads the FMU `fmu`.
     pub fn open(fmu: &Path) -> Unit {
         let library = unit::library(fmu);
         Unit::open_library(&library, &library)
     }
 
-    /// Loads `library` in the place of the one that was unpacked at `place`.
+    /// Loads `library` instead of the one that was unpacked at `place`.
     pub fn open_library(library: &Path, place: &Path) -> Unit {
         let root = place.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
         let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
@@ -78,7 +78,7 @@ impl Unit {
             (attribute(element, "name").to_string(), number)
         };
         Unit {
-            // SAFETY: the unit was made by the program under test, and has no initializers
+            // SAFETY: the FMU was made by the program under test, and has no initializers
             library: unsafe { Library::new(library) }.expect("a library that can be loaded"),
             guid: CString::new(attribute(&description, "guid")).expect("plain characters"),
             references: elements.map(reference).collect(),
@@ -87,7 +87,7 @@ impl Unit {
 
     /// A function of the library.
     fn function<T: Copy>(&self, name: &str) -> T {
-        // SAFETY: the callers name the types of the standard
+        // SAFETY: the callers use the types of the standard
         *unsafe { self.library.get::<T>(name) }.expect("every unit has every function")
     }
 
@@ -96,7 +96,7 @@ impl Unit {
         self.try_to_instantiate().expect("an instance")
     }
 
-    /// A new instance, if the library makes one.
+    /// A new instance, if the library creates one.
     pub fn try_to_instantiate(&self) -> Option<Instance<'_>> {
         type Instantiate = unsafe extern "C" fn(
             *const c_char,
@@ -109,13 +109,13 @@ impl Unit {
         ) -> *mut c_void;
         let callbacks = Callbacks { logger, unused: [0; 4] };
         let instantiate = self.function::<Instantiate>("fmi2Instantiate");
-        // SAFETY: strings that end with 0, and callbacks that are copied
+        // SAFETY: null-terminated strings, and callbacks that are copied
         let component =
             unsafe { instantiate(c"test".as_ptr(), 1, self.guid.as_ptr(), c"".as_ptr(), &raw const callbacks, 0, 0) };
         (!component.is_null()).then_some(Instance { unit: self, component })
     }
 
-    /// An instance that is ready for a step from 0 s on.
+    /// An instance ready for a step from 0 s.
     pub fn ready(&self) -> Instance<'_> {
         self.ready_with(&[])
     }
@@ -132,7 +132,7 @@ impl Unit {
 }
 
 impl Instance<'_> {
-    /// Calls a function that takes nothing but the component.
+    /// Calls a function that takes only the component.
     fn call(&self, name: &str) {
         assert_eq!(self.try_call(name), OK, "{name}: {}", self.message());
     }
@@ -154,7 +154,7 @@ impl Instance<'_> {
         self.call("fmi2ExitInitializationMode");
     }
 
-    /// From here on outputs can be read.
+    /// Outputs can be read from here on.
     pub fn enter_initialization(&mut self) {
         type Setup = unsafe extern "C" fn(*mut c_void, c_int, f64, f64, c_int, f64) -> c_int;
         // SAFETY: the component lives
@@ -176,7 +176,7 @@ impl Instance<'_> {
         type Set = unsafe extern "C" fn(*mut c_void, *const u32, usize, *const f64) -> c_int;
         assert_eq!(references.len(), values.len());
         let set = self.unit.function::<Set>("fmi2SetReal");
-        // SAFETY: the component lives, and the arrays are as long as announced
+        // SAFETY: the component lives, and the arrays have the given length
         unsafe { set(self.component, references.as_ptr(), references.len(), values.as_ptr()) }
     }
 
@@ -188,7 +188,7 @@ impl Instance<'_> {
         unsafe { get(self.component, references.as_ptr(), references.len(), values.as_mut_ptr()) }
     }
 
-    /// Switches all messages on.
+    /// Enables all messages.
     pub fn log_everything(&mut self) {
         type Log = unsafe extern "C" fn(*mut c_void, c_int, usize, *const *const c_char) -> c_int;
         let log = self.unit.function::<Log>("fmi2SetDebugLogging");
@@ -202,11 +202,11 @@ impl Instance<'_> {
         assert_eq!(references.len(), values.len());
         let orders = vec![order; references.len()];
         let set = self.unit.function::<Set>("fmi2SetRealInputDerivatives");
-        // SAFETY: the component lives, and the arrays are as long as announced
+        // SAFETY: the component lives, and the arrays have the given length
         unsafe { set(self.component, references.as_ptr(), references.len(), orders.as_ptr(), values.as_ptr()) }
     }
 
-    /// Reads derivatives of this order of outputs by time.
+    /// Reads derivatives of this order of outputs with respect to time.
     pub fn output_derivatives(&self, references: &[u32], order: c_int, values: &mut [f64]) -> c_int {
         type Get = unsafe extern "C" fn(*mut c_void, *const u32, usize, *const c_int, *mut f64) -> c_int;
         assert_eq!(references.len(), values.len());
@@ -247,7 +247,7 @@ impl Instance<'_> {
         value[0]
     }
 
-    /// The call `name` that takes nothing but the component; its status.
+    /// The status of the call `name`, which takes only the component.
     pub fn status_of(&self, name: &str) -> c_int {
         let function = self.unit.function::<unsafe extern "C" fn(*mut c_void) -> c_int>(name);
         // SAFETY: the component lives
@@ -287,7 +287,7 @@ impl Instance<'_> {
 
     pub fn free(&self, mut state: *mut c_void) {
         type Free = unsafe extern "C" fn(*mut c_void, *mut *mut c_void) -> c_int;
-        // SAFETY: the state isn't used again
+        // SAFETY: the state is not used again
         let status = unsafe { self.unit.function::<Free>("fmi2FreeFMUstate")(self.component, &raw mut state) };
         assert_eq!((status, state), (OK, null_mut()));
     }
@@ -303,7 +303,7 @@ impl Instance<'_> {
         // SAFETY: component, state and size live
         assert_eq!(unsafe { measure(self.component, state, &raw mut size) }, OK);
         let mut bytes = vec![0; size];
-        // SAFETY: the same, and the buffer is as long as announced
+        // SAFETY: the same, and the buffer has the given length
         assert_eq!(unsafe { write(self.component, state, bytes.as_mut_ptr(), size) }, OK);
         bytes
     }
@@ -314,7 +314,7 @@ impl Instance<'_> {
         self.read(&mut state, bytes).then_some(state)
     }
 
-    /// Makes `state` from bytes; false if they are refused.
+    /// Creates `state` from bytes; false if they are rejected.
     pub fn deserialize_into(&self, mut state: *mut c_void, bytes: &[u8]) -> bool {
         self.read(&mut state, bytes)
     }
@@ -322,7 +322,7 @@ impl Instance<'_> {
     fn read(&self, state: &mut *mut c_void, bytes: &[u8]) -> bool {
         type Read = unsafe extern "C" fn(*mut c_void, *const u8, usize, *mut *mut c_void) -> c_int;
         let read = self.unit.function::<Read>("fmi2DeSerializeFMUstate");
-        // SAFETY: everything lives, and the bytes are as long as announced
+        // SAFETY: everything lives, and the bytes have the given length
         unsafe { read(self.component, bytes.as_ptr(), bytes.len(), state) == OK }
     }
 }
@@ -330,7 +330,7 @@ impl Instance<'_> {
 impl Drop for Instance<'_> {
     fn drop(&mut self) {
         let free = self.unit.function::<unsafe extern "C" fn(*mut c_void)>("fmi2FreeInstance");
-        // SAFETY: the component isn't used again
+        // SAFETY: the component is not used again
         unsafe { free(self.component) };
     }
 }

@@ -1,7 +1,7 @@
-//! Masters in plain Rust: a mass that is moved against one contact, in both orders of execution, with steps of any length.
+//! Importers in plain Rust: a mass that moves against one contact, with both orders of execution and steps of any length.
 //!
-//! A *serial* master steps the contact first and applies its mean force over the same step; a *parallel* one steps contact and
-//! bodies at once and exchanges afterwards.
+//! A *serial* importer steps the contact first and applies its mean force over the same step. A *parallel* importer steps
+//! contact and bodies at once and exchanges values afterwards.
 
 #![allow(dead_code)] // each test file uses a part of it
 
@@ -18,13 +18,13 @@ pub type WiredParallel = Chosen<Massive<Coupled<Present, Present, Present>>, 1, 
 
 pub const MASS: f64 = 4e-3;
 
-/// How the steps of a master follow each other, as multiples of their size.
+/// The sequence of the steps of an importer, as multiples of their size.
 #[derive(Clone, Copy, Debug)]
 pub enum Pattern {
     Equal,
     /// 1:3
     Alternating,
-    /// Two short ones and one three times as long.
+    /// Two short steps and one three times as long.
     OneInThree,
     /// From a third to three times the size.
     Any,
@@ -43,15 +43,15 @@ impl Pattern {
     }
 }
 
-/// A mass that a master moves against one contact.
+/// A mass that an importer moves against one contact.
 pub struct Master<S: Scene> {
     pub instance: Instance<S>,
     pub parallel: bool,
     pub wired: bool,
     pub mass: f64,
-    /// Closing speed as the master knows it [m/s].
+    /// Closing speed that the importer knows [m/s].
     pub speed: f64,
-    /// By all other forces [m/s^2].
+    /// Acceleration by all forces except the contact force [m/s^2].
     pub acceleration: f64,
 }
 
@@ -80,7 +80,7 @@ impl<S: Scene> Master<S> {
         self.speed += step * (self.acceleration - force / self.mass);
     }
 
-    /// Whether the bodies are apart and parting, and the master knows their speed.
+    /// Whether the bodies are apart and separating, and the importer knows their speed.
     pub fn has_parted(&self) -> bool {
         let speed = self.get(Real::ClosingSpeed);
         self.get(Real::Force) == 0.0 && speed < 0.0 && (self.speed - speed).abs() < 1e-13

@@ -1,4 +1,4 @@
-//! The sphere and the half-space of the reference tables, and every pairing of the laws.
+//! The sphere and the half-space of the reference tables, and every pair of laws.
 
 #![allow(dead_code)] // each test file uses a part of it
 
@@ -12,7 +12,7 @@ use brinell::contact::{Body, History, Loading, Model, Pair, Surface};
 use std::f64::consts::PI;
 use std::mem::discriminant;
 
-/// A model whose laws are chosen while the program runs.
+/// A model with laws chosen at run time.
 pub type AnyModel = Model<AnyLoading, AnyUnloading>;
 
 /// Mass of the sphere of [`mild`]: radius 5 mm, 7850 kg/m^3 [kg].
@@ -25,8 +25,8 @@ pub fn mild() -> Pair {
     Pair::new(&sphere, &steel, 300e6).expect("a sphere on a plane touches in one point")
 }
 
-/// Any bodies that a unit takes: Poisson's ratio from -0.99 to 0.5, `E*/S` from 0.1 to 1e9, an impactor that is rigid or softer
-/// than the target.
+/// Any bodies that an FMU accepts: Poisson's ratio from -0.99 to 0.5, `E*/S` from 0.1 to 1e9, an impactor that is rigid or
+/// softer than the target.
 pub fn random_bodies(random: &mut Random) -> Pair {
     let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
     let (radius, modulus) = (decades(-9.0, 3.0), decades(3.0, 15.0));
@@ -46,7 +46,7 @@ pub fn pair_of(radius: f64, modulus: f64, yield_strength: f64) -> Pair {
 
 /// The unit of indentation and force of every table: the point where the mean pressure reaches 1.1 S.
 ///
-/// Taken for all laws, so that Hertz, which never yields, has a scale too.
+/// It is the same for all laws, so that Hertz's law, which never yields, has a scale too.
 pub fn unit(pair: &Pair) -> YieldPoint {
     pair.yield_point(1.1)
 }
@@ -73,7 +73,7 @@ pub fn model(loading_name: &str, unloading_name: &str) -> AnyModel {
     }
 }
 
-/// Whether the two laws make sense together, by the table of laws.
+/// Whether the two laws can be combined, according to the table of laws.
 pub fn belong_together(loading_name: &str, unloading_name: &str) -> bool {
     let (loading, unloading) = (laws::entry("loading", loading_name), laws::entry("unloading", unloading_name));
     let own = loading.get("unloading").and_then(|own| own.as_str());
@@ -84,7 +84,8 @@ pub fn belong_together(loading_name: &str, unloading_name: &str) -> bool {
         && !(laws::says(loading, "above_hertz") && laws::says(unloading, "lowers_hertz"))
 }
 
-/// What the table says of the loading law of `model`; of laws of one type the first, if the constants are none of theirs.
+/// The entry of the loading law of `model`. If several laws have the same type and the constants belong to none of them, it is
+/// the first of these laws.
 fn loading_entry(model: &AnyModel) -> &'static toml::Table {
     let same = |(_, law): &&(&str, AnyLoading)| *law == model.loading;
     let alike = |(_, law): &&(&str, AnyLoading)| discriminant(law) == discriminant(&model.loading);
@@ -92,8 +93,8 @@ fn loading_entry(model: &AnyModel) -> &'static toml::Table {
     laws::entry("loading", found.expect("every law has a name").0)
 }
 
-/// From which Poisson's ratio of the target on two laws make no energy, by the table of laws; -1 if with all, and none if they
-/// always may.
+/// The Poisson's ratio of the target from which two laws are passive, according to the table of laws; -1 if they always are,
+/// `None` if they never need be.
 pub fn passive_from(loading_name: &str, unloading_name: &str) -> Option<f64> {
     let Some(energy) = laws::entry("loading", loading_name).get("energy") else { return Some(-1.0) };
     let mut passive = energy["passive"].as_array().expect("a list").iter();
@@ -101,8 +102,8 @@ pub fn passive_from(loading_name: &str, unloading_name: &str) -> Option<f64> {
     Some(with.get("from_poissons_ratio").map_or(-1.0, |from| from.as_float().expect("a number")))
 }
 
-/// Whether the laws of `model` never give back more than was put in, for its bodies. Then they unload below the loading curve, and
-/// leave a dent that is not above the surface and deepens.
+/// Whether the laws of `model` are passive for its bodies. They then unload below the loading curve, and leave a dent that is
+/// not above the surface and deepens.
 pub fn is_passive(model: &AnyModel) -> bool {
     let alike = |(_, law): &&(&str, AnyUnloading)| discriminant(law) == discriminant(&model.unloading);
     let unloading = AnyUnloading::ALL.iter().find(alike).expect("every law has a name").0;
@@ -115,7 +116,7 @@ pub fn has_jumps(model: &AnyModel) -> bool {
     laws::says(loading_entry(model), "jumps")
 }
 
-/// By which part of itself the contact radius falls at a corner, as published.
+/// The fraction by which the contact radius falls at a corner, as published.
 pub fn radius_falls_by(model: &AnyModel) -> f64 {
     loading_entry(model).get("radius_falls_by").map_or(0.0, |part| part.as_float().expect("a number"))
 }
@@ -130,7 +131,7 @@ pub fn unloading_force(model: &AnyModel, largest: f64, indentation: f64) -> f64 
     model.unloading_segment(largest, indentation).force(indentation)
 }
 
-/// Stiffness there [N/m].
+/// Stiffness at the same point [N/m].
 pub fn unloading_stiffness(model: &AnyModel, largest: f64, indentation: f64) -> f64 {
     model.unloading_segment(largest, indentation).stiffness(indentation)
 }
@@ -140,7 +141,7 @@ pub fn yields(model: &AnyModel) -> bool {
     model.loading.yield_point(&model.pair).indentation < f64::INFINITY
 }
 
-/// Every loading law with every unloading law that it makes sense with, on `pair`, with a name for messages.
+/// Every loading law with every unloading law that it can be combined with, on `pair`, with a name for messages.
 pub fn all_models(pair: Pair) -> Vec<(String, AnyModel)> {
     let mut models = Vec::new();
     for (loading_name, loading) in AnyLoading::ALL {
@@ -175,7 +176,7 @@ pub fn loading_force(model: &AnyModel, indentation: f64) -> f64 {
     model.loading.segment(&model.pair, indentation).force(indentation)
 }
 
-/// The corners of the loading curve [m], in order: every end of a smooth piece but the last.
+/// The corners of the loading curve [m], in order: every end of a smooth piece except the last.
 pub fn corners(model: &AnyModel) -> Vec<f64> {
     let mut corners = Vec::new();
     let mut corner = model.loading.next_corner(&model.pair, 0.0);
@@ -186,9 +187,9 @@ pub fn corners(model: &AnyModel) -> Vec<f64> {
     corners
 }
 
-/// `count` numbers from `first` to `last`, each the same multiple of the one before.
+/// `count` numbers from `first` to `last` in geometric progression.
 pub fn logarithmic(first: f64, last: f64, count: usize) -> impl Iterator<Item = f64> {
-    // in logarithms throughout: the ratio of the two may overflow
+    // computed with logarithms, because the ratio of the two may overflow
     let step = (last.ln() - first.ln()) / (count - 1) as f64;
     (0..count).map(move |index| (first.ln() + step * index as f64).exp())
 }
@@ -214,7 +215,8 @@ pub fn on_grid(x: f64) -> f64 {
     (x * unit(&mild()).indentation * GRID).round() / GRID
 }
 
-/// Moves to `target` [m] > 0 exactly, from one side: each step at most halves or doubles, which has no rounding.
+/// Moves exactly to `target` [m] > 0, from one side: each step at most halves or doubles the indentation, which causes no
+/// rounding.
 pub fn exactly(history: &mut History, model: &AnyModel, target: f64) {
     while history.indentation() != target {
         let now = history.indentation();

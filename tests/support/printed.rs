@@ -1,8 +1,7 @@
-//! Agreement with printed numbers, and the models that the tables name.
+//! Agreement with printed numbers, and the models used in the tables.
 //!
-//! A number agrees if it differs from the printed one by no more than half a unit of the last printed digit: nothing is
-//! wider than what the print itself leaves open. Four roundings of `f64` come on top, which matters where 15 digits are
-//! printed.
+//! A number agrees if it differs from the printed one by no more than half a unit of the last printed digit, which is the
+//! accuracy of the print. Four rounding errors of `f64` are added, which matters for 15 printed digits.
 
 #![allow(dead_code)] // each test file uses a part of it
 
@@ -10,13 +9,13 @@ use super::physics::{AnyModel, MASS, mild, model, unit};
 use brinell::contact::Model;
 use brinell::contact::unloading::{AnyUnloading, DeformedRadius};
 
-/// `got` agrees with a number printed with so many `decimals`.
+/// Checks that `got` agrees with a number printed with this number of `decimals`.
 pub fn agrees(what: &str, got: f64, printed: f64, decimals: i32) {
     let half_unit = 0.5 * 10f64.powi(-decimals) + 4.0 * f64::EPSILON * printed.abs();
     assert!((got - printed).abs() <= half_unit, "{what}: {got:.17e} is not the printed {printed:e} (+-{half_unit:e})");
 }
 
-/// `got` agrees with a number printed with so many significant `digits` (zeros at the end not printed).
+/// Checks that `got` agrees with a number printed with this number of significant `digits` (without trailing zeros).
 pub fn agrees_in_digits(what: &str, got: f64, printed: f64, digits: i32) {
     agrees(what, got, printed, digits - 1 - printed.abs().log10().floor() as i32);
 }

@@ -1,12 +1,12 @@
-//! Tests in Python, run on FMUs that are there already.
+//! Tests in Python on existing FMUs.
 
 use super::python;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Runs tests/fmpy/`file` with `units`, whose paths it finds as JSON in the variable BRINELL_TEST_UNITS, by the name of the scene,
-/// and the program in BRINELL_TEST_PROGRAM.
+/// Runs tests/fmpy/`file` with `units`. It gets their paths as JSON in the variable BRINELL_TEST_UNITS, by the name of the
+/// scene, and the program in BRINELL_TEST_PROGRAM.
 pub fn pytest(file: &str, units: &HashMap<String, PathBuf>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmpy");
     assert!(folder.join(file).is_file(), "there is no tests/fmpy/{file}");
@@ -16,7 +16,7 @@ pub fn pytest(file: &str, units: &HashMap<String, PathBuf>) {
         .env("BRINELL_TEST_UNITS", serde_json::to_string(units).unwrap())
         .env("BRINELL_TEST_PROGRAM", env!("CARGO_BIN_EXE_brinell"))
         .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
-        // nothing is left behind in the source tree
+        // the source tree stays clean
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
         .expect("the virtual environment has an interpreter");

@@ -1,5 +1,5 @@
-//! Python for tests: a virtual environment inside the target folder, made from `tests/requirements.txt` when it is first
-//! needed and again when that file changes.
+//! Python for tests: a virtual environment in the target folder. It is created from `tests/requirements.txt` on first use, and
+//! again when that file changes.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use std::fs::{self, File};
@@ -11,29 +11,29 @@ use std::sync::OnceLock;
 const REQUIREMENTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/requirements.txt");
 const ENGINES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/requirements-engines.txt");
 
-/// The target folder of cargo: its folder for tests lies in it.
+/// The target folder of cargo, which contains its folder for tests.
 pub fn target_folder() -> PathBuf {
     let temporary = Path::new(env!("CARGO_TARGET_TMPDIR"));
     temporary.parent().expect("cargo's folder for tests lies in the target folder").to_path_buf()
 }
 
-/// The interpreter that has fmpy, pytest and libclang.
+/// The interpreter with fmpy, pytest and libclang.
 pub fn python() -> PathBuf {
     static PYTHON: OnceLock<PathBuf> = OnceLock::new();
     PYTHON.get_or_init(|| made("test-venv", None)).clone()
 }
 
-/// The interpreter of a second environment, made from `tests/requirements-engines.txt`, too: multibody engines and what
-/// studies take. They are large, and some have no package for some platforms: what can't be installed is left out.
+/// The interpreter of a second environment with the packages of `tests/requirements-engines.txt`: multibody engines and the
+/// packages for studies. They are large, and some have no package for some platforms: what cannot be installed is omitted.
 pub fn engines() -> PathBuf {
     static ENGINES_PYTHON: OnceLock<PathBuf> = OnceLock::new();
     ENGINES_PYTHON.get_or_init(|| made("engines-venv", Some(ENGINES))).clone()
 }
 
-/// What the virtual environment has at `path` below its packages, such as `fmpy/c-code` with the official C headers and
-/// `fmpy/schema/fmi2` with the official XML schema.
+/// The path of a file of the installed packages, such as `fmpy/c-code` with the official C headers and `fmpy/schema/fmi2` with
+/// the official XML schema.
 pub fn site_packages_file(path: &str) -> PathBuf {
-    // asked for, since the folder's name depends on platform and version
+    // requested from Python, because the folder's name depends on platform and version
     let mut command = Command::new(python());
     command.args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]);
     let output = run(&mut command, "the virtual environment is broken; delete it");
@@ -42,20 +42,22 @@ pub fn site_packages_file(path: &str) -> PathBuf {
     file
 }
 
-/// The environment `name` of the tests, as tests/requirements.txt and the file `more` want it.
+/// The environment `name` of the tests, according to tests/requirements.txt and the file `more`.
 fn made(name: &str, more: Option<&str>) -> PathBuf {
     environment(name, Path::new(REQUIREMENTS), more).unwrap_or_else(|reason| panic!("{reason}"))
 }
 
-/// The interpreter of the virtual environment `name` in the target folder, made if it isn't there as `requirements` wants it.
+/// The interpreter of the virtual environment `name` in the target folder, created according to `requirements` if it does not
+/// exist.
 ///
 /// # Errors
-/// Why it can't be made.
+/// The reason why it cannot be created.
 pub fn environment_of(name: &str, requirements: &Path) -> Result<PathBuf, String> {
     environment(name, requirements, None)
 }
 
-/// The same with the packages of the file `more`, of which each line is installed by itself if they can't be together.
+/// The same with the packages of the file `more`. If they cannot be installed together, each of its lines is installed
+/// separately.
 fn environment(name: &str, requirements: &Path, more: Option<&str>) -> Result<PathBuf, String> {
     let folder = target_folder().join(name);
     let interpreter = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
@@ -64,10 +66,10 @@ fn environment(name: &str, requirements: &Path, more: Option<&str>) -> Result<Pa
     if let Some(more) = more {
         wanted.extend(read(Path::new(more))?);
     }
-    // test programs may run at the same time, and one environment serves all of them. The lock ends with the process.
+    // test programs may run at the same time with one common environment; the lock ends with the process
     let lock = File::create(folder.with_extension("lock")).expect("the target folder can be written to");
     lock.lock().expect("the target folder is on a file system with locks");
-    // the copy of the requirements is written last: an environment without it is unfinished
+    // the copy of the requirements is written last: an environment without it is incomplete
     let marker = folder.join("requirements.txt");
     if fs::read(&marker).is_ok_and(|made| made == wanted) && interpreter.exists() {
         return Ok(interpreter);
@@ -89,7 +91,7 @@ fn pip(interpreter: &Path) -> Command {
     command
 }
 
-/// Installs all of `file`, or each of its lines that can be; whether that was all.
+/// Installs all of `file`, or each of its lines that can be installed. Returns whether all could.
 fn install_what_can_be(interpreter: &Path, file: &str) -> bool {
     let installs = |command: &mut Command| command.output().is_ok_and(|output| output.status.success());
     if installs(pip(interpreter).arg("-r").arg(file)) {
@@ -98,14 +100,14 @@ fn install_what_can_be(interpreter: &Path, file: &str) -> bool {
     let lines = fs::read_to_string(file).expect("a file that was read before");
     for line in lines.lines().filter(|line| !line.starts_with('#') && !line.is_empty()) {
         if !installs(pip(interpreter).arg("--no-deps").arg(line)) {
-            // past the harness, which keeps what a test prints unless it fails
+            // past the harness, which hides the output of a test that passes
             let _ = writeln!(std::io::stderr(), "NOT INSTALLED: {line} can't be installed here");
         }
     }
     false
 }
 
-/// Runs `command`; if it fails the test fails with `hint` and what the command wrote.
+/// Runs `command`; if it fails, the test fails with `hint` and the output of the command.
 fn run(command: &mut Command, hint: &str) -> Output {
     succeed(command, hint).unwrap_or_else(|reason| panic!("{reason}"))
 }
@@ -113,7 +115,7 @@ fn run(command: &mut Command, hint: &str) -> Output {
 /// Runs `command`.
 ///
 /// # Errors
-/// `hint` and what the command wrote.
+/// `hint` and the output of the command.
 fn succeed(command: &mut Command, hint: &str) -> Result<Output, String> {
     let output = command.output().map_err(|error| format!("{command:?} can't be started ({error}): {hint}"))?;
     if output.status.success() {

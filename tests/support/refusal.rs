@@ -1,12 +1,12 @@
-//! Scenes that can't be used: the message names the place, and no file is touched.
+//! Scenes with errors: the message names the place, and no file changes.
 //!
-//! In the scenes `§` marks the place that the message must name; it is taken out before the file is written.
+//! In the scenes, `§` marks the place that the message must name; it is removed before the file is written.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use super::command::{contents, empty_folder, run};
 use std::fs;
 
-/// Exports `bytes` over an old unit; gives the message, after a look that the unit is as it was.
+/// Exports `bytes` over an existing FMU. Returns the message, after checking that the FMU has not changed.
 #[track_caller]
 pub fn message_of(bytes: &[u8]) -> String {
     let folder = empty_folder();

@@ -1,7 +1,7 @@
-//! Scenes for instances in plain Rust, without any export: bodies and laws are read from memory when an instance is made.
+//! Scenes for instances in plain Rust, without an export: bodies and laws are read from memory when an instance is created.
 //!
-//! [`Chosen`] is one contact or several, each a group of its own, of any [`Kind`]: elastoplastic, rate-dependent, or moved by
-//! its mass. Bodies and laws are those that the thread has chosen with [`choose`].
+//! [`Chosen`] is one contact or several, each in its own group, of any [`Kind`]: elastoplastic, rate-dependent, or moved by its
+//! mass. Bodies and laws are those that the thread has selected with [`choose`].
 
 #![allow(dead_code)] // each test file uses a part of it
 
@@ -17,20 +17,20 @@ use brinell::scene::{
 use std::cell::RefCell;
 use std::marker::PhantomData;
 
-/// What an instance is made of.
+/// The properties of an instance.
 #[derive(Clone, Copy, Debug)]
 pub struct Choice {
     pub loading: AnyLoading,
     pub unloading: AnyUnloading,
     pub surface: Surface,
     pub damped: AnyDamped,
-    /// Of the target of the first contact [Pa]; that of each following one is a tenth larger.
+    /// Young's modulus of the target of the first contact [Pa]; that of each following one is a tenth larger.
     pub youngs_modulus: f64,
     pub poissons_ratio: f64,
     pub yield_strength: f64,
-    /// Of the impactor [m].
+    /// Radius of the impactor [m].
     pub radius: f64,
-    /// Of the target [m]: a wide socket, so that a parameter can be set that doesn't fit.
+    /// Radius of the target [m]: a wide socket, so that a parameter can be set to a value that does not fit.
     pub target_radius: f64,
     pub restitution: f64,
     pub effective_mass: f64,
@@ -61,7 +61,7 @@ thread_local! {
     static CHOICE: RefCell<Option<Choice>> = const { RefCell::new(None) };
 }
 
-/// What instances of this thread are made of from now on.
+/// Selects the properties of new instances in this thread.
 pub fn choose(choice: Choice) {
     CHOICE.with(|slot| *slot.borrow_mut() = Some(choice));
 }
@@ -81,10 +81,10 @@ pub trait Kind {
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model;
 }
 
-/// A law of indentation and largest indentation.
+/// A law that depends on the indentation and the largest indentation.
 pub struct Elastoplastic;
 
-/// The same, moved by its mass, for a master as `C` says.
+/// The same, moved by its mass, with the coupling `C`.
 pub struct Massive<C = Coupled>(PhantomData<C>);
 
 /// A rate-dependent law.
@@ -129,10 +129,10 @@ impl Kind for Damped {
     }
 }
 
-/// `N` contacts of a kind, whose momentum is `M`, each a group of its own.
+/// `N` contacts of a kind with the momentum `M`, each in its own group.
 pub struct Chosen<K, const N: usize, M = Absent>(PhantomData<(K, M)>);
 
-/// Whether forces are kept in memory: there are many scenes in which they are.
+/// Whether forces are stored: there are many scenes in which they are.
 type Kept = Absent;
 
 static SETTABLE: [Settable; 3] = [
@@ -258,7 +258,7 @@ pub fn ready<S: Scene>() -> Instance<S> {
     instance
 }
 
-/// Sets the rate of `contact` [m/s], which must be allowed.
+/// Sets the rate of `contact` [m/s], which must be accepted.
 pub fn set_rate<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64) {
     let variable = (Real::IndentationRate, contact);
     instance.check_real(variable, rate).expect("the rate is allowed");
@@ -287,7 +287,7 @@ pub fn words<S: Scene>(instance: &Instance<S>) -> Vec<u64> {
     words
 }
 
-/// How many values the scene can set.
+/// The number of values that the scene can set.
 pub fn settable<S: Scene>() -> usize {
     <S::Values as Store<f64>>::LENGTH
 }

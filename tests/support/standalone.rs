@@ -1,11 +1,11 @@
-//! Scenes whose units need nothing from their process.
+//! Scenes whose FMUs need nothing from their process.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use super::unit;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The scene in the file `scene`, but standalone.
+/// A standalone copy of the scene in the file `scene`.
 pub fn scene(scene: &Path) -> PathBuf {
     let text = fs::read_to_string(scene).expect("a scene file");
     assert!(text.contains("[fmu]\n"), "{} has a table for the unit", scene.display());
@@ -14,7 +14,7 @@ pub fn scene(scene: &Path) -> PathBuf {
     unit::write_scene(&format!("standalone_{folder}"), &text)
 }
 
-/// Whether the unit that `library` was unpacked from says so.
+/// Whether the model description of the FMU from which `library` was unpacked declares this.
 pub fn is_standalone(library: &Path) -> bool {
     let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
     let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");

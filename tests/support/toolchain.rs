@@ -1,17 +1,18 @@
-//! The compiler for all platforms, where there is one.
+//! The compiler for all platforms, if available.
 
 use std::env;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The cache that tests build in, where the toolchain is if no other one is named.
+/// The cache in which tests build; it contains the toolchain unless another folder is named.
 fn cache() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
 }
 
-/// The folder of the toolchain: that of `BRINELL_TOOLCHAIN`, or the one in the cache of the tests. With `BRINELL_PLATFORMS=all` it is
-/// fetched if it isn't there, about 100 MB. None, with a word that no test runner hides, if there is none.
+/// The folder of the toolchain: that of `BRINELL_TOOLCHAIN`, or the one in the cache of the tests. With
+/// `BRINELL_PLATFORMS=all`, it is downloaded if missing, about 100 MB. `None`, with a message that no test runner hides, if
+/// there is none.
 pub fn toolchain() -> Option<PathBuf> {
     let named = env::var_os("BRINELL_TOOLCHAIN").filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = named.unwrap_or_else(|| cache().join("toolchain"));

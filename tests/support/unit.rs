@@ -1,4 +1,4 @@
-//! Units for tests: a scene exported by the program itself, as a user would, and the library inside it.
+//! FMUs for tests: a scene exported by the program like for a user, and the library in it.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use std::collections::HashMap;
@@ -15,7 +15,7 @@ static MADE: LazyLock<Mutex<HashMap<PathBuf, Arc<OnceLock<PathBuf>>>>> = LazyLoc
 
 /// The folder for everything that tests export; cargo keeps it inside the target folder.
 fn folder() -> PathBuf {
-    // test programs may run at the same time, so each has its own
+    // test programs may run at the same time, so each has its own folder
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("units").join(env!("CARGO_CRATE_NAME"))
 }
 
@@ -57,7 +57,7 @@ pub fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml")
 }
 
-/// The default scene with the output `regime`, which it hasn't got: some importers can't read an enumeration.
+/// The default scene with the output `regime`, which it does not have because some importers cannot read an enumeration.
 pub fn steel_ball_with_regime() -> PathBuf {
     let text = fs::read_to_string(scene("steel_ball")).expect("a scene file");
     write_scene("steel_ball", &text.replacen("outputs = [", "outputs = [\"regime\", ", 1))
@@ -74,7 +74,7 @@ pub fn scenes() -> Vec<PathBuf> {
     scenes
 }
 
-/// Those with one contact, whose variables have plain names.
+/// The scenes with one contact, whose variables have plain names.
 pub fn plain_scenes() -> Vec<PathBuf> {
     let is_plain = |path: &PathBuf| !fs::read_to_string(path).expect("a scene file").contains("[[contact]]");
     scenes().into_iter().filter(is_plain).collect()
@@ -85,14 +85,14 @@ pub fn write_scene(name: &str, text: &str) -> PathBuf {
     let folder = folder().join("scenes");
     fs::create_dir_all(&folder).expect("the target folder can be written to");
     let path = folder.join(name).with_extension("toml");
-    // another test may be reading the same scene: it is never half written
+    // another test may be reading the same scene: it is written atomically
     let draft = path.with_extension(format!("{:?}", std::thread::current().id()));
     fs::write(&draft, text).expect("the target folder can be written to");
     fs::rename(&draft, &path).expect("the target folder can be written to");
     path
 }
 
-/// The unit of a scene file: `brinell export SCENE -o FILE`.
+/// The FMU of a scene file: `brinell export SCENE -o FILE`.
 pub fn export(scene: &Path) -> PathBuf {
     let scene = scene.canonicalize().unwrap_or_else(|error| panic!("{}: {error}", scene.display()));
     once(scene, |scene| {

@@ -24,11 +24,11 @@ class Parts:
     """
 
     def __init__(self, output: Path, plan: bytes, size: int) -> None:
-        """`size` is how many runs a chunk gets, if the study begins anew."""
+        """`size` is the number of runs of a chunk if the study is new."""
         self.folder = output.with_name(output.name + ".parts")
         key, note = hashlib.sha256(plan).hexdigest(), self.folder / "plan.json"
         self.size = size
-        """How many runs a chunk of these parts has."""
+        """Number of runs in a chunk of these parts."""
         if note.is_file():
             known = json.loads(note.read_text())
             if known["plan"] != key:
@@ -44,7 +44,7 @@ class Parts:
             draft.replace(note)
 
     def load(self, chunk: int) -> Table | None:
-        """A chunk, if it is finished."""
+        """A chunk, or None if it is not finished."""
         path = self.folder / f"{chunk:06}.parquet"
         return read(path) if path.is_file() else None
 

@@ -45,10 +45,10 @@ def study(
 ) -> Table:
     """Run thousands of impacts of a scene's first contact; return a table with a row for each.
 
-    `vary` says what is varied: "speed" [m/s], "mass" [kg], and any parameter of the FMU, in SI
-    units. Each value is a `Range`, a string (`"0.1:10:50log"`) or a list of values. `sample` is
-    "grid", "sobol:COUNT" or "lhs:COUNT". `mass`, `speed` and `parameters` hold for all runs; the
-    default is those of the scene.
+    `vary` maps the varied quantities to their values: "speed" [m/s], "mass" [kg], and any parameter
+    of the FMU, in SI units. Each value is a `Range`, a string (`"0.1:10:50log"`) or a list of
+    values. `sample` is "grid", "sobol:COUNT" or "lhs:COUNT". `mass`, `speed` and `parameters` hold
+    for all runs; the default is those of the scene.
 
     `output` names files; their extensions select the format: .parquet and .csv for the table, .svg
     and .png for a picture. With a table among them, an interrupted study continues where it was.

@@ -1,4 +1,4 @@
-//! What the program says about itself: versions, completions for shells, manual pages.
+//! Information about the program itself: versions, shell completions, manual pages.
 
 use crate::arguments::Arguments;
 use crate::files::FileError;
@@ -9,7 +9,7 @@ use serde_json::json;
 use std::path::Path;
 use std::{fs, io};
 
-/// The version of the program, which is that of the package.
+/// Version of the program, which is that of the package.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// `brinell --version`: program, library, platform, and the prebuilt libraries that an export would use.
@@ -38,17 +38,18 @@ pub fn version(as_json: bool) {
     }
 }
 
-/// `brinell completions`: the script that completes the program's arguments in `shell`, on standard output.
+/// `brinell completions`: prints the completion script for `shell` to standard output.
 ///
 /// # Errors
-/// An output that can't be written to.
+/// An error of the standard output.
 pub fn completions(shell: Shell) -> io::Result<()> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "brinell", &mut script);
     io::Write::write_all(&mut io::stdout(), &script)
 }
 
-/// `brinell man`: the manual pages of the program and of each command, `brinell.1`, `brinell-export.1` and so on, in `folder`.
+/// `brinell man`: writes the manual pages of the program and of each command to `folder`: `brinell.1`, `brinell-export.1` and
+/// so on.
 ///
 /// # Errors
 /// [`FileError`]

@@ -24,7 +24,7 @@ pub struct Arguments {
     pub version: bool,
 }
 
-/// What the exit status of the program means.
+/// The meaning of the exit status of the program.
 const STATUS: &str = "\
 Exit status: 0 success; 1 the job failed, or its result is bad (a wrong scene, no compiler, an FMU
 that fails its check); 2 the command line is wrong (an unknown option or law, a value out of range).";

@@ -1,9 +1,9 @@
-//! The bodies of a contact, in words and numbers.
+//! The bodies of a contact, as words and numbers.
 
 use crate::scene::Scene;
 use crate::table;
 
-/// What meets what in the contacts of `group`: "a rigid sphere", "a half-space".
+/// Descriptions of the two bodies in the contacts of `group`: "a rigid sphere", "a half-space".
 pub fn words(scene: &Scene, group: usize) -> (&'static str, &'static str) {
     let value = |name| scene.group_value(group, name);
     let impactor = if value("impactor.youngs_modulus").is_none() { "a rigid sphere" } else { "an elastic sphere" };
@@ -15,7 +15,8 @@ pub fn words(scene: &Scene, group: usize) -> (&'static str, &'static str) {
     (impactor, target)
 }
 
-/// The parameters of the contacts of `group`, their own and those of all contacts, in the order of the table: name, value, unit.
+/// The parameters of the contacts of `group`, including those shared by all contacts, in the order of the table: name, value,
+/// unit.
 pub fn numbers(scene: &Scene, group: usize) -> Vec<(&'static str, f64, &'static str)> {
     let names = table::VARIABLES.iter().filter(|variable| variable.causality == table::Causality::Parameter);
     let number = |variable: &'static table::Variable| {
@@ -25,7 +26,7 @@ pub fn numbers(scene: &Scene, group: usize) -> Vec<(&'static str, f64, &'static 
     names.filter_map(number).collect()
 }
 
-/// The first contact, by its name if it has one: "the first contact, <code>bead[1]</code>".
+/// The first contact with its name, if it has one: "the first contact, <code>bead[1]</code>".
 pub fn first_contact(scene: &Scene) -> Option<String> {
     let first = &scene.contacts[0];
     first.name.is_some().then(|| format!("the first contact, <code>{}</code>", first.prefix(0).trim_end_matches('.')))

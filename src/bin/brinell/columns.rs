@@ -1,4 +1,4 @@
-//! Results as columns of numbers, by law: as CSV and JSON with all digits, and as a short table.
+//! Results as columns of numbers for each law: as CSV and JSON with all digits, and as a short table.
 
 use crate::layout;
 use crate::numbers::{Prefixed, cell, prefixed};
@@ -8,9 +8,9 @@ use std::fmt::Write;
 /// A column: a quantity in SI units.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// In words: "largest force".
+    /// Name in words: "largest force".
     pub name: String,
-    /// Empty for a pure number.
+    /// Unit; empty for a dimensionless number.
     pub unit: &'static str,
 }
 
@@ -22,7 +22,7 @@ pub struct Columns {
 }
 
 impl Column {
-    /// A column of this name and unit.
+    /// A column with this name and unit.
     pub fn new(name: impl Into<String>, unit: &'static str) -> Column {
         Column { name: name.into(), unit }
     }
@@ -40,7 +40,7 @@ impl Column {
 }
 
 impl Columns {
-    /// One line for each row, all digits.
+    /// CSV with one line for each row and all digits.
     pub fn csv(&self) -> String {
         let mut text = String::from("law");
         for column in &self.columns {
@@ -59,7 +59,7 @@ impl Columns {
         text
     }
 
-    /// A list of laws, each with a list of numbers for every column; a number that isn't finite is null.
+    /// A list of laws, each with a list of numbers for every column. A number that is not finite becomes null.
     pub fn json(&self) -> Value {
         let law = |(law, rows): &(String, Vec<Vec<f64>>)| {
             let mut object = Map::new();
@@ -72,7 +72,7 @@ impl Columns {
         self.laws.iter().map(law).collect()
     }
 
-    /// At most `most` rows of each law with the columns of these `names`, four digits each.
+    /// A table with at most `most` rows of each law, with the columns of these `names` and four digits.
     pub fn text(&self, names: &[&str], most: usize) -> String {
         let shown = names.iter().filter_map(|name| self.columns.iter().position(|column| column.name == *name));
         let shown: Vec<usize> = shown.collect();
@@ -101,7 +101,7 @@ impl Columns {
     }
 }
 
-/// At most `most` of `count` places, evenly spread, with the first and the last.
+/// At most `most` of `count` indices, evenly spaced, including the first and the last.
 pub fn some(count: usize, most: usize) -> Vec<usize> {
     match count {
         count if count <= most => (0..count).collect(),

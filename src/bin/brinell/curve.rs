@@ -1,4 +1,4 @@
-//! `brinell curve`: force, radius, pressure and energies along a path that loads, unloads, and loads again.
+//! `brinell curve`: force, radius, pressure and energies along a path of loading, unloading and reloading.
 
 use crate::arguments::CurveArguments;
 use crate::columns::{Column, Columns};
@@ -16,13 +16,13 @@ use serde_json::json;
 use std::error::Error;
 use std::f64::consts::PI;
 
-/// Points of each branch of the path.
+/// Number of points on each branch of the path.
 const POINTS: u32 = 200;
 
-/// Rows of the table in a terminal: four for each branch, and the end.
+/// Number of rows of the table in a terminal: four for each branch, and the end.
 const TABLE_ROWS: usize = 17;
 
-/// The command: draws or tabulates the curve that the arguments name.
+/// The command: draws or tabulates the curve for these arguments.
 pub fn run(arguments: &CurveArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let output = arguments.output.as_deref();
     let format = ending(output, &["csv", "svg"]).map_err(WrongCall)?;
@@ -69,8 +69,8 @@ struct Row {
     regime: i32,
 }
 
-/// The curve of `choice` up to `largest` [m]: loaded to two thirds of it, unloaded to the dent, loaded on to `largest` and
-/// unloaded.
+/// The curve of `choice` up to `largest` [m]: loading to two thirds of it, unloading to the dent, loading to `largest`,
+/// unloading.
 fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooDeep> {
     let model = match choice.model {
         AnyModel::Elastoplastic(model) => model,
@@ -100,7 +100,7 @@ fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooD
     Ok(rows)
 }
 
-/// The course of `impact` by a rate-dependent law, which has no curve without a motion.
+/// The motion during `impact` with a rate-dependent law, which has no curve without a motion.
 fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<Row> {
     let mut rows = Vec::new();
     let factors = model.law.factors(&model.pair, model.restitution, model.mass);
@@ -124,7 +124,7 @@ fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<Row> {
             regime: i32::from(force > 0.0),
         });
     });
-    // the method makes some thousand steps: as many points as the other laws have
+    // the method takes a few thousand steps; this leaves as many points as the other laws have
     let every = rows.len().div_ceil(4 * POINTS as usize).max(1);
     rows.into_iter().step_by(every).collect()
 }
@@ -132,7 +132,7 @@ fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<Row> {
 /// The curves as columns.
 ///
 /// # Errors
-/// [`TooDeep`] if `largest` [m] is beyond what the laws can be evaluated for.
+/// [`TooDeep`] if the laws cannot be evaluated up to `largest` [m].
 fn columns(choices: &[Choice], largest: f64, impact: &Impact) -> Result<Columns, TooDeep> {
     let names = [
         ("indentation", "m"),
@@ -176,7 +176,7 @@ fn columns(choices: &[Choice], largest: f64, impact: &Impact) -> Result<Columns,
     })
 }
 
-/// The curves as a picture; with `dots` the finite-element loading curve of the same bodies.
+/// The curves as a picture; with `dots`, the finite-element loading curve of the same bodies is added.
 ///
 /// # Errors
 /// As for the columns.
@@ -191,7 +191,7 @@ pub fn picture(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) ->
         let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
         let all = truth::loading().into_iter().map(|point| (point.x * unit.indentation, point.f * unit.force));
         let inside: Vec<_> = all.filter(|(d, _)| *d <= largest).map(|(d, f)| (1e6 * d, f)).collect();
-        // some thirty dots: more would be a line
+        // about thirty dots; more would look like a line
         let every = (inside.len() / 30).max(1);
         let points = inside.into_iter().step_by(every).collect();
         series.push(Series { label: "finite elements".into(), points, dots: true });
@@ -200,10 +200,10 @@ pub fn picture(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) ->
     Ok(Picture { x_title: titles.0.into(), y_title: titles.1.into(), logarithmic: (false, false), series })
 }
 
-/// The loading curve of every law over Hertz's force, with the finite-element truth as dots.
+/// The loading curve of every law relative to Hertz's force, with the finite-element results as dots.
 pub fn over_hertz(choices: &[Choice]) -> String {
     const POINTS: u32 = 300;
-    // from well inside the elastic range to the end of the truth
+    // from well inside the elastic range to the end of the finite-element results
     let depth = |point: u32| 0.3 * libm::pow(1000.0 / 0.3, f64::from(point) / f64::from(POINTS));
     let mut series: Vec<_> = choices
         .iter()
@@ -220,7 +220,7 @@ pub fn over_hertz(choices: &[Choice]) -> String {
             Series { label: choice.name.clone(), points, dots: false }
         })
         .collect();
-    // some forty dots, evenly spread over the decades
+    // about forty dots, evenly spaced on the logarithmic axis
     let mut next = 0.3;
     let mut points = Vec::new();
     for truth::Point { x, f } in truth::loading() {

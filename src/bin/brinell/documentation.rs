@@ -1,4 +1,4 @@
-//! `documentation/index.html` of an FMU: what it is, its law with a picture, its variables.
+//! `documentation/index.html` of an FMU: overview, law with a picture, variables.
 
 use crate::bodies;
 use crate::energy;
@@ -84,7 +84,7 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(page, "</body>\n</html>")
 }
 
-/// What is in contact.
+/// The bodies in contact.
 fn contact(scene: &Scene) -> String {
     let pairs: BTreeSet<_> = (0..scene.contacts.len()).map(|group| bodies::words(scene, group)).collect();
     match pairs.first() {
@@ -116,7 +116,7 @@ fn contacts(page: &mut String, scene: &Scene) -> std::fmt::Result {
     writeln!(page, "</table>")
 }
 
-/// How the FMU and its importer work together.
+/// The coupling of the FMU with its importer.
 fn coupling(scene: &Scene) -> String {
     if let Some(coupling) = scene.coupling {
         let mass = if coupling.mass_input {
@@ -158,7 +158,7 @@ fn coupling(scene: &Scene) -> String {
     }
 }
 
-/// The impact by the energy balance, and a suitable step.
+/// The impact from the energy balance, and a suitable step size.
 fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     let Plan { scene, experiment, .. } = plan;
     let prediction = plan.prediction();
@@ -207,7 +207,7 @@ fn law(page: &mut String, heading: &str, text: &LawText) -> std::fmt::Result {
     writeln!(page, "</ul>\n<p>{} Reference: {}.</p>", escape(&text.notes), escape(&text.law.reference))
 }
 
-/// The constants of a law as they are in this FMU.
+/// The constants of a law in this FMU.
 fn law_constants(page: &mut String, text: &LawText, constants: &[Constant]) -> std::fmt::Result {
     if constants.is_empty() {
         return Ok(());
@@ -274,7 +274,7 @@ fn curve(plan: &Plan) -> String {
     force_over_indentation(plan.scene, plan.prediction()).svg(640, 400)
 }
 
-/// The picture of force over indentation in the impact of `scene`, with this `prediction`.
+/// Force over indentation in the impact of `scene`, with this `prediction`.
 pub fn force_over_indentation(scene: &Scene, prediction: &Prediction) -> Picture {
     let micrometres = |points: Vec<(f64, f64)>| points.into_iter().map(|(d, force)| (1e6 * d, force)).collect();
     let branches =

@@ -1,8 +1,8 @@
-//! Whether a law makes energy: whether what it has dissipated falls again when it is pressed in deeper.
+//! Whether a law is passive: whether the dissipated energy never decreases as the indentation grows.
 //!
-//! Where it does, an impact into the dent gives back more than it brought; where more than everything comes back, so does an
-//! impact on an untouched surface, with a restitution above 1. The table of laws says it of the published constants, for all
-//! bodies; tests hold it to that. Of other constants it is found by looking.
+//! Where it decreases, an impact into the dent returns more energy than was put in. If the dissipated energy becomes negative,
+//! the same holds for an impact on an untouched surface: its restitution is above 1. The table of laws states this for the
+//! published constants and all bodies, and tests verify it. For other constants, the program evaluates the law.
 
 use crate::scene::Scene;
 use crate::{laws, table};
@@ -11,23 +11,24 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model, Pair};
 
-/// Whether the unit of a scene can give back energy that nobody put in, whatever its settable parameters are set to.
+/// Whether the FMU of a scene can return energy that was not put in, for all values of its settable parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Energy {
-    /// What is dissipated never falls.
+    /// The dissipated energy never decreases.
     Passive,
-    /// The guard sees to it that a contact gives back no more than it took. What is dissipated may fall.
+    /// The guard ensures that a contact returns no more energy than it took. The dissipated energy may decrease.
     Guarded,
-    /// What is dissipated may fall.
+    /// The dissipated energy may decrease.
     MayBeMade {
-        /// The laws make none where Poisson's ratio of the target is not below this; none if they may always.
+        /// The laws are passive if Poisson's ratio of the target is at least this value; `None` if they may always return too
+        /// much.
         below_poissons_ratio: Option<f64>,
     },
 }
 
-/// What the unit of `scene` can do.
+/// The energy balance of the FMU of `scene`.
 pub fn of(scene: &Scene) -> Energy {
-    // neither a rate-dependent law has one nor Hertz's
+    // rate-dependent laws and Hertz's law have no unloading law
     let Some((unloading, _)) = scene.unloading else { return Energy::Passive };
     let below = if is_published(scene) { told(scene.loading.0, unloading) } else { found(scene) };
     let lowest = (0..scene.contacts.len()).map(|group| lowest_poissons_ratio(scene, group)).fold(0.5, f64::min);
@@ -40,7 +41,7 @@ pub fn of(scene: &Scene) -> Energy {
     }
 }
 
-/// What the unit of `scene` can do, in words.
+/// The energy balance of the FMU of `scene`, in words.
 pub fn words(scene: &Scene) -> String {
     match of(scene) {
         Energy::Passive => "Together, these laws make no energy: dissipated energy never falls.".into(),
@@ -61,7 +62,7 @@ pub fn words(scene: &Scene) -> String {
     }
 }
 
-/// What the table says of the surplus of the laws of `scene`, if they are as published.
+/// The statement of the table about the surplus of the laws of `scene`, if they have their published constants.
 fn published_words(scene: &Scene) -> String {
     let law = table::loading_law(scene.loading.0);
     let Some(energy) = law.energy.as_ref().filter(|_| is_published(scene)) else { return String::new() };
@@ -82,14 +83,14 @@ fn is_published(scene: &Scene) -> bool {
     laws::published(loading.0) == loading.1 && unloading.is_none_or(|unloading| AnyUnloading::ALL.contains(&unloading))
 }
 
-/// Below which Poisson's ratio laws may make energy.
+/// The Poisson's ratio below which laws may return too much energy.
 enum Below {
     Never,
     Ratio(f64),
     Any,
 }
 
-/// What the table says of two laws.
+/// The statement of the table about two laws.
 fn told(loading: &str, unloading: &str) -> Below {
     let Some(energy) = &table::loading_law(loading).energy else { return Below::Never };
     match energy.passive.iter().find(|passive| passive.unloading == unloading) {
@@ -98,7 +99,7 @@ fn told(loading: &str, unloading: &str) -> Below {
     }
 }
 
-/// From which Poisson's ratio of the target on two laws make no energy with their published constants, where they do below.
+/// The Poisson's ratio of the target from which two laws with their published constants are passive, if they are not below it.
 pub fn passive_from(loading: &str, unloading: &str) -> Option<f64> {
     match told(loading, unloading) {
         Below::Ratio(ratio) => Some(ratio),
@@ -106,7 +107,7 @@ pub fn passive_from(loading: &str, unloading: &str) -> Option<f64> {
     }
 }
 
-/// What is found of the laws of `scene` on bodies that its unit can have.
+/// The result of evaluating the laws of `scene` on bodies that its FMU can have.
 fn found(scene: &Scene) -> Below {
     let everywhere = table::loading_law(scene.loading.0).depends_on_modulus_ratio;
     let unloading = scene.unloading.expect("a law that yields").1;
@@ -133,7 +134,7 @@ fn found(scene: &Scene) -> Below {
     Below::Never
 }
 
-/// The parameters that `E*/S` follows.
+/// The parameters on which `E*/S` depends.
 const STIFFNESS: [&str; 4] =
     ["target.youngs_modulus", "target.yield_strength", "impactor.youngs_modulus", "impactor.poissons_ratio"];
 
@@ -149,16 +150,16 @@ fn lowest_poissons_ratio(scene: &Scene, group: usize) -> f64 {
     if is_settable(scene, group, NAME) { POISSONS_RATIO.0 } else { value }
 }
 
-/// Poisson's ratios that a unit takes.
+/// Range of Poisson's ratios that an FMU accepts.
 pub const POISSONS_RATIO: (f64, f64) = (-0.99, 0.5);
 
-/// `E*/S` that are looked at: far beyond every metal, on both sides.
+/// Range of `E*/S` for the evaluation: far beyond all metals at both ends.
 pub const MODULUS_RATIO: (f64, f64) = (1.0, 1e9);
 
-/// An `E*/S` for laws whose normalised curve is the same for all.
+/// One `E*/S` for laws whose normalised curve does not depend on it.
 pub const ANY_MODULUS_RATIO: f64 = 1e3;
 
-/// Bodies of the size and modulus of `pair`, over ranges of Poisson's ratio and `E*/S`; a rigid impactor.
+/// Bodies with the size and modulus of `pair`, over ranges of Poisson's ratio and `E*/S`, with a rigid impactor.
 pub fn bodies(pair: &Pair, poissons_ratio: (f64, f64), modulus_ratio: (f64, f64)) -> impl Iterator<Item = Pair> {
     const STEPS: u32 = 8;
     let steps = |(low, high): (f64, f64)| 0..=if low == high { 0 } else { STEPS };
@@ -178,17 +179,17 @@ pub fn bodies(pair: &Pair, poissons_ratio: (f64, f64), modulus_ratio: (f64, f64)
     })
 }
 
-/// What two laws do with energy on some bodies.
+/// The energy balance of two laws on some bodies.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Balance {
-    /// Of an impact on an untouched surface.
+    /// Largest restitution of an impact on an untouched surface.
     pub largest_restitution: f64,
-    /// Whether what is dissipated falls somewhere as the largest indentation grows.
+    /// Whether the dissipated energy decreases anywhere as the largest indentation grows.
     pub falls: bool,
 }
 
 impl Balance {
-    /// Of all bodies together.
+    /// The balance for both sets of bodies.
     pub fn and(self, other: Balance) -> Balance {
         Balance {
             largest_restitution: self.largest_restitution.max(other.largest_restitution),
@@ -197,18 +198,18 @@ impl Balance {
     }
 }
 
-/// A surplus up to this part of the work is rounding, and that of integrals.
+/// A surplus up to this fraction of the work is attributed to rounding and to the integrals.
 const ROUNDING: f64 = 1e-10;
 
-/// Mean pressure over the yield strength at the depth that is the unit of the looked-at range.
+/// Mean pressure over the yield strength at the depth that is the unit of the evaluated range.
 const UNIT_PRESSURE_FACTOR: f64 = 1.1;
 
-/// The energy of unloadings from everywhere on the loading curve, as far as the law can be evaluated.
+/// The energy balance of unloading from all points of the loading curve, as far as the law can be evaluated.
 pub fn balance(model: &Model<AnyLoading, AnyUnloading>) -> Balance {
     let mut balance = Balance::default();
     let (mut before, mut work, mut most_lost) = (0.0, 0.0, 0.0f64);
     for depth in depths(model) {
-        // an integral goes on from the depth before
+        // an integral continues from the previous depth
         let more = model.loading.work_between(&model.pair, before, depth);
         work = more.map_or_else(|| model.loading.work(&model.pair, depth), |more| work + more);
         let recovered = model.recovered_work(depth, depth);
@@ -224,7 +225,7 @@ pub fn balance(model: &Model<AnyLoading, AnyUnloading>) -> Balance {
     balance
 }
 
-/// Rising depths [m]: over the decades around yield, and close to the corners of the law, on both sides.
+/// Increasing depths [m]: over the decades around yield, and close to the corners of the law on both sides.
 fn depths(model: &Model<AnyLoading, AnyUnloading>) -> Vec<f64> {
     let unit = model.pair.yield_point(UNIT_PRESSURE_FACTOR).indentation;
     let mut depths: Vec<f64> = (0..=420).map(|step| unit * libm::pow(10.0, f64::from(step) / 60.0 - 2.0)).collect();

@@ -9,8 +9,8 @@ use crate::scene::Scene;
 use crate::summary::Summary;
 use std::path::{Path, PathBuf};
 
-/// The command: makes the FMU of `scene` in this `way` for `platforms` and writes it to `output`, or into the current folder; gives
-/// its path.
+/// The command: makes the FMU of `scene` in this `way` for `platforms`, and writes it to `output` or to the current folder.
+/// Returns its path.
 pub fn run(
     scene: &Scene,
     (way, platforms): (Way, &[Platform]),
@@ -18,7 +18,7 @@ pub fn run(
     as_json: bool,
 ) -> Result<PathBuf, ExportError> {
     let path = output.map_or_else(|| format!("{}.fmu", scene.name).into(), Path::to_path_buf);
-    // what would fail at the end fails before the work
+    // errors that would occur at the end are reported before the work
     files::check_goal(&path)?;
     say(format_args!("building {} ...", path.display()));
     let plan = Plan::of(scene);

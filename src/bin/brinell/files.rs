@@ -1,11 +1,11 @@
-//! Files that the program writes for its user.
+//! Reading and writing of files for the user.
 
 use crate::interrupt::{self, Folder};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// A file that can't be read or written.
+/// A file that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[error("{path}: {source}", path = path.display())]
 pub struct FileError {
@@ -14,17 +14,17 @@ pub struct FileError {
 }
 
 impl FileError {
-    /// For `map_err`: what went wrong at `path`.
+    /// For `map_err`: the error at `path`.
     pub fn at(path: &Path) -> impl Fn(io::Error) -> FileError {
         move |source| FileError { path: path.into(), source }
     }
 }
 
-/// Writes a temporary file and renames it: the goal is never half written. A symbolic link stays, and the file that it leads to is
-/// written. A device or a pipe is written to, not replaced. A new file has the permissions that the umask leaves.
+/// Writes a temporary file and renames it. The target is never incomplete. A symbolic link is kept, and the file it points to is
+/// written. A device or a pipe is written to, not replaced. A new file gets the permissions of the umask.
 ///
 /// # Errors
-/// [`FileError`]; the goal is then as it was.
+/// [`FileError`]; the target is then unchanged.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let file_error = FileError::at(path);
     let goal = goal_of(path).map_err(&file_error)?;
@@ -35,18 +35,18 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     .map_err(&file_error)
 }
 
-/// How many symbolic links may lead to a file, as on Linux.
+/// The largest number of symbolic links in a chain, as on Linux.
 const LINKS: u32 = 40;
 
-/// Where something is written.
+/// The target of a write.
 enum Goal {
     /// A device, a pipe or a socket.
     Stream,
-    /// A file, or a place where there is nothing yet: no symbolic link.
+    /// An existing file or a new one, without symbolic links.
     File(PathBuf),
 }
 
-/// Where writing to `path` leads.
+/// The target of a write to `path`.
 fn goal_of(path: &Path) -> io::Result<Goal> {
     if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
         return Ok(Goal::Stream);
@@ -59,7 +59,7 @@ fn goal_of(path: &Path) -> io::Result<Goal> {
     Err(io::Error::other("too many symbolic links lead from here"))
 }
 
-/// A temporary file with the permissions that the umask leaves.
+/// A temporary file with the permissions of the umask.
 fn draft() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
@@ -68,7 +68,7 @@ fn draft() -> tempfile::Builder<'static, 'static> {
     builder
 }
 
-/// A new folder in `parent` with a name that begins with `prefix`. Only its owner can read or write it; dropping it removes it.
+/// A new folder in `parent` whose name begins with `prefix`. Only its owner can read or write it. It is removed when dropped.
 ///
 /// # Errors
 /// [`FileError`]
@@ -79,8 +79,8 @@ pub fn private_folder(prefix: &str, parent: &Path) -> Result<Folder, FileError> 
     Folder::new(builder.prefix(prefix), parent)
 }
 
-/// Refuses a goal that can't be written, before any work is done for it: a folder, or a file in a folder that doesn't exist or
-/// can't be written to.
+/// Rejects a target that cannot be written, before any work is done: a folder, or a file in a folder that does not exist or
+/// cannot be written to.
 ///
 /// # Errors
 /// [`FileError`]
@@ -95,11 +95,11 @@ pub fn check_goal(path: &Path) -> Result<(), FileError> {
         let error = io::Error::new(io::ErrorKind::NotFound, format!("there is no folder {}", folder.display()));
         return Err(FileError::at(path)(error));
     }
-    // the only sure way to find out; the file is gone at once
+    // only creating a file shows whether it is possible; the file is deleted immediately
     draft().tempfile_in(folder).map_err(FileError::at(path)).map(drop)
 }
 
-/// Refuses a folder that can't be written into, or can't be made.
+/// Rejects a folder that cannot be written to or created.
 ///
 /// # Errors
 /// [`FileError`]
@@ -108,12 +108,12 @@ pub fn check_folder(path: &Path) -> Result<(), FileError> {
         let error = io::Error::new(io::ErrorKind::NotADirectory, "this is a file; a folder is written here");
         return Err(FileError::at(path)(error));
     }
-    // the nearest folder that exists is the one that others are made in
+    // a missing folder is created in its nearest existing ancestor
     let there = path.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
     draft().tempfile_in(there).map_err(FileError::at(path)).map(drop)
 }
 
-/// The folder that `path` is in.
+/// The folder that contains `path`.
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -121,7 +121,7 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Prints `text`, or writes it where the user wants it.
+/// Prints `text`, or writes it to the user's file.
 ///
 /// # Errors
 /// [`FileError`]
@@ -135,10 +135,10 @@ pub fn deliver(text: &str, output: Option<&Path>) -> Result<(), FileError> {
     }
 }
 
-/// The ending of the file that `output` names, one of `allowed`; without a file the first of them.
+/// The extension of the file `output`, which must be one of `allowed`; without a file, the first of them.
 ///
 /// # Errors
-/// What is allowed.
+/// A sentence with the allowed extensions.
 pub fn ending(output: Option<&Path>, allowed: &[&'static str]) -> Result<&'static str, String> {
     let Some(path) = output else { return Ok(allowed[0]) };
     let given = path.extension().and_then(|extension| extension.to_str());

@@ -1,28 +1,28 @@
-//! Where the passivity guard of a scene acts, found by looking.
+//! The ranges in which the passivity guard of a scene acts, found by evaluation.
 
 use crate::scene::Scene;
 use brinell::contact::Loading;
 
-/// Largest indentation that is looked at, in yield indentations: ten to the power of `DECADES`.
+/// Largest evaluated indentation, in yield indentations: ten to the power of `DECADES`.
 const DEEPEST: f64 = 1e6;
 const DECADES: u32 = 6;
 
-/// Depths that are looked at in each decade.
+/// Number of evaluated depths per decade.
 const DEPTHS_PER_DECADE: u32 = 200;
 
 /// Ranges of the largest indentation, in yield indentations of the law.
 pub type Ranges = Vec<(f64, f64)>;
 
-/// Where the guard of a scene acts.
+/// The ranges in which the guard of a scene acts.
 pub struct Guard {
-    /// On the bodies of any contact.
+    /// For the bodies of any contact.
     pub ranges: Ranges,
-    /// On those of each group.
+    /// For the bodies of each group.
     pub by_group: Vec<Ranges>,
 }
 
 impl Guard {
-    /// None if the scene has no guard.
+    /// `None` if the scene has no guard.
     pub fn of(scene: &Scene) -> Option<Guard> {
         if !scene.passivity_guard {
             return None;
@@ -40,10 +40,10 @@ impl Guard {
         Some(Guard { ranges, by_group })
     }
 
-    /// Where the guard acts, in words.
+    /// The ranges in which the guard acts, in words.
     pub fn words(&self) -> String {
         let range = |&(from, to): &(f64, f64)| {
-            // the last depth that was looked at is no end
+            // the last evaluated depth is not an end
             let end = if to >= DEEPEST { "on".into() } else { format!("to {to:.4}") };
             format!("from {from:.4} {end}")
         };
@@ -58,12 +58,12 @@ impl Guard {
     }
 }
 
-/// Where the guard acts on the contacts of `group`.
+/// The ranges in which the guard acts on the contacts of `group`.
 fn ranges_of(scene: &Scene, group: usize) -> Ranges {
     let model = scene.model_of(group);
     let d_y = model.loading.yield_point(&model.pair).indentation;
     let acts = |x: f64| model.is_held_back_at(x * d_y);
-    // between two depths of which the guard acts at the second: the border to some digits
+    // the guard acts at the second depth but not at the first: find the boundary to some digits
     let border = |(mut outside, mut inside): (f64, f64)| {
         for _ in 0..40 {
             let middle = 0.5 * (outside + inside);

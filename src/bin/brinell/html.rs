@@ -1,4 +1,4 @@
-//! What every HTML page of the program has: its head, and letters that mean nothing else.
+//! The common parts of all HTML pages: the head, and escaped text.
 
 use std::fmt::Write;
 
@@ -12,8 +12,8 @@ td.n { text-align: right; white-space: nowrap; }
 figure { margin: 1rem 0; } svg { max-width: 100%; height: auto; background: #fff; }
 code { font-size: .95em; }";
 
-/// The style of a page of pictures and tables. In the dark the pictures are inverted and their hues turned back, so that every
-/// line keeps its colour and its contrast.
+/// The style of a page of pictures and tables. In dark mode the pictures are inverted and their hues rotated back, so that
+/// every line keeps its colour and contrast.
 pub const PICTURE_STYLE: &str = "\
 :root { color-scheme: light dark; }
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 76rem; margin: 0 auto; padding: 1rem; }
@@ -36,14 +36,14 @@ th button { all: unset; cursor: pointer; } th button:focus-visible { outline: 2p
   th, td { padding: .1rem .35rem; } .words { white-space: normal; }
 }";
 
-/// What a page begins with, up to its heading.
+/// The beginning of a page, up to its heading.
 pub fn begin(page: &mut String, title: &str, style: &str) -> std::fmt::Result {
     writeln!(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">")?;
     writeln!(page, "<title>{title}</title>\n<meta name=\"viewport\" content=\"width=device-width\">")?;
     writeln!(page, "<style>\n{style}\n</style>\n</head>\n<body>")
 }
 
-/// `text` as HTML has it.
+/// `text`, escaped for HTML.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -1,54 +1,55 @@
-//! The variables that a scene's unit has, in order: the one list from which XML, constants and documentation are made.
+//! The variables of the FMU of a scene, in order. XML, constants and documentation are all made from this list.
 
 use crate::nominal;
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, Follows, Kind, VARIABLES, Variable};
 use brinell::contact::damped::Damped;
 
-/// Variables of one kind: that of each contact of a group, or a parameter. Value references count them all in the order of the
-/// list, and so do the places in the model description.
+/// Variables of one kind: one for each contact of a group, or a parameter. Value references number them all in the order of the
+/// list; the indices in the model description have the same order.
 pub struct Entry<'a> {
     pub variable: &'static Variable,
-    /// What is said of it in this unit.
+    /// Its description in this FMU.
     pub description: &'static str,
-    /// Its smallest value.
+    /// Its minimum.
     pub minimum: Option<f64>,
-    /// The group that it belongs to; none for a parameter of all contacts.
+    /// Its group; `None` for a parameter of all contacts.
     pub group: Option<&'a Group>,
-    /// Value reference of the first.
+    /// Value reference of the first variable.
     pub reference: usize,
-    /// How many they are.
+    /// Number of variables.
     pub count: usize,
-    /// Whether each belongs to a contact of the group, and not to all of them.
+    /// Whether each contact of the group has its own variable.
     pub per_contact: bool,
-    /// For the input and the parameters.
+    /// Start value, for inputs and parameters.
     pub start: Option<f64>,
-    /// The parameters that the values before the first step follow.
+    /// The parameters on which the values before the first step depend.
     pub dependencies: Vec<Dependency>,
-    /// Reference of the input that the first one follows at the same instant, the second one the next, and so on.
+    /// Reference of the input on which the first variable depends at the same instant; the second variable depends on the next
+    /// input, and so on.
     pub follows: Option<usize>,
     /// The same before the first step.
     pub follows_at_start: Option<usize>,
     pub nominal: Option<f64>,
 }
 
-/// A parameter that an output of a contact follows.
+/// A parameter on which an output of a contact depends.
 pub struct Dependency {
-    /// Value reference, or that of the first contact of the group.
+    /// Value reference; for several contacts, that of the first contact of the group.
     reference: usize,
-    /// Each contact of the group has its own.
+    /// Whether each contact of the group has its own.
     per_contact: bool,
 }
 
 impl Dependency {
-    /// The value reference of the parameter that the contact with this `index` in its group follows.
+    /// The value reference of the parameter for the contact with this `index` in its group.
     pub fn of(&self, index: usize) -> usize {
         if self.per_contact { self.reference + index } else { self.reference }
     }
 }
 
 impl Entry<'_> {
-    /// The name of the variable with this `index` among them.
+    /// The name of the variable with this `index`.
     pub fn name(&self, index: usize) -> String {
         let name = &self.variable.name;
         match self.group {
@@ -58,7 +59,7 @@ impl Entry<'_> {
         }
     }
 
-    /// One name for all of them: `contact[1..1000].force`.
+    /// One name for all of the variables: `contact[1..1000].force`.
     pub fn label(&self) -> String {
         let (first, last) = (self.name(0), self.name(self.count - 1));
         match self.count {
@@ -68,7 +69,7 @@ impl Entry<'_> {
     }
 }
 
-/// The variables of the scene's unit, which is of these `kinds`.
+/// The variables of the FMU of the scene, which has these `kinds`.
 pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     let shown = |variable: &&'static Variable| match variable.causality {
         Causality::Input => variable.name == "indentation_rate" || scene.has_input(&variable.name),
@@ -87,7 +88,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
         let follows_at_start = damped_at_start || variable.follows_rate == Follows::AtStart;
         let is_listed = |name: &str| variable.depends_on.iter().any(|other| other == "*" || other == name);
         let depends = |name: &str| match name {
-            // all that it makes is the damping
+            // it affects only the damping
             "restitution" => damped_at_start,
             "effective_mass" => damped_at_start || is_listed(name) && elastic_part_follows_mass(scene),
             _ => is_listed(name),
@@ -128,18 +129,18 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     entries
 }
 
-/// Whether the parameter `name` can be set between steps, too: the mass of bodies that the unit moves.
+/// Whether the parameter `name` can also be set between steps: the mass of bodies that the FMU moves.
 pub fn is_tunable(scene: &Scene, name: &str) -> bool {
     name == "effective_mass" && scene.coupling.is_some()
 }
 
-/// What the input `variable` of the contacts of `group` is before anyone sets it.
+/// The start value of the input `variable` for the contacts of `group`.
 fn start(variable: &Variable, scene: &Scene, group: usize) -> f64 {
-    // of the inputs the mass alone is something that the scene knows
+    // the mass is the only input with a value in the scene
     scene.group_value(group, &variable.name).unwrap_or(0.0)
 }
 
-/// Whether `variable` follows the rate at the same instant.
+/// Whether `variable` depends on the rate at the same instant.
 fn follows(variable: &Variable, scene: &Scene) -> bool {
     match variable.follows_rate {
         Follows::Never | Follows::AtStart => false,
@@ -148,14 +149,14 @@ fn follows(variable: &Variable, scene: &Scene) -> bool {
     }
 }
 
-/// Whether `variable`, which follows the rate, has to do with the damping of the law before the first step. A damping that waits
-/// for the first touch is none then; the next step begins with the touch.
+/// Whether `variable`, which depends on the rate, depends on the damping of the law before the first step. A damping that
+/// begins at the first touch is zero then; the next step begins with the touch.
 fn is_damped_at_start(variable: &Variable, scene: &Scene) -> bool {
     let looks_ahead = variable.follows_rate == Follows::Always;
     scene.damped.is_some_and(|(_, law)| looks_ahead || !law.scaled_by_touch())
 }
 
-/// Whether the elastic part of a rate-dependent law is made for the mass, too.
+/// Whether the elastic part of a rate-dependent law also depends on the mass.
 fn elastic_part_follows_mass(scene: &Scene) -> bool {
     let pair = scene.model().pair;
     scene.damped.is_some_and(|(_, law)| law.factors(&pair, 0.5, 1.0).elastic != law.factors(&pair, 0.5, 2.0).elastic)
@@ -164,14 +165,14 @@ fn elastic_part_follows_mass(scene: &Scene) -> bool {
 /// A parameter that can be set.
 struct SettableParameter<'a> {
     parameter: &'a Parameter,
-    /// None if it belongs to all contacts.
+    /// `None` if it belongs to all contacts.
     group: Option<usize>,
     /// Value reference of the first.
     reference: usize,
     count: usize,
 }
 
-/// The parameters that can be set: first those of all contacts, then group by group.
+/// The parameters that can be set: first those of all contacts, then those of each group.
 struct Parameters<'a>(Vec<SettableParameter<'a>>);
 
 impl<'a> Parameters<'a> {
@@ -189,14 +190,14 @@ impl<'a> Parameters<'a> {
         Parameters(settable.collect())
     }
 
-    /// Those that hold for `group` and that `wanted` names.
+    /// Those that apply to `group` and satisfy `wanted`.
     fn of_group(&self, group: usize, wanted: impl Fn(&str) -> bool) -> Vec<Dependency> {
         let shared = self.0.iter().take_while(|settable| settable.group.is_none());
         let begin = self.0.partition_point(|settable| settable.group < Some(group));
         let own = || self.0[begin..].iter().take_while(|settable| settable.group == Some(group));
         let replaced = |name: &str| own().any(|settable| settable.parameter.name == name);
         let shared = shared.filter(|settable| !replaced(settable.parameter.name));
-        // in the order of the table, as in a unit of one contact
+        // in the order of the table, as in an FMU with one contact
         let mut all: Vec<_> = shared.chain(own()).filter(|settable| wanted(settable.parameter.name)).collect();
         all.sort_by_key(|settable| settable.reference);
         let dependency = |settable: &SettableParameter| Dependency {

@@ -1,4 +1,4 @@
-//! Whether laws with constants from a scene are laws at all on the scene's bodies.
+//! Checks of laws with constants from a scene on the scene's bodies.
 
 use brinell::contact::history::LARGEST_INDENTATION;
 use brinell::contact::loading::AnyLoading;
@@ -7,25 +7,25 @@ use brinell::contact::{Loading, Model};
 
 type AnyModel = Model<AnyLoading, AnyUnloading>;
 
-/// Mean pressure over the yield strength at the depth that is the unit of the looked-at range.
+/// Mean pressure over the yield strength at the depth that is the unit of the evaluated range.
 const UNIT_PRESSURE_FACTOR: f64 = 1.1;
 
-/// The looked-at range, in units of the yield indentation, and the number of depths in it.
+/// The evaluated range, in units of the yield indentation, and its number of depths.
 const RANGE: (f64, f64) = (1e-3, 1e4);
 const DEPTHS: u32 = 700;
 
 /// More corners than any law has.
 const MOST_CORNERS: usize = 64;
 
-/// Forces that differ by no more than this part are the same: a few roundings.
+/// Forces with a smaller relative difference are considered equal: a few roundings.
 const ROUNDING: f64 = 1e-12;
 
-/// Refuses a loading curve that isn't finite, that falls, or whose pieces are out of order. Jumps upward are no mistake:
-/// laws were published with some. Where the published law itself falls on these bodies (some do at their borders, at a
-/// Poisson's ratio near 0.5) `model` may fall by as much as `published` does.
+/// Rejects a loading curve that is not finite, that falls, or whose pieces are out of order. Upward jumps are allowed, because
+/// some published laws have them. Some published laws fall at their boundaries for a Poisson's ratio near 0.5; `model` may fall
+/// by as much as `published` does on these bodies.
 ///
 /// # Errors
-/// What is wrong, and where.
+/// A sentence about the defect and its position.
 pub fn check_loading(model: &AnyModel, published: AnyLoading) -> Result<(), String> {
     let unit = model.pair.yield_point(UNIT_PRESSURE_FACTOR).indentation;
     let said = |indentation: f64| format!("{:.4} yield indentations", indentation / unit);
@@ -52,10 +52,10 @@ pub fn check_loading(model: &AnyModel, published: AnyLoading) -> Result<(), Stri
     Ok(())
 }
 
-/// Rising indentations [m] over the looked-at range and on both sides of every corner.
+/// Increasing indentations [m] over the evaluated range and on both sides of every corner.
 ///
 /// # Errors
-/// A corner at which the next piece of the curve doesn't begin.
+/// A corner at which the next piece of the curve does not begin.
 fn looked_at(model: &AnyModel, unit: f64) -> Result<Vec<f64>, f64> {
     let mut points: Vec<f64> = depths(unit).collect();
     let mut corner = 0.0;
@@ -65,7 +65,7 @@ fn looked_at(model: &AnyModel, unit: f64) -> Result<Vec<f64>, f64> {
             break;
         }
         let segment = model.loading.segment(&model.pair, next);
-        // so that a NaN is refused too
+        // written positively to reject NaN
         let in_order = next > corner && segment.lower == next && segment.upper > next;
         if !in_order {
             return Err(next);
@@ -77,7 +77,7 @@ fn looked_at(model: &AnyModel, unit: f64) -> Result<Vec<f64>, f64> {
     Ok(points)
 }
 
-/// Where a force falls: by which part of itself, at which indentation [m], between which forces [N].
+/// A decrease of the force: its relative size, the indentation [m], and the forces before and after [N].
 struct Fall {
     part: f64,
     place: f64,
@@ -85,7 +85,7 @@ struct Fall {
     to: f64,
 }
 
-/// The deepest fall of the loading force between two neighbours of `points` [m].
+/// The largest decrease of the loading force between neighbouring `points` [m].
 fn deepest_fall(model: &AnyModel, points: &[f64]) -> Fall {
     let force = |d: f64| model.loading.segment(&model.pair, d).force(d);
     let fall = |pair: &[f64]| {
@@ -96,11 +96,11 @@ fn deepest_fall(model: &AnyModel, points: &[f64]) -> Fall {
     points.windows(2).map(fall).fold(none, |deepest, fall| if fall.part > deepest.part { fall } else { deepest })
 }
 
-/// Refuses an unloading that isn't finite, that doesn't begin where the loading ended, that pulls, or whose force rises on
-/// the way out.
+/// Rejects an unloading that is not finite, that does not begin at the end of the loading, that pulls, or whose force rises
+/// during unloading.
 ///
 /// # Errors
-/// What is wrong, and where.
+/// A sentence about the defect and its position.
 pub fn check_unloading(model: &AnyModel) -> Result<(), String> {
     const PARTS: u32 = 20;
     let unit = model.pair.yield_point(UNIT_PRESSURE_FACTOR).indentation;
@@ -113,7 +113,7 @@ pub fn check_unloading(model: &AnyModel) -> Result<(), String> {
         }
         let force = |indentation: f64| model.unloading_segment(largest, indentation).force(indentation);
         let peak = model.peak(largest).force;
-        // Hertz's curve, lowered, is the difference of two forces; on a stiff path the indentation itself is rounded
+        // Hertz's curve, lowered, is the difference of two forces; on a steep path, the indentation itself is rounded
         let size = peak.max(model.pair.hertz_stiffness() * libm::pow(largest, 1.5));
         let rounding = ROUNDING * size + 8.0 * f64::EPSILON * peak * largest / (largest - dent);
         let mut before = force(largest);
@@ -132,7 +132,7 @@ pub fn check_unloading(model: &AnyModel) -> Result<(), String> {
     Ok(())
 }
 
-/// Depths over the looked-at range [m], evenly spread over its decades.
+/// Depths over the evaluated range [m], evenly spaced on a logarithmic scale.
 fn depths(unit: f64) -> impl Iterator<Item = f64> {
     let (low, high) = RANGE;
     (0..=DEPTHS).map(move |step| unit * low * libm::pow(high / low, f64::from(step) / f64::from(DEPTHS)))

@@ -1,4 +1,4 @@
-//! The texts about a law from the table, in which `{name}` is a number of the law itself.
+//! The texts about a law from the table. `{name}` in them is replaced by a number of the law.
 
 use crate::laws;
 use crate::numbers::significant;
@@ -10,38 +10,38 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use serde::Serialize;
 
-/// The texts of a law with its numbers.
+/// The texts of a law with numbers filled in.
 pub struct LawText {
     pub law: &'static Law,
-    /// With the constants that the law has.
+    /// With the constants of the law.
     pub formulas: Vec<String>,
-    /// About the law with its reference constants.
+    /// For the law with its reference constants.
     pub notes: String,
-    /// As the notes.
+    /// For the law with its reference constants.
     pub validity: String,
     /// Whether the law has its reference constants.
     pub is_published: bool,
 }
 
-/// What is said of the loading law `name` with the constants of `law`.
+/// The texts about the loading law `name` with the constants of `law`.
 pub fn loading(name: &str, law: &AnyLoading) -> LawText {
     let published = laws::published(name);
     text(table::loading_law(name), law, &published, |law, name| law.derived(name))
 }
 
-/// What is said of the unloading law `name` with the constants of `law`.
+/// The texts about the unloading law `name` with the constants of `law`.
 pub fn unloading(name: &str, law: &AnyUnloading) -> LawText {
     let published = AnyUnloading::ALL.into_iter().find(|(known, _)| *known == name);
     text(table::unloading_law(name), law, &published.expect("a law of the table").1, |_, _| None)
 }
 
-/// What is said of the rate-dependent law `name` with the constants of `law`.
+/// The texts about the rate-dependent law `name` with the constants of `law`.
 pub fn damped(name: &str, law: &AnyDamped) -> LawText {
     let published = AnyDamped::ALL.into_iter().find(|(known, _)| *known == name);
     text(table::damped_law(name), law, &published.expect("a law of the table").1, |_, _| None)
 }
 
-/// The texts of `told`; `derived` finds the numbers that are no constants.
+/// The texts of a law from its entry in the table; `derived` finds numbers that are not constants.
 fn text<L: Serialize + PartialEq>(
     told: &'static Law,
     law: &L,
@@ -63,7 +63,7 @@ fn text<L: Serialize + PartialEq>(
     }
 }
 
-/// `text` with the numbers in place of their names in braces, to five digits; a list of numbers is separated by commas.
+/// `text` with numbers of five digits in place of the names in braces. A list of numbers is separated by commas.
 fn filled(text: &str, numbers: impl Fn(&str) -> Vec<f64>) -> String {
     let mut parts = text.split('{');
     let mut result = parts.next().unwrap_or_default().to_string();

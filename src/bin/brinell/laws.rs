@@ -1,4 +1,4 @@
-//! Choosing laws by name.
+//! Selection of laws by name.
 
 use crate::model::{AnyModel, Dampings};
 use crate::nearest::unknown;
@@ -9,17 +9,17 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Model, Pair};
 
-/// A model of the scene with laws that may be others than the scene's.
+/// A model of the scene, with laws that may differ from the scene's.
 #[derive(Clone)]
 pub struct Choice {
-    /// The law as it was asked for.
+    /// The law as requested.
     pub name: String,
-    /// Both laws by their names: `big-alabo/contact-radius`, or `hunt-crossley/exact`.
+    /// The names of both laws: `big-alabo/contact-radius`, or `hunt-crossley/exact`.
     pub laws: String,
     pub model: AnyModel,
 }
 
-/// Laws that a scene can't have.
+/// Laws that a scene cannot have.
 #[derive(Debug, thiserror::Error)]
 pub enum UnknownLaw {
     #[error("{0}")]
@@ -30,19 +30,19 @@ pub enum UnknownLaw {
     NoYieldStrength(String),
 }
 
-/// The loading law `name`, which exists, with its reference constants.
+/// The existing loading law `name` with its reference constants.
 pub fn published(name: &str) -> AnyLoading {
     let found = AnyLoading::ALL.into_iter().find(|(known, _)| *known == name);
     found.expect("a law that was found by its name").1
 }
 
-/// The unloading law of a loading law that is named alone: that of a scene which names no other.
+/// The unloading law for a loading law that is named alone, as for a scene that names no unloading law.
 pub fn unloading_of(loading: &str) -> (&'static str, AnyUnloading) {
     let own = pairing::default_unloading(loading);
     AnyUnloading::ALL.into_iter().find(|(name, _)| *name == own).expect("the table names laws that exist")
 }
 
-/// The laws of these names: with the scene's constants if they are the scene's own, else with those of the reference.
+/// The loading law of this name: with the scene's constants if it is the scene's own, otherwise with the reference constants.
 fn find_loading(name: &str, scene: &Scene) -> Option<(&'static str, AnyLoading)> {
     [scene.loading].into_iter().chain(AnyLoading::ALL).find(|(known, _)| *known == name)
 }
@@ -57,10 +57,10 @@ pub fn loading_names() -> impl Iterator<Item = &'static str> {
     AnyLoading::ALL.into_iter().map(|(name, _)| name).chain(damped)
 }
 
-/// The models that `names` mean: `LOADING`, `LOADING/UNLOADING` or `RATE-DEPENDENT/DAMPING`, or the scene's own if there are
-/// none; "all" is every loading law, "damped" every rate-dependent one. Laws that are the scene's have its constants; its
-/// loading law alone means its unloading law too. Any other loading law alone has the unloading law that it was published with,
-/// as in a scene that names no unloading law.
+/// The models for `names`: `LOADING`, `LOADING/UNLOADING` or `RATE-DEPENDENT/DAMPING`, or the scene's own if there are none.
+/// "all" means every loading law, "damped" every rate-dependent law. The scene's own laws have its constants; its loading law
+/// alone implies its unloading law. Any other loading law alone has the unloading law with which it was published, as in a
+/// scene that names no unloading law.
 ///
 /// # Errors
 /// [`UnknownLaw`]
@@ -126,8 +126,8 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     Ok(Choice { name: name.into(), laws, model: AnyModel::Elastoplastic(model) })
 }
 
-/// A rate-dependent law beside the scene's own: made for the restitution that the scene asks for, or that its law gives the
-/// scene's impact.
+/// A rate-dependent law for comparison with the scene's own. Its damping is for the restitution that the scene requires, or for
+/// that of the scene's impact with its own law.
 fn choose_damped(scene: &Scene, name: &str, law: AnyDamped, damping: Option<&str>) -> Result<Choice, UnknownLaw> {
     let own = scene.damped.filter(|(own, _)| name.split('/').next() == Some(own));
     let law = match (damping, own) {

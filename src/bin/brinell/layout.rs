@@ -5,8 +5,8 @@ use textwrap::{Options, WordSplitter};
 /// The widest line that a command prints.
 pub const WIDTH: usize = 100;
 
-/// `text` behind its `heading`, in lines of at most [`WIDTH`] characters; the lines after the first are as far in as the text of
-/// the first. A word that is longer has a line of its own.
+/// `text` after its `heading`, in lines of at most [`WIDTH`] characters. Later lines are indented to the start of the text. A
+/// longer word has its own line.
 pub fn paragraph(heading: &str, text: &str) -> String {
     let indent = " ".repeat(heading.chars().count());
     let options = Options::new(WIDTH).initial_indent(heading).subsequent_indent(&indent).break_words(false);
@@ -15,8 +15,8 @@ pub fn paragraph(heading: &str, text: &str) -> String {
     format!("{}\n", if text.is_empty() { heading.trim_end() } else { &filled })
 }
 
-/// The rows in columns that are as wide as they must be, each after `indent` spaces: the first `left` columns begin in line, the
-/// others end in line.
+/// The rows in columns of the necessary width, after `indent` spaces. The first `left` columns are left-aligned, the others
+/// right-aligned.
 pub fn table(rows: &[Vec<String>], left: usize, indent: usize) -> String {
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {

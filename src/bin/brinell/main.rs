@@ -83,13 +83,13 @@ fn main() -> ExitCode {
     }
 }
 
-/// The exit status of a wrong command line.
+/// The exit status for a wrong command line.
 const WRONG_CALL: u8 = 2;
 
-/// Help, the version, or what is wrong with the arguments, in the style of every other error.
+/// Prints help, the version, or the error in the arguments, in the style of all other errors.
 fn not_understood(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
-        // a reader that has gone is no error
+        // it is not an error if the reader has closed the pipe
         let _ = error.print();
         return ExitCode::SUCCESS;
     }
@@ -98,10 +98,11 @@ fn not_understood(error: &clap::Error) -> ExitCode {
     ExitCode::from(WRONG_CALL)
 }
 
-/// How the error of a pipe that its reader has closed ends: `EPIPE` on Unix, `ERROR_BROKEN_PIPE` and `ERROR_NO_DATA` on Windows.
+/// The end of the error text for a pipe that its reader has closed: `EPIPE` on Unix, `ERROR_BROKEN_PIPE` and `ERROR_NO_DATA` on
+/// Windows.
 const CLOSED_PIPE: &[&str] = if cfg!(windows) { &["(os error 109)", "(os error 232)"] } else { &["(os error 32)"] };
 
-/// A reader like `head` may close the pipe before everything is printed: that ends the job, and is no error.
+/// A reader such as `head` may close the pipe before everything is printed. This ends the program and is not an error.
 fn leave_quietly_when_nobody_reads() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
@@ -113,7 +114,7 @@ fn leave_quietly_when_nobody_reads() {
     }));
 }
 
-/// Runs a command; false if the job is done and its result is bad.
+/// Runs a command. Returns false if it has finished with a negative result.
 fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     let json = arguments.json;
     if arguments.version {

@@ -1,4 +1,4 @@
-//! `brinell merge`: joins FMUs of one scene that were made for different platforms.
+//! `brinell merge`: joins FMUs of one scene for different platforms.
 
 use crate::files::{FileError, write_whole};
 use crate::importer::{Bound, Description, ImportError};
@@ -15,7 +15,7 @@ use zip::ZipArchive;
 const DESCRIPTION: &str = "modelDescription.xml";
 const BINARIES: &str = "binaries/";
 
-/// FMUs that can't be joined.
+/// The reason why FMUs cannot be joined.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     #[error("{0}")]
@@ -37,19 +37,19 @@ pub enum MergeError {
     Part { one: PathBuf, other: PathBuf, name: String },
 }
 
-/// An FMU that was read.
+/// An FMU that has been read.
 #[derive(Debug)]
 pub struct Fmu {
     path: PathBuf,
     guid: String,
-    /// Bytes of its files by name.
+    /// Contents of its files, by name.
     files: BTreeMap<String, Vec<u8>>,
 }
 
-/// The command: joins the FMUs at `paths` to `output`.
+/// The command: joins the FMUs at `paths` into `output`.
 ///
 /// # Errors
-/// [`MergeError`]; nothing is then written.
+/// [`MergeError`]; nothing is written then.
 pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeError> {
     let fmus = paths.iter().map(|path| Fmu::read(path)).collect::<Result<Vec<_>, _>>()?;
     let files = join(fmus)?;
@@ -91,19 +91,19 @@ impl Fmu {
         Ok(Fmu { path: path.into(), guid, files })
     }
 
-    /// The files of a platform by name.
+    /// The files for a platform, by name.
     fn of_platform(&self, platform: &str) -> Vec<(&String, &Vec<u8>)> {
         self.files.iter().filter(|(name, _)| self::platform(name) == Some(platform)).collect()
     }
 }
 
-/// The platform that a file of an FMU is for.
+/// The platform of a file of an FMU.
 fn platform(name: &str) -> Option<&str> {
     let (platform, _) = name.strip_prefix(BINARIES)?.split_once('/')?;
     Some(platform)
 }
 
-/// The files of all FMUs, in the order in which an export writes them.
+/// The files of all FMUs, in the order of an export.
 fn join(fmus: Vec<Fmu>) -> Result<Vec<(String, Vec<u8>)>, MergeError> {
     for (index, other) in fmus.iter().enumerate() {
         if let Some(one) = fmus[..index].iter().find(|one| one.guid != other.guid) {
@@ -140,7 +140,7 @@ fn join(fmus: Vec<Fmu>) -> Result<Vec<(String, Vec<u8>)>, MergeError> {
     Ok(files)
 }
 
-/// The place of a file in the archive of an export; equal ones are in the order of their names.
+/// The position of a file in the archive of an export. Files of equal rank are in the order of their names.
 fn rank(name: &str) -> usize {
     let known = |folder: &str| Platform::ALL.iter().position(|platform| platform.folder == folder);
     match (name, platform(name)) {

@@ -1,4 +1,4 @@
-//! The contact of a scene as the physics sees it.
+//! The physical model of the contact of a scene.
 
 use brinell::contact::damped::hunt_crossley::DampingFactor;
 use brinell::contact::damped::tsuji::TsujiDamping;
@@ -8,22 +8,22 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model, Pair};
 
-// how many predictions this thread has made
+// number of predictions that this thread has made
 #[cfg(test)]
 thread_local!(pub static PREDICTIONS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) });
 
-/// Bodies with laws, of either kind.
+/// Bodies and laws of either kind.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there are a few of them at a time")]
 pub enum AnyModel {
-    /// Force by indentation and largest indentation.
+    /// The force depends on the indentation and the largest indentation.
     Elastoplastic(Model<AnyLoading, AnyUnloading>),
-    /// Force by indentation and rate.
+    /// The force depends on the indentation and the rate.
     Damped(damped::Model<AnyDamped>),
 }
 
 impl AnyModel {
-    /// What an impact will do; `None` beyond what the law can be evaluated for.
+    /// The prediction of an impact; `None` where the law cannot be evaluated.
     pub fn predict(&self, impact: &Impact) -> Option<Prediction> {
         #[cfg(test)]
         PREDICTIONS.set(PREDICTIONS.get() + 1);
@@ -33,7 +33,7 @@ impl AnyModel {
         }
     }
 
-    /// Rebound speed over incoming speed; `None` beyond what the law can be evaluated for.
+    /// Coefficient of restitution; `None` where the law cannot be evaluated.
     pub fn restitution(&self, impact: &Impact) -> Option<f64> {
         match self {
             AnyModel::Elastoplastic(model) => impact::restitution(model, impact),
@@ -41,7 +41,7 @@ impl AnyModel {
         }
     }
 
-    /// The model if its force doesn't depend on the rate.
+    /// The model if its force does not depend on the rate.
     pub fn elastoplastic(&self) -> Option<&Model<AnyLoading, AnyUnloading>> {
         match self {
             AnyModel::Elastoplastic(model) => Some(model),
@@ -57,7 +57,7 @@ impl AnyModel {
         }
     }
 
-    /// Up to which indentation the law is valid [m].
+    /// The indentation up to which the law is valid [m].
     pub fn valid_depth(&self) -> f64 {
         match self {
             AnyModel::Elastoplastic(model) => model.valid_depth(),
@@ -65,13 +65,13 @@ impl AnyModel {
         }
     }
 
-    /// The model with a target of this yield strength [Pa], if its law has one.
+    /// The model with this yield strength of the target [Pa], if its law has one.
     pub fn with_yield_strength(&self, yield_strength: f64) -> Option<AnyModel> {
         let model = self.elastoplastic()?;
         Some(AnyModel::Elastoplastic(Model { pair: Pair { yield_strength, ..model.pair }, ..*model }))
     }
 
-    /// The law on the bodies `pair`; its yield strength is the given one [Pa], or else stays as it is.
+    /// The law on the bodies `pair`, with the given yield strength [Pa]; without one, the yield strength stays the same.
     pub fn on(&self, pair: Pair, yield_strength: Option<f64>) -> AnyModel {
         let pair = Pair { yield_strength: yield_strength.unwrap_or(self.pair().yield_strength), ..pair };
         match self {
@@ -80,7 +80,7 @@ impl AnyModel {
         }
     }
 
-    /// The stiffness of the way back from `indentation` [m]; of a rate-dependent law that of its elastic part [N/m].
+    /// Stiffness of unloading from `indentation` [m]; for a rate-dependent law, the stiffness of its elastic part [N/m].
     pub fn stiffness(&self, indentation: f64) -> f64 {
         match self {
             AnyModel::Elastoplastic(model) => model.unloading_segment(indentation, indentation).stiffness(indentation),
@@ -91,7 +91,7 @@ impl AnyModel {
         }
     }
 
-    /// How a prediction is made, in words.
+    /// The method of a prediction, in words.
     pub fn method(&self) -> &'static str {
         match self {
             AnyModel::Elastoplastic(_) => "by energy balance",
@@ -99,8 +99,8 @@ impl AnyModel {
         }
     }
 
-    /// Indentation [m] and force [N] over an impact with its `prediction`: to the largest indentation, and back if the way back
-    /// is another.
+    /// Indentation [m] and force [N] during an impact with its `prediction`: up to the largest indentation, and back if
+    /// unloading follows another path.
     pub fn branches(&self, impact: &Impact, prediction: &Prediction) -> Option<Vec<Vec<(f64, f64)>>> {
         match self {
             AnyModel::Elastoplastic(model) => {
@@ -128,18 +128,18 @@ impl AnyModel {
     }
 }
 
-/// Some of the `points`, with the first and the last.
+/// A selection of the `points`, including the first and the last.
 fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let last = points.len() - 1;
     (0..=POINTS).map(|point| points[last * point as usize / POINTS as usize]).collect()
 }
 
-/// Points of a branch.
+/// Number of points of a branch.
 const POINTS: u32 = 60;
 
-/// The ways in which a rate-dependent law can make its damping, by name.
+/// The damping variants of a rate-dependent law, by name.
 pub trait Dampings: Sized {
-    /// Their names; none if there is but one.
+    /// Their names; empty if there is only one.
     fn dampings(&self) -> Vec<&'static str>;
 
     /// The law with the damping of this name; `None` if there is none.

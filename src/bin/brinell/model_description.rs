@@ -22,7 +22,7 @@ const LOG_CATEGORIES: [(&str, &str); 4] = [
     ("logAll", "all of them"),
 ];
 
-/// The model description of the planned unit, under the identification `guid`.
+/// The model description of the planned FMU, with the identification `guid`.
 pub fn write(plan: &Plan, guid: &str) -> String {
     let mut xml = Writer::new_with_indent(Cursor::new(Vec::new()), b' ', 2);
     document(&mut xml, plan, guid).expect("memory takes everything");
@@ -84,7 +84,7 @@ fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
     Ok(())
 }
 
-/// The units that the variables use, with their display units.
+/// The units of the variables, with their display units.
 fn units(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
     let used: BTreeSet<_> = entries.iter().filter_map(|entry| entry.variable.unit.as_deref()).collect();
     xml.create_element("UnitDefinitions").write_inner_content(|xml| {
@@ -112,7 +112,7 @@ fn definition(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
     Ok(())
 }
 
-/// The enumerations among the variables, with their values.
+/// The enumerations of the variables, with their values.
 fn types(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
     let mut used: Vec<_> = entries.iter().map(|entry| entry.variable).collect();
     used.retain(|variable| variable.r#type == Type::Enumeration);
@@ -193,7 +193,8 @@ fn scalar_variable(xml: &mut Xml, scene: &Scene, entry: &Entry, index: usize) ->
     Ok(())
 }
 
-/// Outputs depend on no input at the same instant, unless the law does; before the first step they follow the parameters.
+/// Outputs do not depend on an input at the same instant, unless the law does. Before the first step they depend on the
+/// parameters.
 fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
     let outputs = || {
         let outputs = entries.iter().filter(|entry| entry.variable.causality == Causality::Output);
@@ -220,7 +221,7 @@ fn structure(xml: &mut Xml, entries: &[Entry]) -> io::Result<()> {
     Ok(())
 }
 
-/// The places of an unknown, and of the input and the parameters that it depends on; the XML counts from 1.
+/// The index of an unknown, and those of the input and the parameters on which it depends. Indices in the XML start from 1.
 fn unknown(xml: &mut Xml, place: usize, dependencies: &[usize]) -> io::Result<()> {
     let index = (place + 1).to_string();
     let dependencies = dependencies.iter().map(|place| (place + 1).to_string());

@@ -1,9 +1,9 @@
-//! What somebody meant who has mistyped a name.
+//! Suggestions for mistyped names.
 
-/// Similarity (Jaro-Winkler) from which on two names are taken for the same.
+/// Similarity (Jaro-Winkler) from which two names are considered the same.
 const SIMILAR: f64 = 0.8;
 
-/// The one of `names` that `asked` is nearest to, if there is a near one.
+/// The one of `names` that is nearest to `asked`, if any is near.
 pub fn nearest<'a>(asked: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let asked = normal(asked);
     if asked.is_empty() {
@@ -14,18 +14,19 @@ pub fn nearest<'a>(asked: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
     (best.0 >= SIMILAR).then_some(best.1)
 }
 
-/// Without capitals, and with spaces for what joins words.
+/// In lower case, and with spaces in place of hyphens and other joints.
 fn normal(name: &str) -> String {
     name.trim().to_lowercase().replace(['-', '_'], " ")
 }
 
 fn similarity(asked: &str, name: &str) -> f64 {
-    // a whole part of a name, such as the last word of target.yield_strength
+    // a complete part of a name, such as the last word of target.yield_strength
     let is_part = asked.len() >= 4 && name.contains(asked);
     strsim::jaro_winkler(asked, name).max(if is_part { SIMILAR } else { 0.0 })
 }
 
-/// What is said of a name that doesn't exist: `unknown material `Mild Steel`; did you mean `mild steel`? Expected one of ...`.
+/// The message about a name that does not exist, such as: unknown material `Mild Steel`; did you mean `mild steel`? Expected
+/// one of ...
 pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
     let guess = nearest(asked, names.iter().copied());
@@ -36,7 +37,7 @@ pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>
     format!("unknown {what} `{asked}`{joint}{expected} {}", one_of(&names))
 }
 
-/// The names, of which one must be chosen.
+/// The names as a choice.
 pub fn one_of(names: &[&str]) -> String {
     match names {
         [] => "none".into(),

@@ -1,4 +1,4 @@
-//! `brinell new`: a scene to begin with.
+//! `brinell new`: a commented scene to start from.
 
 use crate::files::{self, FileError};
 use crate::scene::Scene;
@@ -8,10 +8,10 @@ use std::error::Error;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// The scene, with `NAME` where its name belongs.
+/// The scene, with `NAME` in place of its name.
 const TEMPLATE: &str = include_str!("new_scene.toml");
 
-/// What `brinell new` is asked.
+/// The arguments of `brinell new`.
 #[derive(clap::Args)]
 #[command(next_line_help = true)]
 pub struct Arguments {
@@ -22,7 +22,7 @@ pub struct Arguments {
     pub output: Option<PathBuf>,
 }
 
-/// Writes the scene, unless there is a file already.
+/// Writes the scene, unless the file exists.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let Arguments { name, output } = arguments;
     let path = output.clone().unwrap_or_else(|| format!("{name}.toml").into());
@@ -43,7 +43,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Writes a file that doesn't exist yet.
+/// Writes a file that must not exist.
 fn write_new(path: &Path, text: &str) -> Result<(), FileError> {
     let file_error = FileError::at(path);
     if path.exists() {

@@ -1,21 +1,21 @@
-//! Typical sizes of the variables, for solvers that scale by them, and the step that suits a scene.
+//! Typical values of the variables, for solvers that scale by them, and a suitable step size for a scene.
 
 use crate::scene::Scene;
 use crate::table::Variable;
 use brinell::contact::impact::Prediction;
 use std::f64::consts::PI;
 
-/// Typical sizes of one group of contacts.
+/// Typical values of one group of contacts.
 #[derive(Clone, Copy)]
 pub struct Nominal {
     prediction: Prediction,
-    /// [N/m]
+    /// Stiffness [N/m].
     stiffness: f64,
-    /// Of the scene's impact [m/s].
+    /// Speed of the scene's impact [m/s].
     speed: f64,
 }
 
-/// The typical sizes of each group.
+/// The typical values of each group.
 pub fn of(scene: &Scene) -> Vec<Nominal> {
     scene.by_bodies(|group| {
         let prediction = scene.predictions[group];
@@ -25,7 +25,7 @@ pub fn of(scene: &Scene) -> Vec<Nominal> {
 }
 
 impl Nominal {
-    /// The typical size of `variable`, if its entry in the table names one.
+    /// The typical value of `variable`, if its entry in the table names one.
     pub fn get(&self, variable: &Variable) -> Option<f64> {
         let Prediction { max_force, max_indentation, max_contact_radius, energy, .. } = self.prediction;
         let size = match variable.nominal_from.as_deref()? {
@@ -43,27 +43,28 @@ impl Nominal {
     }
 }
 
-/// `value` > 0 with one significant digit, its mantissa rounded by `round`.
+/// `value` > 0 with one significant digit; `round` rounds its mantissa.
 fn one_digit(value: f64, round: fn(f64) -> f64) -> f64 {
     let exponent = libm::log10(value).floor() as i32;
     let mantissa = round(value / libm::pow(10.0, f64::from(exponent)));
-    // through text, so that the result is the number that a person would write
+    // converted through text, so that the result is the nearest number to what a person would write
     format!("{mantissa}e{exponent}").parse().expect("a number and an exponent")
 }
 
-/// Step and stop time that suit the scene.
+/// Step size and stop time that suit the scene.
 pub struct Experiment {
-    /// [s]
+    /// Step size [s].
     pub step: f64,
-    /// [s]
+    /// Stop time [s].
     pub stop: f64,
 }
 
-/// How many steps of a contact the suggested step makes: of the default scene's impact the restitution is then right to 2 % if
-/// the force comes a step late, and to 1e-5 by leap-frog.
+/// Steps per contact for the suggested step size. For the impact of the default scene, the restitution is then accurate to 2 %
+/// if the force comes one step late, and to 1e-5 with leap-frog.
 const STEPS_PER_CONTACT: f64 = 256.0;
 
-/// Step and stop time that suit the scene's impact on its first contact: that takes 256 steps, and ends before the stop.
+/// Step size and stop time for the scene's impact on its first contact. The contact takes 256 steps and ends before the stop
+/// time.
 pub fn experiment(scene: &Scene) -> Experiment {
     let contact_time = scene.predictions[0].contact_time();
     let step = one_digit(contact_time / STEPS_PER_CONTACT, |mantissa| match mantissa {

@@ -1,4 +1,4 @@
-//! Numbers for people.
+//! Formatting of numbers for people.
 
 /// At most six significant digits.
 pub fn digits(value: f64) -> String {
@@ -9,32 +9,32 @@ pub fn digits(value: f64) -> String {
 pub fn significant(value: f64, count: usize) -> String {
     let rounded = rounded(value, count);
     if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) {
-        // no sign of a zero
+        // avoids a sign of zero
         format!("{}", rounded + 0.0)
     } else {
         format!("{rounded:e}")
     }
 }
 
-/// Significant digits of a number for people.
+/// Significant digits in output for people.
 const DIGITS: usize = 4;
 
 fn rounded(value: f64, count: usize) -> f64 {
     format!("{value:.*e}", count - 1).parse().expect("a number")
 }
 
-/// The prefixes of SI, with their powers of ten.
+/// The SI prefixes, with their powers of ten.
 const PREFIXES: [(&str, i32); 10] =
     [("f", -15), ("p", -12), ("n", -9), ("u", -6), ("m", -3), ("", 0), ("k", 3), ("M", 6), ("G", 9), ("T", 12)];
 
-/// A unit as it is written, and its size in the SI unit that it replaces.
+/// A unit with its prefix, and its size in the SI unit.
 pub struct Prefixed {
     pub unit: String,
     pub size: f64,
 }
 
 impl Prefixed {
-    /// The unit below the name of a column.
+    /// The unit under the name of a column.
     pub fn heading(&self) -> String {
         if self.unit.is_empty() { String::new() } else { format!("[{}]", self.unit) }
     }
@@ -45,10 +45,10 @@ impl Prefixed {
     }
 }
 
-/// The unit of this kind in which a number of the size `value` [`unit`] reads best.
+/// The best prefix of `unit` for a number of the size of `value` [`unit`].
 ///
-/// Lengths, times and speeds have no prefix above 1 (`1200 m`), masses are in grams below a kilogram, and units that take no
-/// prefix (`kg/m^3`, a pure number) stay as they are.
+/// Lengths, times and speeds have no prefix above 1 (`1200 m`), and masses below a kilogram are in grams. Units that take no
+/// prefix (`kg/m^3`, dimensionless numbers) do not change.
 pub fn prefixed(value: f64, unit: &'static str) -> Prefixed {
     let (base, first, largest) = match unit {
         "m" | "s" | "m/s" => (unit, 0, 0),
@@ -61,23 +61,23 @@ pub fn prefixed(value: f64, unit: &'static str) -> Prefixed {
     let power = (wanted.floor() as i32 - first).div_euclid(3) * 3;
     let nearest = PREFIXES.iter().min_by_key(|(_, own)| (own - power.min(largest)).abs());
     let (prefix, power) = nearest.expect("there are prefixes");
-    // through text: the power of ten that a person would write
+    // converted through text: the power of ten that a person would write
     let size = format!("1e{}", power + first).parse().expect("a power of ten");
     Prefixed { unit: format!("{prefix}{base}"), size }
 }
 
-/// A number with its unit, four significant digits and a prefix of SI: `330.7 N`, `12.56 um`.
+/// A number with its unit, four significant digits and an SI prefix: `330.7 N`, `12.56 um`.
 pub fn quantity(value: f64, unit: &'static str) -> String {
     let Prefixed { unit, size } = prefixed(value, unit);
     format!("{} {unit}", significant(value / size, DIGITS)).trim_end().into()
 }
 
-/// A number of a table, in units of this size.
+/// A number in a table, in units of this size.
 pub fn cell(value: f64, size: f64) -> String {
     significant(value / size, DIGITS)
 }
 
-/// A relative difference in percent, with its sign; one that nobody would see is called so.
+/// A relative difference in percent with its sign. A negligible difference is described as such.
 pub fn percent(difference: f64) -> String {
     const LEAST: f64 = 1e-6;
     match difference {
@@ -90,7 +90,7 @@ pub fn percent(difference: f64) -> String {
     }
 }
 
-/// A number as a scene has it: `5e-3`, `210e9`, `7850`.
+/// A number in the form of a scene file: `5e-3`, `210e9`, `7850`.
 pub fn plain(value: f64) -> String {
     let value = rounded(value, 12);
     let size = value.abs();

@@ -1,4 +1,4 @@
-//! Which loading and unloading laws make sense together, and with which constants: as the table of laws says.
+//! Compatible loading and unloading laws and constants, according to the table of laws.
 
 use crate::laws::published;
 use crate::parameters::value_of;
@@ -6,15 +6,15 @@ use crate::table;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 
-/// The unloading law of a loading law that is named alone: the one that it was published with, or "contact-radius".
+/// The unloading law for a loading law that is named alone: the one with which it was published, otherwise "contact-radius".
 pub fn default_unloading(loading: &str) -> &'static str {
     table::loading_law(loading).unloading.as_deref().unwrap_or("contact-radius")
 }
 
-/// Refuses two laws that don't make sense together.
+/// Rejects two incompatible laws.
 ///
 /// # Errors
-/// Why they don't, and what does.
+/// A sentence with the reason and the compatible laws.
 pub fn check(loading: &str, unloading: &str) -> Result<(), String> {
     let (one, other) = (table::loading_law(loading), table::unloading_law(unloading));
     let pair = format!("law.loading = \"{loading}\" doesn't go with law.unloading = \"{unloading}\"");
@@ -34,10 +34,10 @@ pub fn check(loading: &str, unloading: &str) -> Result<(), String> {
     }
 }
 
-/// Refuses two laws by `(name, law)` whose constants contradict each other.
+/// Rejects two laws `(name, law)` whose constants contradict each other.
 ///
 /// # Errors
-/// What must be the same, or stay as published.
+/// A sentence with the constants that must be equal or as published.
 pub fn check_ties(
     (loading_name, loading): (&str, AnyLoading),
     (unloading_name, unloading): (&str, AnyUnloading),

@@ -5,10 +5,10 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// What `work` gives for each of the `items`, in their order. As many are worked on at once as there are processors.
+/// The results of `work` for each of the `items`, in their order. The number of threads is the number of processors.
 ///
 /// # Errors
-/// That of the first item which has one.
+/// The error of the first item that has one.
 pub fn each<T: Sync, R: Send, E: Send>(items: &[T], work: impl Fn(&T) -> Result<R, E> + Sync) -> Result<Vec<R>, E> {
     let next = AtomicUsize::new(0);
     let worker = || {

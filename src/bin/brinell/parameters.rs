@@ -1,4 +1,4 @@
-//! The constants of a law: which there are, and the law with those that a scene gives.
+//! The constants of a law: their list, and the law with the constants of a scene.
 
 use crate::nearest::unknown;
 use crate::scene::Mistake;
@@ -9,10 +9,10 @@ use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use toml::Spanned;
 
-/// A table of constants as a scene gives it.
+/// A table of constants in a scene.
 pub type Given = Spanned<BTreeMap<Spanned<String>, Spanned<toml::Value>>>;
 
-/// A constant of a law with its value, for people and programs.
+/// A constant of a law with its value, for output.
 #[derive(Clone, Debug, Serialize)]
 pub struct Constant {
     pub name: &'static str,
@@ -23,8 +23,8 @@ pub struct Constant {
     pub description: &'static str,
 }
 
-/// The fields of a serialized law. An enum of laws is a table with one entry, the name of the variant, around them; a law
-/// without constants has none.
+/// The fields of a serialized law. An enum of laws is a table with one entry, whose key is the name of the variant. A law
+/// without constants has no fields.
 fn fields(law: &mut Value) -> Option<&mut Map<String, Value>> {
     let Value::Object(outer) = law else { return None };
     let is_enum = outer.len() == 1 && outer.values().all(|value| value.is_object() || value.is_null());
@@ -35,12 +35,12 @@ fn serialized(law: &impl Serialize) -> Value {
     serde_json::to_value(law).expect("a law is made of numbers")
 }
 
-/// The constant `name` of `law`; `None` if it has none of this name, or a list.
+/// The constant `name` of `law`; `None` if there is none, or if it is a list.
 pub fn value_of(law: &impl Serialize, name: &str) -> Option<f64> {
     fields(&mut serialized(law))?.get(name)?.as_f64()
 }
 
-/// The constant `name` of `law`, or all of it if it is a list; `None` if it has none of this name.
+/// The constant `name` of `law`, or all its numbers if it is a list; `None` if there is none.
 pub fn numbers_of(law: &impl Serialize, name: &str) -> Option<Vec<f64>> {
     match fields(&mut serialized(law))?.get(name)? {
         Value::Array(list) => list.iter().map(Value::as_f64).collect(),
@@ -48,10 +48,10 @@ pub fn numbers_of(law: &impl Serialize, name: &str) -> Option<Vec<f64>> {
     }
 }
 
-/// `law` with the `given` constants in place of its own.
+/// `law` with the `given` constants instead of its own.
 ///
 /// # Errors
-/// The first name that isn't a number of the law.
+/// The first name that is not a number of the law.
 pub fn with_parameters<T: Serialize + DeserializeOwned>(law: &T, given: &[(String, f64)]) -> Result<T, String> {
     let mut tree = serialized(law);
     for (name, value) in given {
@@ -73,7 +73,7 @@ pub fn constants(law: &impl Serialize, table: &'static table::Law) -> Vec<Consta
     table.parameters.iter().map(constant).collect()
 }
 
-/// The law with the constants that the scene gives under `key` ("law.loading"), checked one by one and against each other.
+/// The law with the constants under `key` ("law.loading") of the scene. They are checked individually and against each other.
 pub fn apply<T: Serialize + DeserializeOwned>(
     law: T,
     key: &str,

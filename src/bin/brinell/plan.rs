@@ -1,4 +1,4 @@
-//! Everything that the files of an FMU are made from, computed once for model description, constants, documentation and summary.
+//! The common basis of all files of an FMU, computed once for the model description, constants, documentation and summary.
 
 use crate::energy::{self, Energy};
 use crate::guard::Guard;
@@ -9,43 +9,43 @@ use crate::table::{self, Kind};
 use crate::validity;
 use brinell::contact::impact::Prediction;
 
-/// A unit that is going to be made.
+/// The plan of an FMU.
 pub struct Plan<'a> {
     pub scene: &'a Scene,
     /// Its variables, in order.
     pub variables: Vec<Entry<'a>>,
-    /// The parameters that can't be set.
+    /// The parameters that cannot be set.
     pub constants: Vec<Constant>,
-    /// Whether its laws can give back more than they took.
+    /// Whether its laws can return more energy than they took.
     pub makes_energy: bool,
-    /// Step and stop time that suit the scene.
+    /// Step size and stop time that suit the scene.
     pub experiment: Experiment,
-    /// Where the passivity guard acts, if the scene has one.
+    /// The ranges in which the passivity guard acts, if the scene has one.
     pub guard: Option<Guard>,
-    /// Where the scene's impact leaves the validity of its law, on the first contact, in words.
+    /// Warnings about the validity of the law in the scene's impact on the first contact.
     pub warnings: Vec<String>,
-    /// What a unit of several contacts that moves their bodies doesn't know, in words.
+    /// A note about shared bodies, for an FMU that moves the bodies of several contacts.
     pub shared_bodies: Option<&'static str>,
-    /// Up to where the law is valid on the first contact, in words.
+    /// The limits of validity of the law on the first contact, in words.
     pub valid: String,
 }
 
-/// No scene says which bodies two contacts have in common.
+/// No scene specifies which bodies two contacts share.
 const SHARED_BODIES: &str = "the FMU moves the bodies of each contact separately: a body that two contacts share, as in a chain or \
                              between two walls, would be moved twice. For such contacts use FMUs without [coupling], and short steps";
 
-/// A parameter that can't be set.
+/// A parameter that cannot be set.
 pub struct Constant {
     pub name: String,
     pub value: f64,
-    /// Empty for a pure number.
+    /// Unit; empty for a dimensionless number.
     pub unit: &'static str,
-    /// It belongs to all contacts, not to one group.
+    /// Whether it belongs to all contacts and not to one group.
     pub shared: bool,
 }
 
 impl Plan<'_> {
-    /// The plan of the unit of `scene`.
+    /// The plan of the FMU of `scene`.
     pub fn of(scene: &Scene) -> Plan<'_> {
         let (model, density) = (scene.any_model(), scene.contacts[0].density);
         let energy = energy::of(scene);
@@ -62,13 +62,13 @@ impl Plan<'_> {
         }
     }
 
-    /// What the scene's impact will do to its first contact.
+    /// The prediction of the scene's impact on its first contact.
     pub fn prediction(&self) -> &Prediction {
         &self.scene.predictions[0]
     }
 }
 
-/// The kinds of unit that the unit of `scene`, whose laws do this with `energy`, is one of.
+/// The kinds of the FMU of `scene`, whose laws have this `energy` balance.
 fn kinds(scene: &Scene, energy: Energy) -> Vec<Kind> {
     let coupling = scene.coupling;
     let kinds = [
@@ -82,13 +82,13 @@ fn kinds(scene: &Scene, energy: Energy) -> Vec<Kind> {
     kinds.into_iter().filter_map(|(kind, is)| is.then_some(kind)).collect()
 }
 
-/// The parameters of `scene` that can't be set: those of all contacts, then group by group.
+/// The parameters of `scene` that cannot be set: first those of all contacts, then those of each group.
 fn constants(scene: &Scene) -> Vec<Constant> {
     let mut constants = Vec::new();
     let mass_is_input = scene.coupling.is_some_and(|coupling| coupling.mass_input);
     let mut add = |group: Option<&Group>, parameters: &[Parameter]| {
         for Parameter { name, value, .. } in parameters.iter().filter(|parameter| !parameter.settable) {
-            // only where it starts
+            // it is only a start value
             if mass_is_input && *name == "effective_mass" {
                 continue;
             }
@@ -111,7 +111,7 @@ mod tests {
     use crate::{constants, documentation, model_description};
     use std::path::Path;
 
-    /// Sixty contacts of three kinds of bodies; two kinds differ by their gap alone.
+    /// Sixty contacts with three kinds of bodies; two kinds differ only in their gap.
     fn scene(law: &str) -> Scene {
         let mut text =
             format!("name = \"bed\"\nimpactor = {{ radius = 5e-3 }}\ntarget = {{ material = \"mild steel\" }}\n{law}");

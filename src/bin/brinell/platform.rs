@@ -1,23 +1,23 @@
-//! The platforms that an FMU can have a library for.
+//! The platforms for which an FMU can have a library.
 
 use std::env;
 
-/// A platform as FMI 2.0 sees it: a folder of an FMU.
+/// A platform of FMI 2.0: a folder of an FMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Platform {
     /// Folder of the library, below `binaries`.
     pub folder: &'static str,
-    /// Ending of the library.
+    /// Extension of the library.
     pub extension: &'static str,
-    /// What the library is compiled for: several targets make a universal library.
+    /// The compilation targets of the library. Several targets make a universal library.
     pub targets: &'static [Target],
 }
 
 /// One processor architecture of one operating system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// The name that rustc has for it. It is always given to rustc, so that no other target is a default: not even that of
-    /// a toolchain made for another C library.
+    /// The target name of rustc. It is always passed to rustc, so that no other target is the default, such as that of a
+    /// toolchain for another C library.
     pub triple: &'static str,
     pub system: System,
     pub processor: Processor,
@@ -31,7 +31,7 @@ pub enum System {
 }
 
 impl System {
-    /// Ending of a library.
+    /// Extension of a library.
     pub const fn extension(self) -> &'static str {
         match self {
             System::Linux => "so",
@@ -62,10 +62,10 @@ const fn target(triple: &'static str, system: System, processor: Processor) -> T
 }
 
 impl Target {
-    /// All of them, each once.
+    /// All targets.
     pub const ALL: [Target; 5] = [LINUX_X86_64, LINUX_ARM64, WINDOWS_X86_64, MACOS_X86_64, MACOS_ARM64];
 
-    /// The oldest macOS that the library is for: the first with arm64, and the oldest that the Rust compiler supports.
+    /// The oldest macOS for the library: the first with arm64, and the oldest that the Rust compiler supports.
     pub fn oldest_macos(&self) -> (u16, u8) {
         match self.processor {
             Processor::Arm64 => (11, 0),
@@ -73,7 +73,7 @@ impl Target {
         }
     }
 
-    /// Whether the program itself runs on this target.
+    /// Whether the program runs on this target.
     pub fn is_here(&self) -> bool {
         let system = match self.system {
             System::Linux => "linux",
@@ -90,7 +90,8 @@ impl Target {
 
 impl Platform {
     /// All platforms. The folders are those of FMI 2.0.5, section 2.3: `linux64`, `win64` and `darwin64` mean x86; other
-    /// processors have the names of FMI 3.0. Since importers on Apple silicon look into `darwin64`, too, its library is universal.
+    /// processors have the names of FMI 3.0. The library in `darwin64` is universal, because importers on Apple silicon also
+    /// look there.
     pub const ALL: [Platform; 5] = [
         platform("linux64", &[LINUX_X86_64]),
         platform("aarch64-linux", &[LINUX_ARM64]),
@@ -99,11 +100,12 @@ impl Platform {
         platform("aarch64-darwin", &[MACOS_ARM64]),
     ];
 
-    /// The arm64 library in the folder of x86-64: importers on ARM Linux look into `linux64` alone, and there is no universal ELF file.
+    /// The arm64 library in the folder of x86-64. Importers on ARM Linux look only in `linux64`, and there are no universal ELF
+    /// files.
     pub const ARM64_IN_LINUX64: Platform = platform("linux64", &[LINUX_ARM64]);
 }
 
-/// A platform that has no FMUs.
+/// A platform without FMUs.
 #[derive(Debug, thiserror::Error)]
 #[error("FMUs for {os} on {arch} can't be made: FMI 2.0 has no folder for this platform")]
 pub struct NoPlatform {
@@ -111,7 +113,7 @@ pub struct NoPlatform {
     arch: &'static str,
 }
 
-/// The platform that the program runs on.
+/// The platform on which the program runs.
 ///
 /// # Errors
 /// [`NoPlatform`]
@@ -121,7 +123,7 @@ pub fn here() -> Result<Platform, NoPlatform> {
     Platform::ALL.iter().find(is_here).copied().ok_or(NoPlatform { os, arch })
 }
 
-/// The platforms whose library may run here, the likeliest first.
+/// The platforms whose library may run here, the most likely one first.
 ///
 /// # Errors
 /// [`NoPlatform`]
@@ -135,7 +137,7 @@ pub fn loadable() -> Result<Vec<Platform>, NoPlatform> {
 /// The platform with this folder.
 ///
 /// # Errors
-/// A sentence with the folders there are.
+/// A sentence with the existing folders.
 pub fn named(folder: &str) -> Result<Platform, String> {
     Platform::ALL.into_iter().find(|platform| platform.folder == folder).ok_or_else(|| {
         let folders = Platform::ALL.map(|platform| platform.folder).join(", ");

@@ -1,19 +1,19 @@
-//! Where the prebuilt FMU libraries are.
+//! The location of the prebuilt FMU libraries.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-/// Names the folder instead of the installed one.
+/// Environment variable that overrides the installed folder.
 const VARIABLE: &str = "BRINELL_PREBUILT";
 
-/// Below the folder that the program was installed to.
+/// Path relative to the installation folder of the program.
 const INSTALLED: &str = "share/brinell/prebuilt";
 
-/// How many folders above the program are searched. A wheel puts programs into `bin` or `Scripts`, and on Windows the
-/// programs of one user into `Python311\Scripts`; `share` is beside `bin`, `Scripts` or `Python311`.
+/// Number of folders above the program that are searched. A wheel puts programs into `bin` or `Scripts`; on Windows, the
+/// programs of a single user are in `Python311\Scripts`. `share` is beside `bin`, `Scripts` or `Python311`.
 const LEVELS: usize = 3;
 
-/// For each platform there is a list of its libraries with this ending.
+/// Extension of the list of libraries of each platform.
 const LIST: &str = "json";
 
 /// A folder with prebuilt libraries.
@@ -22,14 +22,14 @@ pub struct PrebuiltFolder {
     pub path: PathBuf,
 }
 
-/// The folder that the variable `BRINELL_PREBUILT` names, or else the one that was installed with the program; none if there is
-/// no such folder.
+/// The folder named by `BRINELL_PREBUILT`, otherwise the one that was installed with the program; `None` if there is no such
+/// folder.
 pub fn find() -> Option<PrebuiltFolder> {
     if let Some(named) = env::var_os(VARIABLE).filter(|named| !named.is_empty()) {
         let path = PathBuf::from(named);
         return path.is_dir().then_some(PrebuiltFolder { path });
     }
-    // a link to the program, as pipx makes one, has nothing beside it
+    // a symbolic link to the program, such as that of pipx, has no `share` beside it
     installed(&env::current_exe().and_then(fs::canonicalize).ok()?)
 }
 
@@ -40,7 +40,7 @@ fn installed(program: &Path) -> Option<PrebuiltFolder> {
 }
 
 impl PrebuiltFolder {
-    /// The platforms that there are libraries for, as FMI calls them.
+    /// The platforms that have libraries, with their names in FMI.
     pub fn platforms(&self) -> Vec<String> {
         let files = fs::read_dir(&self.path).into_iter().flatten().flatten().map(|entry| entry.path());
         let lists = files.filter(|path| path.extension().is_some_and(|ending| ending == LIST));

@@ -1,8 +1,8 @@
-//! The parts of a law, in words.
+//! The names of the regimes of a law.
 
 use brinell::contact::Regime;
 
-/// What a regime is called.
+/// The name of a regime.
 pub fn words(regime: Regime) -> &'static str {
     match regime {
         Regime::Apart => "apart",
@@ -14,7 +14,7 @@ pub fn words(regime: Regime) -> &'static str {
     }
 }
 
-/// The same for a narrow column.
+/// A short name for a narrow column.
 pub fn short(regime: Regime) -> &'static str {
     words(regime).split(" (").next().unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! The summary of `brinell export`: what the FMU contains, and what was left out.
+//! The summary of `brinell export`: the contents of the FMU, and the omitted features.
 
 use crate::interface::Entry;
 use crate::layout::paragraph;
@@ -12,10 +12,10 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use serde_json::{Value, json};
 
-/// Inputs, outputs, parameters, and what the FMU could have besides.
+/// Inputs, outputs, parameters and the features that the FMU does not have.
 pub struct Summary<'a> {
     plan: &'a Plan<'a>,
-    /// Outputs that weren't chosen.
+    /// Outputs that were not requested.
     outputs: Vec<&'static str>,
     /// Parameters that no contact has.
     absent: Vec<&'static str>,
@@ -23,7 +23,7 @@ pub struct Summary<'a> {
     features: Vec<&'static str>,
 }
 
-/// The laws that the unit hasn't got.
+/// The laws that the FMU does not contain.
 struct OtherLaws {
     loading: Vec<&'static str>,
     unloading: Vec<&'static str>,
@@ -40,12 +40,12 @@ impl Summary<'_> {
         Summary { plan, outputs, absent, laws: OtherLaws::of(scene), features: features(scene) }
     }
 
-    /// How many variables the unit has.
+    /// The number of variables of the FMU.
     fn variable_count(&self) -> usize {
         self.plan.variables.iter().map(|entry| entry.count).sum()
     }
 
-    /// The variables, those of all contacts together.
+    /// The variables by kind, with those of all contacts together.
     fn variables_by_kind(&self) -> Vec<String> {
         let named = self.plan.scene.contacts[0].name.is_some();
         let mut names: Vec<String> = Vec::new();
@@ -62,10 +62,10 @@ impl Summary<'_> {
         names
     }
 
-    /// For programs.
+    /// As JSON.
     pub fn json(&self, exported: &Exported) -> Value {
         let Plan { scene, variables, constants, guard, warnings, .. } = self.plan;
-        // every variable there can be that this unit doesn't show
+        // all variables that this FMU does not have
         let left_out = VARIABLES.iter().map(|variable| variable.name.as_str());
         let left_out: Vec<_> = left_out.filter(|name| !shows(self.plan, name)).collect();
         let OtherLaws { loading, unloading, damped } = &self.laws;
@@ -102,7 +102,7 @@ impl Summary<'_> {
         })
     }
 
-    /// For people.
+    /// As text.
     pub fn print(&self, exported: &Exported) {
         println!("{}", exported.path.display());
         println!("  {} bytes", exported.size);
@@ -131,7 +131,7 @@ impl Summary<'_> {
             scene.contacts.iter().for_each(|group| print!("{}", group_line(group)));
         }
         line("variables", &format!("{}: {}", self.variable_count(), self.variables_by_kind().join(", ")));
-        // constants of a group are in its line
+        // constants of a group are in the line of the group
         for Constant { name, value, unit, .. } in constants.iter().filter(|constant| constant.shared) {
             line("constant", format!("{name} = {value:?} {unit}").trim_end());
         }
@@ -169,7 +169,7 @@ impl OtherLaws {
     }
 }
 
-/// What the unit doesn't do, beside laws.
+/// Features that the FMU does not have, other than laws.
 fn features(scene: &Scene) -> Vec<&'static str> {
     let surface = |asked: Surface| scene.contacts.iter().any(|group| group.surface == asked);
     // an elastic contact leaves no dent to remember
@@ -188,12 +188,12 @@ fn of_kind(causality: Causality) -> impl Iterator<Item = &'static str> {
     VARIABLES.iter().filter(move |variable| variable.causality == causality).map(|variable| variable.name.as_str())
 }
 
-/// Whether the unit has the variable `name`, in one contact at least.
+/// Whether at least one contact of the FMU has the variable `name`.
 fn shows(plan: &Plan, name: &str) -> bool {
     plan.variables.iter().any(|entry| entry.variable.name == name)
 }
 
-/// One line about a group: what differs in it.
+/// One line about a group with its differences.
 fn group_line(group: &Group) -> String {
     let own = group.own.iter().map(|Parameter { name, value, per_contact, .. }| {
         format!("{name} = {value:?}{}", if *per_contact { " for each" } else { "" })

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::sync::LazyLock;
 
-/// A variable that a unit can have; see `modelDescription/variables.toml`.
+/// A variable of FMUs; see `modelDescription/variables.toml`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variable {
@@ -18,7 +18,7 @@ pub struct Variable {
     pub display_unit: Option<String>,
     pub minimum: Option<f64>,
     pub maximum: Option<f64>,
-    /// Parameters that the value before the first step follows.
+    /// Parameters on which the value before the first step depends.
     #[serde(default)]
     pub depends_on: Vec<String>,
     pub nominal_from: Option<String>,
@@ -28,7 +28,7 @@ pub struct Variable {
     /// The values of an enumeration, counted from 0.
     #[serde(default)]
     pub items: Vec<Item>,
-    /// What is said instead in units of another kind.
+    /// Other descriptions in FMUs of other kinds.
     #[serde(default)]
     pub instead: Vec<Instead>,
 }
@@ -41,7 +41,7 @@ pub struct Item {
     pub description: String,
 }
 
-/// What is said of a variable in units of one kind.
+/// The description of a variable in FMUs of one kind.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Instead {
@@ -52,31 +52,31 @@ pub struct Instead {
     pub negative: bool,
 }
 
-/// A kind of unit in which variables mean something else.
+/// A kind of FMU in which variables have another meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// The force depends on the rate.
     RateDependent,
-    /// The unit knows the mass, and its master steps all units at once.
+    /// The FMU knows the mass, and its importer steps all FMUs at once.
     Parallel,
-    /// The unit knows the mass, and has an input for the acceleration.
+    /// The FMU knows the mass, and has an input for the acceleration.
     AccelerationInput,
-    /// The unit knows the mass.
+    /// The FMU knows the mass.
     MassKnown,
-    /// Its laws can give back more than they took.
+    /// Its laws can return more energy than they took.
     MakesEnergy,
-    /// Its laws lose less where the dent is deeper.
+    /// Its laws dissipate less energy where the dent is deeper.
     LosesLess,
 }
 
 impl Variable {
-    /// What is said of the variable in a unit of these `kinds`.
+    /// The description of the variable in an FMU of these `kinds`.
     pub fn description(&self, kinds: &[Kind]) -> &str {
         self.instead(kinds).map_or(&self.description, |instead| &instead.description)
     }
 
-    /// Its smallest value in a unit of these `kinds`.
+    /// Its minimum in an FMU of these `kinds`.
     pub fn minimum(&self, kinds: &[Kind]) -> Option<f64> {
         self.minimum.filter(|_| !self.instead(kinds).is_some_and(|instead| instead.negative))
     }
@@ -86,15 +86,15 @@ impl Variable {
     }
 }
 
-/// Whether an output follows the rate at the same instant.
+/// Whether an output depends on the rate at the same instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Follows {
     #[default]
     Never,
-    /// Where the law does.
+    /// If the law does.
     WithLaw,
-    /// Before the first step only.
+    /// Only before the first step.
     AtStart,
     Always,
 }
@@ -115,7 +115,7 @@ pub enum Causality {
     Parameter,
 }
 
-/// A unit with its SI exponents; see `modelDescription/units.toml`.
+/// A physical unit with its SI exponents; see `modelDescription/units.toml`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Unit {
@@ -141,22 +141,22 @@ pub struct DisplayUnit {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     pub name: String,
-    /// [Pa]
+    /// Young's modulus [Pa].
     pub youngs_modulus: f64,
     pub poissons_ratio: f64,
-    /// [Pa]
+    /// Yield strength [Pa].
     pub yield_strength: f64,
-    /// [kg/m^3]
+    /// Density [kg/m^3].
     pub density: f64,
     pub source: String,
 }
 
-/// What the documentation says of a law; see `modelDescription/laws.toml`.
+/// The documentation of a law; see `modelDescription/laws.toml`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Law {
     pub name: String,
-    /// What the law is in Rust, and whether it has a form with the passivity guard: for `build/laws.rs`.
+    /// The Rust name of the law, and whether it has a form with the passivity guard: for `build/laws.rs`.
     #[serde(rename = "rust")]
     _rust: IgnoredAny,
     #[serde(default, rename = "guarded")]
@@ -164,23 +164,23 @@ pub struct Law {
     pub title: String,
     pub formulas: Vec<String>,
     pub notes: String,
-    /// In which range the law was made, or holds; of loading laws.
+    /// The range in which the law was derived or holds, for loading laws.
     #[serde(default)]
     pub validity: String,
     pub reference: String,
-    /// The unloading law that a loading law was published with, if it was with one.
+    /// The unloading law with which a loading law was published, if any.
     pub unloading: Option<String>,
-    /// Why a loading law goes with no other unloading law.
+    /// The reason why a loading law can be combined with no other unloading law.
     pub no_other_unloading: Option<String>,
     /// Whether a loading law is above Hertz's curve in places.
     #[serde(default)]
     pub above_hertz: bool,
-    /// Whether an unloading law lowers Hertz's curve to the largest load.
+    /// Whether an unloading law lowers Hertz's curve to the peak.
     #[serde(default)]
     pub lowers_hertz: bool,
-    /// The one loading law that an unloading law goes with.
+    /// The only loading law with which an unloading law can be combined.
     pub made_for: Option<MadeFor>,
-    /// Whether the force of a loading law jumps, and by which part its contact radius falls: for the tests.
+    /// Whether the force of a loading law jumps, and the fraction by which its contact radius falls: for the tests.
     #[serde(default, rename = "jumps")]
     _jumps: IgnoredAny,
     #[serde(default, rename = "radius_falls_by")]
@@ -188,51 +188,51 @@ pub struct Law {
     /// Whether the normalised curve of a loading law depends on `E*/S`.
     #[serde(default)]
     pub depends_on_modulus_ratio: bool,
-    /// Of a loading law that makes energy.
+    /// For a loading law that is not passive.
     pub energy: Option<MakesEnergy>,
-    /// What a scene can change.
+    /// The constants that a scene can change.
     #[serde(default)]
     pub parameters: Vec<LawParameter>,
-    /// Constants that belong together, so that a scene can't change them.
+    /// Constants that depend on each other, so that a scene cannot change them.
     #[serde(default)]
     pub fixed: Vec<String>,
 }
 
-/// The loading law that an unloading law was made for.
+/// The loading law for which an unloading law was made.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MadeFor {
     pub loading: String,
-    /// What the unloading law did with it: "was fitted to".
+    /// The relation of the unloading law to it: "was fitted to".
     pub because: String,
-    /// Constants that both have, and that must be the same.
+    /// Constants that both laws have, and that must be equal.
     #[serde(default)]
     pub same: Vec<String>,
-    /// Constants of the loading law that the unloading law takes as published.
+    /// Constants of the loading law that the unloading law assumes as published.
     #[serde(default)]
     pub as_published: Vec<String>,
 }
 
-/// Where a loading law makes energy, and how much.
+/// The range in which a loading law is not passive, and by how much.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MakesEnergy {
     pub why: String,
-    /// The largest with the unloading law that it was published with, or else contact-radius, of targets with a Poisson's
-    /// ratio from 0 on.
+    /// Largest restitution for targets with a Poisson's ratio of at least 0, with the unloading law with which it was
+    /// published, otherwise contact-radius.
     pub restitution: f64,
-    /// Of targets with a Poisson's ratio below 0.
+    /// For targets with a Poisson's ratio below 0.
     pub auxetic_restitution: f64,
-    /// Unloading laws with which it makes none.
+    /// Unloading laws with which it is passive.
     pub passive: Vec<PassiveWith>,
 }
 
-/// An unloading law with which a loading law makes no energy.
+/// An unloading law with which a loading law is passive.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PassiveWith {
     pub unloading: String,
-    /// From which Poisson's ratio of the target on; none if it is so for all.
+    /// The Poisson's ratio of the target from which this holds; `None` if it holds for all.
     pub from_poissons_ratio: Option<f64>,
 }
 
@@ -241,12 +241,12 @@ pub struct PassiveWith {
 #[serde(deny_unknown_fields)]
 pub struct LawParameter {
     pub name: String,
-    /// Empty for a pure number.
+    /// Unit; empty for a dimensionless number.
     #[serde(default)]
     pub unit: String,
     pub minimum: f64,
     pub maximum: f64,
-    /// The parameter of the same law that it must be below.
+    /// The parameter of the same law that must be larger.
     pub below: Option<String>,
     pub description: String,
 }
@@ -273,22 +273,22 @@ struct Laws {
     damped: Vec<Law>,
 }
 
-/// The tables are part of the program: a mistake in one is a mistake in the program, which every test would show.
+/// The tables are part of the program. A mistake in one is a defect of the program, which every test would show.
 const PART_OF_THE_PROGRAM: &str = "the program's own tables are well-formed";
 
-/// Every variable there can be.
+/// All variables.
 pub static VARIABLES: LazyLock<Vec<Variable>> = LazyLock::new(|| {
     let text = include_str!("../../../modelDescription/variables.toml");
     toml::from_str::<Variables>(text).expect(PART_OF_THE_PROGRAM).variable
 });
 
-/// Every unit.
+/// All units.
 pub static UNITS: LazyLock<Vec<Unit>> = LazyLock::new(|| {
     let text = include_str!("../../../modelDescription/units.toml");
     toml::from_str::<Units>(text).expect(PART_OF_THE_PROGRAM).unit
 });
 
-/// Every built-in material.
+/// All built-in materials.
 pub static MATERIALS: LazyLock<Vec<Material>> = LazyLock::new(|| {
     let text = include_str!("../../../modelDescription/materials.toml");
     toml::from_str::<Materials>(text).expect(PART_OF_THE_PROGRAM).material
@@ -299,17 +299,17 @@ static LAWS: LazyLock<Laws> = LazyLock::new(|| {
     toml::from_str(text).expect(PART_OF_THE_PROGRAM)
 });
 
-/// What is said of the loading law `name`.
+/// The entry of the loading law `name`.
 pub fn loading_law(name: &str) -> &'static Law {
     LAWS.loading.iter().find(|law| law.name == name).expect(PART_OF_THE_PROGRAM)
 }
 
-/// What is said of the unloading law `name`.
+/// The entry of the unloading law `name`.
 pub fn unloading_law(name: &str) -> &'static Law {
     LAWS.unloading.iter().find(|law| law.name == name).expect(PART_OF_THE_PROGRAM)
 }
 
-/// What is said of the rate-dependent law `name`.
+/// The entry of the rate-dependent law `name`.
 pub fn damped_law(name: &str) -> &'static Law {
     LAWS.damped.iter().find(|law| law.name == name).expect(PART_OF_THE_PROGRAM)
 }

@@ -1,6 +1,6 @@
-//! The finite-element curves of the folder `truth/`, to be compared with.
+//! The finite-element curves of the folder `truth/`, for comparison.
 
-/// The truth's unit of indentation is the yield point for this mean pressure over the yield strength.
+/// The indentations of the curves are in units of the yield point for this ratio of mean pressure to yield strength.
 pub const YIELD_PRESSURE_FACTOR: f64 = 1.1;
 
 const LOADING: &str = include_str!("../../../truth/loading.csv");
@@ -13,7 +13,7 @@ pub struct Point {
     pub f: f64,
 }
 
-/// The loading curve up to 1000 yield indentations, smoothed over the sawtooth of the mesh.
+/// The loading curve up to 1000 yield indentations, smoothed to remove the sawtooth of the mesh.
 pub fn loading() -> Vec<Point> {
     let number = |text: &str| text.parse().expect("the truth is a table of numbers");
     let point = |line: &str| {
@@ -37,11 +37,11 @@ pub struct Impact {
     pub largest: Point,
     /// Kinetic energy, in yield forces times yield indentations.
     pub energy: f64,
-    /// Rebound and dent, where unloading is known.
+    /// Rebound and dent, if unloading was computed.
     pub rebound: Option<Rebound>,
 }
 
-/// What unloading gives back and leaves.
+/// The result of unloading.
 pub struct Rebound {
     pub restitution: f64,
     /// Depth of the dent.
@@ -54,7 +54,7 @@ pub fn impacts() -> Vec<Impact> {
     UNLOADING.iter().map(|(x, rows)| computed(&curve, *x, rows)).collect()
 }
 
-/// The impact that unloads from `x` by `rows`.
+/// The impact that unloads from `x` along `rows`.
 fn computed(curve: &[Point], x: f64, rows: &str) -> Impact {
     let number = |text: &str| text.parse().expect("the truth is a table of numbers");
     let points = rows.lines().filter_map(|line| line.strip_prefix("unload,")).map(|line| {
@@ -68,7 +68,7 @@ fn computed(curve: &[Point], x: f64, rows: &str) -> Impact {
     Impact { largest, energy, rebound: Some(Rebound { restitution: (back / energy).sqrt(), dent }) }
 }
 
-/// Force and work at the indentation `x`: straight between the points, and Hertz's law before the first.
+/// Force and work at the indentation `x`: interpolated linearly, with Hertz's law before the first point.
 fn loaded(curve: &[Point], x: f64) -> (Point, f64) {
     let mut work = 0.4 * curve[0].x * curve[0].f;
     for pair in curve.windows(2) {
@@ -83,7 +83,7 @@ fn loaded(curve: &[Point], x: f64) -> (Point, f64) {
     (Point { x, f: f64::NAN }, work)
 }
 
-/// The impact with an `energy` [yield forces times yield indentations]; none if it goes beyond the loading curve.
+/// The impact with an `energy` [yield forces times yield indentations]; `None` beyond the end of the loading curve.
 pub fn impact(energy: f64) -> Option<Impact> {
     let curve = loading();
     let (mut low, mut high) = (curve.first()?.x, curve.last()?.x);
@@ -99,7 +99,7 @@ pub fn impact(energy: f64) -> Option<Impact> {
     Some(Impact { largest, energy, rebound })
 }
 
-/// The rebound from the indentation `x`, between two that were computed: restitution and recovery are near powers of it.
+/// The rebound from the indentation `x`, between two computed ones: restitution and recovery are nearly powers of it.
 fn rebound(x: f64) -> Option<Rebound> {
     let known = impacts();
     let pair = known.windows(2).find(|pair| (pair[0].largest.x..=pair[1].largest.x).contains(&x))?;

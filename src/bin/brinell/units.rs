@@ -1,6 +1,6 @@
-//! Numbers that somebody has written with a unit.
+//! Numbers written with a unit.
 
-/// A kind of quantity: its SI unit, how it is called, and other units with their sizes.
+/// A kind of quantity: its SI unit, its name, and other units with their sizes.
 struct Kind {
     unit: &'static str,
     name: &'static str,
@@ -73,10 +73,10 @@ fn kind(unit: &str) -> &'static Kind {
     KINDS.iter().find(|kind| kind.unit == unit).expect("a unit of the program")
 }
 
-/// The number in `text` and the unit behind it, if it has one.
+/// The number in `text` and the unit after it, if there is one.
 fn split(text: &str) -> Option<(f64, &str)> {
     let text = text.trim().trim_matches(['"', '\'']).trim();
-    // the longest beginning that is a number: an `e` may belong to it or to the unit
+    // the longest prefix that is a number: an `e` may belong to it or to the unit
     let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
     ends.filter(|end| text[..*end].ends_with(|last: char| last.is_ascii_digit() || last == '.')).find_map(|end| {
         let number = text[..end].replace('_', "").parse().ok()?;
@@ -84,14 +84,14 @@ fn split(text: &str) -> Option<(f64, &str)> {
     })
 }
 
-/// The number in SI units, if `text` is a number with a unit of the kind of `unit`.
+/// The number in SI units, if `text` is a number with a unit of the same kind as `unit`.
 pub fn with_unit(text: &str, unit: &str) -> Option<f64> {
     let (number, suffix) = split(text)?;
     let (_, size) = kind(unit).others.iter().find(|(name, _)| *name == suffix)?;
     Some(number * size)
 }
 
-/// What is said of a number with a unit, where it must have none: `metres, a number without unit: 5e-3`.
+/// The message about a number with a unit, where none is allowed: `metres, a number without unit: 5e-3`.
 pub fn hint(text: &str, unit: &str) -> Option<String> {
     let kind = KINDS.iter().find(|kind| kind.unit == unit)?;
     let (_, suffix) = split(text)?;
@@ -102,37 +102,37 @@ pub fn hint(text: &str, unit: &str) -> Option<String> {
     Some(format!("{}, a number without unit{number}", kind.name))
 }
 
-/// A number of the command line, in this SI unit.
+/// A number on the command line, in this SI unit.
 fn number(text: &str, unit: &str) -> Result<f64, String> {
     text.parse().map_err(|_| hint(text, unit).unwrap_or_else(|| format!("a number in {} is expected", kind(unit).name)))
 }
 
-/// A mass [kg] of the command line.
+/// A mass [kg] on the command line.
 pub fn masses(text: &str) -> Result<f64, String> {
     number(text, "kg")
 }
 
-/// A speed [m/s] of the command line.
+/// A speed [m/s] on the command line.
 pub fn speeds(text: &str) -> Result<f64, String> {
     number(text, "m/s")
 }
 
-/// An energy [J] of the command line.
+/// An energy [J] on the command line.
 pub fn energies(text: &str) -> Result<f64, String> {
     number(text, "J")
 }
 
-/// A length [m] of the command line.
+/// A length [m] on the command line.
 pub fn lengths(text: &str) -> Result<f64, String> {
     number(text, "m")
 }
 
-/// A force [N] of the command line.
+/// A force [N] on the command line.
 pub fn forces(text: &str) -> Result<f64, String> {
     number(text, "N")
 }
 
-/// A load of the command line with its unit, in newtons: `29.4kN`, `3000kgf`.
+/// A load with its unit on the command line, in newtons: `29.4kN`, `3000kgf`.
 pub fn loads(text: &str) -> Result<f64, String> {
     let known = || kind("N").others.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
     with_unit(text, "N")

@@ -5,24 +5,24 @@ use brinell::contact::Pair;
 use brinell::contact::impact::Prediction;
 use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};
 
-/// Part of the energy of an elastic impact that waves take, at this speed over that of the waves.
+/// Fraction of the energy of an elastic impact that waves take, for this ratio of speed to wave speed.
 ///
 /// Reference: as for [`LARGEST_SPEED_RATIO`].
 fn wave_energy(speed_ratio: f64) -> f64 {
     1.04 * libm::pow(speed_ratio, 0.6)
 }
 
-/// A limit of validity that is left.
+/// A limit of validity that is exceeded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Beyond {
-    /// The contact radius over the effective radius.
+    /// Ratio of contact radius to effective radius.
     Width(f64),
-    /// The speed over that of the waves.
+    /// Ratio of speed to wave speed, and the fraction of energy that waves take.
     Speed { ratio: f64, waves: f64 },
 }
 
-/// What a contact of the bodies `pair` leaves that reaches this contact `radius` [m] and this closing `speed` [m/s]; the target
-/// may have a known `density` [kg/m^3].
+/// The limits that a contact of the bodies `pair` exceeds at this contact `radius` [m] and this closing `speed` [m/s]; the
+/// `density` [kg/m^3] of the target may be unknown.
 pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec<Beyond> {
     let width = radius / pair.radius;
     let waves = density.map_or(f64::INFINITY, |density| wave_speed(pair.youngs_modulus, density));
@@ -32,13 +32,13 @@ pub fn beyond(pair: &Pair, density: Option<f64>, radius: f64, speed: f64) -> Vec
     width.into_iter().chain(speed).collect()
 }
 
-/// Warnings about a `prediction` for an impact at `speed` [m/s] of the bodies `pair`, whose target may have a known
-/// `density` [kg/m^3]; nothing, if the laws are valid.
+/// Warnings about a `prediction` for an impact at `speed` [m/s] of the bodies `pair`; the `density` [kg/m^3] of the target may
+/// be unknown. Empty if the laws are valid.
 pub fn warnings(pair: &Pair, density: Option<f64>, prediction: &Prediction, speed: f64) -> Vec<String> {
     beyond(pair, density, prediction.max_contact_radius, speed).into_iter().map(words).collect()
 }
 
-/// A limit that is left, in words.
+/// An exceeded limit, in words.
 pub fn words(beyond: Beyond) -> String {
     match beyond {
         Beyond::Width(ratio) => format!(
@@ -55,7 +55,8 @@ pub fn words(beyond: Beyond) -> String {
     }
 }
 
-/// Up to where the law of an FMU is valid on bodies with this `depth` [m] and target, in words: beyond, the FMU logs a warning.
+/// The limits of validity of an FMU on bodies with this limit of `depth` [m] and this target, in words. Beyond them, the FMU
+/// logs a warning.
 pub fn limits(pair: &Pair, density: Option<f64>, depth: f64) -> String {
     let radius = format!(
         "up to a contact radius of {LARGEST_RADIUS_RATIO} effective radii, here an indentation of {depth:.3e} m"

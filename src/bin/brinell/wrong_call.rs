@@ -1,8 +1,8 @@
-//! A wrong command line, which ends the program with a status of its own.
+//! A wrong command line, which has its own exit status.
 
 use std::fmt::Display;
 
-/// What is wrong with the arguments of the program, in words.
+/// Description of the error in the arguments.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct WrongCall(pub String);

@@ -1,6 +1,6 @@
 //! The characters of XML 1.0.
 
-/// The first character of `text` that no XML can have, not even as a reference, and its place in bytes.
+/// The first character of `text` that XML does not allow, not even as a reference, and its position in bytes.
 ///
 /// Reference: *Extensible Markup Language (XML) 1.0*, fifth edition, production 2 (`Char`).
 pub fn forbidden(text: &str) -> Option<(usize, char)> {
@@ -11,7 +11,7 @@ pub fn forbidden(text: &str) -> Option<(usize, char)> {
     })
 }
 
-/// A character for messages, by its number: it may not be visible.
+/// The number of a character, for messages: it may be invisible.
 pub fn name(character: char) -> String {
     format!("U+{:04X}", u32::from(character))
 }

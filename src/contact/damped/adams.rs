@@ -6,25 +6,25 @@ use libm::{pow, sqrt};
 
 /// `F = k d^n + c STEP(d) d'` with `STEP = u^2 (3 - 2u)`, `u = min(d/d_p, 1)`.
 ///
-/// In those tools `k` is a number of the user's. Here it follows the bodies: `k d_p^n` is the stiffness factor times Hertz's
-/// force at `d_p`, the indentation at which the damping is full.
+/// In those tools, the user sets `k`. Here it follows from the bodies: `k d_p^n` is the stiffness factor times Hertz's force at
+/// `d_p`, the indentation at which the damping is full.
 ///
 /// Reference: the IMPACT and STEP functions in the help of Altair MotionSolve and SolidWorks Motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Adams {
-    /// Force at the damping depth over Hertz's.
+    /// Force at the damping depth over Hertz's force there \[-\].
     pub stiffness_factor: f64,
-    /// `n` >= 1.
+    /// Exponent `n` >= 1 \[-\].
     pub exponent: f64,
-    /// `c` \[N.s/m\].
+    /// Full damping `c` \[N.s/m\].
     pub full_damping: f64,
-    /// `d_p` \[m\].
+    /// Damping depth `d_p` \[m\].
     pub damping_depth: f64,
 }
 
 impl Adams {
-    /// Hertz's force, and a damping that describes no material: all four are the user's.
+    /// Hertz's force, and a damping that describes no material. The user should set all four.
     pub const REFERENCE: Adams =
         Adams { stiffness_factor: 1.0, exponent: 1.5, full_damping: 100.0, damping_depth: 1e-5 };
 }
@@ -54,7 +54,7 @@ impl Damped for Adams {
         }
     }
 
-    /// `u^(n-2)/(3 - 2u)` falls up to `u = 1.5 (2 - n)/(3 - n)` if `n < 2`, and rises from there.
+    /// For `n < 2`, `u^(n-2)/(3 - 2u)` falls up to `u = 1.5 (2 - n)/(3 - n)` and rises from there.
     fn borders(&self) -> [f64; 2] {
         let n = self.exponent;
         let lowest = if n < 2.0 { 1.5 * (2.0 - n) / (3.0 - n) } else { 0.0 };

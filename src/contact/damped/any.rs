@@ -2,7 +2,7 @@
 
 use super::*;
 
-// the enum, the list of its laws by name, and the way to each; see build/laws.rs
+// the enum, the list of its laws by name, and the dispatch to each law; see build/laws.rs
 include!(concat!(env!("OUT_DIR"), "/any_damped.rs"));
 
 impl Damped for AnyDamped {

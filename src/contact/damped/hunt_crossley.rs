@@ -4,12 +4,12 @@ use super::{Damped, Factors, Shape, power_three_halves};
 use crate::contact::material::Pair;
 use libm::{exp, log, log1p};
 
-/// How the damping factor `chi` is made from the wanted restitution `e`.
+/// Formula for the damping factor `chi` as a function of the required restitution `e`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize))]
 #[repr(u8)]
 pub enum DampingFactor {
-    /// The root of `(1 + chi)/(1 - chi e) = exp(chi (1 + e))`: the law then gives `e`, to rounding.
+    /// The root of `(1 + chi)/(1 - chi e) = exp(chi (1 + e))`. The law then gives the restitution `e` to rounding.
     Exact,
     /// `3 (1 - e)/2`. K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440-445.
     HuntCrossley,
@@ -30,7 +30,7 @@ pub enum DampingFactor {
 }
 
 impl DampingFactor {
-    /// Every factor under the name it has in a scene.
+    /// All factors with their names in a scene.
     pub const ALL: [(&'static str, DampingFactor); 9] = [
         ("exact", DampingFactor::Exact),
         ("hunt-crossley", DampingFactor::HuntCrossley),
@@ -43,7 +43,7 @@ impl DampingFactor {
         ("hu-guo", DampingFactor::HuGuo),
     ];
 
-    /// `chi` for the restitution `e` in (0, 1].
+    /// `chi` for a restitution `e` in (0, 1].
     pub fn chi(self, e: f64) -> f64 {
         match self {
             DampingFactor::Exact => exact(e),
@@ -59,10 +59,10 @@ impl DampingFactor {
     }
 }
 
-/// The root of `ln(1 + chi) - ln(1 - chi e) = chi (1 + e)` in `(0, 1/e)`, by halving; zero for `e = 1`.
+/// The root of `ln(1 + chi) - ln(1 - chi e) = chi (1 + e)` in `(0, 1/e)`, by bisection; zero for `e = 1`.
 ///
-/// The left side is the larger one between the root and `1/e`, so that only the trivial root at zero must be kept out: below
-/// the start the difference is `chi^2 (e^2 - 1)/2 < 0` at leading order.
+/// The left side is larger between the root and `1/e`, so only the trivial root at zero must be excluded. At the lower start
+/// the difference is negative: `chi^2 (e^2 - 1)/2 < 0` to leading order.
 fn exact(e: f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
@@ -81,24 +81,24 @@ fn exact(e: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Enough for every digit of a root that is not below 1e-3 of its bracket.
+/// Enough for every digit of a root that is at least 1e-3 of its bracket.
 const HALVINGS: u32 = 64;
 
-/// `F = K_h d^1.5 (1 + chi d'/v0)`, `v0` the closing speed at first touch.
+/// `F = K_h d^1.5 (1 + chi d'/v0)`, with the closing speed `v0` at first touch.
 ///
-/// With the [exact](DampingFactor::Exact) factor restitution is `e` at any speed. The force begins and ends at zero.
+/// With the [exact](DampingFactor::Exact) factor, the restitution is `e` at any speed. The force begins and ends at zero.
 ///
-/// Reference: K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440-445. What each factor really gives follows
+/// Reference: K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440-445. The restitution that each factor gives follows
 /// from `(1 + chi)/(1 - chi e) = exp(chi (1 + e))`, which holds for any exponent of the indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct HuntCrossley {
-    /// How `chi` follows from the restitution.
+    /// Formula for `chi`.
     pub damping_factor: DampingFactor,
 }
 
 impl HuntCrossley {
-    /// With the exact factor.
+    /// Uses the exact factor.
     pub const REFERENCE: HuntCrossley = HuntCrossley { damping_factor: DampingFactor::Exact };
 }
 

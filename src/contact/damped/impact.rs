@@ -6,37 +6,37 @@ use crate::contact::history::LARGEST_INDENTATION;
 use crate::contact::impact::{Impact, Prediction};
 use libm::{fabs, pow, sqrt};
 
-/// A moment of the motion.
+/// An instant of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// Since first contact \[s\].
+    /// Time since first contact \[s\].
     pub time: f64,
-    /// \[m\]
+    /// Indentation \[m\].
     pub indentation: f64,
     /// Closing speed \[m/s\].
     pub speed: f64,
 }
 
-/// Largest error of a step, relative to the largest indentation and the incoming speed.
+/// Largest error of a step, relative to the largest indentation and to the incoming speed.
 const TOLERANCE: f64 = 1e-13;
 
-/// More steps than any contact needs: the tolerance asks for some thousands.
+/// More steps than any contact needs: with this tolerance it takes a few thousand.
 const MOST_STEPS: u32 = 1_000_000;
 
-/// The impact of `impact` on an untouched contact. The energy balance doesn't close without the path, so that the motion
-/// `m d'' = -F(d, d')` is followed: by a pair of Runge-Kutta methods of order 5 and 4, with events found by halving the last
-/// step; nothing of it happens in the time of a co-simulation. Results are good to about 1e-10.
+/// The impact `impact` on an untouched contact. The energy balance depends on the path, so the motion `m d'' = -F(d, d')` is
+/// integrated by a pair of Runge-Kutta methods of order 5 and 4. Events are found by bisection of the last step. This is only
+/// used for predictions, not during a co-simulation. The results are accurate to about 1e-10.
 ///
-/// `None` if mass or speed aren't positive and finite, the energy is below the smallest normal number, or the motion
-/// leaves the range of the law.
+/// `None` if the mass or the speed is not positive and finite, if the energy is below the smallest normal number, or if the
+/// motion leaves the range of the law.
 ///
 /// Reference: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19-26.
 pub fn predict<D: Damped + Copy>(model: &Model<D>, impact: &Impact) -> Option<Prediction> {
     follow(model, impact, |_, _| {})
 }
 
-/// The same, with every moment that the method comes to, from first contact to the end, and the force there \[N\] told to
-/// `watch`.
+/// [`predict`] that also passes every instant of the integration, from first contact to the end, to `watch`, together with the
+/// force \[N\].
 pub fn follow<D: Damped + Copy>(
     model: &Model<D>,
     impact: &Impact,
@@ -44,7 +44,7 @@ pub fn follow<D: Damped + Copy>(
 ) -> Option<Prediction> {
     let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
     let energy = 0.5 * impact.mass * impact.speed * impact.speed;
-    // below the smallest normal number an energy has lost digits already
+    // a subnormal energy has already lost digits
     if !positive(impact.mass) || !positive(impact.speed) || !positive(energy) || energy < f64::MIN_POSITIVE {
         return None;
     }
@@ -56,7 +56,7 @@ pub fn follow<D: Damped + Copy>(
     for _ in 0..MOST_STEPS {
         let (next, error) = motion.step(&state, step);
         let factor = 0.9 * pow(TOLERANCE / (error + f64::MIN_POSITIVE), 0.2);
-        // written so that a NaN is refused
+        // written positively to reject NaN
         let accepted = error <= TOLERANCE;
         if !accepted {
             step *= if factor > 0.1 { factor } else { 0.1 };
@@ -101,7 +101,7 @@ struct Motion<'a, D> {
     damping: f64,
     mass: f64,
     speed: f64,
-    /// Scale of the indentation \[m\]: where the elastic energy is the kinetic one.
+    /// Scale of the indentation \[m\]: the elastic energy there is the kinetic energy.
     length: f64,
     /// Scale of the time \[s\].
     time: f64,
@@ -117,7 +117,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         let (mut low, mut high) = (0u64, LARGEST_INDENTATION.to_bits());
         let holds = factors.elastic * model.law.elastic(LARGEST_INDENTATION).integral > energy;
         while high - low > 1 {
-            // f64 keeps its order when the bits of positive numbers are read as integers
+            // the bits of positive f64 numbers, read as integers, keep their order
             let middle = low + (high - low) / 2;
             let beyond = factors.elastic * model.law.elastic(f64::from_bits(middle)).integral > energy;
             *(if beyond { &mut high } else { &mut low }) = middle;
@@ -134,7 +134,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         })
     }
 
-    /// \[N\], negative where the surface would have to pull: the end of the contact is a change of sign.
+    /// Force \[N\]. It is negative where the surface would have to pull, so that the end of the contact is a change of sign.
     fn force(&self, state: &State) -> f64 {
         let d = state.indentation;
         if d > 0.0 {
@@ -148,7 +148,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         state.speed < 0.0 && (state.indentation <= 0.0 || self.force(state) <= 0.0)
     }
 
-    /// The state after `step` \[s\] and the error, relative.
+    /// The state after `step` \[s\], and the relative error.
     fn step(&self, state: &State, step: f64) -> (State, f64) {
         let mut slopes = [(0.0, 0.0); 7];
         let mut next = *state;
@@ -171,7 +171,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         (next, fmax(fabs(lengths) / self.length, fabs(speeds) / self.speed))
     }
 
-    /// The state within the `step` from `state` where `happens` begins to be true, which it is at its end.
+    /// The state within the `step` from `state` at which `happens` becomes true. It must be true at the end of the step.
     fn event(&self, state: &State, step: f64, happens: impl Fn(&State) -> bool) -> State {
         let (mut low, mut high) = (0.0, step);
         for _ in 0..60 {
@@ -181,12 +181,12 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
         self.step(state, high).0
     }
 
-    /// The largest force on the way from `state` to `next` \[N\]: at an end, or where the force turns, found by sections.
+    /// The largest force between `state` and `next` \[N\]: at an end, or at a maximum, which is found by section search.
     fn largest_force(&self, state: &State, next: &State, step: f64) -> f64 {
         let (mut low, mut high) = (0.0, step);
         let force = |step: f64| self.force(&self.step(state, step).0);
         let ends = fmax(self.force(state), self.force(next));
-        // the force is smooth: where it is lower in the middle, or rises or falls all through, the ends have the largest
+        // the force is smooth: if it is lower in the middle, or monotone, the maximum is at an end
         if force(0.5 * step) <= 0.5 * (self.force(state) + self.force(next)) {
             return ends;
         }
@@ -202,7 +202,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
     }
 }
 
-/// The stages of Dormand and Prince; the last is the step itself.
+/// The stages of Dormand and Prince; the last one is the step itself.
 const STAGES: [[f64; 6]; 7] = [
     [0.0; 6],
     [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -213,6 +213,6 @@ const STAGES: [[f64; 6]; 7] = [
     [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
 ];
 
-/// What the method of order 5 differs by from the one of order 4.
+/// The difference between the methods of order 5 and 4.
 const ERROR: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];

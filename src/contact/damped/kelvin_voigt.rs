@@ -1,4 +1,4 @@
-//! Kelvin and Voigt: a linear spring beside a dashpot.
+//! Kelvin and Voigt: a linear spring in parallel with a dashpot.
 
 use super::{Damped, Factors, Shape};
 use crate::contact::material::Pair;
@@ -7,21 +7,21 @@ use libm::{log, pow, sqrt};
 
 /// `F = k d + c d'` with `c = 2 z sqrt(k m)` and `z = -ln e/sqrt(pi^2 + ln^2 e)`.
 ///
-/// `k = (16/15) sqrt(R) E* (15 m V^2/(16 sqrt(R) E*))^(1/5)` takes up as much energy as Hertz's law when the mass `m` comes
-/// with the characteristic speed `V`. The force jumps to `c v` at first touch. `e` would be given if the surface could
-/// pull until `d = 0`; it can't, and restitution is higher: asked for 0.5, it is 0.5503 at any speed.
+/// `k = (16/15) sqrt(R) E* (15 m V^2/(16 sqrt(R) E*))^(1/5)`: without damping, a mass `m` with the characteristic speed `V`
+/// reaches the same largest indentation as with Hertz's law. The force jumps to `c v` at first touch. The restitution would be
+/// `e` if the surface could pull until `d = 0`. It cannot, so the restitution is higher: 0.5503 instead of 0.5, at any speed.
 ///
-/// Reference: T. Schwager, T. Poeschel, *Granular Matter* 9 (2007) 465-469; the stiffness is that of the hysteretic Hooke
-/// model of LIGGGHTS.
+/// Reference: T. Schwager, T. Poeschel, *Granular Matter* 9 (2007) 465-469. The stiffness is that of the hysteretic Hooke model
+/// of LIGGGHTS.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct KelvinVoigt {
-    /// `V` \[m/s\].
+    /// Characteristic speed `V` \[m/s\].
     pub characteristic_speed: f64,
 }
 
 impl KelvinVoigt {
-    /// At 1 m/s: a choice of this project.
+    /// 1 m/s, chosen by this project.
     pub const REFERENCE: KelvinVoigt = KelvinVoigt { characteristic_speed: 1.0 };
 }
 

@@ -4,21 +4,21 @@ use super::{Damped, Factors, Shape};
 use crate::contact::material::Pair;
 use libm::sqrt;
 
-/// `F = K_h (d^1.5 + 1.5 A sqrt(d) d')`, `A` a time that belongs to the material.
+/// `F = K_h (d^1.5 + 1.5 A sqrt(d) d')`, with a relaxation time `A` of the material.
 ///
-/// Restitution falls with speed: `e = 1 - 1.730173 s + ...` with `s = A (K_h/m)^0.4 v^0.2`.
+/// The restitution falls with the speed: `e = 1 - 1.730173 s + ...` with `s = A (K_h/m)^0.4 v^0.2`.
 ///
 /// Reference: G. Kuwabara, K. Kono, *Jpn. J. Appl. Phys.* 26 (1987) 1230-1233; N. V. Brilliantov et al., *Phys. Rev. E* 53
 /// (1996) 5382-5392.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct KuwabaraKono {
-    /// `A` \[s\].
+    /// Relaxation time `A` \[s\].
     pub relaxation_time: f64,
 }
 
 impl KuwabaraKono {
-    /// A microsecond: a choice of this project, the time is the user's.
+    /// One microsecond, chosen by this project. The user should set the value of the material.
     pub const REFERENCE: KuwabaraKono = KuwabaraKono { relaxation_time: 1e-6 };
 }
 

@@ -1,42 +1,44 @@
-//! Rate-dependent laws, one file each: an elastic force and a damping that grows with the rate, as multibody tools use
-//! them. They leave no dent.
+//! Rate-dependent laws, one file each, as multibody tools use them: an elastic force and a damping that grows with the rate.
+//! They leave no dent.
 //!
-//! All have the form `F = K phi(d) + C psi(d) d'`, never below zero: where the sum is negative, the bodies separate faster
-//! than the surface follows. The force depends on the rate at the same instant, and the `ModelStructure` of the FMU says so.
+//! All have the form `F = K phi(d) + C psi(d) d'`, and never give a negative force: where the sum is negative, the bodies
+//! separate faster than the surface follows. The force depends on the rate at the same instant, and the `ModelStructure` of the
+//! FMU declares this.
 
 pub mod history;
 pub mod impact;
 
 pub use history::History;
 
-// `pub mod tsuji; pub use tsuji::Tsuji;` and so on, of every law in modelDescription/laws.toml; see build/laws.rs
+// for every law in modelDescription/laws.toml: `pub mod tsuji; pub use tsuji::Tsuji;` and so on; see build/laws.rs
 include!(concat!(env!("OUT_DIR"), "/damped_laws.rs"));
 
 use super::material::Pair;
 use super::validity::LARGEST_RADIUS_RATIO;
 use libm::sqrt;
 
-/// What is in contact, by which rate-dependent law.
+/// The bodies in contact and their rate-dependent law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model<D> {
     /// The two bodies.
     pub pair: Pair,
-    /// The law with its own constants.
+    /// The law with its constants.
     pub law: D,
-    /// The coefficient of restitution that the damping is made for, in (0, 1]; laws with a damping of their own ignore it.
+    /// Coefficient of restitution for which the damping is computed, in (0, 1]; ignored by laws that specify their damping
+    /// directly.
     pub restitution: f64,
-    /// Effective mass that the damping is made for \[kg\] > 0; laws that need none ignore it.
+    /// Effective mass for which the damping is computed \[kg\] > 0; ignored by laws that need none.
     pub mass: f64,
 }
 
 impl<D> Model<D> {
-    /// The indentation up to which the law is valid \[m\]: the contact radius is Hertz's, `a^2 = R d`.
+    /// The indentation up to which the law is valid \[m\], with Hertz's contact radius `a^2 = R d`.
     pub fn valid_depth(&self) -> f64 {
         LARGEST_RADIUS_RATIO * LARGEST_RADIUS_RATIO * self.pair.radius
     }
 }
 
-/// A function of the indentation, with its derivative and its integral from zero.
+/// Value of a function of the indentation, with its derivative and its integral from zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// Value.
@@ -50,14 +52,14 @@ pub struct Shape {
 /// The factors of the two shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors {
-    /// `K`: times `phi` a force \[N\].
+    /// `K`: a force \[N\] when multiplied by `phi`.
     pub elastic: f64,
-    /// `C`: times `psi` a damping coefficient \[N.s/m\]; of a law that [scales by the touch speed](Damped::scaled_by_touch)
-    /// the coefficient times that speed \[N\].
+    /// `C`: a damping coefficient \[N.s/m\] when multiplied by `psi`. For a law that [scales by the touch
+    /// speed](Damped::scaled_by_touch), it is the coefficient times that speed \[N\].
     pub damping: f64,
 }
 
-/// A rate-dependent law: the law's own constants, without the bodies. All indentations are in m and not negative.
+/// A rate-dependent law: its constants, without the bodies. All indentations are in m and not negative.
 pub trait Damped {
     /// `K` and `C` for these bodies.
     fn factors(&self, pair: &Pair, restitution: f64, mass: f64) -> Factors;
@@ -70,12 +72,12 @@ pub trait Damped {
     /// `psi`, the shape of the damping.
     fn damping(&self, indentation: f64) -> Shape;
 
-    /// Whether the damping is made for a coefficient of restitution.
+    /// Whether the damping depends on a coefficient of restitution.
     fn needs_restitution(&self) -> bool {
         false
     }
 
-    /// Whether the damping is made for a mass.
+    /// Whether the damping depends on a mass.
     fn needs_mass(&self) -> bool {
         false
     }
@@ -85,7 +87,8 @@ pub trait Damped {
         false
     }
 
-    /// Indentations between which `phi/psi` is monotone \[m\], in order: where the force can change its sign more than once.
+    /// The indentations that separate the monotone parts of `phi/psi` \[m\], in order. Where the ratio is monotone, the force
+    /// changes its sign at most once.
     fn borders(&self) -> [f64; 2] {
         [0.0; 2]
     }

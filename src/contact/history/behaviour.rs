@@ -16,7 +16,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     const DERIVATIVES: i32 = 2;
     const WORDS: usize = 13;
 
-    /// Where the contact begins to yield.
+    /// The yield point.
     type Kept = YieldPoint;
 
     fn kept(model: &Model<L, U>) -> YieldPoint {
@@ -83,7 +83,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         model: impl Fn() -> Model<L, U>,
     ) -> Result<(), TooDeep> {
         let increment = rate * step;
-        // a step that is only looked at may stay where it is
+        // this step may also stay on its branch, where `go_to_next_branch` finds nothing
         if self.go_to_next_branch(increment, kept, &model) { Ok(()) } else { self.advance(&model(), increment) }
     }
 
@@ -91,8 +91,8 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         Ok(momentum::impulse_by_pieces(self, model, &Course::held(rate), step)? / step)
     }
 
-    /// Ends the present branch at `depth`, if it goes beyond: the step that comes there then asks for its branch. It finds the
-    /// same one, and nothing else changes.
+    /// Ends the present branch at `depth` if it extends beyond. A step that reaches this depth then evaluates its branch again.
+    /// It finds the same one, and nothing else changes.
     #[inline]
     fn stays_within(&mut self, depth: f64) -> bool {
         let within = self.max_indentation() < depth;
@@ -160,7 +160,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     fn moved_to(&self, model: &Model<L, U>, indentation: f64) -> History {
         let mut moved = *self;
         if self.is_loading() {
-            // on the loading curve it may also be less
+            // on the loading curve the new indentation may also be smaller
             moved.max_indentation = 0.0;
             moved.indentation = Sum::new(0.0);
         }
@@ -180,8 +180,8 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         !model.loading.is_segmented()
     }
 
-    /// Number by number, in the order of memory: a compiler that looks for the smallest code would otherwise take the slowest
-    /// instruction for it.
+    /// Copied number by number, in memory order. A compiler that optimizes for size would otherwise choose the slowest
+    /// instruction for the copy.
     #[inline(always)]
     fn copy_from(&mut self, other: &History) {
         let Sum { value, rest } = other.indentation;

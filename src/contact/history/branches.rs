@@ -1,4 +1,4 @@
-//! From branch to branch: the next branch is found from the present one, or from scratch if that does not determine it.
+//! Transitions between branches. The next branch follows from the present one, or is determined from scratch if it does not.
 
 use super::{ANY, FARTHEST, History, LARGEST_FORCE, LARGEST_INDENTATION, Regime, TOUCHING, TooDeep};
 use crate::contact::loading::Loading;
@@ -11,8 +11,8 @@ use crate::contact::{Model, Peak, Surface};
 use core::borrow::Borrow;
 
 impl History {
-    /// Moves the contact by `increment` \[m\] to the next branch, where the present one tells which that is; otherwise nothing is
-    /// done, and false. Where the law says what it is like the yield `point` and the model are asked for.
+    /// Moves the contact by `increment` \[m\] to the next branch if the present branch determines which one that is. Otherwise
+    /// it changes nothing and returns false. The yield `point` and the model are used only if the law must be evaluated.
     #[inline(always)]
     pub(super) fn go_to_next_branch<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
         &mut self,
@@ -22,7 +22,7 @@ impl History {
     ) -> bool {
         let sum = self.indentation.plus(increment);
         let (before, indentation) = (self.indentation.total(), sum.total());
-        // a NaN is not below it
+        // false for NaN
         let found = indentation < LARGEST_INDENTATION
             && if self.is_loading() && indentation < before {
                 self.turn(model().borrow(), point, before, indentation)
@@ -46,7 +46,7 @@ impl History {
         found
     }
 
-    /// Moves the contact by `increment` \[m\] to whatever branch holds there.
+    /// Moves the contact by `increment` \[m\] to the branch that holds there, whichever it is.
     #[cold]
     #[inline(never)]
     pub(super) fn find_branch<L: Loading, U: Unloading>(
@@ -55,9 +55,9 @@ impl History {
         increment: f64,
     ) -> Result<(), TooDeep> {
         let sum = self.indentation.plus(increment);
-        // what overflows has no rest
+        // after an overflow the compensation is meaningless
         let indentation = if sum.value.is_finite() { sum.total() } else { sum.value };
-        // no motion, no other branch: at its very end a branch that was entered from below is still the right one
+        // without motion the branch stays: a branch that was entered from below is still the right one at its upper end
         if indentation != self.indentation.total() {
             self.enter(model, indentation, increment > 0.0)?;
         }
@@ -65,7 +65,7 @@ impl History {
         Ok(())
     }
 
-    /// Puts the contact at `indentation` \[m\] exactly; at a corner on the branch that lies in the direction of motion.
+    /// Puts the contact exactly at `indentation` \[m\]. At a corner, it takes the branch in the direction of motion.
     ///
     /// # Errors
     /// As for [`History::advance`].
@@ -80,7 +80,7 @@ impl History {
         Ok(())
     }
 
-    /// Goes to the branch that holds at `indentation` \[m\], and leaves the contact where it is.
+    /// Changes to the branch that holds at `indentation` \[m\], without moving the contact.
     ///
     /// # Errors
     /// As for [`History::advance`].
@@ -94,7 +94,7 @@ impl History {
         if known { Ok(()) } else { self.enter(model, indentation, rising) }
     }
 
-    /// Finds the branch that holds at `indentation`; at a corner the one that lies in the direction of motion.
+    /// Finds the branch that holds at `indentation` \[m\]; at a corner, the branch in the direction of motion.
     #[cold]
     #[inline(never)]
     pub(super) fn enter<L: Loading, U: Unloading>(
@@ -134,17 +134,17 @@ impl History {
         Ok(())
     }
 
-    /// Below the `largest` indentation \[m\] of a contact that has not yielded, on the `elastic` branch of the law.
+    /// Sets the `elastic` branch of a contact that has not yielded, below its `largest` indentation \[m\].
     #[inline(always)]
     fn spring(&mut self, elastic: Segment, largest: f64) {
         self.regime = Regime::Elastic;
         self.segment = Segment { lower: TOUCHING, upper: largest, ..elastic };
     }
 
-    /// On this branch of the loading curve at `indentation` \[m\] > 0, which is the largest one.
+    /// Sets this branch of the loading curve. `indentation` \[m\] > 0 is the largest so far.
     ///
     /// # Errors
-    /// [`TooDeep`] where a law ends before; the history is left as it was.
+    /// [`TooDeep`] where the law ends earlier; the history is then unchanged.
     #[inline(always)]
     fn load<L: Loading, U>(
         &mut self,
@@ -152,7 +152,7 @@ impl History {
         (segment, regime): (Segment, Regime),
         indentation: f64,
     ) -> Result<(), TooDeep> {
-        // a law without segments may be a fit that ends before
+        // a law without segments may be a fit that ends earlier
         let Segment { constant: force, linear: stiffness, .. } = segment;
         let shows_numbers = model.loading.is_segmented() || force < LARGEST_FORCE && stiffness < LARGEST_FORCE;
         if !shows_numbers {
@@ -165,8 +165,8 @@ impl History {
         Ok(())
     }
 
-    /// Back from the loading curve, on which the contact is at `largest` \[m\], to `indentation` \[m\]; false, with nothing done,
-    /// if that may be outside of the dent.
+    /// Turns back from the loading curve, where the contact is at `largest` \[m\], to `indentation` \[m\]. Returns false and
+    /// changes nothing if the indentation may lie outside the dent.
     #[inline(always)]
     fn turn<L: Loading, U: Unloading>(
         &mut self,
@@ -181,7 +181,7 @@ impl History {
         self.max_indentation = largest;
         self.least_increment = ANY;
         if self.regime == Regime::Elastic {
-            // both ways on the same curve
+            // loading and unloading follow the same curve
             (self.segment.lower, self.segment.upper) = (TOUCHING, largest);
         } else if model.yields_before(point, largest) {
             let peak = model.peak_at(point, largest, self.force_at::<U>(largest));
@@ -193,7 +193,7 @@ impl History {
         true
     }
 
-    /// Below `peak`, on the `path` of its dent or apart from it.
+    /// Sets the branch below `peak`: on the unloading `path`, or separated from it.
     #[inline(always)]
     fn unload<L: Loading, U: Unloading>(
         &mut self,
@@ -214,7 +214,8 @@ impl History {
         }
     }
 
-    /// Meets the path of the dent again at `indentation` \[m\], if the contact has kept it; otherwise nothing is done, and false.
+    /// Touches the dent again at `indentation` \[m\], if the contact has kept the path of the dent. Otherwise it changes
+    /// nothing and returns false.
     #[inline(always)]
     fn meet<U: Unloading>(&mut self, indentation: f64) -> bool {
         let residual = self.segment.origin;
@@ -228,7 +229,8 @@ impl History {
         meets
     }
 
-    /// Touches a surface that has not yielded, at `indentation` \[m\] below the largest one; otherwise nothing is done, and false.
+    /// Touches a surface that has not yielded, at `indentation` \[m\] below the largest one. Otherwise it changes nothing and
+    /// returns false.
     #[inline(always)]
     fn touch<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, point: &YieldPoint, indentation: f64) -> bool {
         let touches =
@@ -239,19 +241,19 @@ impl History {
         touches
     }
 
-    /// Parts from the path of the dent, or meets it again, if the contact knows it; otherwise nothing is done, and false. At the
-    /// end of the path the direction decides.
+    /// Leaves the dent, or touches it again, if the contact knows the path of the dent. Otherwise it changes nothing and
+    /// returns false. At the end of the path, the direction of motion decides.
     #[inline]
     fn goes_on_path<U: Unloading>(&mut self, indentation: f64, rising: bool, surface: Surface) -> bool {
         let residual = self.segment.origin;
         let inside = indentation > residual || (rising && indentation == residual);
-        // written so that a NaN is left to the law
+        // written positively: NaN goes to the law, which rejects it
         let below = indentation < self.max_indentation && indentation > -LARGEST_INDENTATION;
         below && if inside { self.meet::<U>(indentation) } else { self.leave::<U>(surface, indentation) }
     }
 
-    /// Leaves the surface for `indentation` \[m\]: the path of a dent that begins with no force, or where it has not yielded.
-    /// Otherwise nothing is done, and false.
+    /// Separates from the surface, to `indentation` \[m\]: from a dent whose path begins without force, or from a surface that
+    /// has not yielded. Otherwise it changes nothing and returns false.
     #[inline(always)]
     fn leave<U: Unloading>(&mut self, surface: Surface, indentation: f64) -> bool {
         let residual = self.segment.origin;
@@ -271,7 +273,7 @@ impl History {
         springs
     }
 
-    /// On the `path` of a dent, or on a `segment` of it.
+    /// Sets the branch on the `path` of a dent, or on a `segment` of it.
     #[inline(always)]
     fn press(&mut self, path: &Segment, segment: Segment) {
         self.regime = Regime::Unloaded;
@@ -279,7 +281,7 @@ impl History {
         self.segment = Segment { lower, ..segment };
     }
 
-    /// Apart at `indentation` \[m\], with the dent that `path` leads to.
+    /// Sets the branch for no contact at `indentation` \[m\], with the dent at the lower end of `path`.
     #[inline(always)]
     fn part<L, U: Unloading>(&mut self, path: &Segment, model: &Model<L, U>, indentation: f64) {
         self.regime = Regime::Apart;
@@ -290,15 +292,16 @@ impl History {
         };
     }
 
-    /// Whether there is no contact at `indentation` \[m\] <= 0. Laws that make energy may hold on beyond the original surface.
+    /// Whether there is no contact at `indentation` \[m\] <= 0. With a law that is not passive, contact may last beyond the
+    /// original surface.
     fn has_parted<L: Loading, U: Unloading>(&self, model: &Model<L, U>, indentation: f64) -> bool {
         let largest = self.max_indentation();
         model.is_elastic_at(largest) || indentation <= model.unloading_path(largest).lower
     }
 }
 
-/// How far a contact can go from `indentation` \[m\] without another branch \[m\]. A fresh surface forgets its dent at zero, so that
-/// the border must be noticed.
+/// The smallest indentation \[m\] that a contact can reach from `indentation` \[m\] without a change of branch. A fresh surface
+/// forgets its dent at zero, so crossing zero must be a change of branch.
 fn farthest(surface: Surface, indentation: f64) -> f64 {
     if surface == Surface::Fresh && indentation > 0.0 { TOUCHING } else { FARTHEST }
 }

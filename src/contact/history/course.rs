@@ -1,4 +1,4 @@
-//! A contact during a motion whose rate changes, with its impulse.
+//! A contact during a motion with a changing rate, and its impulse.
 
 use super::{History, Regime, TooDeep};
 use crate::contact::Model;
@@ -10,19 +10,19 @@ use crate::contact::segment::Segment;
 use crate::contact::unloading::Unloading;
 use core::borrow::Borrow;
 
-/// Branches that a way in one direction can't have: no law has more than a dozen.
+/// More branches than a motion in one direction can cross: no law has more than a dozen.
 const MOST_BRANCHES: u32 = 100;
 
-/// How far a step has come.
+/// Progress through a step.
 struct Way<'a> {
     course: &'a Course,
-    /// Indentation at its start \[m\].
+    /// Indentation at the start of the step \[m\].
     start: f64,
     /// Time since then \[s\].
     time: f64,
-    /// Indentation now \[m\].
+    /// Present indentation \[m\].
     indentation: f64,
-    /// \[N.s\]
+    /// Impulse so far \[N.s\].
     impulse: f64,
 }
 
@@ -34,7 +34,7 @@ impl Way<'_> {
         (self.time, self.indentation) = (end, indentation);
     }
 
-    /// When it comes to `indentation` \[m\], until `end` \[s\].
+    /// The time at which the indentation is `indentation` \[m\], at most `end` \[s\].
     fn when(&self, indentation: f64, end: f64) -> f64 {
         if indentation == self.indentation {
             return self.time;
@@ -44,7 +44,7 @@ impl Way<'_> {
 }
 
 impl History {
-    /// Mean force \[N\] of the last step, which was on this branch along `course` and began at the indentation `from` \[m\].
+    /// Mean force \[N\] of the last step, which stayed on this branch along `course` and began at the indentation `from` \[m\].
     #[inline]
     pub(super) fn mean_force_along(&self, from: f64, course: &Course, step: f64) -> f64 {
         match self.regime {
@@ -53,7 +53,7 @@ impl History {
         }
     }
 
-    /// Moves the contact on `course` over `step` \[s\] and gives the largest indentation on the way \[m\] and the impulse
+    /// Moves the contact along `course` for `step` \[s\]. Returns the largest indentation of the step \[m\] and the impulse
     /// \[N.s\]. The law must have segments.
     ///
     /// # Errors
@@ -83,7 +83,7 @@ impl History {
         Ok((deepest, way.impulse))
     }
 
-    /// Presses on by `increment` \[m\] until the time `end` \[s\], from branch to branch.
+    /// Moves deeper by `increment` \[m\] until the time `end` \[s\], from branch to branch.
     #[inline(never)]
     fn rise<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
         &mut self,
@@ -103,13 +103,13 @@ impl History {
             if stays {
                 return Ok(());
             }
-            // the indentation stays where it was until the branch is the one on which the way ends
+            // the indentation keeps its value until the branch on which the motion ends
             self.change_branch(model().borrow(), border, true)?;
         }
         Err(TooDeep { indentation: self.indentation() + increment })
     }
 
-    /// Goes back by `increment` \[m\] until the time `end` \[s\]: down one path, and through the air.
+    /// Moves back by `increment` \[m\] until the time `end` \[s\]: down one path, and through the air.
     #[inline(never)]
     fn fall<L: Loading, U: Unloading, B: Borrow<Model<L, U>>>(
         &mut self,

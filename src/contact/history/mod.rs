@@ -1,4 +1,4 @@
-//! The state of a contact, and its path through the branches of the law.
+//! The state of an elastoplastic contact, and its path through the branches of the law.
 
 mod behaviour;
 mod branches;
@@ -12,28 +12,28 @@ use super::path::Sum;
 use super::segment::Segment;
 use super::unloading::Unloading;
 
-/// The indentation up to which the laws are evaluated \[m\]: far beyond anything physical, and small enough that no force
+/// The indentation up to which the laws are evaluated \[m\]. It is far beyond anything physical, and small enough that no force
 /// or energy overflows.
 pub const LARGEST_INDENTATION: f64 = 1e100;
 
-/// The largest force \[N\] and stiffness \[N/m\] of a law that is a fit: times any time and any indentation they are numbers.
+/// The largest force \[N\] and stiffness \[N/m\] of a fitted law. Their products with any time and any indentation are finite.
 const LARGEST_FORCE: f64 = 1e200;
 
-/// The farthest that bodies can be apart \[m\].
+/// The lower limit of the indentation \[m\]: the largest distance between the bodies, with a negative sign.
 const FARTHEST: f64 = (-LARGEST_INDENTATION).next_up();
 
 /// The smallest positive indentation \[m\]: an elastic contact is open at zero and closed here.
 const TOUCHING: f64 = f64::from_bits(1);
 
-/// The least increment of a branch that is followed both ways \[m\].
+/// The `least_increment` \[m\] of a branch that is followed in both directions: any increment is allowed.
 const ANY: f64 = -f64::MAX;
 
-/// Which part of the law a contact is on. The numbers are those of the variable `regime`.
+/// The part of the law that a contact is on. The numbers are the values of the variable `regime`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
     /// No contact.
     Apart = 0,
-    /// Hertz: nothing has yielded.
+    /// Hertzian: nothing has yielded.
     Elastic = 1,
     /// Elastoplastic loading, first region.
     ElastoplasticFirst = 2,
@@ -45,33 +45,33 @@ pub enum Regime {
     Unloaded = 5,
 }
 
-/// The indentation left the range in which the law can be evaluated, or isn't a number.
+/// Error: the indentation left the range in which the law can be evaluated, or is NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TooDeep {
-    /// The indentation that was refused \[m\].
+    /// The rejected indentation \[m\].
     pub indentation: f64,
 }
 
-/// Everything a contact remembers.
+/// The whole state of an elastoplastic contact.
 ///
-/// The branch it is on follows from the indentation, the largest indentation and the last direction of motion; it is
-/// kept so that a step that stays on it needs nothing else. While apart a contact keeps the path of its dent as well, if
-/// that begins at no force: bodies that part and meet again then need nothing of the law.
+/// The branch follows from the indentation, the largest indentation and the last direction of motion. It is stored so that a
+/// step that stays on the branch needs nothing else. While apart, a contact also keeps the path of its dent if that path begins
+/// without force. Bodies that separate and touch again then need no evaluation of the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct History {
     indentation: Sum,
     max_indentation: f64,
     segment: Segment,
-    /// The smallest increment that leaves the contact on its branch \[m\]: zero on the loading curve, where the way back is
-    /// another.
+    /// The smallest increment that keeps the contact on its branch \[m\]. It is zero on the loading curve, because unloading
+    /// follows another path.
     least_increment: f64,
     regime: Regime,
-    /// Energy lost in dents that were left behind \[J\] ([`Surface::Fresh`]).
+    /// Energy lost in dents that were left behind \[J\]; see [`Surface::Fresh`].
     left_behind: f64,
 }
 
 impl Regime {
-    /// Every regime, in the order of its number.
+    /// All regimes, in the order of their numbers.
     pub const ALL: [Regime; 6] = [
         Regime::Apart,
         Regime::Elastic,
@@ -83,10 +83,10 @@ impl Regime {
 }
 
 impl History {
-    /// A contact at `gap` \[m\] before any motion; a negative gap is an indentation reached along the loading curve.
+    /// A contact at `gap` \[m\] before any motion. A negative gap is an indentation reached along the loading curve.
     pub fn start<L: Loading, U: Unloading>(model: &Model<L, U>, gap: f64) -> Result<History, TooDeep> {
         let mut history = History {
-            // not -gap, so that no gap is 0.0 and not -0.0
+            // not -gap: a gap of zero must give 0.0 and not -0.0
             indentation: Sum::new(0.0 - gap),
             max_indentation: 0.0,
             segment: Segment::apart(0.0, 0.0),
@@ -102,17 +102,17 @@ impl History {
     /// Moves the contact by `increment` \[m\], monotonically.
     ///
     /// # Errors
-    /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN; the history is left as it was.
+    /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN; the history is then unchanged.
     pub fn advance<L: Loading, U: Unloading>(&mut self, model: &Model<L, U>, increment: f64) -> Result<(), TooDeep> {
         if self.advance_on_branch(increment) { Ok(()) } else { self.find_branch(model, increment) }
     }
 
-    /// Moves the contact by `increment` \[m\] if that leaves it on its branch; otherwise nothing is done, and false.
+    /// Moves the contact by `increment` \[m\] if it stays on its branch. Otherwise it changes nothing and returns false.
     #[inline(always)]
     pub(super) fn advance_on_branch(&mut self, increment: f64) -> bool {
         let sum = self.indentation.plus(increment);
         let indentation = sum.total();
-        // a NaN is not above the lower end; each comparison has its second number in memory
+        // false for NaN; each comparison takes its second operand from memory
         let goes_on = increment >= self.least_increment;
         let ends = indentation >= self.segment.upper;
         let stays = indentation >= self.segment.lower && goes_on && !ends;
@@ -122,7 +122,7 @@ impl History {
         stays
     }
 
-    /// Force \[N\] at `indentation` \[m\] of the branch.
+    /// Force \[N\] of the branch at `indentation` \[m\].
     #[inline(always)]
     fn force_at<U: Unloading>(&self, indentation: f64) -> f64 {
         // most laws never have a quadratic term
@@ -132,12 +132,12 @@ impl History {
         }
     }
 
-    /// Whether the contact is on the loading curve, from where the way back is another one.
+    /// Whether the contact is on the loading curve, so that unloading would follow another path.
     pub(super) fn is_loading(&self) -> bool {
         self.least_increment == 0.0
     }
 
-    /// The path of the dent from its lower end, if that is a segment without force there and the contact knows it.
+    /// The path of the dent from its lower end, if the contact knows it and if it is a segment without force at that end.
     pub(super) fn path_of_dent(&self) -> Option<Segment> {
         let known = match self.regime {
             Regime::Unloaded => self.segment.begins_at_origin(),
@@ -147,7 +147,7 @@ impl History {
         known.then_some(Segment { lower: self.segment.origin, upper: self.max_indentation, ..self.segment })
     }
 
-    /// The branch that the contact is on. Apart there is no force on it, whatever its segment says above its upper end.
+    /// The branch that the contact is on. While apart, the force is zero whatever the segment gives above its upper end.
     pub(super) fn branch(&self) -> &Segment {
         &self.segment
     }

@@ -1,4 +1,4 @@
-//! What a contact shows: force, stiffness, curvature, radius, energies.
+//! The outputs of a contact: force, stiffness, curvature, radius, energies.
 
 use super::{History, Regime};
 use crate::contact::Model;
@@ -19,12 +19,12 @@ impl History {
         if indentation > self.max_indentation { indentation } else { self.max_indentation }
     }
 
-    /// The part of the law the contact is on.
+    /// The part of the law that the contact is on.
     pub fn regime(&self) -> Regime {
         self.regime
     }
 
-    /// Whether the passivity guard has shortened the path on which the load comes off, or came off.
+    /// Whether the passivity guard shortens the unloading path of the present dent.
     pub fn is_held_back<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> bool {
         matches!(self.regime, Regime::Unloaded | Regime::Apart) && model.is_held_back_at(self.max_indentation())
     }
@@ -35,7 +35,7 @@ impl History {
         self.segment.force(self.indentation.total())
     }
 
-    /// dF/d(indentation) on the present branch \[N/m\]; at a corner the one in the direction of the last motion.
+    /// dF/d(indentation) on the present branch \[N/m\]; at a corner, the slope in the direction of the last motion.
     pub fn stiffness(&self) -> f64 {
         match self.regime {
             Regime::Apart => 0.0,
@@ -43,7 +43,7 @@ impl History {
         }
     }
 
-    /// Depth of the dent that would remain if the load were taken off now \[m\].
+    /// Depth of the dent that would remain if the load were removed now \[m\].
     pub fn residual_indentation<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         if model.is_elastic_at(self.max_indentation()) {
             0.0
@@ -52,8 +52,8 @@ impl History {
         }
     }
 
-    /// Contact radius \[m\], 0 while apart: that of the loading law up to the largest indentation, and from there down
-    /// that of the unloading law.
+    /// Contact radius \[m\], 0 while apart. While loading it follows the loading law, below the largest indentation the
+    /// unloading law.
     pub fn contact_radius<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let indentation = self.indentation.total();
         match self.regime {
@@ -72,13 +72,14 @@ impl History {
         Contact::mean_pressure(self, model, 0.0)
     }
 
-    /// Work done on the contact by the bodies since the start \[J\]: the sum of the two energies, and so a function of the
-    /// state, not of the steps that led there. A contact that starts pressed in counts the way there as done.
+    /// Work done on the contact by the bodies since the start \[J\]. It is the sum of the two energies, and so a function of
+    /// the state, not of the steps that led there. For a contact that starts indented, it includes the work of reaching the
+    /// initial indentation.
     pub fn work<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         Contact::work(self, model)
     }
 
-    /// What unloading would give back \[J\].
+    /// Energy that unloading would return \[J\].
     pub fn elastic_energy<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         match self.regime {
             Regime::Apart => 0.0,
@@ -87,12 +88,12 @@ impl History {
         }
     }
 
-    /// Work turned into plastic deformation since the start \[J\].
+    /// Energy dissipated by plastic deformation since the start \[J\].
     pub fn dissipated_energy<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         self.left_behind + self.dissipated_in_dent(model)
     }
 
-    /// Loading work up to the largest indentation, less what unloading from there gives back \[J\].
+    /// Work of loading up to the largest indentation, minus the energy that unloading from there returns \[J\].
     pub(super) fn dissipated_in_dent<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let largest = self.max_indentation();
         if model.is_elastic_at(largest) {
@@ -101,7 +102,8 @@ impl History {
         model.loading.work(&model.pair, largest) - model.recovered_work(largest, largest)
     }
 
-    /// d2F/d(indentation)^2 on the present branch \[N/m^2\]; of a law without segments from its stiffness near by.
+    /// d2F/d(indentation)^2 on the present branch \[N/m^2\]. For a law without segments it is computed from the stiffness at
+    /// neighbouring points.
     pub fn curvature<L: Loading, U: Unloading>(&self, model: &Model<L, U>) -> f64 {
         let indentation = self.indentation();
         let segmented = match self.regime {

@@ -1,11 +1,11 @@
-//! A history as words to be stored.
+//! A history as words for a saved state.
 
 use super::{History, Regime, Sum};
 use crate::contact::segment::Segment;
 use crate::contact::words::{load_numbers, store_numbers};
 
 impl History {
-    /// Hands thirteen words to `store`, in the order in which they lie in memory: they are then copied in pairs.
+    /// Passes thirteen words to `store`, in memory order, so that they are copied in pairs.
     pub(super) fn save_words(&self, store: &mut impl FnMut(u64)) {
         let Sum { value, rest } = self.indentation;
         let Segment { lower, upper, origin, constant, linear, power, square } = self.segment;

@@ -15,8 +15,9 @@ use libm::{log, sqrt};
 /// | elastoplastic, second region | `x_tep <= x < x_p` | `k_l (x - x_tep) + f_tep` |
 /// | fully plastic | `x_p <= x` | `k_p (x - x_p) + f_p` |
 ///
-/// `k_l = 1.5 sqrt(x_tep - 1)` and `f_tep`, `f_p` follow from continuity: force is continuous everywhere, the slope at
-/// `x_tep`. The slope drops from 1.5 to zero at yield and from 5.394 to 5.091 at `x_p`: properties of the published curve.
+/// `k_l = 1.5 sqrt(x_tep - 1)`; `f_tep` and `f_p` follow from continuity. The force is continuous everywhere, and the slope at
+/// `x_tep`. The slope drops from 1.5 to zero at yield and from 5.394 to 5.091 at `x_p`; both are properties of the published
+/// curve.
 ///
 /// Reference: A. Big-Alabo, P. Harrison, M. P. Cartmell, *Computers & Structures* 151 (2015) 20-29.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,9 +27,9 @@ pub struct BigAlabo {
     pub yield_pressure_factor: f64,
     /// Mean pressure in the fully plastic regime over the yield strength.
     pub plastic_pressure_factor: f64,
-    /// `x_tep`: where the second elastoplastic region begins, in yield indentations.
+    /// `x_tep`: start of the second elastoplastic region, in yield indentations.
     pub second_region: f64,
-    /// `x_p`: where the fully plastic regime begins, in yield indentations.
+    /// `x_p`: start of the fully plastic regime, in yield indentations.
     pub fully_plastic: f64,
     /// `k_p`: slope of the fully plastic regime \[F_y/d_y\].
     pub plastic_slope: f64,
@@ -42,11 +43,11 @@ struct Normalised {
 }
 
 impl BigAlabo {
-    /// The constants as published: pressures 1.1 S and 2.8 S, borders 13.93 and 82.5.
+    /// The constants as published: pressures 1.1 S and 2.8 S, boundaries 13.93 and 82.5.
     ///
-    /// `x_p = 82.5` is the point of full plasticity of Stronge (*Impact Mechanics*, 2000, section 6.3), and 13.93 the
-    /// border from which a line with continuous slope meets Stronge's plastic line there (13.938 unrounded). `k_p` is
-    /// not in the paper's introduction; it follows from a constant pressure of 2.8 S on an area `pi R d_y (2x - 1)`:
+    /// `x_p = 82.5` is the point of full plasticity of Stronge (*Impact Mechanics*, 2000, section 6.3). At 13.93 (unrounded:
+    /// 13.938), a line with continuous slope begins that meets Stronge's plastic line at `x_p`. The paper's introduction does
+    /// not give `k_p`. It follows from a constant pressure of 2.8 S on an area `pi R d_y (2x - 1)`:
     /// `k_p = 2 * 2.8/1.1 = 5.0909`.
     pub const REFERENCE: BigAlabo = BigAlabo {
         yield_pressure_factor: 1.1,
@@ -75,16 +76,16 @@ impl Loading for BigAlabo {
         self.branch(pair, &self.yield_point(pair), indentation).0
     }
 
-    /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + (x-1) + 0.4 (x-1)^2.5`, then `w_tep + f_tep (x-x_tep) + k_l (x-x_tep)^2/2`,
-    /// then `w_p + f_p (x-x_p) + k_p (x-x_p)^2/2`: the whole pieces below `indentation` and the begun one.
+    /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + (x-1) + 0.4 (x-1)^2.5`, then `w_tep + f_tep (x-x_tep) + k_l (x-x_tep)^2/2`, then
+    /// `w_p + f_p (x-x_p) + k_p (x-x_p)^2/2`: the complete pieces below `indentation` plus the last, partial one.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         work_over_segments(self, pair, indentation)
     }
 
-    /// From the mean pressure `p_m/S = 1.1 sqrt(x)` up to yield, then `min(1.1 + ln(2x-1)/3, 2.8)`: `a^2 = F/(pi p_m)`,
-    /// never below `R d_y` once yielded, which makes `a` continuous and non-decreasing.
+    /// `a^2 = F/(pi p_m)`, with the mean pressure `p_m/S = 1.1 sqrt(x)` up to yield and `min(1.1 + ln(2x-1)/3, 2.8)` beyond.
+    /// Beyond yield, `a^2` is at least `R d_y`, so `a` is continuous and does not decrease.
     ///
-    /// The paper's introduction gives no contact radius. The logarithm is Stronge's mean pressure (*Impact Mechanics*,
+    /// The paper's introduction gives no contact radius. The logarithm is the mean pressure of Stronge (*Impact Mechanics*,
     /// 2000, section 6.3), which is 1.1 S at yield and 2.8 S at `x_p`.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let point = self.yield_point(pair);

@@ -15,13 +15,15 @@ use libm::{atan, sqrt};
 /// | elastoplastic | `d_y <= d < d_p` | `(2h^3-3h^2+1) F_y + (h^3-2h^2+h) L F'_y + (-2h^3+3h^2) F_p + (h^3-h^2) L F'_p` |
 /// | fully plastic | `d_p <= d` | `F_p + F'_p (d - d_p)`, `F'_p = 2 pi R p_H` |
 ///
-/// Yield is von Mises': `d_y = R (pi p_0/(2 E*))^2` with [`first_yield`]'s `p_0`. Force and slope are continuous everywhere. Rebuilt
-/// from descriptions of the paper. [`TANGENT`](Brake2012::TANGENT) has the plastic line begin where Hertz's slope is that of the line,
-/// `d_p = R (pi p_H/E*)^2`: Hertz's curve and then its tangent, but for 4 % that the cubic is below Hertz's in between (nu = 0.3). In
-/// [`LINE`](Brake2012::LINE) it begins where Hertz's mean pressure is the hardness, `d_p = R (3 pi p_H/(4 E*))^2`: the curve
-/// bends upwards there, above Hertz's, where [`Thornton`](crate::contact::unloading::Thornton)'s closure leaves negative dents. With
-/// that closure neither is passive: restitution up to 1.009 and 1.093 for a Poisson's ratio from 0 on. The contact radius isn't
-/// in the descriptions: here `a^2 = R d`.
+/// Yield follows von Mises: `d_y = R (pi p_0/(2 E*))^2`, with `p_0` of [`first_yield`]. Force and slope are continuous
+/// everywhere. This project reconstructed the law from descriptions of the paper, in two variants. In
+/// [`TANGENT`](Brake2012::TANGENT), the plastic line begins where Hertz's curve has the slope of the line,
+/// `d_p = R (pi p_H/E*)^2`: the curve is Hertz's followed by its tangent, except that the cubic is up to 4 % below Hertz's in
+/// between (nu = 0.3). In [`LINE`](Brake2012::LINE), the line begins where Hertz's mean pressure is the hardness,
+/// `d_p = R (3 pi p_H/(4 E*))^2`: the curve bends upwards there, above Hertz's, and the closure
+/// [`Thornton`](crate::contact::unloading::Thornton) gives negative dents. With that closure neither variant is passive: for a
+/// Poisson's ratio of 0 or more, the restitution reaches 1.009 and 1.093. The descriptions do not give the contact radius;
+/// `a^2 = R d` is this project's choice.
 ///
 /// Reference: M. R. W. Brake, *Int. J. Solids Struct.* 49 (2012) 3129-3141.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,19 +31,20 @@ use libm::{atan, sqrt};
 pub struct Brake2012 {
     /// Brinell pressure over the yield strength.
     pub hardness_factor: f64,
-    /// Hertz's mean pressure where the plastic line begins, over the Brinell pressure: 4/3 ("tangent") or 1 ("line").
+    /// Hertz's mean pressure where the plastic line begins, over the Brinell pressure \[-\]: 4/3 ("tangent") or 1 ("line").
     pub plastic_start: f64,
 }
 
-/// Largest Hertz pressure over the yield strength where the axis of the contact begins to yield after von Mises.
+/// Largest Hertz pressure over the yield strength \[-\] at which the contact begins to yield on its axis, after von Mises.
 ///
-/// `p_0/S = 1/max_z |s_z - s_r|`, with `s_r - s_z = 1.5/(1 + z^2) - (1 + nu) (1 - z atan(1/z))`, the depth `z` in contact radii and
-/// stresses in `p_0`. Newton's iteration for the place of the maximum, where an error counts only by its square.
+/// `p_0/S = 1/max_z |s_z - s_r|`, with `s_r - s_z = 1.5/(1 + z^2) - (1 + nu) (1 - z atan(1/z))`. The depth `z` is in contact
+/// radii, stresses are in units of `p_0`. Newton's method finds the position of the maximum; an error of the position has only
+/// a second-order effect.
 ///
 /// Reference: K. L. Johnson, *Contact Mechanics*, 1985, eq. 3.45 and section 6.1.
 pub fn first_yield(poissons_ratio: f64) -> f64 {
     let bulk = 1.0 + poissons_ratio;
-    // to 1e-3 for 0 <= nu <= 0.5, and near enough for all
+    // within 1e-3 for 0 <= nu <= 0.5, and close enough elsewhere
     let mut depth = 0.382 + 0.332 * poissons_ratio;
     for _ in 0..6 {
         let square = 1.0 + depth * depth;
@@ -53,7 +56,7 @@ pub fn first_yield(poissons_ratio: f64) -> f64 {
     1.0 / (1.5 / (1.0 + depth * depth) - bulk * (1.0 - depth * atan(1.0 / depth)))
 }
 
-/// The cubic and the line of one pair.
+/// The cubic and the line for one pair of bodies.
 struct Borders {
     yielding: YieldPoint,
     plastic: YieldPoint,
@@ -78,11 +81,11 @@ impl Borders {
 }
 
 impl Brake2012 {
-    /// The variant "tangent", with the hardness 2.8 S.
+    /// The variant "tangent", with a hardness of 2.8 S.
     pub const TANGENT: Brake2012 = Brake2012 { hardness_factor: 2.8, plastic_start: 4.0 / 3.0 };
-    /// The variant "line", with the hardness 2.8 S.
+    /// The variant "line", with a hardness of 2.8 S.
     pub const LINE: Brake2012 = Brake2012 { hardness_factor: 2.8, plastic_start: 1.0 };
-    /// The variant whose curve has no upward bend.
+    /// The variant whose curve does not bend upwards.
     pub const REFERENCE: Brake2012 = Brake2012::TANGENT;
 
     fn borders(&self, pair: &Pair) -> Borders {

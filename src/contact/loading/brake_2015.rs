@@ -1,4 +1,4 @@
-//! Brake 2015: the elastic response fades while the plastic one develops.
+//! Brake 2015: the elastic response fades while the plastic one grows.
 
 use super::brake_2012::first_yield;
 use super::{Loading, hertz};
@@ -18,10 +18,10 @@ use libm::sqrt;
 /// | elastic (Hertz) | `d < d_y` | `F_H = K_h d^1.5` |
 /// | transitional | `d_y <= d` | `F_H sech(s) + F_P (1 - sech(s))`, `F_P = pi R p_H (2 d - d_p)` |
 ///
-/// Yield is that of [`Brake2012`](super::Brake2012). Force and slope are continuous. Rebuilt from descriptions of the paper, whose
-/// hardening (`n > 2`) they don't tell. The curve exceeds Hertz's between about 4 and 12 d_y, so that with
-/// [`Thornton`](crate::contact::unloading::Thornton)'s closure dents are negative there and an impact gains energy: restitution up
-/// to 1.050. The contact radius isn't in the descriptions: here `a^2 = R d`.
+/// Yield is that of [`Brake2012`](super::Brake2012). Force and slope are continuous. This project reconstructed the law from
+/// descriptions of the paper, which do not contain its hardening (`n > 2`). The curve exceeds Hertz's between about 4 and 12
+/// d_y. There the closure [`Thornton`](crate::contact::unloading::Thornton) gives negative dents, and an impact gains energy:
+/// the restitution reaches 1.050. The descriptions do not give the contact radius; `a^2 = R d` is this project's choice.
 ///
 /// Reference: M. R. W. Brake, *Int. J. Solids Struct.* 62 (2015) 104-123.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,11 +31,11 @@ pub struct Brake2015 {
     pub hardness_factor: f64,
 }
 
-/// `s` beyond which less than a rounding of the elastic response is left.
+/// `s` beyond which the elastic response is below rounding.
 const FADED: f64 = 60.0;
 
 impl Brake2015 {
-    /// The hardness 2.8 S.
+    /// A hardness of 2.8 S.
     pub const REFERENCE: Brake2015 = Brake2015 { hardness_factor: 2.8 };
 
     /// `d_p` \[m\].
@@ -48,7 +48,7 @@ impl Brake2015 {
         PI * pair.radius * self.hardness_factor * pair.yield_strength
     }
 
-    /// `(F_H - F_P) sech(s)` \[N\] with its slope by `d`; `d_y` and `d_p` are given.
+    /// `(F_H - F_P) sech(s)` \[N\] with its slope with respect to `d`; the arguments contain `d_y` and `d_p`.
     fn elastic_part(&self, pair: &Pair, borders: (f64, f64), indentation: f64) -> Dual {
         let (d_y, d_p) = borders;
         let s = (indentation - d_y) / (d_p - d_y);
@@ -89,8 +89,8 @@ impl Loading for Brake2015 {
         if indentation < d_y { d_y } else { LARGEST_INDENTATION }
     }
 
-    /// `pi R p_H (d^2 - d_y^2 - d_p (d - d_y))` for the plastic part alone; the rest is integrated over `s`, panel by panel, until
-    /// it has faded.
+    /// The plastic part alone is `pi R p_H (d^2 - d_y^2 - d_p (d - d_y))`. The rest is integrated over `s`, panel by panel,
+    /// until it has faded.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_y = self.yield_point(pair).indentation;
         if indentation <= d_y {

@@ -1,4 +1,4 @@
-//! Brizmer, Zait, Kligerman and Etsion: Hertz's law that fades out, without a corner.
+//! Brizmer, Zait, Kligerman and Etsion: Hertz's law fading out without a corner.
 
 use super::{Loading, hertz};
 use crate::contact::dual::Dual;
@@ -17,42 +17,42 @@ use libm::{exp, log, sqrt};
 /// | elastic (Hertz) | `y < 1` | `y^1.5` | `y` |
 /// | elastoplastic | `1 <= y` | `y^1.5 (1 - exp(-1/(y^p - 1)))` | `y (1 + exp(-1/(y^q - 1)))` |
 ///
-/// with `p = 0.174 + 0.08 nu` and `q = 0.25 + 0.125 nu`. The exponential and all its derivatives vanish at yield, so that
-/// the curve leaves Hertz's without a corner, and stays below it. Passive with the recovery from its
-/// contact radius. The area goes from Hertz's to twice that.
+/// with `p = 0.174 + 0.08 nu` and `q = 0.25 + 0.125 nu`. The exponential and all its derivatives vanish at yield, so the curve
+/// leaves Hertz's without a corner and stays below it. The law is passive with the recovery from its contact radius. The area
+/// grows from Hertz's to twice that.
 ///
-/// Fitted to finite elements of a deformable sphere under a rigid flat, up to about `y = 110`: there the mean pressure is
-/// 3.2 S (nu = 0.3), and it goes on rising. Against the truth of this project, which is without friction, force and area are
-/// within 4.5 % up to `y = 50`. The fit is in use for contacts in full stick too, in multiples of their own critical load and
-/// interference; here `d_c` and `F_c` are those of a contact without friction. `C` has a root at `nu = -0.98248`: a target
-/// with just this ratio is refused, and near it the law means nothing.
+/// Fitted to finite elements of a deformable sphere under a rigid flat, up to about `y = 110`. The mean pressure there is 3.2 S
+/// (nu = 0.3), and it keeps rising. Compared with the finite-element results of this project, which are without friction, force
+/// and area are within 4.5 % up to `y = 50`. The fit is also used for contacts in full stick, in multiples of their own
+/// critical load and interference; here `d_c` and `F_c` are those of a frictionless contact. `C` has a root at `nu = -0.98248`:
+/// a target with exactly this ratio is rejected, and near it the law is meaningless.
 ///
 /// Reference: V. Brizmer, Y. Zait, Y. Kligerman, I. Etsion, *J. Mech. Mater. Struct.* 1 (2006) 865-879; for `C` V. Brizmer,
 /// Y. Kligerman, I. Etsion, *Int. J. Solids Struct.* 43 (2006) 5736-5749.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Brizmer {
-    /// `C` at `nu = 0`: the largest pressure at yield over the yield strength.
+    /// `C` at `nu = 0`: the largest pressure at yield over the yield strength \[-\].
     pub yield_constant: f64,
-    /// What `C` gains per unit of Poisson's ratio.
+    /// Increase of `C` per unit of Poisson's ratio.
     pub yield_slope: f64,
     /// `p` at `nu = 0`: how fast the force falls behind Hertz's.
     pub force_exponent: f64,
-    /// What `p` gains per unit of Poisson's ratio.
+    /// Increase of `p` per unit of Poisson's ratio.
     pub force_slope: f64,
     /// `q` at `nu = 0`: how fast the area grows beyond Hertz's.
     pub area_exponent: f64,
-    /// What `q` gains per unit of Poisson's ratio.
+    /// Increase of `q` per unit of Poisson's ratio.
     pub area_slope: f64,
 }
 
-/// `y^p - 1` up to which nothing of `exp(-1/(y^p - 1))` can be told from zero.
+/// `y^p - 1` up to which `exp(-1/(y^p - 1))` is negligible.
 const UNFADED: f64 = 1.0 / 700.0;
 
-/// `1/(y^exponent - 1)`, and none where it is too large to matter.
+/// `1/(y^exponent - 1)`; `None` where it is too large to matter.
 fn decay(y: Dual, exponent: f64) -> Option<Dual> {
     let beyond = y.power(exponent) - Dual::constant(1.0);
-    // so that a NaN goes on to be one
+    // written so that NaN propagates
     let unfaded = beyond.value <= UNFADED;
     (!unfaded).then(|| beyond.power(-1.0))
 }
@@ -68,7 +68,7 @@ impl Brizmer {
         area_slope: 0.125,
     };
 
-    /// Force at `indentation` beyond yield \[N\], with its slope: Hertz's to the last bit where nothing has faded.
+    /// Force at `indentation` beyond yield \[N\], with its slope. It is Hertz's to the last bit where nothing has faded.
     fn force(&self, pair: &Pair, d_c: f64, indentation: f64) -> Dual {
         let root = sqrt(indentation);
         let hertz = pair.hertz_stiffness() * Dual { value: indentation * root, slope: 1.5 * root };
@@ -79,8 +79,9 @@ impl Brizmer {
         }
     }
 
-    /// Work from `low` to `high` \[J\], both in `d_c` and at least 1. Near yield the panels must shrink with the distance to
-    /// it, where the exponential has an essential singularity; from `y = e` on the curve is as good as a sum of powers.
+    /// Work from `low` to `high` \[J\]; both are in units of `d_c` and at least 1. Near yield the panels must shrink with the
+    /// distance to it, because the exponential has an essential singularity there. From `y = e` on, the curve is nearly a sum
+    /// of powers.
     fn plastic_work(&self, pair: &Pair, d_c: f64, low: f64, high: f64) -> f64 {
         let force = |y: f64| self.force(pair, d_c, y * d_c).value;
         let near = if high < E { high } else { E };
@@ -122,7 +123,7 @@ impl Loading for Brizmer {
         if indentation < d_c { d_c } else { LARGEST_INDENTATION }
     }
 
-    /// Hertz's up to yield; beyond it there is no closed form, and it is integrated over `ln y`.
+    /// Hertz's up to yield. Beyond it there is no closed form, and the force is integrated over `ln y`.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_c = self.yield_point(pair).indentation;
         let elastic = hertz::segment(pair, d_c);
@@ -137,7 +138,7 @@ impl Loading for Brizmer {
         (low >= d_c).then(|| self.plastic_work(pair, d_c, low / d_c, high / d_c))
     }
 
-    /// From the paper's area of contact.
+    /// From the contact area of the paper.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_c = self.yield_point(pair).indentation;
         let hertz = pair.radius * indentation;

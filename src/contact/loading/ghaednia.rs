@@ -10,8 +10,8 @@ use crate::contact::segment::Segment;
 use core::f64::consts::PI;
 use libm::{exp, expm1, log, sqrt};
 
-/// The loading curve of Ghaednia et al. for a target that hardens with the tangent modulus `E_t = t E`. With `d_c`, `F_c`, `C`,
-/// `B` and `y` of [`JacksonGreen`]:
+/// The loading curve of Ghaednia et al. for a target that hardens with the tangent modulus `E_t = t E`. `d_c`, `F_c`, `C`, `B`
+/// and `y` are those of [`JacksonGreen`]:
 ///
 /// | regime | where | `F` |
 /// |---|---|---|
@@ -25,24 +25,25 @@ use libm::{exp, expm1, log, sqrt};
 /// U   = -2 sqrt(E/S) t^(1 - (d - d_c)/R) / ((4 - 3 exp(-2 sqrt(E/S) t)) (1 - t))
 /// ```
 ///
-/// `E` is Young's modulus of the target. `0 < t < 1`. The hardness is that of `0 <= a <= R`; where `a` exceeds `R`, far beyond any
-/// physical meaning of the law, it keeps its value at `a = R` (1.0 S), with continuous slope, instead of rising again.
+/// `E` is Young's modulus of the target, and `0 < t < 1`. The formula for the hardness holds for `0 <= a <= R`. Where `a`
+/// exceeds `R`, far beyond any physical meaning of the law, the hardness keeps its value at `a = R` (1.0 S), with continuous
+/// slope, instead of rising again.
 ///
-/// The contact radius is continuous. Force jumps up by 0.44 % at `y = 1.9` (nu = 0.3), as published, and with
-/// [`Thornton`](crate::contact::unloading::Thornton)'s closure an impact that just yields gains energy: restitution up to 1.0044,
-/// for `nu = 0` up to 1.070. From `nu = 0.323` on the force jumps down, and no energy is gained.
+/// The contact radius is continuous. The force jumps up by 0.44 % at `y = 1.9` (nu = 0.3), as published. With the closure
+/// [`Thornton`](crate::contact::unloading::Thornton), an impact that just yields therefore gains energy: the restitution
+/// reaches 1.0044, and 1.070 for `nu = 0`. From `nu = 0.323` on, the force jumps down and no energy is gained.
 ///
 /// Reference: H. Ghaednia, M. R. W. Brake, M. Berryhill, R. L. Jackson, *J. Tribol.* 141 (2019) 031402.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Ghaednia {
-    /// Tangent modulus over Young's modulus `t`.
+    /// Tangent modulus over Young's modulus, `t` \[-\].
     pub hardening: f64,
-    /// Hardness over the yield strength where the contact is small.
+    /// Hardness over the yield strength for a small contact \[-\].
     pub hardness_factor: f64,
-    /// Half of what the hardness loses until `a = R`, over the yield strength.
+    /// Half of the decrease of the hardness from a small contact to `a = R`, over the yield strength \[-\].
     pub hardness_loss: f64,
-    /// How fast the force goes over to Hertz's with `t`.
+    /// Rate at which the force approaches Hertz's with increasing `t` \[-\].
     pub hardening_rate: f64,
 }
 
@@ -55,30 +56,30 @@ impl Ghaednia {
         JacksonGreen::REFERENCE.scale(pair)
     }
 
-    /// `a/R` beyond the transition, with its slope by `y`.
+    /// `a/R` beyond the transition, with its slope with respect to `y`.
     fn radius(&self, scale: &Scale, pair: &Pair, y: f64) -> Dual {
         let y = Dual::variable(y);
         let relative = scale.unit.indentation / pair.radius;
         let elastic = sqrt(relative) * y.power(0.5);
         let plastic = scale.radius(y, pair, JacksonGreen::REFERENCE.transition);
-        // a target that is nearly as strong as stiff: the fit has ended, whatever comes beyond
+        // a target that is nearly as strong as stiff: the fit has ended before this point
         if !plastic.value.is_finite() {
             return plastic;
         }
         let root = 2.0 * sqrt(pair.youngs_modulus / pair.yield_strength);
         let size = root / ((4.0 - 3.0 * exp(-root * self.hardening)) * (1.0 - self.hardening));
         let depth = log(self.hardening) * (Dual::constant(1.0 + relative) - relative * y);
-        // at exp(9) = 8000 sizes of U nothing of the plastic radius is left; beyond it U would overflow
+        // beyond exp(9), about 8000, the plastic radius no longer contributes, and U would overflow
         if depth.value > 9.0 {
             return elastic;
         }
         elastic + (plastic - elastic) * (-size * depth.exp()).exp()
     }
 
-    /// Force beyond the transition \[N\], with its slope by `y`.
+    /// Force beyond the transition \[N\], with its slope with respect to `y`.
     fn plastic_force(&self, scale: &Scale, pair: &Pair, y: f64) -> Dual {
         let radius = self.radius(scale, pair, y);
-        // where the radius overflows the force is no number either
+        // where the radius overflows, the force does too
         let wide = radius.value >= 1.0 && radius.value.is_finite();
         let cosine = if wide { Dual::constant(-1.0) } else { (PI * radius).cos() };
         let hardness = Dual::constant(self.hardness_factor - self.hardness_loss) + self.hardness_loss * cosine;
@@ -88,7 +89,7 @@ impl Ghaednia {
         scale.unit.force * (plastic + share * (y.power(1.5) - plastic))
     }
 
-    /// The indentation where `a = R` \[m\], by halving: `a` grows with the indentation and is not below `sqrt(R d)`.
+    /// The indentation where `a = R` \[m\], by bisection: `a` grows with the indentation and is at least `sqrt(R d)`.
     fn full_radius(&self, scale: &Scale, pair: &Pair) -> f64 {
         let d_c = scale.unit.indentation;
         let (mut low, mut high) = (scale.transition, pair.radius);
@@ -136,8 +137,8 @@ impl Loading for Ghaednia {
         if indentation < full { full } else { LARGEST_INDENTATION }
     }
 
-    /// Hertz's up to the transition; beyond it there is no closed form, and it is integrated over `ln y`, up to where
-    /// `a = R` and from there.
+    /// Hertz's up to the transition. Beyond it there is no closed form, and the force is integrated over `ln y`, in two parts
+    /// that meet at `a = R`.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let scale = self.scale(pair);
         let elastic = hertz::segment(pair, scale.transition);
@@ -163,7 +164,7 @@ impl Loading for Ghaednia {
         (low >= scale.transition).then(|| d_c * logarithmic_integral(low / d_c, high / d_c, &force))
     }
 
-    /// The paper's own.
+    /// As published.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let scale = self.scale(pair);
         if indentation < scale.transition {
@@ -172,7 +173,7 @@ impl Loading for Ghaednia {
         pair.radius * self.radius(&scale, pair, indentation / scale.unit.indentation).value
     }
 
-    /// From `a = R` on the hardness is constant, and the regime fully plastic.
+    /// From `a = R` on, the hardness is constant and the regime is fully plastic.
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
         let scale = self.scale(pair);
         if indentation < scale.transition {

@@ -8,14 +8,14 @@ use libm::sqrt;
 
 /// Elastic contact at any load: `F = K_h d^1.5`, `K_h = (4/3) E* sqrt(R)`, `a^2 = R d`, `W = (2/5) K_h d^2.5`.
 ///
-/// Holds while the contact radius is small beside `R`, without friction, and below the yield point.
+/// Holds without friction and below the yield point, while the contact radius is small compared with `R`.
 ///
 /// Reference: H. Hertz, *J. reine angew. Math.* 92 (1882) 156; K. L. Johnson, *Contact Mechanics*, 1985, section 4.2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Hertz;
 
-/// The Hertzian piece of any law that begins elastically, up to `upper` \[m\].
+/// The Hertzian part, up to `upper` \[m\], of any law that begins elastically.
 pub(super) fn segment(pair: &Pair, upper: f64) -> Segment {
     Segment { upper, power: pair.hertz_stiffness(), ..Segment::NOTHING }
 }

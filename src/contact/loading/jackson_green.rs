@@ -16,33 +16,33 @@ use libm::{exp, pow, sqrt};
 /// | elastic (Hertz) | `y < 1.9` | `y^1.5` | `d/R` |
 /// | elastoplastic | `1.9 <= y` | `exp(-y^(5/12)/4) y^1.5 + (4 H/(C S)) (1 - exp(-y^(5/9)/25)) y` | `(d/R) (y/1.9)^B` |
 ///
-/// with the hardness `H/S = 2.84 (1 - exp(-0.82 (a/R)^-0.7))`, which falls from 2.84. The paper lets yielding begin at `y = 1`,
-/// but nothing shows up to 1.9, and until then the contact counts as elastic here.
+/// with the hardness `H/S = 2.84 (1 - exp(-0.82 (a/R)^-0.7))`, which falls from 2.84. In the paper yielding begins at `y = 1`
+/// but has no effect up to 1.9; here the contact counts as elastic until then.
 ///
-/// The contact radius is continuous. Force jumps up by 0.47 % at `y = 1.9` (nu = 0.3), as published, which needs no work: an
-/// unloading from just beyond may give back 0.47 % too much. From `nu = 0.323` on it jumps down; with the fitted dent
-/// [`Jackson`](crate::contact::unloading::Jackson), which jumps too, no energy is made from `nu = 0.02` on. The fit is for a
-/// deformable sphere under a rigid flat.
+/// The contact radius is continuous. The force jumps up by 0.47 % at `y = 1.9` (nu = 0.3), as published. The jump takes no
+/// work, so unloading from just beyond it may return 0.47 % too much. From `nu = 0.323` on, the force jumps down. The dent of
+/// the fitted law [`Jackson`](crate::contact::unloading::Jackson) also jumps; with it, no energy is gained from `nu = 0.02` on.
+/// The fit is for a deformable sphere under a rigid flat.
 ///
 /// Reference: R. L. Jackson, I. Green, *J. Tribol.* 127 (2005) 343-354.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct JacksonGreen {
-    /// `C` at `nu = 0`: the largest pressure at yield over the yield strength.
+    /// `C` at `nu = 0`: the largest pressure at yield over the yield strength \[-\].
     pub yield_constant: f64,
-    /// How fast `ln C` grows with Poisson's ratio.
+    /// Rate at which `ln C` grows with Poisson's ratio.
     pub yield_growth: f64,
-    /// Where the elastoplastic formula begins \[d_c\].
+    /// Start of the elastoplastic formula \[d_c\].
     pub transition: f64,
     /// `B` for a yield strength of zero.
     pub area_exponent: f64,
-    /// How fast `ln B` grows with `S/E*`.
+    /// Rate at which `ln B` grows with `S/E*`.
     pub area_growth: f64,
-    /// Hardness over the yield strength where the contact is small.
+    /// Hardness over the yield strength for a small contact \[-\].
     pub hardness_factor: f64,
 }
 
-/// The units of the laws with this yield criterion, for one pair.
+/// The scales of the laws with this yield criterion, for one pair of bodies.
 #[derive(Clone, Copy)]
 pub(super) struct Scale {
     /// `C`.
@@ -51,12 +51,12 @@ pub(super) struct Scale {
     pub exponent: f64,
     /// `d_c` and `F_c`.
     pub unit: YieldPoint,
-    /// Where the elastoplastic formula begins \[m\].
+    /// Start of the elastoplastic formula \[m\].
     pub transition: f64,
 }
 
 impl Scale {
-    /// `F_p/F_c` at `y` for a hardness of `hardness` yield strengths: the elastic part fades, the plastic one grows.
+    /// `F_p/F_c` at `y`, for a hardness given in yield strengths: the elastic part fades, the plastic part grows.
     pub fn force(&self, y: Dual, hardness: Dual) -> Dual {
         let fading = (-0.25 * y.power(5.0 / 12.0)).exp();
         let growing = (0.04 * y.power(5.0 / 9.0)).saturation();
@@ -94,7 +94,7 @@ impl JacksonGreen {
         self.scale(pair).unit
     }
 
-    /// Force beyond the transition \[N\], with its slope by `y`.
+    /// Force beyond the transition \[N\], with its slope with respect to `y`.
     fn plastic_force(&self, scale: &Scale, pair: &Pair, y: f64) -> Dual {
         let y = Dual::variable(y);
         let radius = scale.radius(y, pair, self.transition);
@@ -128,7 +128,7 @@ impl Loading for JacksonGreen {
         if indentation < transition { transition } else { LARGEST_INDENTATION }
     }
 
-    /// Hertz's up to the transition; beyond it there is no closed form, and it is integrated over `ln y`.
+    /// Hertz's up to the transition. Beyond it there is no closed form, and the force is integrated over `ln y`.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let scale = self.scale(pair);
         let elastic = hertz::segment(pair, scale.transition);
@@ -148,7 +148,7 @@ impl Loading for JacksonGreen {
         (low >= scale.transition).then(|| d_c * logarithmic_integral(low / d_c, high / d_c, &force))
     }
 
-    /// The paper's own.
+    /// As published.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let scale = self.scale(pair);
         if indentation < scale.transition {

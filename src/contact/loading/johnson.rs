@@ -16,18 +16,18 @@ use libm::{exp, log, sqrt};
 /// | elastoplastic, second region | `4.916 <= u < 806.3` | `(2/3) (1 + ln(z/3)) S` | `u (1 + ln(u/4.916)/3.3)` |
 /// | fully plastic | `806.3 <= u` | `2.8 S` | `(2.8/1.1) u` |
 ///
-/// Johnson's are yield at 1.1 S, the pressure of the expanding cavity (an incompressible core under the sphere), and full
-/// plasticity at about 3 S on an area `a^2 = 2 R d`, without pile-up. He joins them for pressure against `z` only. This
-/// project's are the other two: the geometry `a^2 = R d_y u`, which continues Hertz's `R d` at yield and tends to `2 R d`; and
-/// the plateau at 1.1 S, from `z = 2.59` up to 5.75 (`x = 2.96`), where the formula of the cavity is still below 1.1 S. The
-/// borders 4.916 and 806.3 follow from the pressures. The formula reaches 2.8 S at `z = 73.6` only (`x = 403.7`; 3.0 S at
-/// `z = 99.3`), where the book says that full plasticity begins at 30 to 40.
+/// From Johnson come yield at 1.1 S, the pressure of the expanding cavity (an incompressible core under the sphere), and full
+/// plasticity at about 3 S on an area `a^2 = 2 R d`, without pile-up. He connects them only as pressure against `z`. This
+/// project chose two things. The first is the geometry `a^2 = R d_y u`, which continues Hertz's `R d` at yield and tends to
+/// `2 R d`. The second is the plateau at 1.1 S from `z = 2.59` to 5.75 (`x = 2.96`), where the cavity formula is still below
+/// 1.1 S. The boundaries 4.916 and 806.3 follow from the pressures. The formula reaches 2.8 S only at `z = 73.6`
+/// (`x = 403.7`) and 3.0 S at `z = 99.3`; according to the book, full plasticity begins at 30 to 40.
 ///
-/// Force, work and contact radius are continuous. The slope jumps from 1.5 up to 2 at yield and from 2 up to 2.606 where the
-/// plateau ends, and falls from 5.697 to 5.091 at the last border.
+/// Force, work and contact radius are continuous. The slope jumps from 1.5 up to 2 at yield and from 2 up to 2.606 at the end
+/// of the plateau, and falls from 5.697 to 5.091 at the last boundary.
 ///
-/// **Not passive.** On the plateau the curve is above Hertz's, for `1 < x < 2.618`. With the recovery from the contact radius
-/// a contact gives back more than was put in up to 1.59 yield speeds (restitution up to 1.0178). Far beyond yield
+/// **Not passive.** On the plateau the curve is above Hertz's, for `1 < x < 2.618`. With the recovery from the contact radius,
+/// an impact of up to 1.59 yield speeds returns more energy than was put in (restitution up to 1.0178). Far beyond yield the
 /// restitution tends to Johnson's limit `3.59 (S/E*)^(1/2) (m v^2/(2 S R^3))^(-1/8)` (3.74 for a pressure of 3.0 S).
 ///
 /// Reference: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, sections 6.3 and 11.5.
@@ -41,22 +41,22 @@ pub struct Johnson {
 }
 
 impl Johnson {
-    /// Yield at 1.1 S; full plasticity at 2.8 S as in the other laws. Johnson's formula for restitution has 3.0.
+    /// Yield at 1.1 S; full plasticity at 2.8 S as in the other laws. Johnson's formula for the restitution uses 3.0.
     pub const REFERENCE: Johnson = Johnson { yield_pressure_factor: 1.1, plastic_pressure_factor: 2.8 };
 
-    /// `u` where the pressure of the cavity reaches `factor` yield strengths: `z = 3 exp(1.5 factor - 1)`, and
-    /// `z = (3 pi/4) p_Y sqrt(u)`. Above 1 for the pressure at yield, whatever it is.
+    /// `u` where the cavity pressure reaches `factor` yield strengths, from `z = 3 exp(1.5 factor - 1)` and
+    /// `z = (3 pi/4) p_Y sqrt(u)`. For the pressure at yield, `u` is always above 1.
     fn cavity_border(&self, factor: f64) -> f64 {
         let root = 4.0 / (PI * self.yield_pressure_factor) * exp(1.5 * factor - 1.0);
         root * root
     }
 
-    /// `u` where the second elastoplastic region and the fully plastic regime begin.
+    /// `u` at the start of the second elastoplastic region and of the fully plastic regime.
     fn borders(&self) -> (f64, f64) {
         (self.cavity_border(self.yield_pressure_factor), self.cavity_border(self.plastic_pressure_factor))
     }
 
-    /// The indentations of those borders \[m\].
+    /// The indentations at those boundaries \[m\].
     fn corners(&self, d_y: f64) -> (f64, f64) {
         let (second, plastic) = self.borders();
         (0.5 * (1.0 + second) * d_y, 0.5 * (1.0 + plastic) * d_y)
@@ -72,7 +72,7 @@ impl Loading for Johnson {
         pair.yield_point(self.yield_pressure_factor)
     }
 
-    /// In the second region the tangent, with the slope `2 (1 + (1 + ln(u/u_2))/(3 p_Y))` \[F_y/d_y\].
+    /// In the second region, the tangent with the slope `2 (1 + (1 + ln(u/u_2))/(3 p_Y))` \[F_y/d_y\].
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         let point = self.yield_point(pair);
         let d_y = point.indentation;
@@ -99,8 +99,8 @@ impl Loading for Johnson {
         first_above(indentation, [d_y, second, plastic])
     }
 
-    /// In `F_y d_y`: `0.4 x^2.5`, a line's, then with `q = f/u` from the border `u_2` on
-    /// `(u^2 (q - c/2) - u_2^2 (1 - c/2))/4` with `c = 1/(3 p_Y)`, a line's.
+    /// In `F_y d_y`: `0.4 x^2.5`; the work of a line; from the boundary `u_2` on, with `q = f/u` and `c = 1/(3 p_Y)`, `(u^2 (q
+    /// - c/2) - u_2^2 (1 - c/2))/4`; the work of a line.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let point = self.yield_point(pair);
         let d_y = point.indentation;
@@ -122,7 +122,7 @@ impl Loading for Johnson {
         if indentation < plastic { work } else { work + self.segment(pair, plastic).work(indentation) }
     }
 
-    /// `a^2 = R d`, beyond yield `R (2d - d_y)`.
+    /// `a^2 = R d` up to yield, `R (2d - d_y)` beyond.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_y = self.yield_point(pair).indentation;
         let beyond = indentation - d_y;

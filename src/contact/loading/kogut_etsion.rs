@@ -16,9 +16,9 @@ use libm::{pow, sqrt};
 /// | elastoplastic, second region | `6 <= y < 110` | `1.40 y^1.263` | `0.94 y^1.146` |
 /// | fully plastic | `110 <= y` | `3 y/K` (`F = 2 pi R d H`) | `2 y` |
 ///
-/// As published: the fits do not meet. Force jumps up by 3.0 % at `y = 1`, 1.7 % at 6 and 7.9 % at 110 (nu = 0.3); the area
-/// jumps by -7.0 %, +2.9 % and +7.1 %. Crossing a jump needs no work, so that a contact that yields a little can give back
-/// more than was put in: restitution 1.015 just beyond yield. The fits are for a deformable sphere under a rigid flat.
+/// As published: the fits do not meet. The force jumps up by 3.0 % at `y = 1`, 1.7 % at 6 and 7.9 % at 110 (nu = 0.3); the area
+/// jumps by -7.0 %, +2.9 % and +7.1 %. A jump takes no work, so a contact that yields a little can return more energy than was
+/// put in: the restitution is 1.015 just beyond yield. The fits are for a deformable sphere under a rigid flat.
 ///
 /// Reference: L. Kogut, I. Etsion, *J. Appl. Mech.* 69 (2002) 657-662.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,13 +26,13 @@ use libm::{pow, sqrt};
 pub struct KogutEtsion {
     /// Hardness `H` over the yield strength.
     pub hardness_factor: f64,
-    /// `K` at `nu = 0`: the largest pressure at yield over `H`.
+    /// `K` at `nu = 0`: the largest pressure at yield over `H` \[-\].
     pub yield_constant: f64,
-    /// What `K` gains per unit of Poisson's ratio.
+    /// Increase of `K` per unit of Poisson's ratio.
     pub yield_slope: f64,
-    /// Where the second region begins \[d_c\].
+    /// Start of the second region \[d_c\].
     pub second_region: f64,
-    /// Where the fully plastic regime begins \[d_c\].
+    /// Start of the fully plastic regime \[d_c\].
     pub fully_plastic: f64,
     /// Factor of the force in the first region.
     pub first_factor: f64,
@@ -70,7 +70,7 @@ impl KogutEtsion {
         second_area_exponent: 1.146,
     };
 
-    /// `d_c` and `F_c`, the units of the law. The largest pressure is 1.5 times the mean one.
+    /// `d_c` and `F_c`, the scales of the law. The largest pressure is 1.5 times the mean pressure.
     pub fn unit(&self, pair: &Pair) -> YieldPoint {
         let peak = (self.yield_constant + self.yield_slope * pair.poissons_ratio) * self.hardness_factor;
         pair.yield_point(peak / 1.5)
@@ -81,7 +81,7 @@ impl KogutEtsion {
         2.0 * core::f64::consts::PI * pair.radius * self.hardness_factor * pair.yield_strength
     }
 
-    /// Factor and exponent of the force in the elastoplastic region that `second` names.
+    /// Factor and exponent of the force in the first or the `second` elastoplastic region.
     fn fit(&self, second: bool) -> (f64, f64) {
         if second { (self.second_factor, self.second_exponent) } else { (self.first_factor, self.first_exponent) }
     }
@@ -123,7 +123,7 @@ impl Loading for KogutEtsion {
         first_above(indentation, [d_c, self.second_region * d_c, self.fully_plastic * d_c])
     }
 
-    /// In `F_c d_c`: `0.4 y^2.5`, then `c y^(1+p)/(1+p)` between the borders of each fit, then `3 y^2/(2 K)`.
+    /// In `F_c d_c`: `0.4 y^2.5`, then `c y^(1+p)/(1+p)` between the boundaries of each fit, then `3 y^2/(2 K)`.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let YieldPoint { indentation: d_c, force: f_c } = self.unit(pair);
         if indentation <= d_c {
@@ -144,7 +144,7 @@ impl Loading for KogutEtsion {
         if indentation > plastic { work + self.segment(pair, plastic).work(indentation) } else { work }
     }
 
-    /// From the area of contact of the paper, `a^2 = A/pi`, with its jumps.
+    /// From the contact area of the paper, `a^2 = A/pi`, including its jumps.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_c = self.unit(pair).indentation;
         let y = indentation / d_c;

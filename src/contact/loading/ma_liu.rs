@@ -1,4 +1,4 @@
-//! Ma and Liu: a logarithmic curve that joins Hertz's law and a plastic line with continuous slope.
+//! Ma and Liu: a logarithmic curve that connects Hertz's law and a plastic line with continuous slope.
 
 use super::{Loading, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
@@ -14,14 +14,14 @@ use libm::{log, sqrt};
 /// | mixed | `1 <= x < X` | `1 + 1.5 (x - 1) + c (x ln x - x + 1)` |
 /// | fully plastic | `X <= x` | `f_p + 1.5 q (x - X)` |
 ///
-/// `q = 2 p_P/p_Y` with the mean pressure `p_P = 2.85 S` of full plasticity and the peak pressure `p_Y = 1.61 S` of first
-/// yield; `c = 1.5 (q - 1)/ln X` makes the slope continuous at `X`, as it is at yield. Passive, and restitution falls
-/// monotonically.
+/// `q = 2 p_P/p_Y`, with the mean pressure `p_P = 2.85 S` of full plasticity and the peak pressure `p_Y = 1.61 S` of first
+/// yield. `c = 1.5 (q - 1)/ln X` makes the slope continuous at `X`; it is also continuous at yield. The law is passive, and the
+/// restitution falls monotonically.
 ///
-/// `X` is not known from the paper here. The reference value `exp(2 (q - 1))` is the smallest with which the curve stays
-/// below Hertz's; the curvature is then continuous at yield too, and full plasticity begins at `E* a/(S R) = 32`, within
-/// Johnson's 30 to 40. The paper's own unloading law and contact radius aren't known either: `a^2 = R d` is this project's
-/// choice, with which the closures `contact-radius` and `thornton` are one.
+/// The value of `X` in the paper is not known to this project. The reference value `exp(2 (q - 1))` is the smallest with which
+/// the curve stays below Hertz's. The curvature is then continuous at yield too, and full plasticity begins at
+/// `E* a/(S R) = 32`, within Johnson's range of 30 to 40. The paper's own unloading law and contact radius are not known
+/// either. `a^2 = R d` is this project's choice; with it the closures `contact-radius` and `thornton` are identical.
 ///
 /// Reference: D. Ma, C. S. Liu, *J. Appl. Mech.* 82 (2015) 121006.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub struct MaLiu {
     pub peak_pressure_factor: f64,
     /// Mean pressure in the fully plastic regime over the yield strength.
     pub plastic_pressure_factor: f64,
-    /// `X`: where the fully plastic regime begins, in yield indentations.
+    /// `X`: start of the fully plastic regime, in yield indentations.
     pub fully_plastic: f64,
 }
 
@@ -106,7 +106,8 @@ impl Loading for MaLiu {
         first_above(indentation, [d_y, self.fully_plastic * d_y])
     }
 
-    /// In `F_y d_y`, with `z = x - 1`: `0.4 x^2.5`, then `0.4 + z + 0.75 z^2 + c (x^2 ln(x)/2 - 0.75 z^2 - 0.5 z)`, then a line's.
+    /// In `F_y d_y`, with `z = x - 1`: `0.4 x^2.5`, then `0.4 + z + 0.75 z^2 + c (x^2 ln(x)/2 - 0.75 z^2 - 0.5 z)`, then the
+    /// work of a line.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let point = self.yield_point(pair);
         let d_y = point.indentation;

@@ -1,4 +1,4 @@
-//! A power of the indentation beyond yield, with constants for the user's own fit.
+//! A power of the indentation beyond yield, for constants fitted by the user.
 
 use super::{Loading, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
@@ -13,25 +13,26 @@ use libm::{pow, sqrt};
 /// | elastic (Hertz) | `x < 1` | `x^1.5` |
 /// | elastoplastic | `1 <= x` | `1 + k (x - 1)^n` |
 ///
-/// In SI `F = F_y + k F_y ((d - d_y)/d_y)^n`, for constants of one's own, from a finite-element model or a test. `a^2 = R d` is
-/// this project's choice. The force is continuous at yield; for `n > 1` the slope drops to zero there, for `n = 1` it is `k`,
-/// and `n < 1` is of no use: the slope would be infinite. Finite up to the largest indentation for `n` up to 1.8.
+/// In SI units, `F = F_y + k F_y ((d - d_y)/d_y)^n`. The constants are fitted to a finite-element model or a test. `a^2 = R d`
+/// is this project's choice. The force is continuous at yield. The slope drops to zero there for `n > 1`, and is `k` for
+/// `n = 1`; `n < 1` is not allowed, because the slope would be infinite. The law is finite up to the largest indentation for
+/// `n` up to 1.8.
 ///
-/// Nothing ensures that a pair of `k` and `n` is passive: the curve must stay below Hertz's.
+/// Not every pair of `k` and `n` is passive: the curve must stay below Hertz's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Power {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,
-    /// `k`: force beyond the yield force at twice the yield indentation \[F_y\].
+    /// `k`: force in excess of the yield force at twice the yield indentation \[F_y\].
     pub coefficient: f64,
-    /// `n` >= 1.
+    /// `n` >= 1 \[-\].
     pub exponent: f64,
 }
 
 impl Power {
-    /// Yield at a mean pressure of 1.6 S, the onset of such laws in the literature. `k = 1.5` and `n = 1.2` are placeholders
-    /// for a fit of one's own, chosen below Hertz's curve; they describe no material.
+    /// Yield at a mean pressure of 1.6 S, the onset that such laws use in the literature. `k = 1.5` and `n = 1.2` are
+    /// placeholders that keep the curve below Hertz's; they describe no material.
     pub const REFERENCE: Power = Power { yield_pressure_factor: 1.6, coefficient: 1.5, exponent: 1.2 };
 }
 
@@ -44,7 +45,7 @@ impl Loading for Power {
         pair.yield_point(self.yield_pressure_factor)
     }
 
-    /// Beyond yield the tangent, with the slope `k n (x - 1)^(n-1)` \[F_y/d_y\].
+    /// Beyond yield, the tangent with the slope `k n (x - 1)^(n-1)` \[F_y/d_y\].
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         let point = self.yield_point(pair);
         if indentation < point.indentation {

@@ -14,14 +14,14 @@ use libm::{exp, log, sqrt};
 /// | elastoplastic | `1 <= x < x_p` | `u (1 + c ln u)` |
 /// | fully plastic | `x_p <= x` | `(p_P/p_Y) u` |
 ///
-/// `p_Y = 1.1` and `p_P = 2.8` are the mean pressures over the yield strength, `a^2 = R d_y u` beyond yield, and
-/// `x_p = (1 + exp(3 (p_P - p_Y)))/2 = 82.511` follows from them, so that the force is continuous; the 84 that is printed
-/// for it leaves a jump of 0.2 %.
+/// `p_Y = 1.1` and `p_P = 2.8` are the mean pressures over the yield strength. Beyond yield, `a^2 = R d_y u`.
+/// `x_p = (1 + exp(3 (p_P - p_Y)))/2 = 82.511` follows from the pressures, so the force is continuous; the published value of
+/// 84 would leave a jump of 0.2 %.
 ///
-/// **Not passive.** The slope jumps from 1.5 up to 2.606 at yield (and from 5.697 to 5.091 at `x_p`), and the curve is above
-/// Hertz's for `1 < x < 15.4`. With the recovery from the contact radius a contact gives back more than was put in up to
-/// 7.95 yield speeds (restitution up to 1.154), and the residual indentation is negative up to about 5 d_y. The law is
-/// offered as published, for comparison; [`BigAlabo`](super::BigAlabo) has the same limit far beyond yield.
+/// **Not passive.** The slope jumps from 1.5 up to 2.606 at yield (and falls from 5.697 to 5.091 at `x_p`), and the curve is
+/// above Hertz's for `1 < x < 15.4`. With the recovery from the contact radius, an impact of up to 7.95 yield speeds returns
+/// more energy than was put in (restitution up to 1.154), and the residual indentation is negative up to about 5 d_y. The law
+/// is implemented as published, for comparison. [`BigAlabo`](super::BigAlabo) has the same limit far beyond yield.
 ///
 /// Reference: W. J. Stronge, *Impact Mechanics*, Cambridge 2000, section 6.3.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ impl Stronge {
     /// The constants as published: 1.1 S and 2.8 S.
     pub const REFERENCE: Stronge = Stronge { yield_pressure_factor: 1.1, plastic_pressure_factor: 2.8 };
 
-    /// `x_p`: where the mean pressure `p_Y + ln(u)/3` reaches `p_P`.
+    /// `x_p`: the point where the mean pressure `p_Y + ln(u)/3` reaches `p_P`.
     fn fully_plastic(&self) -> f64 {
         0.5 * (1.0 + exp(3.0 * (self.plastic_pressure_factor - self.yield_pressure_factor)))
     }
@@ -63,7 +63,7 @@ impl Loading for Stronge {
         pair.yield_point(self.yield_pressure_factor)
     }
 
-    /// On the elastoplastic part the tangent, with the slope `2 (1 + c + c ln u)` \[F_y/d_y\].
+    /// On the elastoplastic part, the tangent with the slope `2 (1 + c + c ln u)` \[F_y/d_y\].
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         let point = self.yield_point(pair);
         if indentation < point.indentation {
@@ -85,7 +85,7 @@ impl Loading for Stronge {
         first_above(indentation, [d_y, self.fully_plastic() * d_y])
     }
 
-    /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + ((u^2 - 1) + c (u^2 ln u - (u^2 - 1)/2))/4`, then a line's.
+    /// In `F_y d_y`: `0.4 x^2.5`, then `0.4 + ((u^2 - 1) + c (u^2 ln u - (u^2 - 1)/2))/4`, then the work of a line.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let point = self.yield_point(pair);
         let d_y = point.indentation;
@@ -103,7 +103,7 @@ impl Loading for Stronge {
         if indentation < plastic { work } else { work + self.line(&point, plastic).work(indentation) }
     }
 
-    /// `a^2 = R d`, beyond yield `R (2d - d_y)`.
+    /// `a^2 = R d` up to yield, `R (2d - d_y)` beyond.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_y = self.yield_point(pair).indentation;
         let beyond = indentation - d_y;

@@ -1,4 +1,4 @@
-//! Thornton: Hertz's law, then a line on which the contact pressure is limited.
+//! Thornton: Hertz's law, then a line along which the contact pressure is limited.
 
 use super::{Loading, hertz, work_over_segments};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
@@ -13,18 +13,18 @@ use libm::sqrt;
 /// | elastic (Hertz) | `x < 1` | `x^1.5` |
 /// | fully plastic | `1 <= x` | `1 + 1.5 (x - 1)` |
 ///
-/// In SI the line is `F = F_y + pi R p_y (d - d_y)`; `a^2 = R d` on both. Force and slope are continuous at yield. The law
-/// is passive with the closure [`Thornton`](crate::contact::unloading::Thornton), which belongs to it, and restitution
-/// falls monotonically, `e = 1.185 (v_y/v)^(1/4)` far beyond yield.
+/// In SI units, the line is `F = F_y + pi R p_y (d - d_y)`; `a^2 = R d` on both parts. Force and slope are continuous at yield.
+/// The law is passive with its own closure, [`Thornton`](crate::contact::unloading::Thornton). The restitution falls
+/// monotonically; far beyond yield it is `e = 1.185 (v_y/v)^(1/4)`.
 ///
-/// No pressure in the contact exceeds `p_y`: with `p_y = 1.6 S` the force is far too low deep in plasticity (290 F_y at 200
-/// d_y, where other laws have about 1000), and users raise `p_y` up to 2.8 S to make up for it. Without adhesion.
+/// No pressure in the contact exceeds `p_y`. With `p_y = 1.6 S` the force is far too low at large indentations (290 F_y at 200
+/// d_y, where other laws give about 1000), and users raise `p_y` up to 2.8 S to compensate. Without adhesion.
 ///
 /// Reference: C. Thornton, *J. Appl. Mech.* 64 (1997) 383-386; C. Thornton, Z. Ning, *Powder Technology* 99 (1998) 154-162.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Thornton {
-    /// Limiting contact pressure `p_y`, the peak of Hertz's pressure at yield, over the yield strength.
+    /// Limiting contact pressure `p_y` over the yield strength \[-\]. It is the peak of Hertz's pressure at yield.
     pub peak_pressure_factor: f64,
 }
 
@@ -33,7 +33,7 @@ impl Thornton {
     pub const REFERENCE: Thornton = Thornton { peak_pressure_factor: 1.6 };
 }
 
-/// The line that continues Hertz's curve from `point` on with the slope it has there, `1.5 K_h sqrt(d_y) = pi R p_y`.
+/// The line that continues Hertz's curve at `point` with the same slope, `1.5 K_h sqrt(d_y) = pi R p_y`.
 pub(super) fn line(pair: &Pair, point: &YieldPoint) -> Segment {
     Segment {
         lower: point.indentation,

@@ -14,24 +14,24 @@ use libm::{cbrt, sqrt};
 /// | elastic (Hertz) | `f < 1` | `x = f^(2/3)` | `f^(1/3)` |
 /// | elastoplastic | `1 <= f` | `x = (f^(1/3) + A (f - 1))^2 / (1 + B (f - 1))` | `f^(1/3) + A (f - 1)` |
 ///
-/// Yield where the largest pressure is 1.61 S. The elastic radius `f^(1/3)` goes on as Hertz's, the plastic one is linear in the
-/// force, and the denominator is the growth of the radius of curvature. `A = C_a F_y/a_y` and `B = K_c F_y` were fitted to finite
-/// elements for one pair (R = 0.1 m, E = 70 GPa, nu = 0.3, S = 100 MPa: C_a = 2.33e-7 m/N, K_c = 2.69e-4 1/N, F_y = 36.447 N,
-/// a_y = 0.32877 mm). Here `A` and `B` are the constants, so that the normalised curve is the same for every pair.
+/// Yield begins at a largest pressure of 1.61 S. The elastic radius `f^(1/3)` continues as Hertz's, the plastic radius is
+/// linear in the force, and the denominator is the growth of the radius of curvature. `A = C_a F_y/a_y` and `B = K_c F_y` were
+/// fitted to finite elements for one pair (R = 0.1 m, E = 70 GPa, nu = 0.3, S = 100 MPa: C_a = 2.33e-7 m/N, K_c = 2.69e-4 1/N,
+/// F_y = 36.447 N, a_y = 0.32877 mm). Here `A` and `B` are the constants, so the normalised curve is the same for every pair.
 ///
-/// Force and contact radius are continuous; the slope falls from 1.5 to 1.41 F_y/d_y at yield. The fit ends at about 40 F_y: beyond, `F`
-/// becomes `(B/A^2) x` F_y, a pressure without bound. Passive with its own unloading.
+/// Force and contact radius are continuous; the slope falls from 1.5 to 1.41 F_y/d_y at yield. The fit ends at about 40 F_y.
+/// Beyond that, `F` tends to `(B/A^2) x` F_y, an unlimited pressure. The law is passive with its own unloading law.
 ///
 /// Reference: L. Vu-Quoc, X. Zhang, *Proc. R. Soc. A* 455 (1999) 4013-4044; L. Vu-Quoc, X. Zhang, L. Lesburg, *J. Appl. Mech.* 67
 /// (2000) 363-371.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct VuQuocZhang {
-    /// Largest pressure at yield over the yield strength.
+    /// Largest pressure at yield over the yield strength \[-\].
     pub peak_pressure_factor: f64,
     /// `A`: plastic contact radius for each `F_y` beyond yield \[a_y\].
     pub plastic_radius: f64,
-    /// `B`: relative growth of the radius of curvature for each `F_y` beyond yield.
+    /// `B`: relative growth of the radius of curvature for each `F_y` beyond yield \[-\].
     pub curvature: f64,
 }
 
@@ -43,7 +43,7 @@ impl VuQuocZhang {
         curvature: 0.009_804_263_625_242_24,
     };
 
-    /// `x` and `dx/dg` at `g = f^(1/3)`, from `1` up.
+    /// `x` and `dx/dg` at `g = f^(1/3)` >= 1.
     fn indentation(&self, g: f64) -> (f64, f64) {
         let beyond = (g - 1.0) * (g * g + g + 1.0);
         let radius = g + self.plastic_radius * beyond;
@@ -54,7 +54,7 @@ impl VuQuocZhang {
         (x, x * relative)
     }
 
-    /// `g = f^(1/3)` at `x >= 1`: Newton's iteration, on a curve between the powers 2 and 3 of `g`.
+    /// `g = f^(1/3)` at `x >= 1`, by Newton's method; `x` lies between the second and third power of `g`.
     fn root_of_force(&self, x: f64) -> f64 {
         let asymptote = 1.0 + cbrt(x * self.curvature) / cbrt(self.plastic_radius * self.plastic_radius);
         let hertz = sqrt(x);
@@ -65,7 +65,7 @@ impl VuQuocZhang {
             let next = if next > 1.0 { next } else { 1.0 };
             let change = (next - g).abs();
             g = next;
-            // the iteration squares the relative error: the next one would change nothing
+            // the method squares the relative error: another iteration would change nothing
             if change <= 1e-9 * g {
                 break;
             }
@@ -100,7 +100,7 @@ impl Loading for VuQuocZhang {
         if indentation < d_y { d_y } else { LARGEST_INDENTATION }
     }
 
-    /// `0.4 F_y d_y`, and from there the integral of `g^3 dx/dg` over `ln g`.
+    /// `0.4 F_y d_y` up to yield, then the integral of `g^3 dx/dg` over `ln g`.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let YieldPoint { indentation: d_y, force: f_y } = self.yield_point(pair);
         let elastic = hertz::segment(pair, d_y);
@@ -112,7 +112,7 @@ impl Loading for VuQuocZhang {
         elastic.work(d_y) + f_y * d_y * plastic
     }
 
-    /// The law's own `a`.
+    /// As published.
     fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
         let d_y = self.yield_point(pair).indentation;
         if indentation < d_y {

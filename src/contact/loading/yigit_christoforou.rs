@@ -14,12 +14,14 @@ use libm::sqrt;
 /// | elastic (Hertz) | `x < 1` | `x^1.5` |
 /// | elastoplastic | `1 <= x` | `1 + 1.5 (x - 1)` |
 ///
-/// In SI the line is `F = F_y + K_y (d - d_y)` with `K_y = 1.5 K_h sqrt(d_y)`: force and slope are continuous at yield. It
-/// is the line of [`Thornton`](super::Thornton) from another yield point, `d_y = 0.68 pi^2 R (S/E*)^2`. Passive, restitution
-/// falls monotonically; there is no fully plastic stiffening (300 F_y at 200 d_y, where other laws have about 1000).
+/// In SI units, the line is `F = F_y + K_y (d - d_y)` with `K_y = 1.5 K_h sqrt(d_y)`. Force and slope are continuous at yield.
+/// It is the line of [`Thornton`](super::Thornton) from another yield point, `d_y = 0.68 pi^2 R (S/E*)^2`. The law is passive,
+/// and the restitution falls monotonically. There is no stiffening in the fully plastic regime (300 F_y at 200 d_y, where other
+/// laws give about 1000).
 ///
-/// The paper unloads along Hertz's curve, lowered: [`HertzShift`](crate::contact::unloading::HertzShift). It needs no
-/// contact radius; `a^2 = R d` is this project's choice, with which the closures `contact-radius` and `thornton` are one.
+/// In the paper, unloading follows Hertz's curve, lowered: [`HertzShift`](crate::contact::unloading::HertzShift). That law
+/// needs no contact radius. `a^2 = R d` is this project's choice; with it the closures `contact-radius` and `thornton` are
+/// identical.
 ///
 /// Reference: A. S. Yigit, A. P. Christoforou, *Composites Engineering* 4 (1994) 1143-1152.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +32,7 @@ pub struct YigitChristoforou {
 }
 
 impl YigitChristoforou {
-    /// Mean pressure 1.1 S at yield: the "0.68 pi^2" of the paper is `(3 pi 1.1/4)^2 = 0.680625 pi^2`.
+    /// Mean pressure of 1.1 S at yield: the "0.68 pi^2" of the paper is `(3 pi 1.1/4)^2 = 0.680625 pi^2`.
     pub const REFERENCE: YigitChristoforou = YigitChristoforou { yield_pressure_factor: 1.1 };
 }
 

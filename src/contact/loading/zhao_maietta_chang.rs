@@ -14,12 +14,12 @@ use libm::{log, sqrt};
 /// | elastoplastic | `1 <= x < x_p` | `x (1 + 3h^2 - 2h^3) (1 + b ln x)` | `R d (1 + 3h^2 - 2h^3)` |
 /// | fully plastic | `x_p <= x` | `(2/k) x` | `2 R d` |
 ///
-/// `x_p = 54`, `k = 1.1/2.8` is the mean pressure at yield over the hardness, and `b = (1 - k)/(k ln x_p)`. The mean pressure
-/// grows with `ln x` from 1.1 S to 2.8 S, the area by a cubic from that of Hertz to that of a blunt indenter. Force and
-/// contact radius are continuous; the slope falls from 1.5 to 1.387 at yield and from 5.866 to 5.091 at `x_p`. Passive; with
-/// the recovery from the contact radius restitution is not monotone between 32 and 69 yield speeds.
+/// `x_p = 54`; `k = 1.1/2.8` is the mean pressure at yield over the hardness, and `b = (1 - k)/(k ln x_p)`. The mean pressure
+/// grows with `ln x` from 1.1 S to 2.8 S, and the area along a cubic from Hertz's to that of a blunt indenter. Force and
+/// contact radius are continuous; the slope falls from 1.5 to 1.387 at yield and from 5.866 to 5.091 at `x_p`. The law is
+/// passive. With the recovery from the contact radius, the restitution is not monotone between 32 and 69 yield speeds.
 ///
-/// Made for the asperities of rough surfaces. The paper takes `k = 0.4`.
+/// Derived for the asperities of rough surfaces. The paper uses `k = 0.4`.
 ///
 /// Reference: Y. Zhao, D. M. Maietta, L. Chang, *J. Tribology* 122 (2000) 86-93.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,14 +27,14 @@ use libm::{log, sqrt};
 pub struct ZhaoMaiettaChang {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,
-    /// Mean pressure in the fully plastic regime, the hardness, over the yield strength.
+    /// Mean pressure in the fully plastic regime (the hardness) over the yield strength \[-\].
     pub plastic_pressure_factor: f64,
-    /// `x_p`: where the fully plastic regime begins, in yield indentations.
+    /// `x_p`: start of the fully plastic regime, in yield indentations.
     pub fully_plastic: f64,
 }
 
 impl ZhaoMaiettaChang {
-    /// Pressures 1.1 S and 2.8 S as in the other laws, 54 as published.
+    /// Pressures of 1.1 S and 2.8 S as in the other laws; 54 as published.
     pub const REFERENCE: ZhaoMaiettaChang =
         ZhaoMaiettaChang { yield_pressure_factor: 1.1, plastic_pressure_factor: 2.8, fully_plastic: 54.0 };
 
@@ -91,7 +91,7 @@ impl Loading for ZhaoMaiettaChang {
         pair.yield_point(self.yield_pressure_factor)
     }
 
-    /// On the elastoplastic part the tangent, with the slope `(g + x dg/dx) (1 + b ln x) + b g` \[F_y/d_y\].
+    /// On the elastoplastic part, the tangent with the slope `(g + x dg/dx) (1 + b ln x) + b g` \[F_y/d_y\].
     fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
         let point = self.yield_point(pair);
         if indentation < point.indentation {
@@ -114,7 +114,7 @@ impl Loading for ZhaoMaiettaChang {
         first_above(indentation, [d_y, self.fully_plastic * d_y])
     }
 
-    /// In `F_y d_y`: `0.4 x^2.5`, then powers of `x` up to the fifth, each with `1 + b ln x - b/n`, then a line's.
+    /// In `F_y d_y`: `0.4 x^2.5`, then powers of `x` up to the fifth, each with `1 + b ln x - b/n`, then the work of a line.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let point = self.yield_point(pair);
         let d_y = point.indentation;

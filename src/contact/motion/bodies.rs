@@ -13,64 +13,64 @@ use crate::contact::{Model, Surface};
 use core::cell::Cell;
 use libm::{fabs, floor};
 
-/// The bodies as far as they have come. The history follows where it must: where a dent is left behind, and at the end.
+/// The bodies during a step. The history is updated only where necessary: when a dent is left behind, and at the end.
 pub struct Bodies<'a, L, U> {
     history: &'a mut History,
     model: &'a Model<L, U>,
     drive: &'a Drive,
-    /// \[1/kg\]
+    /// Inverse of the effective mass \[1/kg\].
     inverse_mass: f64,
-    /// Where they are \[m\].
+    /// Present indentation \[m\].
     indentation: f64,
     /// Closing speed \[m/s\].
     speed: f64,
     /// The largest indentation of the dent \[m\].
     largest: f64,
-    /// The way back from there, down to the surface of the dent, if that has been asked.
+    /// The piece between the largest indentation and the surface of the dent, once it has been computed.
     back: Option<Piece<'a, L, U>>,
-    /// Direction of the last motion.
+    /// Whether the last motion went deeper.
     rising: bool,
-    /// Whether they turned at the last event.
+    /// Whether the last event was a turning point.
     turned: bool,
-    /// Speed that the contact force has taken so far \[m/s\].
+    /// Closing speed removed by the contact force so far \[m/s\].
     taken: f64,
     /// Time left \[s\].
     left: f64,
-    /// The largest indentation so far \[m\], of a dent that is left behind.
+    /// The largest indentation so far of a dent that was left behind \[m\].
     deepest: f64,
-    /// The last time that they turned in the contact.
+    /// The last turning point in the contact.
     turn: Option<Turn>,
-    /// The way of a step that is one stretch within a piece \[m\].
+    /// The displacement of a step that is a single stretch within one piece \[m\].
     only: Option<f64>,
     events: u32,
     evaluations: Cell<u32>,
 }
 
-/// A turning point at the deepest place of a contact.
+/// A turning point at the largest indentation of a contact.
 #[derive(Clone, Copy)]
 struct Turn {
-    /// The largest indentation then \[m\].
+    /// The largest indentation at that time \[m\].
     largest: f64,
-    /// Since then \[s\].
+    /// Time since then \[s\].
     ago: f64,
     /// Whether a dent was left behind since then.
     forgot: bool,
 }
 
-/// What a dent may grow by rounding, as a part of the indentation.
+/// The growth of a dent that is attributed to rounding, as a fraction of the indentation.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Evaluations that it takes to find a piece of a law that has segments.
+/// Number of evaluations that finding a piece counts for, for laws with segments.
 const PIECE: u32 = 10;
 
-/// Events after which a step is given up, as after [`MOST_EVALUATIONS`]: bodies in flight take none.
+/// Largest number of events in a step. Flights need no evaluations, so [`MOST_EVALUATIONS`] does not limit them.
 const MOST_EVENTS: u32 = MOST_EVALUATIONS / PIECE;
 
 impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
     /// The bodies at the start of a step.
     ///
     /// # Errors
-    /// [`TooDeep`] for numbers that aren't finite.
+    /// [`TooDeep`] for numbers that are not finite.
     pub fn new(
         history: &'a mut History,
         model: &'a Model<L, U>,
@@ -105,7 +105,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         })
     }
 
-    /// Goes on to the next event; false at the end of the step.
+    /// Advances to the next event. Returns false at the end of the step.
     ///
     /// # Errors
     /// [`NoMotion`].
@@ -124,23 +124,23 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         Ok(self.left > 0.0)
     }
 
-    /// The end of the step, where the history is left.
+    /// Ends the step, and updates the history.
     ///
     /// # Errors
     /// [`TooDeep`].
     pub fn stop(mut self) -> Result<Outcome, NoMotion> {
-        // a way on one branch may be shorter than the last digit of the indentation
+        // a motion on one branch may be shorter than the last digit of the indentation
         let stays = self.only.is_some_and(|way| self.history.advance_on_branch(way));
         if !stays {
             self.settle()?;
         }
         let deepest = largest(self.deepest, self.history.max_indentation());
-        // the contact only pushes: less than nothing is rounding
+        // the contact only pushes: a negative value is rounding
         let taken = largest(self.taken, 0.0);
         Ok(Outcome { speed: self.speed, taken, evaluations: self.evaluations.get(), deepest })
     }
 
-    /// Brings the history to where the bodies are.
+    /// Updates the history to the present position of the bodies.
     fn settle(&mut self) -> Result<(), TooDeep> {
         if self.largest > self.history.max_indentation() {
             self.history.go_to(self.model, self.largest, true)?;
@@ -148,29 +148,29 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         self.history.go_to(self.model, self.indentation, self.rising)
     }
 
-    /// The way back from the largest indentation, and to there again.
+    /// The piece between the largest indentation and the surface of the dent, for unloading and reloading.
     fn back(&mut self) -> &Piece<'a, L, U> {
         let (model, largest) = (self.model, self.largest);
         self.back.get_or_insert_with(|| Piece::at(model, largest, largest, false))
     }
 
-    /// The piece on which the bodies go on.
+    /// The piece on which the bodies continue.
     fn piece(&mut self, rising: bool) -> Piece<'a, L, U> {
         let Bodies { indentation, largest, model, .. } = *self;
         let on_loading = rising && indentation >= largest;
         if on_loading { Piece::at(model, indentation, largest, true) } else { self.back().clone() }
     }
 
-    /// Where the surface is met \[m\]: at the dent that there is.
+    /// The indentation of the surface \[m\]: the bottom of the present dent.
     fn surface(&mut self) -> f64 {
         self.back().lower
     }
 
-    /// Whether nothing slows the bodies down now: they are apart, or at the surface and not closing.
+    /// Whether there is no contact: the bodies are apart, or at the surface and not closing.
     fn is_apart(&mut self) -> bool {
         let indentation = self.indentation;
         let closes = self.speed > 0.0 || (self.speed == 0.0 && self.drive.acceleration > 0.0);
-        // on the loading curve the surface is far below
+        // on the loading curve, the surface of the dent is far below
         if closes && indentation > 0.0 && indentation >= self.largest {
             return false;
         }
@@ -178,7 +178,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         indentation < surface || (indentation == surface && !closes)
     }
 
-    /// Flight: to the surface, to where a fresh surface forgets its dent, or to the end of the step.
+    /// Flight: until the bodies touch the surface, until a fresh surface forgets its dent, or until the end of the step.
     fn fly(&mut self) -> Result<(), TooDeep> {
         let (surface, indentation) = (self.surface(), self.indentation);
         let flight = Flight { speed: self.speed, acceleration: self.drive.acceleration };
@@ -197,7 +197,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
             return Ok(());
         }
         let goal = indentation + flight.way(self.left);
-        // rounding must not make a contact of a flight
+        // rounding must not turn a flight into a contact
         self.indentation = if goal >= surface { surface } else { goal };
         self.speed = flight.speed_after(self.left);
         self.rising = goal > indentation;
@@ -216,7 +216,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         Ok(())
     }
 
-    /// Lets `time` \[s\] pass.
+    /// Advances the time by `time` \[s\].
     fn pass(&mut self, time: f64) {
         self.left -= time;
         if let Some(turn) = &mut self.turn {
@@ -224,24 +224,24 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         }
     }
 
-    /// Bodies at rest stay where they are: the forces balance.
+    /// Bodies at rest stay where they are: the forces are in balance.
     fn rest(&mut self) {
         self.taken += self.drive.acceleration * self.left;
         (self.speed, self.left) = (0.0, 0.0);
     }
 
-    /// Acceleration by all forces where the bodies are, on `piece` \[m/s^2\].
+    /// Total acceleration of the bodies at their present position on `piece` \[m/s^2\].
     fn net(&self, piece: &Piece<'a, L, U>) -> f64 {
         self.drive.acceleration - piece.force(self.indentation) * self.inverse_mass
     }
 
-    /// The direction of the motion under force; at rest that of the force, or none if it is in balance.
+    /// Whether the motion in contact goes deeper. At rest, it is the direction of the total force; `None` in equilibrium.
     fn direction(&mut self) -> Option<bool> {
         if self.speed != 0.0 {
             return Some(self.speed > 0.0);
         }
         for rising in [true, false] {
-            // what has turned goes back; the force may jump, or be in balance within rounding
+            // after a turn the bodies go back; the force may jump, or balance within rounding
             let piece = self.piece(rising);
             let pull = if rising { self.net(&piece) } else { -self.net(&piece) };
             if pull > 0.0 && !(self.turned && self.rising == rising) {
@@ -251,7 +251,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         None
     }
 
-    /// Under force: to where the bodies turn, to the end of the smooth piece, or to the end of the step.
+    /// Motion in contact: until the bodies turn, until the end of the smooth piece, or until the end of the step.
     fn press(&mut self, rising: bool) -> Result<(), NoMotion> {
         let piece = self.piece(rising);
         let found = if piece.whole().is_some() { PIECE } else { COSTLY * PIECE };
@@ -261,7 +261,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         let start = Start { indentation, speed, net, acceleration, inverse_mass, time };
         let stretch = Stretch::new(&piece, &start, rising, &self.evaluations)?;
         let turns = stretch.ended == Ended::Turned;
-        // what turns and at once turns back has no room to move
+        // bodies that turn and immediately turn again have no room to move
         if self.turned && turns && stretch.time == 0.0 {
             self.rest();
             return Ok(());
@@ -271,7 +271,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         self.indentation = match (stretch.ended, rising) {
             (Ended::AtBorder, true) => piece.upper,
             (Ended::AtBorder, false) => piece.lower,
-            // what rounding makes of a way doesn't lead off the piece
+            // rounding of the distance must not lead off the piece
             (_, true) => smallest(indentation + stretch.way, piece.upper),
             (_, false) => largest(indentation + stretch.way, piece.lower),
         };
@@ -287,7 +287,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         if rising && turns { self.repeat() } else { Ok(()) }
     }
 
-    /// A motion that has lost nothing since the last turn goes on as it was: its whole periods are left out.
+    /// A motion that has lost nothing since the last turning point is periodic: whole periods are skipped.
     fn repeat(&mut self) -> Result<(), NoMotion> {
         let last = self.turn.replace(Turn { largest: self.largest, ago: 0.0, forgot: false });
         let Some(Turn { largest, ago, forgot }) = last else { return Ok(()) };

@@ -1,13 +1,13 @@
-//! A motion on a segment that is not a straight line, as a power series in time.
+//! Motion on a segment that is not a straight line, as a power series in time.
 
 use super::short::{Moments, Point};
 use crate::contact::numbers::root;
 use libm::fabs;
 
-/// Powers that are taken at most.
+/// Largest number of powers.
 const MOST: usize = 22;
 
-/// What the last two powers may be of all, so that those that are left out are nothing.
+/// Largest contribution of the last two powers, relative to the sum, for which the remaining powers are negligible.
 const MISSED: f64 = 0.125 * f64::EPSILON;
 
 /// `1/((k + 1) (k + 2))`, from `k = 1` on.
@@ -21,32 +21,32 @@ const INVERSE: [f64; MOST - 2] = {
     inverse
 };
 
-/// What a power of the time adds.
+/// The coefficient of one power of the time.
 #[derive(Clone, Copy)]
 struct Power {
-    /// To the height.
+    /// Of the height: `y` of a [`Curve`].
     way: f64,
-    /// To the root of it.
+    /// Of the root of the height: `e`.
     root: f64,
-    /// To what the force over the way has beyond its first powers.
+    /// Of the nonlinear part of the force, divided by `y`: `q e + r y`.
     bend: f64,
 }
 
-/// A motion from where the height is one.
+/// A motion that starts at a height of one.
 ///
 /// With the height `1 + y` and its root `1 + e`: `y = 2 e + e^2`, and
-/// `y'' = net - p y - q ((1 + y) (1 + e) - 1) - r (2 y + y^2)`. So each power of the time follows from those before it.
+/// `y'' = net - p y - q ((1 + y) (1 + e) - 1) - r (2 y + y^2)`. Each power of the time follows from those before it.
 pub struct Curve {
     /// `p`, `q` and `r`.
     force: [f64; 3],
-    /// The speed at the start.
+    /// The initial speed.
     speed: f64,
     powers: [Power; MOST],
     pub count: usize,
 }
 
 impl Curve {
-    /// With these first two powers of the way. `None` if later ones don't fall fast enough.
+    /// The motion with these first two powers of the distance. `None` if the later powers do not fall fast enough.
     pub fn new(first: f64, second: f64, force: [f64; 3]) -> Option<Curve> {
         let [p, q, r] = force;
         let powers = [Power { way: 0.0, root: 0.0, bend: 0.0 }; MOST];
@@ -55,7 +55,7 @@ impl Curve {
         let mut size = fabs(first) + last;
         for (index, inverse) in INVERSE.into_iter().enumerate() {
             let (before, after) = curve.powers.split_at_mut_checked(index)?;
-            // the newest powers come last: no sum waits for them
+            // the newest powers come last, so that no sum waits for them
             let product: f64 = before.iter().rev().zip(before.iter()).map(|(late, early)| late.way * early.bend).sum();
             let (early, late) = before.split_at_checked(index / 2)?;
             let middle = if index % 2 == 1 { late.first()?.root } else { 0.0 };

@@ -1,4 +1,4 @@
-//! A law without segments, as one polynomial on a part of its smooth piece.
+//! A law without segments, approximated by one polynomial on a part of its smooth piece.
 
 use super::COSTLY;
 use super::field::{Field, Place, Start};
@@ -12,30 +12,30 @@ use crate::contact::unloading::Unloading;
 use core::cell::Cell;
 use libm::fabs;
 
-/// What a fit may miss of the energy, as a part of it.
+/// Largest relative error of the energy of a fit.
 const MISSED: f64 = 1e-15;
 
-/// What rounding makes of a force and of an indentation, in parts of them, and more.
+/// Upper bound for the relative rounding errors of a force and of an indentation.
 const NOISE: f64 = 16.0 * f64::EPSILON;
 
-/// How much deeper than before a law is fitted at once.
+/// Largest factor by which one fit goes deeper.
 const DEEPER: f64 = 3.0;
 
-/// How often a way is shortened that is too long for a fit.
+/// Largest number of times that a distance is shortened if it is too long for a fit.
 const ATTEMPTS: u32 = 60;
 
-/// How far bodies come before they turn, with the square of the speed `energy`, slowed down by a spring of that `stiffness` over the
-/// mass and pulled in their direction by `pull`; infinite if nothing slows them down.
+/// The distance that the bodies move before they turn, for a squared speed of `energy`, a spring with this `stiffness` over the
+/// mass, and an acceleration `pull` in the direction of motion. It is infinite if nothing slows them down.
 pub fn elastic_way(pull: f64, energy: f64, stiffness: f64) -> f64 {
     let root = root(pull * pull + stiffness * energy);
     let (way, slowed) = if pull > 0.0 { (root + pull, stiffness) } else { (energy, root - pull) };
     quotient(way, slowed, slowed > way * 1e-300, f64::INFINITY)
 }
 
-/// The field on a `piece` that is no segment, as far towards `limit` \[m\] as one polynomial is exact, and how far that is.
+/// The field on a `piece` that is not a segment, as far towards `limit` \[m\] as one polynomial is exact, and that distance.
 ///
 /// # Errors
-/// [`TooDeep`] where the law can't be evaluated.
+/// [`TooDeep`] where the law cannot be evaluated.
 pub fn fitted<'a, L: Loading, U: Unloading>(
     piece: &Piece<L, U>,
     start: &Start,
@@ -45,7 +45,7 @@ pub fn fitted<'a, L: Loading, U: Unloading>(
     let Start { indentation, speed, net, acceleration, inverse_mass, .. } = *start;
     let (stiffness, unit) = (piece.stiffness(indentation) * inverse_mass, start.unit());
     let sign = if limit > 0.0 { 1.0 } else { -1.0 };
-    // the law is not asked for what is far beyond the turning point
+    // the law is not evaluated far beyond the turning point
     let guess = unit * elastic_way(sign * net / unit, (speed / unit) * (speed / unit), stiffness);
     let mut way = smallest(fabs(limit), smallest(2.0 * guess, DEEPER * indentation));
     let first = root(indentation - piece.origin());
@@ -56,7 +56,7 @@ pub fn fitted<'a, L: Loading, U: Unloading>(
             let way = part * roots * (2.0 * first + part * roots);
             acceleration - piece.force(indentation + way) * inverse_mass
         });
-        // upwards the root falls
+        // in the upward direction, the root decreases
         powers.iter_mut().fold(1.0, |power, slot| {
             *slot *= power;
             power * sign
@@ -64,9 +64,9 @@ pub fn fitted<'a, L: Loading, U: Unloading>(
         let length = fabs(roots);
         let (field, place) = Field::new(start, Series::new(first / length, powers), length * length, evaluations);
         field.count(COSTLY * POINTS as u32);
-        // half of the square of the speed, of what is gained, and of what rounding makes of it
+        // half of the squared speed, half of its gain, and the part due to rounding
         let allowed = MISSED * (0.5 * speed * speed + fabs(net) * way) + rounded * way;
-        // written so that a NaN is refused
+        // written positively to reject NaN
         if missed * way <= allowed {
             return Ok((field, place, sign * way));
         }

@@ -1,46 +1,47 @@
-//! Flight: two bodies that do not touch move on a parabola.
+//! Flight: two bodies that do not touch move along a parabola in time.
 
 use super::SMALLEST;
 use crate::contact::numbers::{largest, quotient, root};
 use libm::fabs;
 
-/// A flight with one acceleration.
+/// A flight at constant acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flight {
-    /// Speed at its start \[m/s\].
+    /// Speed at the start \[m/s\].
     pub speed: f64,
-    /// Its acceleration \[m/s^2\].
+    /// Acceleration \[m/s^2\].
     pub acceleration: f64,
 }
 
 /// The end of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrival {
-    /// When \[s\].
+    /// Time of arrival \[s\].
     pub time: f64,
-    /// With which speed \[m/s\].
+    /// Speed at arrival \[m/s\].
     pub speed: f64,
 }
 
 impl Flight {
-    /// The same flight seen in the other direction.
+    /// The same flight, with the direction reversed.
     pub fn reversed(&self) -> Flight {
         Flight { speed: -self.speed, acceleration: -self.acceleration }
     }
 
-    /// The way after `time` \[s\], \[m\].
+    /// Distance covered after `time` \[s\], in m.
     pub fn way(&self, time: f64) -> f64 {
         time * (self.speed + 0.5 * self.acceleration * time)
     }
 
-    /// The speed after `time` \[s\], \[m/s\].
+    /// Speed after `time` \[s\], in m/s.
     pub fn speed_after(&self, time: f64) -> f64 {
         self.speed + self.acceleration * time
     }
 
-    /// When the flight comes to `distance` \[m\] >= 0 in its direction, later than now and before `end` \[s\]; `None` if it doesn't.
+    /// The first arrival at `distance` \[m\] >= 0 in the direction of the flight, after the start and before `end` \[s\];
+    /// `None` if there is none.
     ///
-    /// No step of it overflows or divides by zero: what is too far for the time is not looked at, and speeds are squared
+    /// No operation overflows or divides by zero: distances that are too far for the time are skipped, and speeds are squared
     /// in units of the largest one.
     pub fn arrival(&self, distance: f64, end: f64) -> Option<Arrival> {
         let Flight { speed, acceleration } = *self;
@@ -50,7 +51,7 @@ impl Flight {
             return None;
         }
         if distance < SMALLEST {
-            // it is there, or comes back to where it began
+            // it is already there, or it comes back to where it began
             if speed >= 0.0 {
                 return Some(Arrival { time: 0.0, speed });
             }
@@ -60,7 +61,7 @@ impl Flight {
         }
         let unit = largest(fabs(speed), fabs(acceleration) * end);
         let (first, gain) = (speed / unit, 2.0 * (acceleration / unit) * (distance / unit));
-        // distance = speed t + acceleration t^2/2, in the form that doesn't cancel
+        // distance = speed t + acceleration t^2/2, in the form without cancellation
         let square = first * first + gain;
         if square < 0.0 {
             return None;
@@ -68,7 +69,7 @@ impl Flight {
         let last = if acceleration == 0.0 { speed } else { unit * root(square) };
         if speed >= 0.0 {
             let sum = speed + last;
-            // a distance that is nothing beside the others takes no time
+            // a distance that is negligible beside the others takes no time
             let time = quotient(2.0 * distance, sum, sum > 0.0, 0.0);
             return (time < end).then_some(Arrival { time, speed: last });
         }

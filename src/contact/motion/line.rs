@@ -1,9 +1,9 @@
-//! A motion on a straight line: a sine and a cosine, by powers of the phase.
+//! Motion on a straight line of the force: sine and cosine, as powers of the phase.
 
 use super::short::{Moments, Point};
 use libm::fabs;
 
-/// Powers of the square of the phase.
+/// Number of powers of the square of the phase.
 pub const POWERS: usize = 12;
 
 /// `1/(2 k + 1)!` and `1/(2 k + 2)!`, from `k = 0` on.
@@ -19,18 +19,18 @@ const WAVE: [[f64; 2]; POWERS] = {
     wave
 };
 
-/// The square of the phase \[rad\] up to which they are enough.
+/// The largest square of the phase \[rad^2\] for which these powers are enough.
 pub const LONGEST: f64 = 3.0;
 
-/// The square of a phase for which the first half of them is.
+/// The largest square of the phase for which half of them are enough.
 const SMALL: f64 = 0.06;
 
-/// Bodies that are slowed down in proportion to the way.
+/// Bodies whose acceleration changes in proportion to the distance.
 pub struct Line {
-    /// The way in the time at the speed of the start, and by the acceleration there \[m\].
+    /// The distance covered at the initial speed, and by the initial acceleration \[m\].
     pub first: f64,
     pub second: f64,
-    /// The square of the phase at the end \[rad\], up to [`LONGEST`].
+    /// The square of the phase at the end \[rad^2\], up to [`LONGEST`].
     pub phase: f64,
 }
 

@@ -1,4 +1,4 @@
-//! A short motion on one segment: whether it ends with the step, with the segment, or where the bodies turn.
+//! A short motion on one segment, which ends with the step, with the segment, or where the bodies turn.
 
 use super::SMALLEST;
 use super::curve::Curve;
@@ -9,60 +9,61 @@ use crate::contact::numbers::{quotient, root, smallest};
 use crate::contact::segment::Segment;
 use libm::{fabs, sqrt};
 
-/// The square of the phase \[rad\], and the way as a part of the height above the origin of a power, up to which the powers of the
-/// time fall fast.
+/// Limits up to which the powers of the time fall fast: the square of the phase \[rad^2\], and the distance as a fraction of
+/// the height above the origin of a power.
 const LONGEST_CURVED: f64 = 0.5;
 const FARTHEST: f64 = 0.25;
 
-/// The square of somewhat more than a right angle \[rad\].
+/// The square of slightly more than a right angle \[rad^2\].
 const QUARTER: f64 = 2.6;
 
-/// A way, as a part of the indentation, that isn't made in two: what the first leaves of it when it is added would be missing.
+/// Distances below this fraction of the indentation are not split in two: rounding of the first part would be lost.
 const SHORT: f64 = 1e-6;
 
-/// How much longer than an event may take it is looked for.
+/// Time to examine for an event, relative to the estimated time of the event.
 const BEYOND: f64 = 1.1;
 
-/// Steps in search of an event: it takes some three.
+/// Largest number of iterations in search of an event; about three are usual.
 const STEPS: u32 = 8;
 
-/// A step of which the fourth power is nothing.
+/// A correction whose fourth power is negligible.
 const CONVERGED: f64 = 4e-6;
 
-/// The least speed at the end of a segment, as a part of the largest one, that isn't left to others to tell from none.
+/// The least speed at the end of a segment, relative to the largest speed. Slower motions are left to the general method, which
+/// can tell a slow speed from zero.
 const SLOWEST: f64 = 1e-6;
 
-/// The shortest time \[s\] that is looked at: a way over a shorter one may be no speed.
+/// The shortest time \[s\] for this method: a distance over a shorter time may not be a finite speed.
 const SHORTEST: f64 = 1e-100;
 
-/// A moment of a motion whose time ends at one.
+/// An instant of a motion, on a time scale from zero to one.
 #[derive(Clone, Copy)]
 pub struct Point {
     pub time: f64,
-    /// Since the start, like the gain.
+    /// Distance since the start.
     pub way: f64,
-    /// Of speed.
+    /// Change of the speed since the start.
     pub gain: f64,
-    /// The acceleration, and what a longer way takes from it.
+    /// The acceleration, and its decrease per distance.
     pub net: f64,
     pub stiffness: f64,
 }
 
-/// A motion that is known at any time up to one.
+/// A motion that is known at any time from zero to one.
 pub trait Moments {
-    /// The moment at `time`.
+    /// The point at `time`.
     fn at(&self, time: f64) -> Point;
 }
 
-/// What is looked for: the end of the segment, so far away, or none of the speed.
+/// The event to find: the end of the segment at this distance, or zero speed.
 #[derive(Clone, Copy)]
 enum Event {
     Border(f64),
     Turn,
 }
 
-/// How much of the time to look at for an event at the distance `bound`, or where the bodies turn, by the two powers `first` and
-/// `second` of the way, which is the unit of all: all of it, or not much more than that takes.
+/// The fraction of the time to examine for an event: the distance `bound`, or a turning point. It is estimated from the two
+/// powers `first` and `second` of the distance, and is either all of the time or slightly more than the event takes.
 fn horizon(first: f64, second: f64, bound: f64) -> f64 {
     let sum = first + root(first * first + 4.0 * second * bound);
     let border = quotient(2.0 * bound, sum, bound < 1.0 && sum > bound, 1.0);
@@ -70,9 +71,9 @@ fn horizon(first: f64, second: f64, bound: f64) -> f64 {
     smallest(1.0, BEYOND * smallest(border, turn))
 }
 
-/// The stretch on a `segment` from `start` in the direction `sign`, where the segment ends at the distance `bound` \[m\]; and how
-/// many powers it took. Bodies that don't turn, nor come to that end, may be looked at for a part of the time only if it `may_stop`.
-/// `None` if the powers don't say it to rounding.
+/// The stretch on a `segment` from `start` in the direction `sign`, where the segment ends at the distance `bound` \[m\], and
+/// the number of powers used. If the bodies neither turn nor reach that end, the stretch may cover only a part of the time, but
+/// only if it `may_stop`. `None` if the powers are not exact to rounding.
 pub fn stretch(segment: &Segment, start: &Start, sign: f64, bound: f64, may_stop: bool) -> Option<(Stretch, u32)> {
     let Start { indentation, speed, net, inverse_mass, time: left, .. } = *start;
     let straight = segment.power == 0.0 && segment.square == 0.0;
@@ -95,7 +96,7 @@ pub fn stretch(segment: &Segment, start: &Start, sign: f64, bound: f64, may_stop
     };
     let time = part * left;
     let (first, second, square) = (part * first, part * part * second, part * part);
-    // a straight line begins anywhere
+    // a straight line may begin anywhere
     let height = if straight { 1.0 } else { indentation - segment.origin };
     let (point, ended, powers) = if straight {
         let line = Line { first, second, phase: square * phase };
@@ -131,7 +132,7 @@ pub fn stretch(segment: &Segment, start: &Start, sign: f64, bound: f64, may_stop
     Some((Stretch { way: height * point.way, speed, time: passed, ended }, powers as u32))
 }
 
-/// The event of a `motion` with that speed at its start, from `time` on, which is near it.
+/// The `event` of a `motion` with this initial speed. `time` is an estimate of its time.
 fn find(motion: &impl Moments, speed: f64, event: Event, mut time: f64) -> Option<Point> {
     for _ in 0..STEPS {
         let point = motion.at(time);
@@ -158,8 +159,8 @@ fn find(motion: &impl Moments, speed: f64, event: Event, mut time: f64) -> Optio
     None
 }
 
-/// The first event of a `motion` with that `speed` at its start, in the direction `sign` up to a border at that distance. `None` if
-/// it isn't certain which one it is.
+/// The first event of a `motion` with the initial `speed`, in the direction `sign`, up to a boundary at that distance. `None`
+/// if the order of events is uncertain.
 fn first_event(motion: &impl Moments, speed: f64, sign: f64, distance: f64) -> Option<(Point, Ended)> {
     let end = motion.at(1.0);
     let (passes, turns) = (sign * end.way >= distance, sign * (speed + end.gain) <= 0.0);
@@ -176,6 +177,6 @@ fn first_event(motion: &impl Moments, speed: f64, sign: f64, distance: f64) -> O
         Ended::AtBorder => sign * (speed + point.gain) > SLOWEST * (fabs(speed) + fabs(point.gain)),
         _ => sign * point.way < distance,
     };
-    // where the force only grows on the way, bodies that have not turned at its end have not turned before
+    // if the stiffness is not negative and the bodies have not turned at the end, they have not turned before
     (is_first && point.stiffness >= 0.0).then_some((point, ended))
 }

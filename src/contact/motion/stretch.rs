@@ -13,44 +13,44 @@ use crate::contact::unloading::Unloading;
 use core::cell::Cell;
 use libm::fabs;
 
-/// What a stretch has come to.
+/// The result of a stretch.
 #[derive(Clone, Copy, Debug)]
 pub struct Stretch {
-    /// From its start \[m\]; positive is deeper.
+    /// Distance from its start \[m\]; positive is deeper.
     pub way: f64,
     /// Closing speed at its end \[m/s\].
     pub speed: f64,
-    /// How long it took \[s\].
+    /// Duration \[s\].
     pub time: f64,
-    /// How it ended.
+    /// The reason why it ended.
     pub ended: Ended,
 }
 
-/// How a stretch has ended.
+/// The reason why a stretch ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ended {
     /// The bodies have turned.
     Turned,
-    /// At the end of the piece.
+    /// It reached the end of the piece.
     AtBorder,
-    /// Somewhere on it, as far as could be looked at once.
+    /// It stopped within the piece, as far as could be computed at once.
     Within,
-    /// With the step.
+    /// The step ended.
     WithStep,
 }
 
-/// A way, as a part of the indentation, on which a law without segments is as its tangent: what that misses of the change of force
-/// is what the rounding of the force makes of it.
+/// A distance, as a fraction of the indentation, over which a law without segments equals its tangent: the error of the change
+/// of force is then as small as the rounding error of the force.
 const SHORT: f64 = 1e-8;
 
-/// A speed that is none, as a part of what the forces make in the time left.
+/// Slower speeds count as zero, relative to the speed that the forces produce in the remaining time.
 const NOTHING: f64 = 1e-100;
 
-/// What rounding makes of an energy, as a part of the largest one, at the end of a stretch.
+/// The rounding error of the energy at the end of a stretch, relative to the largest energy.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl Stretch {
-    /// The stretch from `start` on `piece`, deeper if it is `rising`.
+    /// The stretch from `start` on `piece`; it goes deeper if `rising`.
     ///
     /// # Errors
     /// [`NoMotion`].
@@ -63,7 +63,7 @@ impl Stretch {
         let Start { indentation, net, time, .. } = *start;
         let sign = if rising { 1.0 } else { -1.0 };
         let pull = sign * net;
-        // squared, less would be lost beside the others
+        // the square of a smaller speed would be negligible
         let speed = if fabs(start.speed) > NOTHING * fabs(net) * time { start.speed } else { 0.0 };
         let bound = if rising { piece.upper - indentation } else { indentation - piece.lower };
         let moves = bound > 0.0 && (speed != 0.0 || pull > 0.0);
@@ -73,7 +73,7 @@ impl Stretch {
         if bound < SMALLEST {
             return Ok(Stretch { way: sign * bound, speed, time: 0.0, ended: Ended::AtBorder });
         }
-        // no farther than without more force than there is now
+        // no farther than with a force that does not grow
         let reach = time * (fabs(speed) + 0.5 * largest(pull, 0.0) * time) * (1.0 + ROUNDING);
         if reach < SMALLEST {
             return Ok(Stretch { way: sign * reach, speed: speed + net * time, time, ended: Ended::WithStep });
@@ -95,7 +95,8 @@ impl Stretch {
         Stretch::over(field, place, smooth, farthest, time)
     }
 
-    /// The stretch from `place` over `limit` \[m\], where it has ended at `farthest`, in at most `left` \[s\].
+    /// The stretch from `place` over `limit` \[m\], for at most `left` \[s\]. `farthest` is the reason to return if it reaches
+    /// the limit.
     fn over<const N: usize>(
         field: Field,
         place: Place<N>,
@@ -113,7 +114,7 @@ impl Stretch {
         }
         let middle = fastest(&field, &place, t, &last);
         let way = if ended == Ended::Turned { last.way } else { limit };
-        // what rounding leaves of the speed, where the bodies turn just at the end, would be a flight that there isn't
+        // the bodies turn exactly at the end; the rounding error of the speed would cause a flight that does not exist
         if ended != Ended::Turned && middle.is_some_and(|(_, mark)| last.energy <= ROUNDING * mark.energy) {
             (last.energy, ended) = (0.0, Ended::Turned);
         }
@@ -123,7 +124,7 @@ impl Stretch {
                 continue;
             }
             let travel = Travel::new(field, from, to - at, mark);
-            // what they can't come to in the time needs no time of its own
+            // a distance that cannot be covered in the time left needs no time of its own
             let (unknown, time) = (to == t && ended == Ended::WithStep, left - past);
             let whole = if unknown { time } else { travel.time()? };
             if unknown || whole > time {
@@ -135,7 +136,7 @@ impl Stretch {
             from = field.around(&from, to - at, mark);
             at = to;
         }
-        // not the negative zero
+        // avoids the negative zero
         let speed = field.speed(last.energy);
         let speed = if speed > 0.0 { sign * speed } else { 0.0 };
         Ok(Stretch { way, speed, time: past, ended })

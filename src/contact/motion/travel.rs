@@ -1,4 +1,4 @@
-//! The time that the bodies take for a distance, and the distance that they cover in a time.
+//! The time in which the bodies cover a distance, and the distance that they cover in a time.
 
 use super::field::{Field, Mark, Place};
 use super::turning::behind;
@@ -7,43 +7,44 @@ use crate::contact::numbers::{largest, quotient, root};
 use crate::contact::quadrature::{POINTS, SMOOTH, Sampled, sixteen};
 use libm::{fabs, sqrt};
 
-/// A way from a start to an end, one of which is slow, on a scale `s` in which time is smooth.
+/// A motion between two places, at one of which it is slow, on a scale `s` on which time is smooth.
 ///
-/// From the slow end on, bodies move about as under a constant force: the root is a parabola, `t = length (2 k s + (1 - 2 k) s^2)`.
-/// Where they turn, or turned just before, `k` is zero and the scale begins there.
+/// From the slow end on, the bodies move roughly as under a constant force: the root is a parabola,
+/// `t = length (2 k s + (1 - 2 k) s^2)`. If the bodies turn at the slow end, or turned just before it, `k` is zero and the
+/// scale begins at the turning point.
 pub struct Travel<'a, const N: usize> {
     field: Field<'a>,
     start: Place<N>,
     /// Where `s` is zero.
     slow: Place<N>,
-    /// Of the whole scale, in roots; negative is upwards.
+    /// Length of the whole scale, in roots; negative is upwards.
     length: f64,
     /// `k`.
     first: f64,
-    /// Where on the scale the slow end is; the fast one is at 1.
+    /// Position of the slow end on the scale; the fast end is at 1.
     from: f64,
-    /// Whether the bodies go from the fast end to the slow one.
+    /// Whether the bodies move from the fast end to the slow one.
     slows: bool,
 }
 
-/// The narrowest panel, as a part of the scale: a speed that nearly vanishes at an end is resolved to rounding by then.
+/// The narrowest panel, as a fraction of the scale: it resolves a speed that nearly vanishes at an end to rounding.
 const NARROWEST: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// The least energy that is divided by.
+/// The least energy used as a divisor.
 const LEAST: f64 = 1e-300;
 
-/// Steps in search of the end of a time: it takes some two.
+/// Largest number of iterations in search of the end of a time; about two are usual.
 const STEPS: u32 = 60;
 
 impl<'a, const N: usize> Travel<'a, N> {
-    /// The way over `t` from `start` to the mark `to`. Between them the bodies don't turn, nor get faster and slower again if both
-    /// are slow.
+    /// The motion over `t` from `start` to the mark `to`. The bodies must not turn in between. If both ends are slow, they must
+    /// not be faster in between.
     pub fn new(field: Field<'a>, start: Place<N>, t: f64, to: Mark) -> Travel<'a, N> {
         let slows = to.energy < start.mark.energy;
         let (slow, far, fast) = if slows { (field.around(&start, t, to), -t, start.mark) } else { (start, t, to) };
         if let Some((back, turned)) = behind(&field, &slow, far, fast.energy) {
             let length = far - back;
-            // both are negative upwards
+            // both are negative in the upward direction
             return Travel { field, start, slow: turned, length, first: 0.0, from: sqrt(-back / length), slows };
         }
         let gain = field.slope(&slow, 0.0, slow.mark.net) * far;
@@ -51,13 +52,13 @@ impl<'a, const N: usize> Travel<'a, N> {
         Travel { field, start, slow, length: far, first: speed / (speed + end), from: 0.0, slows }
     }
 
-    /// The roots from the slow end at `s`, and their derivative by it.
+    /// The root, measured from the slow end, at `s`, and its derivative with respect to `s`.
     fn at(&self, s: f64) -> (f64, f64) {
         let rest = 1.0 - 2.0 * self.first;
         (self.length * s * (2.0 * self.first + rest * s), 2.0 * self.length * (self.first + rest * s))
     }
 
-    /// Where on the scale `t` from the slow end is.
+    /// The position on the scale of `t` from the slow end.
     fn scale(&self, t: f64) -> f64 {
         let (first, part) = (self.first, t / self.length);
         let root = root(first * first + (1.0 - 2.0 * first) * part);
@@ -72,7 +73,7 @@ impl<'a, const N: usize> Travel<'a, N> {
         if energy > 0.0 { rate } else { 0.0 }
     }
 
-    /// The time from one point of the scale to another \[s\]: on panels as wide as the rate is smooth.
+    /// The time between two points of the scale \[s\]. The width of the panels adapts to the smoothness of the rate.
     fn between(&self, from: f64, to: f64) -> Result<f64, NoMotion> {
         let (mut at, mut width, mut time) = (from, to - from, 0.0);
         while at < to {
@@ -93,7 +94,7 @@ impl<'a, const N: usize> Travel<'a, N> {
         Ok(time)
     }
 
-    /// The time of the whole way \[s\].
+    /// The time of the whole motion \[s\].
     ///
     /// # Errors
     /// [`NoMotion::TooLong`].
@@ -101,7 +102,8 @@ impl<'a, const N: usize> Travel<'a, N> {
         self.between(self.from, 1.0)
     }
 
-    /// Where the bodies are after `time` \[s\] on the way that takes them `whole` \[s\], or as much as that for all that is known.
+    /// The position of the bodies after `time` \[s\] of a motion that takes `whole` \[s\] in total, or about that if it is not
+    /// known.
     ///
     /// # Errors
     /// [`NoMotion::TooLong`].
@@ -116,7 +118,7 @@ impl<'a, const N: usize> Travel<'a, N> {
             let past = if self.slows { self.between(s, 1.0)? } else { self.between(self.from, s)? };
             let late = time - past;
             *(if (late < 0.0) == self.slows { &mut low } else { &mut high }) = s;
-            // from there on by powers of the time, as far as they are exact
+            // from there on, powers of the time are used as far as they are exact
             let (step, missed) = self.field.moment(&self.slow, t, &mark, direction).after(late);
             let way = mark.way + step;
             let end = self.field.roots(&self.slow, way - self.slow.mark.way);
@@ -134,7 +136,7 @@ impl<'a, const N: usize> Travel<'a, N> {
         Ok(mark)
     }
 
-    /// About where on the scale the bodies are after `time` \[s\].
+    /// An estimate of the position on the scale after `time` \[s\].
     fn guess(&self, time: f64, whole: f64, direction: f64) -> f64 {
         let part = (1.0 - self.from) * quotient(time, whole, whole > 0.0, 0.5);
         let even = if self.slows { 1.0 - part } else { self.from + part };

@@ -1,4 +1,4 @@
-//! Where the bodies turn: the root of their kinetic energy.
+//! The turning point of the bodies: the root of their kinetic energy.
 
 use super::field::{Field, Mark, Place};
 use super::fit::elastic_way;
@@ -6,36 +6,37 @@ use super::series::SEGMENT;
 use crate::contact::numbers::{largest, quotient, smallest};
 use libm::{fabs, sqrt};
 
-/// How a stretch ends, so many roots from where it was looked at.
+/// The end of a stretch, with the change of the root from its start.
 #[derive(Clone, Copy, Debug)]
 pub enum End {
-    /// The bodies turn: there is no energy at this mark.
+    /// The bodies turn: the energy is zero at this mark.
     Turns(f64, Mark),
-    /// They pass this mark, the last one that was asked for.
+    /// They pass this mark, the limit that was given.
     Passes(f64, Mark),
 }
 
-/// Steps in search of a turning point: Newton's method takes some five, halving instead some fifty.
+/// Largest number of iterations in search of a turning point: Newton's method takes about five, bisection about fifty.
 const STEPS: u32 = 100;
 
-/// Newton's step, relative to the way, after which another would change nothing.
+/// Newton's correction, relative to the distance, after which another one would change nothing.
 const CONVERGED: f64 = 1e-8;
 
-/// The least coefficient of a power that is looked at [1/(m^0.5 s^2)]: nothing is divided by less.
+/// The least coefficient of a power \[1/(m^0.5 s^2)\] used as a divisor.
 const WEAKEST: f64 = 1e-100;
 
-/// An end is slow beside another one with less than this part of its energy.
+/// One end is slow compared with another if it has less than this fraction of its energy.
 const SLOW: f64 = 0.25;
 
-/// `value^(numerator/denominator)` of a positive number, within a tenth: the bits of a number are nearly its logarithm.
+/// `value^(numerator/denominator)` of a positive number, within a tenth: the bits of a number approximate its logarithm.
 fn rough_power(value: f64, numerator: i64, denominator: i64) -> f64 {
     let one = 1f64.to_bits() as i64;
     f64::from_bits((one + (value.to_bits() as i64 - one) / denominator * numerator) as u64)
 }
 
-/// How the stretch ends that goes from `place` over `limit` \[m\], negative upwards.
+/// The end of the stretch from `place` over `limit` \[m\]; a negative limit is upwards.
 ///
-/// The root is found in `t`, in which the energy is a polynomial; it is concave where the force grows with the indentation.
+/// The root is found in `t`, in which the energy is a polynomial. The polynomial is concave where the force grows with the
+/// indentation.
 pub fn end<const N: usize>(field: &Field, place: &Place<N>, limit: f64) -> End {
     let sign = if limit > 0.0 { 1.0 } else { -1.0 };
     let whole = field.roots(place, limit);
@@ -51,7 +52,7 @@ pub fn end<const N: usize>(field: &Field, place: &Place<N>, limit: f64) -> End {
         } else {
             (far, turns) = (t, true);
         }
-        // Newton's step, where it leads anywhere
+        // Newton's step, if it stays in the bracket
         let slope = field.slope(place, t, mark.net);
         let leads = fabs(mark.energy) < fabs(slope * whole);
         let step = quotient(-mark.energy, slope, leads, f64::MAX);
@@ -68,7 +69,7 @@ pub fn end<const N: usize>(field: &Field, place: &Place<N>, limit: f64) -> End {
     End::Turns(t, Mark { energy: 0.0, ..field.mark(place, t) })
 }
 
-/// About how far the bodies come from `place` before they turn \[m\]: where the force stiffens they come no farther.
+/// An estimate of the distance from `place` to the turning point \[m\]. Where the force stiffens, it is an upper bound.
 fn guess<const N: usize>(field: &Field, place: &Place<N>, sign: f64) -> f64 {
     let (pull, energy, stiffness) =
         (sign * field.scaled(place.mark.net), place.mark.energy, field.stiffness(place, 0.0));
@@ -79,16 +80,17 @@ fn guess<const N: usize>(field: &Field, place: &Place<N>, sign: f64) -> f64 {
     if !begins {
         return elastic;
     }
-    // energy + 2 pull d = 4/5 power d^2.5 where a power begins, with one of the two at a time
+    // energy + 2 pull d = 4/5 power d^2.5 where a power begins; the two terms on the left are used one at a time
     let power = 0.8 * largest(power, WEAKEST) * sqrt(field.unscaled(1.0));
     let (thrown, pulled) = (rough_power(energy / power, 2, 5), rough_power(4.0 * largest(pull, 0.0) / power, 2, 3));
     smallest(elastic, field.unscaled(if pull > 0.0 { largest(1.4 * thrown, pulled) } else { thrown }))
 }
 
-/// Where behind `slow`, seen from its end `far` roots away with `energy`, the bodies would have turned that pass it, by the powers
-/// that hold between the two: so many roots from it, if that isn't far away.
+/// The turning point just before the place `slow`, through which the bodies passed at low speed: its change of the root from
+/// `slow`, and the place itself. `None` if it is far away. `far` and `energy` are the change of the root and the energy at the
+/// other end; the powers used are those that hold between the two.
 ///
-/// Time is a root there, and not smooth near by.
+/// At a turning point time is a square root, and not smooth nearby.
 pub fn behind<const N: usize>(field: &Field, slow: &Place<N>, far: f64, energy: f64) -> Option<(f64, Place<N>)> {
     if slow.mark.energy == 0.0 {
         return Some((0.0, *slow));
@@ -98,7 +100,7 @@ pub fn behind<const N: usize>(field: &Field, slow: &Place<N>, far: f64, energy: 
     if !(slow.mark.energy < SLOW * energy && pull > 0.0) {
         return None;
     }
-    // it isn't farther than with the force that there is at the slow mark; and not beyond the origin
+    // it is at most as far as with the constant force of the slow mark, and not beyond the origin
     let limit = -sign * field.unscaled(0.51 * slow.mark.energy / pull);
     match end(field, slow, largest(limit, -field.height(slow))) {
         End::Turns(t, mark) => Some((t, field.around(slow, t, mark))),
@@ -106,7 +108,7 @@ pub fn behind<const N: usize>(field: &Field, slow: &Place<N>, far: f64, energy: 
     }
 }
 
-/// About where the bodies are fastest on the way over `t` from `place` to the mark `last`, if they are slow at both ends.
+/// An estimate of where the bodies are fastest over `t` from `place` to the mark `last`, if they are slow at both ends.
 pub fn fastest<const N: usize>(field: &Field, place: &Place<N>, t: f64, last: &Mark) -> Option<(f64, Mark)> {
     let sign = if t > 0.0 { 1.0 } else { -1.0 };
     let (pulled, held) = (sign * place.mark.net, -sign * last.net);

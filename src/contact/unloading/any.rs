@@ -2,10 +2,10 @@
 
 use super::*;
 
-// the enum, the list of its laws by name, and the way to each; see build/laws.rs
+// the enum, the list of its laws by name, and the dispatch to each law; see build/laws.rs
 include!(concat!(env!("OUT_DIR"), "/any_unloading.rs"));
 
-/// [`Unloading`] without its constants, which a law behind a pointer can't have.
+/// [`Unloading`] without its constants, because a trait object cannot have any.
 trait DynUnloading {
     fn needs_work(&self) -> bool;
     fn holds_back(&self, pair: &Pair, peak: &Peak) -> bool;
@@ -42,7 +42,7 @@ impl<U: Unloading> DynUnloading for U {
 }
 
 impl Unloading for AnyUnloading {
-    // some are, some aren't; of those that are, the tangent and the work are the path's own
+    // some laws have segments, others do not; where a law has them, tangent and work are those of the path
     const SEGMENTED: bool = false;
     const SQUARES: bool = true;
 

@@ -4,10 +4,10 @@ use super::{Peak, Unloading, hertzian};
 use crate::contact::material::Pair;
 use crate::contact::segment::Segment;
 
-/// `d_e = 3 F_m / (4 E* a_m)`: the dent springs back as the Hertz contact with the same force and contact radius.
+/// `d_e = 3 F_m / (4 E* a_m)`: the dent recovers like a Hertz contact with the same force and contact radius.
 ///
-/// Equivalent radius of curvature on unloading `4 E* a_m^3 / (3 F_m)`. The contact radius is continuous at the peak, the
-/// recovery at yield.
+/// The equivalent radius of curvature during unloading is `4 E* a_m^3 / (3 F_m)`. The contact radius is continuous at the peak,
+/// and the recovery at yield.
 ///
 /// Reference: K. L. Johnson, *Contact Mechanics*, 1985, section 6.4(b).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,16 +8,16 @@ use libm::{cbrt, sqrt};
 
 /// `d_e = (3 F_m / (4 E* sqrt(R_d)))^(2/3)` with `R_d = (4 E* / (3 F_m)) ((2 F_m + F_y) / (2 pi p_y))^1.5`.
 ///
-/// `R_d` is Thornton's radius of the deformed surface for a limiting pressure `p_y`, and exact only on his own loading
-/// line: with another loading law and `p_y = 1.6 S` the recovery jumps at yield (to a dent of 0.0153 d_y on
-/// [`BigAlabo`](crate::contact::loading::BigAlabo)); the force doesn't.
+/// `R_d` is Thornton's radius of the deformed surface for a limiting pressure `p_y`. It is exact only on his own loading line.
+/// With another loading law and `p_y = 1.6 S`, the recovery jumps at yield (to a dent of 0.0153 d_y with
+/// [`BigAlabo`](crate::contact::loading::BigAlabo)); the force is continuous.
 ///
 /// Reference: C. Thornton, Z. Ning, *Powder Technology* 99 (1998) 154-162; used by A. Big-Alabo, P. Harrison,
 /// M. P. Cartmell, *Computers & Structures* 151 (2015) 20-29.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct DeformedRadius {
-    /// Limiting pressure `p_y` over the yield strength.
+    /// Limiting pressure `p_y` over the yield strength \[-\].
     pub pressure_factor: f64,
 }
 

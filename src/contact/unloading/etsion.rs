@@ -7,21 +7,22 @@ use crate::contact::numbers::quotient;
 use crate::contact::segment::Segment;
 use libm::{pow, sqrt};
 
-/// With `y_m = d_m/d_c` and the `d_c` of [`KogutEtsion`]:
+/// With `y_m = d_m/d_c` and `d_c` of [`KogutEtsion`]:
 ///
 /// `d_f/d_m = (1 - y_m^-0.28) (1 - y_m^-0.69)`, `F = F_m ((d - d_f)/d_e)^n` with `n = 1.5 y_m^-0.0331`,
 /// `a^2 = a_m^2 ((d - d_f)/d_e)^(y_m^-0.12)`, `W = F_m d_e ((d - d_f)/d_e)^(n + 1) / (n + 1)`.
 ///
-/// Up to `y_m = 1` (other loading laws may yield earlier) nothing remains, and `n = 1.5`. The fit ends at about `y_m = 170`. Beyond
-/// `y_m = 2.1e5` `n` is below 1 and the stiffness at the very end of the path unbounded; at that one point it is given as zero.
+/// Up to `y_m = 1`, no dent remains and `n = 1.5`; other loading laws may yield earlier. The fit ends at about `y_m = 170`.
+/// Beyond `y_m = 2.1e5`, `n` is below 1 and the stiffness at the lower end of the path is infinite; the law returns zero at
+/// that point.
 ///
 /// Reference: I. Etsion, Y. Kligerman, Y. Kadin, *Int. J. Solids Struct.* 42 (2005) 3716-3729.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Etsion {
-    /// Exponent of `y_m` in one factor of the residual indentation.
+    /// Exponent of `y_m` in the first factor of the residual indentation.
     pub first_residual_exponent: f64,
-    /// Exponent of `y_m` in the other one.
+    /// Exponent of `y_m` in the second factor.
     pub second_residual_exponent: f64,
     /// Exponent of `y_m` in `n`.
     pub force_exponent: f64,
@@ -38,7 +39,7 @@ impl Etsion {
         area_exponent: -0.12,
     };
 
-    /// `y_m`, and 1 below it.
+    /// `y_m`, but at least 1.
     fn depth(pair: &Pair, peak: &Peak) -> f64 {
         let depth = peak.indentation / KogutEtsion::REFERENCE.unit(pair).indentation;
         if depth > 1.0 { depth } else { 1.0 }
@@ -50,7 +51,7 @@ impl Etsion {
     }
 }
 
-/// `(d - d_f)/d_e`, from 0 to 1.
+/// `(d - d_f)/d_e`, between 0 and 1.
 fn part(path: &Segment, indentation: f64) -> f64 {
     let part = (indentation - path.lower) / (path.upper - path.lower);
     if part > 0.0 { part } else { 0.0 }

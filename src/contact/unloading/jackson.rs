@@ -6,21 +6,21 @@ use crate::contact::material::Pair;
 use crate::contact::segment::Segment;
 use libm::pow;
 
-/// `d_f/d_m = 1.02 (1 - ((y_m + 5.9)/6.9)^-0.54)` with `y_m = d_m/d_c` and the `d_c` of [`JacksonGreen`].
+/// `d_f/d_m = 1.02 (1 - ((y_m + 5.9)/6.9)^-0.54)` with `y_m = d_m/d_c` and `d_c` of [`JacksonGreen`].
 ///
-/// Up to `y_m = 1` nothing remains; [`JacksonGreen`] counts as elastic up to 1.9, so that its dent begins there with 0.0349 of the
-/// indentation. The fit exceeds 1 from `y_m = 10017` on, where nothing springs back: there the dent is the whole indentation, the path is as steep as
-/// numbers can tell, and the restitution practically zero. Such a depth is far outside the fit.
+/// Up to `y_m = 1`, no dent remains. [`JacksonGreen`] counts as elastic up to 1.9, so its dent starts there at 0.0349 of the
+/// indentation. The fit exceeds 1 from `y_m = 10017` on, where there is no recovery: the dent is then the whole indentation,
+/// the path is as steep as the numbers allow, and the restitution is practically zero. Such a depth is far outside the fit.
 ///
 /// Reference: R. L. Jackson, I. Chusoipin, I. Green, *J. Tribol.* 127 (2005) 484-493.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Jackson {
-    /// Residual ratio of an infinitely deep dent.
+    /// Residual ratio of an infinitely deep dent \[-\].
     pub factor: f64,
-    /// What is added to `y_m`.
+    /// Offset added to `y_m` \[-\].
     pub offset: f64,
-    /// Exponent.
+    /// Exponent \[-\].
     pub exponent: f64,
 }
 

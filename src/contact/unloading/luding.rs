@@ -1,4 +1,4 @@
-//! A straight unloading line, stiffer the deeper it begins, up to a limit.
+//! A straight unloading line whose stiffness grows with the largest indentation, up to a limit.
 
 use super::{Peak, Unloading, straight};
 use crate::contact::loading::Luding as LoadingLaw;
@@ -12,17 +12,17 @@ use crate::contact::segment::Segment;
 /// | `d_m < d*` | `k_2(d_m) = k_1 + (k_2 - k_1) d_m/d*` | `d_m (1 - k_1/k_2(d_m))` |
 /// | `d* <= d_m` | `k_2` | `2 R phi` |
 ///
-/// Restitution is `sqrt(k_1/k_2(d_m))` below `d*`: 1 for the softest touch, falling with the speed. Stiffness and dent are continuous
-/// at `d*`. Goes only with the loading law of the same name, with the same `k_2/k_1` and `phi`. The force never pulls: the cohesive
-/// branch of the original is left out.
+/// The restitution is `sqrt(k_1/k_2(d_m))` below `d*`: 1 for the softest touch, falling with the speed. Stiffness and dent are
+/// continuous at `d*`. The law must be combined with the loading law of the same name and the same `k_2/k_1` and `phi`. The
+/// force never pulls: the cohesive branch of the original is omitted.
 ///
 /// Reference: S. Luding, *Granular Matter* 10 (2008) 235-246, section 2.3, with `k_c = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Luding {
-    /// `k_2/k_1` > 1 at the limit and beyond.
+    /// `k_2/k_1` > 1 at the limit and beyond \[-\].
     pub stiffness_ratio: f64,
-    /// `phi`: depth of the deepest dent over the diameter `2R`.
+    /// `phi`: depth of the deepest dent over the diameter `2R` \[-\].
     pub limit_depth: f64,
 }
 

@@ -1,13 +1,13 @@
 //! Unloading laws, one file each: the path from the largest indentation down to the dent that remains.
 //!
-//! All are closures: from the point of the loading curve where unloading begins, they determine the elastic recovery
-//! `d_e = d_m - d_f`, and with it the whole path. Reloading follows the same path back.
+//! All laws determine the elastic recovery `d_e = d_m - d_f`, and with it the whole path, from the point of the loading curve
+//! where unloading begins. Reloading follows the same path.
 
 pub mod guarded;
 
 pub use guarded::Guarded;
 
-// `pub mod contact_radius; pub use contact_radius::ContactRadius;` and so on, of every law in modelDescription/laws.toml; see
+// for every law in modelDescription/laws.toml: `pub mod contact_radius; pub use contact_radius::ContactRadius;` and so on; see
 // build/laws.rs
 include!(concat!(env!("OUT_DIR"), "/unloading_laws.rs"));
 
@@ -15,36 +15,36 @@ use super::material::Pair;
 use super::segment::Segment;
 use libm::sqrt;
 
-/// The point of the loading curve from which the load comes off.
+/// The point of the loading curve where unloading begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Largest indentation `d_m` \[m\].
     pub indentation: f64,
-    /// Force there `F_m` \[N\].
+    /// Force `F_m` \[N\] at the largest indentation.
     pub force: f64,
-    /// Contact radius there `a_m` \[m\].
+    /// Contact radius `a_m` \[m\] at the largest indentation.
     pub contact_radius: f64,
-    /// Force at which the loading law begins to yield `F_y` \[N\].
+    /// Force `F_y` at which the loading law begins to yield \[N\].
     pub yield_force: f64,
-    /// Work of the loading up to there \[J\]; NaN for a law that doesn't [need](Unloading::needs_work) it.
+    /// Work of loading up to the largest indentation \[J\]; NaN for a law that does not [need](Unloading::needs_work) it.
     pub work: f64,
 }
 
 /// An unloading law.
 pub trait Unloading {
-    /// Whether the whole path is one segment. Otherwise only its ends are of use, and [`Unloading::tangent`] and
-    /// [`Unloading::work`] say the rest.
+    /// Whether the whole path is one segment. If not, only its ends are used, and [`Unloading::tangent`] and
+    /// [`Unloading::work`] give the rest.
     const SEGMENTED: bool = true;
 
     /// Whether a segment can have a quadratic term.
     const SQUARES: bool = false;
 
-    /// Whether the law asks for the work of the loading, which may be an integral.
+    /// Whether the law needs the work of loading, which may be an integral.
     fn needs_work(&self) -> bool {
         false
     }
 
-    /// Whether the passivity guard shortens the path from `peak`; without guard never.
+    /// Whether the passivity guard shortens the path from `peak`; always false without guard.
     fn holds_back(&self, _pair: &Pair, _peak: &Peak) -> bool {
         false
     }
@@ -52,27 +52,27 @@ pub trait Unloading {
     /// The path from the residual indentation `d_f` (`lower`) to `peak` (`upper`), for a peak beyond the yield point.
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment;
 
-    /// The [tangent](Segment::tangent) of a `path` that is no segment.
+    /// The [tangent](Segment::tangent) of a `path` that is not a segment.
     fn tangent(&self, _pair: &Pair, _peak: &Peak, path: &Segment, _indentation: f64) -> Segment {
         *path
     }
 
-    /// Contact radius on the `path` \[m\]: that of a Hertzian recovery, `a = a_m sqrt((d - d_f)/d_e)`.
+    /// Contact radius on the `path` \[m\]. The default is a Hertzian recovery, `a = a_m sqrt((d - d_f)/d_e)`.
     fn contact_radius(&self, _pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
         peak.contact_radius * sqrt((indentation - path.lower) / (path.upper - path.lower))
     }
 
-    /// Work given back on a `path` that is no segment, from `indentation` down to its lower end \[J\].
+    /// Work returned on a `path` that is not a segment, from `indentation` down to its lower end \[J\].
     fn work(&self, _pair: &Pair, _peak: &Peak, path: &Segment, indentation: f64) -> f64 {
         path.work(indentation)
     }
 }
 
-/// The residual indentation that an elastic `recovery` \[m\] leaves of `peak` \[m\].
+/// The residual indentation \[m\] after an elastic `recovery` \[m\] from `peak`.
 ///
-/// A residual of a few units in the last place of the peak is none: the recovery just beyond yield is the whole
-/// indentation, rounded. Far beyond anything physical the recovery is less than the last digit of the indentation, but it
-/// isn't nothing.
+/// A residual of a few units in the last place of the peak counts as zero: just beyond yield, the recovery is the whole
+/// indentation except for rounding. Far beyond anything physical, the recovery is less than the last digit of the indentation;
+/// it is then rounded up and not to zero.
 #[inline(always)]
 fn residual_after(peak: &Peak, recovery: f64) -> f64 {
     let difference = peak.indentation - recovery;
@@ -88,7 +88,7 @@ fn residual_after(peak: &Peak, recovery: f64) -> f64 {
 
 /// `F = F_m ((d - d_f)/d_e)^1.5`: Hertzian unloading with the elastic recovery `d_e` \[m\].
 ///
-/// `d_e` is taken again from the rounded `d_f`, so that the path ends in the peak to the last bits.
+/// `d_e` is computed again from the rounded `d_f`, so that the path ends at the peak to the last bits.
 #[inline(always)]
 fn hertzian(peak: &Peak, recovery: f64) -> Segment {
     let residual = residual_after(peak, recovery);

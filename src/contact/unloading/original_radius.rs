@@ -7,7 +7,7 @@ use libm::cbrt;
 
 /// `d_e = (F_m / K_h)^(2/3)`: Hertz's law with the undeformed radius, shifted to the residual indentation.
 ///
-/// Simple and widely used; with it the restitution falls as `v^(-1/6)` at high speed instead of Johnson's `v^(-1/4)`.
+/// Simple and widely used. At high speed, its restitution falls as `v^(-1/6)` instead of Johnson's `v^(-1/4)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct OriginalRadius;

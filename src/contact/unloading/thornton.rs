@@ -5,10 +5,10 @@ use crate::contact::material::Pair;
 use crate::contact::segment::Segment;
 use libm::sqrt;
 
-/// `d_e = d_m F_m / (K_h d_m^1.5)`: the recovery of [`super::ContactRadius`] if the contact radius were `sqrt(R d_m)`.
+/// `d_e = d_m F_m / (K_h d_m^1.5)`: the recovery of [`super::ContactRadius`] for a contact radius of `sqrt(R d_m)`.
 ///
-/// Reference: C. Thornton, *J. Appl. Mech.* 64 (1997) 383-386; the same closure in M. R. W. Brake, *Int. J. Solids
-/// Struct.* 49 (2012) 3129-3141.
+/// Reference: C. Thornton, *J. Appl. Mech.* 64 (1997) 383-386; M. R. W. Brake, *Int. J. Solids Struct.* 49 (2012) 3129-3141,
+/// uses the same closure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Thornton;

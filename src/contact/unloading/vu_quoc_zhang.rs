@@ -6,35 +6,36 @@ use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
 use libm::{cbrt, sqrt};
 
-/// The plastic radius `p` \[a_y\] and the curvature `c` of the peak stay while the load comes off; the elastic radius is Hertz's:
+/// The plastic radius `p` \[a_y\] and the curvature `c` of the peak stay constant during unloading; the elastic radius is
+/// Hertz's:
 ///
 /// `x = (f^(1/3) + p)^2 / c`, so `f = (sqrt(c x) - p)^3` and `x_f = p^2/c`, with `c = 1 + B (f_m - 1)` and `p = sqrt(c x_m) - f_m^(1/3)`.
 ///
-/// With [the loading law of the same authors](LoadingLaw), whose `B`, `d_y` and `F_y` these are, `p = A (f_m - 1)`; with any other the path
-/// still ends in the peak. Where a loading law lies so far above Hertz's curve that `p` is negative, nothing remains:
-/// `F = F_m (d/d_m)^1.5`. The paper gives the force-driven form; this is its inverse. `W`, from `x_f` on and with `g = f^(1/3)`:
-/// `(2/c) (g^5/5 + p g^4/4)` in `F_y d_y`. The contact radius is `a_m (g + p)/(g_m + p)` and doesn't vanish where the force does: the
-/// dent still fits the sphere there.
+/// With [the loading law of the same authors](LoadingLaw), whose `B`, `d_y` and `F_y` are used here, `p = A (f_m - 1)`. With
+/// any other law, the path still ends at the peak. Where a loading law lies so far above Hertz's curve that `p` is negative, no
+/// dent remains: `F = F_m (d/d_m)^1.5`. The paper gives the force-driven form; this is its inverse. The work `W` from `x_f` on,
+/// with `g = f^(1/3)`, is `(2/c) (g^5/5 + p g^4/4)` in units of `F_y d_y`. The contact radius is `a_m (g + p)/(g_m + p)`. It
+/// does not vanish where the force does: the dent still fits the sphere there.
 ///
 /// Reference: L. Vu-Quoc, X. Zhang, *Proc. R. Soc. A* 455 (1999) 4013-4044.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct VuQuocZhang {
-    /// `B`: relative growth of the radius of curvature for each `F_y` beyond yield.
+    /// `B`: relative growth of the radius of curvature for each `F_y` beyond yield \[-\].
     pub curvature: f64,
 }
 
-/// What stays while the load comes off, in the units of the law.
+/// The quantities that stay constant during unloading, in the units of the law.
 struct Frozen {
     unit: YieldPoint,
     plastic_radius: f64,
     growth: f64,
-    /// Where the load began to come off \[m\], and `f_m^(1/3)` there.
+    /// Indentation \[m\] at which unloading began, and `f_m^(1/3)` there.
     peak: (f64, f64),
 }
 
 impl Frozen {
-    /// `f^(1/3)` at `indentation` \[m\]: from the peak down, so that the path ends there to the last bits.
+    /// `f^(1/3)` at `indentation` \[m\]. It is computed from the peak down, so that the path ends at the peak to the last bits.
     fn root_of_force(&self, indentation: f64) -> f64 {
         let (largest, largest_root) = self.peak;
         let scale = sqrt(self.growth / self.unit.indentation);

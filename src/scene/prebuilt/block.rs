@@ -1,7 +1,7 @@
-//! The data of a scene as a block of memory inside of a prebuilt library.
+//! The data of a scene as a block of memory inside a prebuilt library.
 //!
-//! The exporter fills it in; the library reads it and nothing else. All numbers are words of 64 bits, little-endian as on every
-//! platform that units are made for.
+//! The exporter fills it in; the library only reads it. All numbers are 64-bit words, little-endian as on every supported
+//! platform.
 
 use crate::scene::Parameter;
 
@@ -11,22 +11,22 @@ pub const MAGIC: u64 = u64::from_le_bytes(*b"brinell\0");
 /// Version of the layout.
 pub const VERSION: u64 = 1;
 
-/// Room for the variables.
+/// Capacity for variables.
 pub const VARIABLES: usize = 64;
 
-/// Room for the texts \[bytes\].
+/// Capacity for texts \[bytes\].
 pub const TEXTS: usize = 512;
 
 /// Length of a GUID \[bytes\].
 pub const GUID: usize = 32;
 
-/// A value reference that no variable has.
+/// The code of a value reference without a variable.
 pub const NO_VARIABLE: u8 = u8::MAX;
 
-/// The first of the codes that mean a parameter; the [`Parameter`]s follow in order.
+/// The first code that denotes a parameter. The codes follow the order of [`Parameter`].
 pub const FIRST_PARAMETER: u8 = 128;
 
-/// The block: what it is and how long, and the data.
+/// The block: a header, and the data.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Block {
@@ -34,9 +34,9 @@ pub struct Block {
     pub magic: u64,
     /// [`VERSION`].
     pub version: u64,
-    /// Which library the data are for.
+    /// Identifies the library that the data are for.
     pub library: u64,
-    /// Words of the data; none in a block that has not been filled in.
+    /// Length of the data \[words\]; zero in a block that has not been filled in.
     pub length: u64,
     /// Hash of the data.
     pub checksum: u64,
@@ -44,41 +44,41 @@ pub struct Block {
     pub data: Data,
 }
 
-/// What differs between the scenes of one library.
+/// The data that differ between the scenes of one library.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Data {
-    /// A number that no other scene has.
+    /// A number that identifies the scene; no other scene has it.
     pub identity: u64,
     /// The [flags](Flag) of the scene.
     pub flags: u64,
-    /// The parameters that can be set, as bits.
+    /// The parameters that can be set, one bit each.
     pub settable: u64,
-    /// Effective mass of the scene's impact \[kg\], if steps are to be watched; or NaN.
+    /// Effective mass of the scene's impact \[kg\] if the step size is to be checked, otherwise NaN.
     pub impact_mass: f64,
-    /// Density of the target \[kg/m^3\], or NaN.
+    /// Density of the target \[kg/m^3\]; NaN if unknown.
     pub density: f64,
-    /// The values of all parameters, in their order.
+    /// The values of all parameters, in the order of [`Parameter`].
     pub starts: [f64; Parameter::COUNT],
     /// The smallest value of each parameter that can be set.
     pub minima: [f64; Parameter::COUNT],
-    /// The largest.
+    /// The largest value of each parameter that can be set.
     pub maxima: [f64; Parameter::COUNT],
-    /// What each value reference means: the place of a variable in the table of variables, or a parameter.
+    /// The meaning of each value reference: the index of a variable in the table of variables, or a parameter.
     pub variables: [u8; VARIABLES],
     /// The GUID.
     pub guid: [u8; GUID],
-    /// Name and unit of each parameter that can be set, or two empty texts; each ends with 0.
+    /// Name and unit of each parameter that can be set, or two empty texts; each text ends with 0.
     pub texts: [u8; TEXTS],
 }
 
-/// Something that a scene has or hasn't got, as a bit.
+/// A feature of a scene, as a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Flag {
     /// A new contact meets a fresh surface.
     Fresh = 0,
-    /// The acceleration by all other forces is an input.
+    /// The acceleration by all forces except the contact force is an input.
     Acceleration = 1,
     /// The effective mass is an input.
     Mass = 2,
@@ -107,10 +107,10 @@ impl Block {
         block
     }
 
-    /// Whether the block, which has these `words`, is one for this `library`, and whole.
+    /// Checks that the block, which consists of these `words`, is intact and for this `library`.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// A description of the defect.
     pub fn check(&self, words: &[u64; Block::WORDS], library: u64) -> Result<(), &'static str> {
         if self.magic != MAGIC || self.version != VERSION {
             Err("the data of this prebuilt library have another version")
@@ -135,7 +135,7 @@ impl Data {
     /// Length of the data \[words\].
     const WORDS: usize = size_of::<Data>() / 8;
 
-    /// No scene.
+    /// The data of no scene.
     pub const EMPTY: Data = Data {
         identity: 0,
         flags: 0,
@@ -150,7 +150,7 @@ impl Data {
         texts: [0; TEXTS],
     };
 
-    /// Whether the scene has this.
+    /// Whether the scene has this feature.
     #[inline(always)]
     pub fn has(&self, flag: Flag) -> bool {
         self.flags & flag.bit() != 0
@@ -166,7 +166,7 @@ impl Data {
         core::str::from_utf8(&self.guid).unwrap_or_default()
     }
 
-    /// The text at this place; none behind the last one.
+    /// The text with this index; empty after the last one.
     #[inline(never)]
     pub fn text(&self, place: usize) -> &str {
         let text = self.texts.split(|&byte| byte == 0).nth(place).unwrap_or_default();
@@ -185,10 +185,10 @@ impl Data {
     }
 }
 
-/// The words before the data.
+/// The number of words before the data.
 const HEAD: usize = 5;
 
-/// A hash of the data, after FNV-1a but of whole words: any single changed word changes it.
+/// A hash of the data like FNV-1a, but of whole words. A change of any single word changes it.
 ///
 /// Reference: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm".
 fn checksum(data: impl Iterator<Item = u64>) -> u64 {

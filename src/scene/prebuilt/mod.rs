@@ -1,7 +1,7 @@
 //! A scene whose data are read from memory: the scene of a prebuilt library, which the exporter fills in.
 //!
-//! The [`Kind`] of the library says by types what there is of it in the binary: the laws, and what can be shown. The
-//! [`block`] says the rest. A scene of one contact fits into it that asks for no more than the kind has.
+//! The [`Kind`] of the library determines by types what the binary contains: the laws, and the available outputs. The [`block`]
+//! contains the rest. A library serves any scene of one contact that requests no more than its kind has.
 
 pub mod block;
 
@@ -12,52 +12,52 @@ use crate::contact::{Contact, Pair, Surface};
 use block::{Block, FIRST_PARAMETER, Flag};
 use core::marker::PhantomData;
 
-/// What a prebuilt library has in it; see [`Scene`] for the types.
+/// The contents of a prebuilt library; see [`Scene`] for the types.
 pub trait Kind {
-    /// What is in contact, and by which laws.
+    /// The type of the bodies and their laws.
     type Model: Copy;
-    /// What a contact remembers.
+    /// The type of the state of a contact.
     type Contact: Contact<Self::Model>;
-    /// Whether outputs can show the momentum of a step.
+    /// Whether outputs may need the momentum of a step.
     type Momentum: Presence;
-    /// Whether the course of the input inside of a step can be given.
+    /// Whether the input may have derivatives.
     type Course: Presence;
-    /// Whether an output can predict the force at the end of the next step.
+    /// Whether an output may predict the force at the end of the next step.
     type Prediction: Presence;
-    /// How the library works together with a master; inputs beside the rate are there if a scene asks for them.
+    /// The coupling with an importer. Inputs other than the rate exist only if a scene requests them.
     type Coupling: Coupling;
-    /// Whether it can be noticed that steps are too long.
+    /// Whether steps that are too long can be detected.
     type Watch: Presence;
 
-    /// How the bodies move through a step, if the library moves them.
+    /// The function that moves the bodies through a step, if the library moves them.
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
-    /// A number that no other library has.
+    /// A number that identifies the library; no other library has it.
     const LIBRARY: u64;
 
-    /// The bodies with the laws of the library, and with what else a `value` of a scene decides.
+    /// The bodies with the laws of the library; `value` gives the parameters of the scene.
     fn model(pair: Pair, surface: Surface, value: impl Fn(Parameter) -> f64) -> Self::Model;
 
-    /// The Real variable with this place in the table of variables, if the library has it.
+    /// The Real variable with this index in the table of variables, if the library has it.
     fn real(place: u8) -> Option<Real>;
 
-    /// The Integer variable with this place, if the library has it.
+    /// The Integer variable with this index, if the library has it.
     fn integer(place: u8) -> Option<Integer>;
 }
 
-/// Where the data are.
+/// The source of the data.
 pub trait Source {
-    /// The block. Of what is in it the compiler knows nothing.
+    /// The block. The compiler must not know its contents.
     fn block() -> &'static Block;
 
-    /// The same as words.
+    /// The same block as words.
     fn words() -> &'static [u64; Block::WORDS];
 }
 
-/// The scene of a library of the kind `K` with the data from `B`.
+/// The scene of a library of kind `K` with the data from `B`.
 pub struct Prebuilt<K, B>(PhantomData<(K, B)>);
 
 impl<K: Kind, B: Source> Prebuilt<K, B> {
-    /// What this value reference means: a place in the table of variables, or a parameter.
+    /// The meaning of this value reference: an index in the table of variables, or a parameter.
     #[inline]
     fn place(value_reference: u32) -> Option<u8> {
         B::block().data.variables.get(value_reference as usize).copied()

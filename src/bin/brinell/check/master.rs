@@ -1,13 +1,13 @@
-//! The master of a check: it moves the mass against one contact, as a user's own would.
+//! The importer of a check: it moves the mass against one contact, as a user's importer would.
 
 use super::trial::STEPS_PER_CONTACT;
 use crate::importer::{ImportError, Instance};
 use brinell::contact::impact::Impact;
 
-/// Iterations of a force that depends on the rate with the speed that it leads to.
+/// Number of fixed-point iterations between a rate-dependent force and the speed that it causes.
 const ITERATIONS: u32 = 3;
 
-/// What an explicit co-simulation finds.
+/// Results of an explicit co-simulation.
 pub struct Simulated {
     pub max_indentation: f64,
     pub max_force: f64,
@@ -16,28 +16,28 @@ pub struct Simulated {
     pub contact_time: f64,
 }
 
-/// A master that moves the mass and holds the rate over each step: the leap-frog method, of second order, and explicit.
+/// An importer that moves the mass at a constant rate in each step: the leap-frog method, explicit and of second order.
 pub struct Master<'a, 'b> {
     pub instance: &'a mut Instance<'b>,
     pub rate: u32,
     pub force: u32,
     pub time: f64,
-    /// Whether the force follows the rate at the same instant.
+    /// Whether the force depends on the rate at the same instant.
     pub follows: bool,
-    /// The mean force of a unit that moves the mass itself: the rate is then that at the start of a step.
+    /// The variable `mean_force` of an FMU that moves the mass itself. The rate is then that at the start of a step.
     pub mean_force: Option<u32>,
-    /// Whether that unit is made for a master that steps all units at once: its force is then one for the next step.
+    /// Whether that FMU is for an importer that steps all FMUs at once. Its force is then for the next step.
     pub parallel: bool,
 }
 
-/// After this many steps an impact counts as endless: sixteen times as many as it should take.
+/// Number of steps after which an impact counts as endless: sixteen times the expected number.
 const MOST_STEPS: u32 = 16 * STEPS_PER_CONTACT;
 
-/// Short steps after which a unit has forgotten a long one.
+/// Number of short steps after which a long step no longer affects the FMU.
 const FORGOTTEN: u32 = 120;
 
 impl Master<'_, '_> {
-    /// Steps with `rate` [m/s] and gives the force at the end [N].
+    /// Makes a step at `rate` [m/s] and returns the force at its end [N].
     fn step(&mut self, rate: f64, step: f64) -> Result<f64, ImportError> {
         self.instance.set_real(self.rate, rate)?;
         self.instance.do_step(self.time, step)?;
@@ -45,7 +45,7 @@ impl Master<'_, '_> {
         self.instance.real(self.force)
     }
 
-    /// The force at this moment with `rate` [m/s], [N].
+    /// The present force at `rate` [m/s], in N.
     fn force_at(&mut self, rate: f64) -> Result<f64, ImportError> {
         self.instance.set_real(self.rate, rate)?;
         self.instance.real(self.force)
@@ -66,14 +66,14 @@ impl Master<'_, '_> {
         Ok(())
     }
 
-    /// Lets the mass of `impact` meet the contact, after the way across `gap` [m], until they part again.
+    /// Moves the mass of `impact` across `gap` [m] and against the contact until they separate again.
     pub fn impact(&mut self, impact: &Impact, gap: f64, step: f64) -> Result<Simulated, ImportError> {
         self.approach(impact.speed, gap, step)?;
-        // the speed in the middle of each step; that the force at first contact may not be zero is an error of one step
+        // the speed is taken at the middle of each step; a nonzero force at first contact causes the error of one step only
         let (mut speed, mut owed) = (impact.speed, 0.0);
         let (mut indentation, mut time) = (0.0, 0.0);
         let (mut max_indentation, mut max_force) = (0.0, 0.0);
-        // indentation and force at the ends of the last two steps
+        // indentation and force at the end of the last two steps
         let mut before = [(0.0, 0.0); 2];
         for _ in 0..MOST_STEPS {
             let start = speed;
@@ -84,7 +84,7 @@ impl Master<'_, '_> {
             if let Some(mean_force) = self.mean_force {
                 let change = step * self.instance.real(mean_force)? / impact.mass;
                 speed -= change;
-                // what has been applied by the end of a step doesn't have it yet
+                // the force applied up to the end of a step does not contain this change yet
                 owed = if self.parallel { change } else { 0.0 };
             }
             indentation += 0.5 * (start + speed) * step;
@@ -113,7 +113,7 @@ impl Master<'_, '_> {
     }
 }
 
-/// Where the force ends [m], from the last two points of the contact: it vanishes as `(d - d_f)^1.5`.
+/// The indentation at which the force ends [m], from the last two points in contact: it vanishes as `(d - d_f)^1.5`.
 fn end_of_contact([(first, first_force), (last, last_force)]: [(f64, f64); 2]) -> f64 {
     let (first_root, last_root) = (f64::powf(first_force, 2.0 / 3.0), f64::powf(last_force, 2.0 / 3.0));
     last - last_root * (first - last) / (first_root - last_root)

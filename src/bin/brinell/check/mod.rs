@@ -1,4 +1,4 @@
-//! `brinell check`: loads an FMU as any importer does and runs the impact of its scene.
+//! `brinell check`: loads an FMU like any importer and runs the impact of its scene.
 
 mod apart;
 mod master;
@@ -17,10 +17,10 @@ use std::process::ExitStatus;
 use std::time::Duration;
 use trial::{STEPS_PER_CONTACT, Trial};
 
-/// Largest relative difference between prediction and simulation.
+/// Largest allowed relative difference between prediction and simulation.
 const TOLERANCE: f64 = 1e-3;
 
-/// A unit that couldn't be checked.
+/// An FMU that could not be checked.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
     #[error("{}: {source}", path.display())]
@@ -41,7 +41,7 @@ pub enum CheckError {
     Said(String),
 }
 
-/// How long a check may take [s], unless the user says otherwise. That of 100,000 contacts takes a tenth of it.
+/// The default time limit of a check [s]. A check of 100,000 contacts takes a tenth of it.
 const TIME_LIMIT: u64 = 600;
 
 /// What to check.
@@ -57,7 +57,7 @@ pub struct Arguments {
     found: Option<PathBuf>,
 }
 
-/// The command: checks an FMU and prints the outcome; gives whether it passed.
+/// The command: checks an FMU and prints the result. Returns whether it passed.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<bool, CheckError> {
     let Some(file) = &arguments.found else {
         return in_own_process(&arguments.fmu, as_json, Duration::from_secs(arguments.time_limit));
@@ -85,7 +85,7 @@ fn in_own_process(path: &Path, as_json: bool, limit: Duration) -> Result<bool, C
     }
 }
 
-/// What came out.
+/// The result of a check.
 #[derive(Debug, Serialize)]
 pub struct Outcome {
     pub fmu: PathBuf,
@@ -93,16 +93,16 @@ pub struct Outcome {
     pub variables: usize,
     pub impact: ImpactNumbers,
     pub impact_is_assumed: bool,
-    /// How the predicted numbers were found.
+    /// The method of the prediction.
     pub prediction: &'static str,
     pub steps_per_contact: u32,
-    /// Of a unit whose variables have plain names.
+    /// For an FMU with plain variable names.
     #[serde(flatten)]
     pub plain: Option<Trial>,
-    /// Of a unit with named contacts: the first of each group.
+    /// For an FMU with named contacts: the first contact of each group.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<Trial>,
-    /// Start values whose binary differs from the model description.
+    /// Start values that differ between the model description and the binary.
     pub wrong_starts: Vec<String>,
     pub passed: bool,
 }
@@ -110,16 +110,16 @@ pub struct Outcome {
 /// The impact that was run.
 #[derive(Debug, Serialize)]
 pub struct ImpactNumbers {
-    /// [kg]
+    /// Mass [kg].
     pub mass: f64,
-    /// [m/s]
+    /// Closing speed [m/s].
     pub speed: f64,
 }
 
-/// Loads the unit at `path` and runs the impact of its scene.
+/// Loads the FMU at `path` and runs the impact of its scene.
 ///
 /// # Errors
-/// [`CheckError`] if it can't be loaded or a call fails; numbers that differ are in the outcome.
+/// [`CheckError`] if it cannot be loaded or a call fails. Numbers that differ are part of the result.
 fn check(path: &Path) -> Result<Outcome, CheckError> {
     let import_error = |source| CheckError::Import { path: path.into(), source };
     let archive = Archive::open(path).map_err(import_error)?;
@@ -154,7 +154,7 @@ fn try_out(archive: &Archive, scene: &Scene, path: &Path) -> Result<Outcome, Imp
     })
 }
 
-/// Start values in the XML that aren't those of the binary.
+/// Start values in the XML that differ from those of the binary.
 fn wrong_starts(instance: &mut Instance, description: &Description) -> Result<Vec<String>, ImportError> {
     let mut wrong = Vec::new();
     instance.setup_experiment(0.0)?;

@@ -1,4 +1,4 @@
-//! The impact of a scene on one contact of its FMU, compared with its prediction.
+//! The impact of a scene on one contact of its FMU, compared with the prediction.
 
 use super::master::{Master, Simulated};
 use crate::importer::{Description, ImportError, Instance};
@@ -8,36 +8,36 @@ use crate::scene::{Parameter, Scene};
 use brinell::contact::impact::Prediction;
 use serde::Serialize;
 
-/// Steps of the simulated contact. The method is of second order: at this number its error is far below the tolerance.
+/// Number of steps per contact. The method is of second order: its error is then far below the tolerance.
 pub const STEPS_PER_CONTACT: u32 = 4096;
 
 /// The impact on one contact.
 #[derive(Debug, Serialize)]
 pub struct Trial {
-    /// The contact, if it has a name.
+    /// The name of the contact, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<String>,
-    /// How many contacts are equal to this one, and itself.
+    /// Number of contacts equal to this one, including itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub count: Option<usize>,
-    /// Why no impact was run.
+    /// The reason why no impact was run.
     pub skipped: Option<String>,
-    /// [s]
+    /// Step size [s].
     pub step: f64,
     pub rows: Vec<Row>,
-    /// Contacts at rest whose force has changed.
+    /// Contacts at rest whose force changed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub disturbed: Vec<String>,
 }
 
-/// One quantity, by energy balance and by co-simulation.
+/// One quantity, from the energy balance and from the co-simulation.
 #[derive(Debug, Serialize)]
 pub struct Row {
     pub quantity: &'static str,
     pub unit: &'static str,
     pub predicted: f64,
     pub simulated: f64,
-    /// Relative to the predicted value, or to `scale`.
+    /// Difference relative to the predicted value or to `scale`.
     pub difference: f64,
 }
 
@@ -59,7 +59,7 @@ impl Trial {
         instance.setup_experiment(0.0)?;
         instance.call("fmi2EnterInitializationMode")?;
         let (gap_variable, gap) = gap(scene, group);
-        // the impact begins at first contact; a gap that is a constant of the unit is crossed first
+        // the impact begins at first contact; a gap that is a constant of the FMU is crossed first
         let gap = if let Some(name) = gap_variable {
             instance.set_real(description.real(&name)?, 0.0)?;
             0.0
@@ -83,7 +83,7 @@ impl Trial {
         let simulated = master.impact(&scene.impact_of(group), gap, step)?;
         trial.rows = compare(prediction, &simulated);
         if follows {
-            // nothing remains, and where the force ends says nothing
+            // no dent remains, and the end of the force has no meaning
             trial.rows.retain(|row| row.quantity != "dent");
         }
         let after = forces(instance, &at_rest)?;
@@ -94,7 +94,7 @@ impl Trial {
     }
 }
 
-/// What the initial gap of the contacts of `group` is called, if it can be set, and its value [m].
+/// Name of the initial gap of the contacts of `group`, if it can be set, and its value [m].
 fn gap(scene: &Scene, group: usize) -> (Option<String>, f64) {
     let given = &scene.contacts[group];
     let is_gap = |parameter: &&Parameter| parameter.name == "initial_gap";
@@ -105,7 +105,7 @@ fn gap(scene: &Scene, group: usize) -> (Option<String>, f64) {
     (name, scene.group_value(group, "initial_gap").unwrap_or(0.0))
 }
 
-/// Names and value references of the forces of all contacts but the first of `group`.
+/// Names and value references of the forces of all contacts except the first of `group`.
 fn others_at_rest(scene: &Scene, group: usize, description: &Description) -> Result<Vec<(String, u32)>, ImportError> {
     let mut forces = Vec::new();
     for (place, other) in scene.contacts.iter().enumerate() {
@@ -118,7 +118,7 @@ fn others_at_rest(scene: &Scene, group: usize, description: &Description) -> Res
     Ok(forces)
 }
 
-/// The forces of these contacts, bit for bit.
+/// The forces of these contacts, as bits.
 fn forces(instance: &mut Instance, contacts: &[(String, u32)]) -> Result<Vec<u64>, ImportError> {
     contacts.iter().map(|(_, reference)| Ok(instance.real(*reference)?.to_bits())).collect()
 }
@@ -136,7 +136,7 @@ fn compare(predicted: &Prediction, simulated: &Simulated) -> Vec<Row> {
     vec![
         row("largest force", "N", max_force, simulated.max_force, max_force),
         row("largest indentation", "m", max_indentation, simulated.max_indentation, max_indentation),
-        // a dent may be zero: its error is relative to the largest indentation
+        // a dent may be zero, so its error is relative to the largest indentation
         row("dent", "m", residual_indentation, simulated.residual_indentation, max_indentation),
         row("restitution", "", restitution, simulated.restitution, restitution),
         row("contact time", "s", contact_time, simulated.contact_time, contact_time),

@@ -1,17 +1,17 @@
-//! The groups of contacts, and what they don't have in common.
+//! The groups of contacts, and the differences between them.
 
 use super::{File, list, literal};
 use crate::scene::{Group, Scene};
 use brinell::contact::Surface;
 
-/// How many contacts there are, in which groups.
+/// Adds the number of contacts and their groups.
 pub fn add_groups(file: &mut File, scene: &Scene) {
     let (contacts, tables) = (scene.contact_count(), scene.contacts.len());
     // contacts that may differ are groups of one
     let groups = if scene.contacts_differ() { contacts } else { tables };
     file.add_item(&format!(
-        "/// How many contacts there are.\nconst CONTACTS: usize = {contacts};\n\
-         /// How many groups of equal contacts they form.\nconst GROUPS: usize = {groups};\n"
+        "/// Number of contacts.\nconst CONTACTS: usize = {contacts};\n\
+         /// Number of groups of equal contacts.\nconst GROUPS: usize = {groups};\n"
     ));
     let (group, end) = if groups == 1 {
         (("_contact", "0"), ("_group", "CONTACTS"))
@@ -28,7 +28,7 @@ pub fn add_groups(file: &mut File, scene: &Scene) {
     add_names(file, scene);
 }
 
-/// The tables `[[contact]]` of the scene, of which some have several contacts.
+/// Adds the tables `[[contact]]` of the scene, if some have several contacts.
 fn add_tables(file: &mut File, scene: &Scene) {
     let mut end = 0;
     let ends = scene.contacts.iter().map(|group| {
@@ -38,13 +38,13 @@ fn add_tables(file: &mut File, scene: &Scene) {
     let count = scene.contacts.len();
     let ends = list("ENDS", "usize", &count.to_string(), &ends.collect::<Vec<_>>());
     file.add_item(&format!(
-        "/// The contact behind the last one of each table of the scene.\n{ends}\n\
+        "/// The contact after the last one of each table of the scene.\n{ends}\n\
          /// The table of a contact.\nfn table_of(contact: usize) -> usize {{\n    \
          ENDS.partition_point(|&end| end <= contact)\n}}\n"
     ));
 }
 
-/// What the contacts are called.
+/// Adds the names of the contacts.
 fn add_names(file: &mut File, scene: &Scene) {
     let name = |group: &Group| (group.name.clone().unwrap_or_default(), group.count.is_some());
     let names: Vec<_> = scene.contacts.iter().map(name).collect();
@@ -67,7 +67,7 @@ fn add_names(file: &mut File, scene: &Scene) {
     file.add_method(&format!("contact_name({argument}: usize) -> (&'static str, usize)"), &value);
 }
 
-/// The expression of the table that `group` belongs to.
+/// The expression for the table of `group`.
 pub fn table_of(scene: &Scene) -> &'static str {
     match scene.contacts_differ() && scene.contacts.len() < scene.contact_count() {
         true => "table_of(group)",
@@ -75,7 +75,7 @@ pub fn table_of(scene: &Scene) -> &'static str {
     }
 }
 
-/// The name of the argument that says the group, and what a new contact of it meets.
+/// The name of the argument for the group, and the expression for the surface that a new contact meets.
 pub fn surface(file: &mut File, scene: &Scene) -> (&'static str, String) {
     let name = |group: &Group| match group.surface {
         Surface::Dented => "Surface::Dented".to_string(),
@@ -98,8 +98,8 @@ pub fn add_density(file: &mut File, scene: &Scene) {
     file.add_method(&format!("density({group}: usize) -> Option<f64>"), &value);
 }
 
-/// The argument and the expression of something of a group: one value for all, or a list with its name and what it says, of which
-/// a group takes the value of its `table`.
+/// The argument and the expression for a property of a group: one value for all groups, or a list with a name and a
+/// description, from which a group takes the value of its `table`.
 fn by_table(
     file: &mut File,
     kind: &str,

@@ -6,16 +6,16 @@ use crate::table::{Causality, Type, VARIABLES, Variable};
 use std::fmt::Write;
 
 const HEAD: &str = "\
-//! What this library has, if it is a prebuilt one.
+//! The features of this library, if it is a prebuilt one.
 //!
-//! `brinell prebuild` writes this file for every library that it builds. The one in the source tree is that of the kind `force`
-//! with the laws of `scenes/steel_ball.toml`; a test compares it with what the program writes.
+//! `brinell prebuild` writes this file for every library that it builds. The file in the source tree is that of the kind
+//! `force` with the laws of `scenes/steel_ball.toml`; a test compares it with the output of the program.
 ";
 
-/// The library that has the laws, the outputs and the inputs of `scene`, as Rust; `made_from` tells it from all others.
+/// The library with the laws, outputs and inputs of `scene`, as Rust. `made_from` identifies it.
 pub fn write(scene: &Scene, made_from: &str) -> String {
     let mut file = File::default();
-    file.add_item(&format!("/// What the library was made from.\nconst MADE_FROM: &str = {made_from:?};\n"));
+    file.add_item(&format!("/// Hash of the source files of the library.\nconst MADE_FROM: &str = {made_from:?};\n"));
     add_laws(&mut file, scene);
     if scene.damped.is_some() {
         file.add_method(
@@ -33,7 +33,7 @@ pub fn write(scene: &Scene, made_from: &str) -> String {
     text(&file, scene)
 }
 
-/// Whether a library with all that `scene` has shows `variable`.
+/// Whether a library with all features of `scene` has `variable`.
 fn is_shown(scene: &Scene, variable: &Variable) -> bool {
     match variable.causality {
         Causality::Input => variable.name == "indentation_rate" || scene.has_input(&variable.name),
@@ -42,7 +42,7 @@ fn is_shown(scene: &Scene, variable: &Variable) -> bool {
     }
 }
 
-/// What the places in the table of variables mean, of those of type `kind`.
+/// Adds the meaning of the indices in the table of variables, for the type `kind`.
 fn add_places(file: &mut File, scene: &Scene, kind: Type) {
     let (method, name) = match kind {
         Type::Real => ("real", "Real"),
@@ -79,7 +79,7 @@ use crate::contact::{{{contact_itself}Pair, Surface, {laws}}};
 {uses_follow}use crate::scene::prebuilt::Kind;
 use crate::scene::{{{scene_names}, Real, identity_of}};
 
-/// The library that the exporter fills in.
+/// A library that the exporter fills in with a scene.
 pub struct Library;
 {items}
 impl Kind for Library {{

@@ -12,12 +12,12 @@ use std::fmt::Write;
 
 pub use parameters::{parameters, start_value};
 
-/// The planned unit's scene as Rust, under the identification `guid`.
+/// The scene of the planned FMU as Rust, with the identification `guid`.
 pub fn write(plan: &Plan, guid: &str) -> String {
     let (scene, entries) = (plan.scene, plan.variables.as_slice());
     let mut file = File::default();
     file.add_item(&format!(
-        "/// What the model description and the binary recognise each other by.\nconst GUID: &str = {guid:?};\n"
+        "/// Identification that the model description and the binary share.\nconst GUID: &str = {guid:?};\n"
     ));
     file.add_method("guid() -> &'static str", "GUID");
     file.add_method("identity() -> u64", "const { identity_of(GUID) }");
@@ -35,12 +35,12 @@ pub fn write(plan: &Plan, guid: &str) -> String {
     file.text(plan)
 }
 
-/// The parts of the file: what stands by itself, and the methods of the scene.
+/// The parts of the file: separate items, and the methods of the scene.
 #[derive(Default)]
 struct File {
     items: String,
     methods: String,
-    /// The types of model and contact.
+    /// The types of the model and of the contact.
     model: String,
     contact: String,
 }
@@ -52,7 +52,7 @@ impl File {
         self.items.push_str(item);
     }
 
-    /// A method without arguments of its own beyond its `head`.
+    /// A method. `head` is its signature without `fn`.
     fn add_method(&mut self, head: &str, body: &str) {
         let body = body.trim_end().replace('\n', "\n        ");
         write!(self.methods, "\n    fn {head} {{\n        {body}\n    }}\n").expect("a String takes everything");
@@ -84,14 +84,12 @@ impl File {
 {parts}{follow}{guard}{methods}}}
 "
         );
-        let text = format!(
-            "\n/// The scene that the exporter has been given.\npub struct Exported;\n{items}\n{implementation}"
-        );
+        let text = format!("\n/// The scene of the FMU.\npub struct Exported;\n{items}\n{implementation}");
         format!("{HEAD}\n{}{text}", uses(&text))
     }
 }
 
-/// How many values can be set, as an expression.
+/// The number of settable values, as an expression.
 fn value_count(items: &str) -> &'static str {
     if items.contains("const VALUES:") { "VALUES" } else { "SETTABLE.len()" }
 }
@@ -100,7 +98,7 @@ fn presence(is: bool) -> &'static str {
     if is { "Present" } else { "Absent" }
 }
 
-/// Which parts of an instance the scene has, as types.
+/// The types that determine which parts of an instance the scene has.
 fn parts(scene: &Scene) -> String {
     let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
     let momentum = presence(chosen(&["impulse", "mean_force"]));
@@ -123,7 +121,7 @@ fn parts(scene: &Scene) -> String {
     )
 }
 
-/// How the bodies move, if the scene moves them.
+/// The function that moves the bodies, if the scene moves them.
 fn follow(scene: &Scene) -> &'static str {
     match scene.coupling.is_some() {
         true => "\n    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(follow);\n",
@@ -131,7 +129,7 @@ fn follow(scene: &Scene) -> &'static str {
     }
 }
 
-/// What the file uses.
+/// The `use` declarations of the file.
 fn uses(text: &str) -> String {
     let named = |names: &[&'static str]| -> Vec<&'static str> {
         names.iter().copied().filter(|name| text.contains(name.trim_end_matches(" as _"))).collect()
@@ -141,7 +139,7 @@ fn uses(text: &str) -> String {
     let follow = if text.contains("Some(follow)") { "use crate::contact::motion::{Follow, follow};\n" } else { "" };
     let mut scene = named(&["Absent", "Coupled", "Guard", "Integer", "Parameter", "Present", "Real"]);
     scene.extend(["Scene", "Settable", "identity_of"]);
-    // a scene without a contact law that asks for them has no use for these names alone
+    // without a contact law, the file does not use these names
     if !text.contains("contact::") {
         contact.remove(0);
     }
@@ -149,7 +147,7 @@ fn uses(text: &str) -> String {
     let variable = match variable.as_slice() {
         [] => "use crate::scene::variable::kind_and_contact;\n".to_string(),
         names => {
-            // as rustfmt orders them
+            // in the order of rustfmt
             let mut names: Vec<_> = names.iter().map(|name| name.trim_end_matches([' ', '{', ':', '('])).collect();
             let place = names.iter().take_while(|name| **name < "kind_and_contact").count();
             names.insert(place, "kind_and_contact");
@@ -166,14 +164,14 @@ fn uses(text: &str) -> String {
 const HEAD: &str = "\
 //! The scene of this library.
 //!
-//! `brinell export` writes this file for every scene that it builds. The one in the source tree is that of
-//! `scenes/steel_ball.toml`, without identification; a test compares it with what the exporter writes.
+//! `brinell export` writes this file for every scene that it builds. The file in the source tree is that
+//! of `scenes/steel_ball.toml`, without identification; a test compares it with the output of the exporter.
 ";
 
-/// The laws with their constants.
+/// Adds the laws with their constants.
 fn add_laws(file: &mut File, scene: &Scene) {
     if let Some((_, law)) = &scene.damped {
-        // an enum inside of a law is printed without its path
+        // the name of an enum inside a law is printed without its path
         let path = match law {
             AnyDamped::HuntCrossley(_) => "damped::hunt_crossley::DampingFactor::",
             _ => "damped::tsuji::TsujiDamping::",
@@ -185,7 +183,7 @@ fn add_laws(file: &mut File, scene: &Scene) {
         return;
     }
     let loading = add_law(file, "LOADING", "loading", &value_of(&scene.loading.1));
-    // an elastic contact never unloads by another law; the compiler leaves out whatever is here
+    // an elastic contact never uses an unloading law; the compiler removes it
     let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.model().unloading));
     let unloading = add_law(file, "UNLOADING", "unloading", &unloading);
     file.model = format!("contact::Model<{loading}, {unloading}>");
@@ -220,12 +218,12 @@ fn value_of(law: &impl std::fmt::Debug) -> String {
     inner.map_or(text.clone(), str::to_string)
 }
 
-/// Adds a law as a constant; the result is its type.
+/// Adds a law as a constant and returns its type.
 fn add_law(file: &mut File, constant: &str, module: &str, value: &str) -> String {
     let guarded = value.strip_prefix("Guarded(").and_then(|value| value.strip_suffix(')'));
     let value = guarded.unwrap_or(value);
     let name = value.split(' ').next().unwrap_or(value);
-    // one field a line, as rustfmt has it
+    // one field on each line, like rustfmt
     let value = match value.split_once(" { ") {
         Some((name, fields)) => {
             // a comma inside brackets belongs to the field
@@ -246,7 +244,7 @@ fn add_law(file: &mut File, constant: &str, module: &str, value: &str) -> String
     kind
 }
 
-/// `value` as a Rust expression that gives the same bits.
+/// `value` as a Rust expression with the same bits.
 fn literal(value: f64) -> String {
     match value {
         f64::INFINITY => "f64::INFINITY".into(),
@@ -255,7 +253,7 @@ fn literal(value: f64) -> String {
     }
 }
 
-/// A table as rustfmt has it: in one line, or one entry a line.
+/// A list formatted like rustfmt: on one line, or with one entry on each line.
 fn list(name: &str, kind: &str, length: &str, values: &[String]) -> String {
     let head = format!("static {name}: [{kind}; {length}] = [");
     let line = format!("{head}{}];\n", values.join(", "));

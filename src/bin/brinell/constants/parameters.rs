@@ -1,4 +1,4 @@
-//! The parameters as constants: those that can be set, and where every one has its value from.
+//! The parameters as constants: those that can be set, and the origin of every value.
 
 use super::groups::table_of;
 use super::{File, list, literal};
@@ -7,8 +7,8 @@ use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, Variable};
 use std::fmt::Write;
 
-/// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, a contact that never yields,
-/// no damping.
+/// The values of parameters that a scene does not have: a rigid impactor, a flat target, a contact that never yields, no
+/// damping.
 const ABSENT: [(&str, f64); 6] = [
     ("impactor.youngs_modulus", f64::INFINITY),
     ("impactor.poissons_ratio", 0.0),
@@ -18,7 +18,7 @@ const ABSENT: [(&str, f64); 6] = [
     ("effective_mass", f64::INFINITY),
 ];
 
-/// The value of the parameter `name` for the contacts of a group, before anyone sets it.
+/// The initial value of the parameter `name` for the contacts of a group.
 pub fn start_value(scene: &Scene, group: usize, name: &str) -> f64 {
     let absent = || ABSENT.iter().find(|(absent, _)| *absent == name).map_or(f64::NAN, |(_, value)| *value);
     scene.group_value(group, name).unwrap_or_else(absent)
@@ -35,7 +35,7 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
         write!(
             table,
             "\n    Settable {{ name: {:?}, unit: {unit:?}, minimum: {minimum}, maximum: {maximum} }},",
-            // of many the contact is said before
+            // with several values, the contact is named before
             if entry.count == 1 { entry.name(0) } else { variable.name.clone() }
         )
         .expect("a String takes everything");
@@ -47,7 +47,7 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
     if per_contact {
         add_runs(file, scene, &settable);
         file.add_item(&format!(
-            "/// What the values of each begin with.\n{}",
+            "/// Start values of the parameters.\n{}",
             list("STARTS", "f64", "SETTABLE.len()", &starts)
         ));
     }
@@ -66,7 +66,7 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
     file.add_method("start_values() -> Self::Values", &starts);
 }
 
-/// How many values each of the `settable` parameters has, and of which contacts.
+/// Adds the number of values of each `settable` parameter, and their contacts.
 fn add_runs(file: &mut File, scene: &Scene, settable: &[&Entry]) {
     let mut end = 0;
     let runs = settable.iter().map(|entry| {
@@ -75,8 +75,8 @@ fn add_runs(file: &mut File, scene: &Scene, settable: &[&Entry]) {
         format!("Run {{ end: {end}, first_contact: {first:?} }}")
     });
     let runs = list("RUNS", "Run", "SETTABLE.len()", &runs.collect::<Vec<_>>());
-    file.add_item(&format!("/// The values of each of them.\n{runs}"));
-    file.add_item(&format!("/// How many values can be set.\nconst VALUES: usize = {end};\n"));
+    file.add_item(&format!("/// The values of each parameter.\n{runs}"));
+    file.add_item(&format!("/// Number of values that can be set.\nconst VALUES: usize = {end};\n"));
 }
 
 /// The first contact of `group`.
@@ -84,7 +84,7 @@ fn first_contact(scene: &Scene, group: &Group) -> usize {
     scene.contacts.iter().take_while(|other| other.name != group.name).map(Group::len).sum()
 }
 
-/// Which of the `settable` parameters can be set between steps.
+/// Adds which of the `settable` parameters can be set between steps.
 fn add_tunable(file: &mut File, scene: &Scene, settable: &[&Entry]) {
     let mut begin = 0;
     let places = settable.iter().filter_map(|entry| {
@@ -99,19 +99,19 @@ fn add_tunable(file: &mut File, scene: &Scene, settable: &[&Entry]) {
         _ => {
             let ranges: Vec<_> = places.iter().map(|range| format!("({}, {})", range.start, range.end)).collect();
             let ranges = list("TUNABLE", "(usize, usize)", &ranges.len().to_string(), &ranges);
-            file.add_item(&format!("/// Where the values that can be set between steps begin and end.\n{ranges}"));
+            file.add_item(&format!("/// Ranges of the values that can be set between steps.\n{ranges}"));
             "TUNABLE.iter().any(|&(begin, end)| (begin..end).contains(&index))".into()
         }
     };
     file.add_method("is_tunable(index: usize) -> bool", &test);
 }
 
-/// The variables that a scene can have as parameters, in the order of the library's enum.
+/// The variables that can be parameters of a scene, in the order of the library's enum.
 pub fn parameters() -> impl Iterator<Item = &'static Variable> {
     table::VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter)
 }
 
-/// Those of them that not all groups have from the same source.
+/// The parameters whose values come from different sources in different groups.
 pub fn differing(scene: &Scene) -> impl Iterator<Item = &'static Variable> {
     let own = |variable: &&Variable, group: &Group| group.own.iter().any(|own| own.name == variable.name);
     parameters()
@@ -128,7 +128,7 @@ pub fn add_parameters(file: &mut File, scene: &Scene) {
             let constant = variable.name.replace('.', "_").to_uppercase();
             let sources = (0..scene.contacts.len()).map(|group| match sources.get(group, &variable.name) {
                 Value::Settable(place) => format!("Source::Settable({place})"),
-                // of a contact before these there would be an index below zero
+                // for a contact before these, the index would be below zero
                 Value::PerContact(place) => format!("Source::PerContact({}_usize.wrapping_sub({}))", place.0, place.1),
                 Value::Constant(value) => format!("Source::Constant({})", literal(value)),
             });
@@ -158,10 +158,10 @@ pub fn add_parameters(file: &mut File, scene: &Scene) {
     );
 }
 
-/// Where each parameter has its value from.
+/// The source of the value of each parameter.
 struct Sources<'a> {
     scene: &'a Scene,
-    /// Where each group has its own values among those that can be set, and its first contact.
+    /// For each group, the index of its first own value among the settable values, and its first contact.
     firsts: Vec<(usize, usize)>,
 }
 
@@ -177,7 +177,7 @@ impl Sources<'_> {
         Sources { scene, firsts: firsts.collect() }
     }
 
-    /// That of the parameter `name` for the contacts of `group`.
+    /// The source of the parameter `name` for the contacts of `group`.
     fn get(&self, group: usize, name: &str) -> Value {
         let ((first, contact), group) = (self.firsts[group], &self.scene.contacts[group]);
         if let Some((parameter, place)) = find(&group.own, name, |own| group.variables_of(own)) {
@@ -198,18 +198,18 @@ impl Sources<'_> {
     }
 }
 
-/// The parameter `name` of a list, and how many values that can be set come before it: each has as many as `values` says.
+/// The parameter `name` of a list, and the number of settable values before it. `values` gives the number for each parameter.
 fn find<'a>(list: &'a [Parameter], name: &str, values: impl Fn(&Parameter) -> usize) -> Option<(&'a Parameter, usize)> {
     let place = list.iter().position(|parameter| parameter.name == name)?;
     let before = list[..place].iter().filter(|other| other.settable).map(values).sum();
     Some((&list[place], before))
 }
 
-/// Where a parameter has its value from.
+/// The source of the value of a parameter.
 enum Value {
-    /// Place among the values that can be set.
+    /// Index among the settable values.
     Settable(usize),
-    /// Place of the first of those, and its contact: each has its own.
+    /// Index of the first settable value, and its contact: each contact has its own value.
     PerContact((usize, usize)),
     Constant(f64),
 }

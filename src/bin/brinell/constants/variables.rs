@@ -1,10 +1,10 @@
-//! What value references mean, as functions.
+//! The meaning of value references, as functions.
 
 use super::File;
 use crate::interface::Entry;
 use crate::table::{Causality, Type, Variable};
 
-/// The kinds of variables that a contact has, those of type `kind` as arms of a match.
+/// The number of kinds of variables of a contact, and those of type `kind` as arms of a match.
 fn arms(entries: &[Entry], kind: Type) -> (usize, String) {
     let mut kinds: Vec<&Variable> = entries.iter().map(|entry| entry.variable).collect();
     kinds.retain(|variable| variable.causality != Causality::Parameter);
@@ -28,7 +28,7 @@ pub fn add_reals(file: &mut File, entries: &[Entry]) {
     let settable = entries.iter().any(|entry| entry.variable.causality == Causality::Parameter);
     if settable {
         file.add_item(&format!(
-            "/// How many variables a contact has, beside the parameters.\nconst KINDS: u32 = {kinds};\n"
+            "/// Number of variables of a contact, without parameters.\nconst KINDS: u32 = {kinds};\n"
         ));
     }
     let parameter = format!(
@@ -40,7 +40,7 @@ pub fn add_reals(file: &mut File, entries: &[Entry]) {
         super::value_count(&file.items)
     );
     let parameter = if settable { parameter.as_str() } else { "" };
-    // if all kinds are Real and whatever comes behind them is a parameter nothing is left
+    // if all kinds are Real and all other references are parameters, no reference remains
     let nothing = if settable && arms.lines().count() == kinds { "" } else { "    _ => return None,\n" };
     file.methods.push_str("\n    #[inline]");
     file.add_method(
@@ -73,12 +73,12 @@ mod tests {
     use crate::table::{Causality, Type, VARIABLES, Variable};
     use brinell::scene::{Integer, Parameter, Real};
 
-    /// The names that the table has for the variables that `wanted` lets through, in its order.
+    /// The names of the variables in the table that satisfy `wanted`, in its order.
     fn listed(wanted: impl Fn(&Variable) -> bool) -> Vec<&'static str> {
         VARIABLES.iter().filter(|variable| wanted(variable)).map(|variable| variable.rust.as_str()).collect()
     }
 
-    /// Every variant of `Real` but `Parameter`; the match fails to compile when there is a new one.
+    /// Every variant of `Real` except `Parameter`. The match fails to compile if a variant is added.
     fn reals() -> Vec<String> {
         use Real::*;
         let all = [
@@ -146,7 +146,7 @@ mod tests {
         assert_eq!(listed(|variable| variable.causality == Causality::Parameter), names);
     }
 
-    /// The C functions look for the input and the force at the first two places.
+    /// The C functions expect the input and the force at the first two positions.
     #[test]
     fn the_input_comes_first_and_the_force_second() {
         assert_eq!([VARIABLES[0].name.as_str(), VARIABLES[1].name.as_str()], ["indentation_rate", "force"]);

@@ -1,4 +1,4 @@
-//! `brinell hardness`: dent and hardness of a test, or the yield strength that a hardness comes from.
+//! `brinell hardness`: dent and hardness of a test, or the yield strength from a hardness.
 
 use super::{ADMITTED, Dent, load_ratio, run_test, strength_of};
 use crate::laws::{self, Choice};
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use std::error::Error;
 use std::path::PathBuf;
 
-/// What `brinell hardness` is asked.
+/// The arguments of `brinell hardness`.
 #[derive(clap::Args)]
 #[command(next_line_help = true, group = clap::ArgGroup::new("size").required(true))]
 pub struct Arguments {
@@ -34,15 +34,15 @@ pub struct Arguments {
     pub laws: Vec<String>,
 }
 
-/// The answer of one law.
+/// The result with one law.
 struct Answer {
     laws: String,
-    /// [Pa], if it was looked for.
+    /// Yield strength [Pa], if it was requested.
     yield_strength: Option<f64>,
     dent: Dent,
 }
 
-/// Runs the test that the arguments name.
+/// Runs the test for these arguments.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let load = arguments.load.or(arguments.force).unwrap_or(f64::NAN);
     let load = positive("load", load).map_err(WrongCall::of)?;
@@ -58,7 +58,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
         return Err(message.into());
     }
     let choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
-    // Hertz's law is one of all, and leaves no dent
+    // "all" includes Hertz's law, which leaves no dent
     let all = arguments.laws.iter().any(|name| name == "all");
     let choices: Vec<_> = choices.into_iter().filter(|choice| !all || choice.laws != "hertz").collect();
     let ball = 2.0 * scene.group_value(0, "impactor.radius").unwrap_or(f64::NAN);
@@ -77,7 +77,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     for choice in &choices {
         match answer(choice) {
             Ok(answer) => answers.push(answer),
-            // one law of several may have no answer
+            // with several laws, one of them may have no result
             Err(reason) if choices.len() > 1 => left_out.push(reason),
             Err(reason) => return Err(reason.into()),
         }
@@ -89,7 +89,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What isn't right about a dent.
+/// A doubt about a dent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Doubt {
     NoDent,
@@ -111,7 +111,7 @@ impl Doubt {
         }
     }
 
-    /// In words, of a dent with this ratio `a/R` or, of several, none.
+    /// The doubt in words. `ratio` is the `a/R` of one dent; `None` for several dents.
     fn words(self, ratio: Option<f64>) -> String {
         let ratio = ratio.map_or(String::new(), |ratio| format!(" = {}", significant(ratio, 3)));
         let (least, most) = ADMITTED;
@@ -132,14 +132,14 @@ impl Doubt {
     }
 }
 
-/// The warnings about the dent of one law.
+/// The warnings about the dent with one law.
 fn warnings(answer: &Answer) -> Vec<String> {
     let dent = &answer.dent;
     let doubts = Doubt::ALL.into_iter().filter(|doubt| doubt.is_about(dent));
     doubts.map(|doubt| doubt.words(Some(dent.radius_ratio))).collect()
 }
 
-/// The warnings about the dents of several laws, each with the laws that it is about.
+/// The warnings about the dents with several laws. Each names its laws.
 fn warnings_of_all(answers: &[Answer]) -> Vec<String> {
     let warning = |doubt: Doubt| {
         let laws = answers.iter().filter(|answer| doubt.is_about(&answer.dent)).map(|answer| answer.laws.as_str());
@@ -149,7 +149,7 @@ fn warnings_of_all(answers: &[Answer]) -> Vec<String> {
     Doubt::ALL.into_iter().filter_map(warning).collect()
 }
 
-/// For people.
+/// The results as text.
 fn text(answers: &[Answer], left_out: &[String], load: f64, ball: f64, hardness: Option<f64>) -> String {
     let ratio = significant(load_ratio(load, ball), 3);
     let ball_words = quantity(ball, "m");
@@ -179,7 +179,7 @@ fn text(answers: &[Answer], left_out: &[String], load: f64, ball: f64, hardness:
     text
 }
 
-/// Everything about the dent of one law.
+/// All results with one law.
 fn single(answer: &Answer) -> String {
     let Answer { laws, yield_strength, dent } = answer;
     let number = |value: Option<f64>| value.map_or("none".into(), |value| format!("{} HBW", significant(value, 4)));
@@ -223,7 +223,7 @@ fn rows(answers: &[Answer], turned_round: bool) -> String {
     table(&lines, 1, 0)
 }
 
-/// For programs: all digits, SI units.
+/// The results as JSON: all digits, SI units.
 fn as_value(answers: &[Answer], left_out: &[String], load: f64, ball: f64, hardness: Option<f64>) -> Value {
     let law = |answer: &Answer| {
         let Answer { laws, yield_strength, dent } = answer;

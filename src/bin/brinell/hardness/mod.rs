@@ -1,4 +1,4 @@
-//! Quasi-static hardness: what a Brinell test leaves in the target of a scene, and the same turned round.
+//! Quasi-static hardness: the dent of a Brinell test in the target of a scene, and the inverse problem.
 //!
 //! Reference: ISO 6506-1, *Metallic materials - Brinell hardness test - Part 1: Test method*; E. Meyer, *Zeitschrift des
 //! Vereines deutscher Ingenieure* 52 (1908); D. Tabor, *The Hardness of Metals*, Oxford 1951.
@@ -14,47 +14,49 @@ use brinell::contact::validity::LARGEST_RADIUS_RATIO;
 use brinell::contact::{Loading, Model, Regime};
 use std::f64::consts::PI;
 
-/// The factor of the Brinell number and of the load ratio for forces in newtons: 1/9.80665 to three digits, as in ISO 6506-1.
+/// The factor of the Brinell number and of the load ratio for forces in newtons: 1/9.80665, rounded to three digits as in ISO
+/// 6506-1.
 const PER_KILOGRAM: f64 = 0.102;
 
-/// The dent diameters that ISO 6506-1 admits, in diameters of the ball.
+/// The dent diameters that ISO 6506-1 allows, in ball diameters.
 pub const ADMITTED: (f64, f64) = (0.24, 0.6);
 
-/// Yield strengths that are looked for, in effective moduli.
+/// Range of the search for a yield strength, in effective moduli.
 const STRENGTHS: (f64, f64) = (1e-7, 1.0);
 
-/// Steps from the one to the other.
+/// Number of steps over this range.
 const STEPS: u32 = 120;
 
-/// What a test has left behind.
+/// The result of a test.
 #[derive(Clone, Copy, Debug)]
 pub struct Dent {
     /// Indentation under the load [m].
     pub max_indentation: f64,
-    /// Diameter of the contact under the load [m]: that of the dent, since unloading makes it shallower, and hardly narrower.
+    /// Diameter of the contact under load [m]. It is taken as the diameter of the dent, because unloading makes the dent
+    /// shallower but hardly narrower.
     pub diameter: f64,
     /// Depth of the dent after unloading [m].
     pub depth: f64,
-    /// Load over the area of the contact under the load [Pa].
+    /// Load over the contact area under load [Pa].
     pub mean_pressure: f64,
     pub regime: Regime,
-    /// Contact radius over effective radius.
+    /// Contact radius over effective radius [-].
     pub radius_ratio: f64,
-    /// Brinell number HBW; none without a dent, or of a dent that is wider than the ball.
+    /// Brinell number HBW; `None` without a dent, or if the dent is wider than the ball.
     pub brinell: Option<f64>,
-    /// Meyer hardness [Pa]; none without a dent.
+    /// Meyer hardness [Pa]; `None` without a dent.
     pub meyer: Option<f64>,
 }
 
 impl Dent {
-    /// The law isn't valid for a dent as wide as this one.
+    /// Whether the dent is too wide for the law to be valid.
     pub fn is_beyond_law(&self) -> bool {
         self.radius_ratio > LARGEST_RADIUS_RATIO
     }
 }
 
-/// The Brinell number of a dent of this `diameter` [m] that a ball of diameter `ball` [m] has made under `load` [N]:
-/// `HBW = 0.102 * 2 F / (pi D (D - sqrt(D^2 - d^2)))` with lengths in millimetres. None if the dent is wider than the ball.
+/// The Brinell number of a dent of this `diameter` [m] from a ball of diameter `ball` [m] under `load` [N]:
+/// `HBW = 0.102 * 2 F / (pi D (D - sqrt(D^2 - d^2)))`, with lengths in millimetres. `None` if the dent is wider than the ball.
 ///
 /// Reference: ISO 6506-1, section 4.
 pub fn brinell_number(load: f64, ball: f64, diameter: f64) -> Option<f64> {
@@ -62,17 +64,17 @@ pub fn brinell_number(load: f64, ball: f64, diameter: f64) -> Option<f64> {
     if diameter > ball {
         return None;
     }
-    // D - sqrt(D^2 - d^2) without the loss of digits of a small dent
+    // D - sqrt(D^2 - d^2) without cancellation for a small dent
     let depth = diameter * diameter / (ball + (ball * ball - diameter * diameter).sqrt());
     Some(PER_KILOGRAM * 2.0 * load / (PI * ball * depth))
 }
 
-/// The load ratio `0.102 F/D^2` of ISO 6506-1 [N/mm^2], with the ball's diameter [m].
+/// The load ratio `0.102 F/D^2` of ISO 6506-1 [N/mm^2], for a ball diameter in m.
 pub fn load_ratio(load: f64, ball: f64) -> f64 {
     PER_KILOGRAM * load / (1e6 * ball * ball)
 }
 
-/// The test with `load` [N] and a ball of the diameter `ball` [m]; none if the law can't be evaluated for it.
+/// The test with `load` [N] and a ball of diameter `ball` [m]; `None` if the law cannot be evaluated.
 fn test(model: &Model<AnyLoading, AnyUnloading>, load: f64, ball: f64) -> Option<Dent> {
     let depth = depth_of_force(model, load)?;
     let peak = model.peak(depth);
@@ -92,14 +94,14 @@ fn test(model: &Model<AnyLoading, AnyUnloading>, load: f64, ball: f64) -> Option
     })
 }
 
-/// The first indentation [m] whose force reaches `force` [N].
+/// The smallest indentation [m] at which the force reaches `force` [N].
 fn depth_of_force(model: &Model<AnyLoading, AnyUnloading>, force: f64) -> Option<f64> {
     let at = |depth: f64| model.loading.segment(&model.pair, depth).force(depth);
-    // f64 keeps its order when the bits of positive numbers are read as integers
+    // the bits of positive f64 numbers, read as integers, keep their order
     let (mut low, mut high) = (0, LARGEST_INDENTATION.to_bits());
     let reaches = |depth: f64| at(depth) >= force;
     if !reaches(LARGEST_INDENTATION) {
-        // a fit may have no number there
+        // a fitted law may not be finite there
         high = (model.pair.radius * 1e3).to_bits();
         if !reaches(f64::from_bits(high)) {
             return None;
@@ -112,10 +114,10 @@ fn depth_of_force(model: &Model<AnyLoading, AnyUnloading>, force: f64) -> Option
     Some(f64::from_bits(high))
 }
 
-/// The test by the laws of `choice`.
+/// The test with the laws of `choice`.
 ///
 /// # Errors
-/// Why there is no answer.
+/// A sentence with the reason why there is no result.
 pub fn run_test(choice: &Choice, load: f64, ball: f64) -> Result<Dent, String> {
     let model = elastoplastic(choice)?;
     test(&model, load, ball).ok_or_else(|| format!("the law {} can't be evaluated for this load", choice.laws))
@@ -128,17 +130,17 @@ fn elastoplastic(choice: &Choice) -> Result<Model<AnyLoading, AnyUnloading>, Str
         .ok_or_else(|| format!("the law {} leaves no dent: a hardness test needs a law that yields", choice.laws))
 }
 
-/// The yield strength [Pa] of a target on which the test gives the Brinell number `hardness`, and the dent there.
+/// The yield strength [Pa] of a target for which the test gives the Brinell number `hardness`, and the dent.
 ///
 /// # Errors
-/// Why there is no answer.
+/// A sentence with the reason why there is no result.
 pub fn strength_of(choice: &Choice, load: f64, ball: f64, hardness: f64) -> Result<(f64, Dent), String> {
     let model = elastoplastic(choice)?;
     let with = |yield_strength: f64| {
         let softer = AnyModel::Elastoplastic(model).with_yield_strength(yield_strength)?;
         test(softer.elastoplastic()?, load, ball)
     };
-    // no dent at all is as hard as can be, one that is wider than the ball as soft
+    // a target without a dent counts as hardest, one with a dent wider than the ball as softest
     let is_harder = |strength: f64| match with(strength) {
         Some(Dent { brinell: Some(number), .. }) => number >= hardness,
         Some(Dent { meyer: None, .. }) => true,
@@ -147,7 +149,7 @@ pub fn strength_of(choice: &Choice, load: f64, ball: f64, hardness: f64) -> Resu
     let modulus = model.pair.modulus;
     let none =
         || format!("by the law {} no yield strength of the target explains HBW {hardness} at this load", choice.laws);
-    // a law that is a fit has no number for targets nearly as strong as stiff: the first step up is the one that counts
+    // a fitted law may not be finite for targets nearly as strong as stiff: the first increase counts
     let ratio = STRENGTHS.1 / STRENGTHS.0;
     let strength = |step: u32| modulus * STRENGTHS.0 * libm::pow(ratio, f64::from(step) / f64::from(STEPS));
     let harder: Vec<bool> = (0..=STEPS).map(|step| is_harder(strength(step))).collect();
@@ -158,7 +160,7 @@ pub fn strength_of(choice: &Choice, load: f64, ball: f64, hardness: f64) -> Resu
         *(if is_harder(middle) { &mut hard } else { &mut soft }) = middle;
     }
     let dent = with(hard).ok_or_else(none)?;
-    // where the dent ends the hardness has no value at all
+    // at the end of the dent, the hardness has no value
     match dent.brinell {
         Some(found) if (found / hardness - 1.0).abs() < 1e-6 => Ok((hard, dent)),
         _ => Err(none()),
@@ -169,7 +171,7 @@ pub fn strength_of(choice: &Choice, load: f64, ball: f64, hardness: f64) -> Resu
 mod tests {
     use super::*;
 
-    /// The numbers of the table for HBW 10/3000 in ISO 6506-4: dent diameters [mm] and hardness.
+    /// Dent diameters [mm] and hardness from the table for HBW 10/3000 in ISO 6506-4.
     #[test]
     fn the_brinell_number_is_that_of_the_standard() {
         for (diameter, hardness) in [(2.40, 653.0), (3.00, 415.0), (4.00, 229.0), (5.00, 143.0), (6.00, 95.5)] {

@@ -1,17 +1,17 @@
-//! What a model description says.
+//! The contents of a model description.
 
 use super::ImportError;
 use crate::xml;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::HashMap;
 
-/// A variable as the model description has it.
+/// A variable of the model description.
 #[derive(Clone, Debug)]
 pub struct Variable {
     pub reference: u32,
     pub is_real: bool,
     pub causality: String,
-    /// Of a Real variable.
+    /// Start value of a Real variable.
     pub start: Option<f64>,
 }
 
@@ -19,12 +19,12 @@ pub struct Variable {
 #[derive(Debug, Default)]
 pub struct Description {
     pub fmi_version: String,
-    /// Of the co-simulation unit; empty if there is none.
+    /// Model identifier for co-simulation; empty if there is none.
     pub identifier: String,
     pub guid: String,
     /// Whether inputs may have derivatives.
     pub interpolates_inputs: bool,
-    /// Up to which order outputs have derivatives; 0 for none.
+    /// Highest order of the derivatives of outputs; 0 for none.
     pub output_derivatives: u32,
     /// Variables by name.
     pub variables: HashMap<String, Variable>,
@@ -100,7 +100,7 @@ fn attributes(element: &BytesStart) -> Result<HashMap<String, String>, ImportErr
     Ok(map)
 }
 
-/// Refuses what references like `&#1;` may have brought.
+/// Rejects characters from references such as `&#1;`.
 fn check_characters(text: &str) -> Result<(), ImportError> {
     xml::forbidden(text).map_or(Ok(()), |(_, character)| Err(not_xml(character, &format!(" in {text:?}"))))
 }
@@ -109,7 +109,7 @@ fn not_xml(character: char, place: &str) -> ImportError {
     ImportError::Xml(format!("the character {}{place} is none that XML can have", xml::name(character)))
 }
 
-/// Line and column behind the text `before`.
+/// Line and column at the end of the text `before`.
 fn place_of(before: &str) -> (usize, usize) {
     (before.matches('\n').count() + 1, before.chars().rev().take_while(|&c| c != '\n').count() + 1)
 }

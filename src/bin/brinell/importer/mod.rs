@@ -1,4 +1,4 @@
-//! An importer of FMI 2.0 co-simulation units: it knows of a unit what the archive and the C interface say, no more.
+//! An importer of FMI 2.0 co-simulation FMUs. It uses only the archive and the C interface.
 
 #![allow(unsafe_code, reason = "units are called through the C interface")]
 
@@ -18,7 +18,7 @@ pub use bounded::Bound;
 pub use description::Description;
 pub use unit::{Instance, Unit};
 
-/// A unit that can't be loaded, or a call that failed.
+/// An FMU that cannot be loaded, or a call that failed.
 #[derive(Debug, thiserror::Error)]
 pub enum ImportError {
     #[error("{0}")]
@@ -53,7 +53,7 @@ pub enum ImportError {
     Endless { steps: u32 },
 }
 
-/// An error with what caused it.
+/// An error with its causes.
 fn chain(error: &dyn std::error::Error) -> String {
     match error.source() {
         Some(source) => format!("{error}: {}", chain(source)),
@@ -61,21 +61,21 @@ fn chain(error: &dyn std::error::Error) -> String {
     }
 }
 
-/// An archive, unpacked.
+/// An unpacked archive.
 pub struct Archive {
     folder: Folder,
     pub description: Description,
     /// Platforms with a binary.
     pub platforms: BTreeSet<String>,
-    /// The scene that the unit was made from, if it is one of ours.
+    /// The scene of the FMU, if it was made by this program.
     pub scene: Option<String>,
 }
 
 impl Archive {
-    /// Unpacks the unit at `path`.
+    /// Unpacks the FMU at `path`.
     pub fn open(path: &Path) -> Result<Archive, ImportError> {
         let mut archive = zip::ZipArchive::new(fs::File::open(path).map_err(ImportError::Unreadable)?)?;
-        // the library in it is going to be loaded: nobody else may put one there
+        // the library in this folder will be loaded: nobody else may write to the folder
         let folder =
             private_folder("brinell-check-", &env::temp_dir()).map_err(|error| ImportError::Unpack(error.source))?;
         bounded::unpack(&mut archive, folder.path())?;

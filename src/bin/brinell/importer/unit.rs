@@ -1,7 +1,6 @@
-//! A library behind the C interface.
+//! An FMU library behind its C interface.
 //!
-//! `unsafe` as any importer needs it: the library is trusted to keep the standard's signatures, which `check` is there
-//! to try out.
+//! It uses `unsafe` like any importer: it relies on the library to have the standard's signatures, which is what `check` tests.
 
 use super::ImportError;
 use std::collections::HashMap;
@@ -12,7 +11,7 @@ use std::path::Path;
 pub struct Unit {
     library: libloading::Library,
     guid: CString,
-    /// Where its resources are.
+    /// Location of its resources.
     resources: CString,
 }
 
@@ -28,13 +27,13 @@ struct Callbacks {
     environment: *mut c_void,
 }
 
-// What a unit written in C may ask its importer for.
+// The functions that an FMU written in C may get from its importer.
 unsafe extern "C" {
     fn calloc(count: usize, size: usize) -> *mut c_void;
     fn free(memory: *mut c_void);
 }
 
-/// A path as an address: `file:///tmp/a%20b`.
+/// A path as a URI: `file:///tmp/a%20b`.
 fn address(path: &Path) -> String {
     let path = path.to_string_lossy().replace('\\', "/");
     let byte = |byte: u8| match byte {
@@ -49,15 +48,15 @@ fn address(path: &Path) -> String {
 /// The category of warnings.
 const WARNING: &CStr = c"logStatusWarning";
 
-/// What a unit has said.
+/// The messages of an FMU.
 #[derive(Default)]
 struct Said {
     last: String,
-    /// In the category `logStatusWarning`.
+    /// Those in the category `logStatusWarning`.
     warnings: Vec<String>,
 }
 
-/// Keeps the last message, and all warnings. The unit's messages are complete texts, so that the variable arguments aren't needed.
+/// Stores the last message and all warnings. The FMU's messages are complete texts, so the variable arguments are not needed.
 unsafe extern "C" fn keep_message(
     environment: *mut c_void,
     _instance: *const c_char,
@@ -65,7 +64,7 @@ unsafe extern "C" fn keep_message(
     category: *const c_char,
     message: *const c_char,
 ) {
-    // SAFETY: the environment is what is kept below, which outlives the instance; the strings end with 0.
+    // SAFETY: the environment is the object created below, which outlives the instance; the strings are null-terminated.
     unsafe {
         if let Some(said) = environment.cast::<Said>().as_mut()
             && !message.is_null()
@@ -81,7 +80,7 @@ unsafe extern "C" fn keep_message(
 type SetDerivatives = unsafe extern "C" fn(Component, *const u32, usize, *const c_int, *const f64) -> c_int;
 type GetDerivatives = unsafe extern "C" fn(Component, *const u32, usize, *const c_int, *mut f64) -> c_int;
 
-/// The functions that stepping needs, looked up once.
+/// The functions needed for stepping, looked up once.
 struct Functions<'a> {
     get_real: libloading::Symbol<'a, unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> c_int>,
     set_real: libloading::Symbol<'a, unsafe extern "C" fn(Component, *const u32, usize, *const f64) -> c_int>,
@@ -94,12 +93,12 @@ struct Functions<'a> {
     free: libloading::Symbol<'a, unsafe extern "C" fn(Component)>,
 }
 
-/// An instance of a unit.
+/// An instance of an FMU.
 pub struct Instance<'a> {
     functions: Functions<'a>,
     component: Component,
     said: *mut Said,
-    // the unit may keep the pointer instead of a copy
+    // the FMU may keep the pointer instead of a copy
     _callbacks: Box<Callbacks>,
 }
 
@@ -109,20 +108,20 @@ impl Unit {
     /// # Safety
     /// `T` is its type.
     unsafe fn get<T>(&self, name: &'static str) -> Result<libloading::Symbol<'_, T>, ImportError> {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.library.get(name.as_bytes()) }.map_err(|source| ImportError::Function { name, source })
     }
 
-    /// Loads the library at `path` of the unit with this GUID, unpacked into `folder`.
+    /// Loads the library at `path` of the FMU with this GUID, unpacked into `folder`.
     pub fn load(path: &Path, folder: &Path, guid: &str) -> Result<Unit, ImportError> {
         let text = |text: String| CString::new(text).map_err(|error| ImportError::Xml(error.to_string()));
         let (guid, resources) = (text(guid.into())?, text(address(&folder.join("resources")))?);
-        // SAFETY: loading runs the library's initializers; a unit of FMI has none that could harm.
+        // SAFETY: loading runs the library's initializers; an FMU has none that could do harm.
         let library = unsafe { libloading::Library::new(path) }.map_err(ImportError::Library)?;
         Ok(Unit { library, guid, resources })
     }
 
-    /// Makes an instance.
+    /// Creates an instance.
     pub fn instantiate(&self) -> Result<Instance<'_>, ImportError> {
         type Instantiate = unsafe extern "C" fn(
             *const c_char,
@@ -170,7 +169,7 @@ impl Unit {
 
 impl Drop for Instance<'_> {
     fn drop(&mut self) {
-        // SAFETY: both were made in `instantiate` and are not used afterwards; the standard allows freeing null.
+        // SAFETY: both come from `instantiate` and are not used afterwards; the standard allows freeing null.
         unsafe {
             if !self.component.is_null() {
                 (self.functions.free)(self.component);
@@ -182,16 +181,16 @@ impl Drop for Instance<'_> {
 
 impl Instance<'_> {
     fn check(&self, function: &'static str, status: c_int) -> Result<(), ImportError> {
-        // fmi2OK, or fmi2Warning: the computation can go on
+        // fmi2OK or fmi2Warning: the computation can continue
         if matches!(status, 0 | 1) {
             return Ok(());
         }
-        // SAFETY: it lives as long as the instance, and the unit writes to it during calls only.
+        // SAFETY: it lives as long as the instance, and the FMU writes to it only during calls.
         let message = unsafe { (*self.said).last.clone() };
         Err(ImportError::Call { function, status, message })
     }
 
-    /// Asks for warnings; those that were told once are told again.
+    /// Enables warnings. Warnings that were given once are given again.
     pub fn ask_for_warnings(&mut self) -> Result<(), ImportError> {
         let set = &self.functions.set_logging;
         // SAFETY: the component is live; one category.
@@ -201,7 +200,7 @@ impl Instance<'_> {
 
     /// The warnings since the last call.
     pub fn take_warnings(&mut self) -> Vec<String> {
-        // SAFETY: it lives as long as the instance, and the unit writes to it during calls only.
+        // SAFETY: it lives as long as the instance, and the FMU writes to it only during calls.
         unsafe { std::mem::take(&mut (*self.said).warnings) }
     }
 
@@ -212,7 +211,7 @@ impl Instance<'_> {
         self.check(function, status)
     }
 
-    /// Sets the start time [s], without stop time.
+    /// Sets the start time [s], without a stop time.
     pub fn setup_experiment(&mut self, start: f64) -> Result<(), ImportError> {
         // SAFETY: the component is live.
         let status = unsafe { (self.functions.setup)(self.component, 0, 0.0, start, 0, 0.0) };
@@ -235,19 +234,19 @@ impl Instance<'_> {
         self.check("fmi2SetReal", status)
     }
 
-    /// One step from `time` [s] over `step` [s].
+    /// Makes a step of `step` [s] from `time` [s].
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), ImportError> {
         // SAFETY: the component is live.
         let status = unsafe { (self.functions.do_step)(self.component, time, step, 1) };
         self.check("fmi2DoStep", status)
     }
 
-    /// Sets derivatives of an input for the next step: the first, and the second if it is there.
+    /// Sets derivatives of an input for the next step: the first, and the second if given.
     pub fn set_input_derivatives(&mut self, reference: u32, values: &[f64]) -> Result<(), ImportError> {
         let (references, orders) = ([reference; 2], [1, 2]);
         let count = values.len().min(orders.len());
         let set = &self.functions.set_input_derivatives;
-        // SAFETY: the component is live; as many references and orders as values, or more.
+        // SAFETY: the component is live; there are at least as many references and orders as values.
         let status = unsafe { set(self.component, references.as_ptr(), count, orders.as_ptr(), values.as_ptr()) };
         self.check("fmi2SetRealInputDerivatives", status)
     }

@@ -1,10 +1,10 @@
-//! Curves drawn with letters.
+//! Curves drawn with characters.
 
 /// Size of the field [characters].
 const COLUMNS: usize = 64;
 const ROWS: usize = 16;
 
-/// Points in the field, each with its letter; later ones are drawn over earlier ones. Both axes begin at zero.
+/// Points with their characters; later points are drawn over earlier ones. Both axes begin at zero.
 pub struct Chart {
     pub x_title: String,
     pub y_title: String,

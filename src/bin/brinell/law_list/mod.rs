@@ -1,4 +1,4 @@
-//! `brinell laws`: the laws, each measured when the command runs.
+//! `brinell laws`: the laws, each evaluated when the command runs.
 
 mod chart;
 mod single;
@@ -25,7 +25,7 @@ use serde::Serialize;
 use std::error::Error;
 use std::path::PathBuf;
 
-/// What `brinell laws` is asked.
+/// The arguments of `brinell laws`.
 #[derive(clap::Args)]
 #[command(next_line_help = true)]
 pub struct Arguments {
@@ -36,7 +36,7 @@ pub struct Arguments {
     pub output: Option<PathBuf>,
 }
 
-/// The command: lists the laws, shows one, or draws curves into a file.
+/// The command: lists the laws, shows one of them, or draws curves to a file.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let Arguments { name, output } = arguments;
     let output = output.as_deref();
@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Every law.
+/// All laws.
 #[derive(Debug, Serialize)]
 pub struct List {
     pub loading: Vec<Measured>,
@@ -69,27 +69,27 @@ pub struct List {
     pub damped: Vec<Rated>,
 }
 
-/// What was measured of a loading law, and what is said of it.
+/// Measurements and description of a loading law.
 #[derive(Debug, Serialize)]
 pub struct Measured {
     pub name: &'static str,
     pub title: &'static str,
-    /// Unloading law with which the energy was measured.
+    /// Unloading law used for the energy.
     pub unloading: &'static str,
     pub continuous: bool,
     /// Largest jump of the force at a corner, relative to the force.
     pub largest_jump: f64,
-    /// Whether the law makes no energy with that unloading law, whatever the bodies.
+    /// Whether the law is passive with that unloading law, for all bodies.
     pub passive: bool,
-    /// From which Poisson's ratio of the target on it makes none, where it does below.
+    /// The Poisson's ratio of the target from which it is passive, if it is not below.
     pub passive_from_poissons_ratio: Option<f64>,
-    /// Largest restitution over all depths, of targets with a Poisson's ratio from 0 on.
+    /// Largest restitution over all depths, for targets with a Poisson's ratio of at least 0.
     pub largest_restitution: f64,
-    /// Of targets with a Poisson's ratio below 0.
+    /// The same for targets with a Poisson's ratio below 0.
     pub largest_auxetic_restitution: f64,
-    /// Largest error of the loading force against the truth.
+    /// Largest error of the loading force relative to finite elements.
     pub worst_error: f64,
-    /// Where, in yield indentations.
+    /// Its position, in yield indentations.
     pub worst_at: f64,
     /// Root mean square of that error.
     pub rms_error: f64,
@@ -100,7 +100,7 @@ pub struct Measured {
     pub reference: &'static str,
 }
 
-/// What is said of an unloading law.
+/// Description of an unloading law.
 #[derive(Debug, Serialize)]
 pub struct Told {
     pub name: &'static str,
@@ -111,14 +111,15 @@ pub struct Told {
     pub reference: &'static str,
 }
 
-/// What was measured of a rate-dependent law, in one of its dampings, and what is said of it.
+/// Measurements and description of a rate-dependent law with one of its damping variants.
 #[derive(Clone, Debug, Serialize)]
 pub struct Rated {
     pub name: String,
     pub title: &'static str,
-    /// Force right after the first touch over the largest one: above 0 it jumps.
+    /// Force just after the first touch over the largest force; above 0, the force jumps.
     pub force_at_touch: f64,
-    /// What an impact at 1 m/s gives when 0.5 is asked for; of laws with a damping of their own, what they give.
+    /// Restitution of an impact at 1 m/s if 0.5 is required. Laws that specify their damping directly have their own
+    /// restitution.
     pub restitution: f64,
     pub formulas: Vec<String>,
     pub parameters: Vec<Constant>,
@@ -127,10 +128,10 @@ pub struct Rated {
     pub reference: &'static str,
 }
 
-/// The restitution that the rate-dependent laws are asked for.
+/// The required restitution of the rate-dependent laws.
 const ASKED: f64 = 0.5;
 
-/// Every law, the loading laws measured on the bodies of `scene`.
+/// All laws. The loading laws are evaluated on the bodies of `scene`.
 pub fn all(scene: &Scene) -> List {
     let loading = AnyLoading::ALL.into_iter().map(|(name, loading)| measure(scene, name, loading)).collect();
     let unloading = AnyUnloading::ALL.into_iter().map(|(name, law)| tell(name, &law)).collect();
@@ -144,7 +145,7 @@ pub fn all(scene: &Scene) -> List {
     List { loading, unloading, damped: damped.collect() }
 }
 
-/// What the law is, measured with the scene's bodies and mass.
+/// The measurements of a law with the scene's bodies and mass.
 fn rate(scene: &Scene, name: &str, variant: String, law: AnyDamped) -> Rated {
     let impact = Impact { mass: scene.impact.mass, speed: 1.0 };
     let model = damped::Model { pair: scene.model().pair, law, restitution: ASKED, mass: impact.mass };
@@ -172,10 +173,10 @@ fn tell(name: &'static str, law: &AnyUnloading) -> Told {
     Told { name, title: &told.title, formulas, parameters, notes, reference: &told.reference }
 }
 
-/// Jumps up to this are rounding.
+/// Smaller jumps are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// What a law does with energy on all bodies: those with a Poisson's ratio from 0 on, and the others.
+/// The energy balance of a law on all bodies: those with a Poisson's ratio of at least 0, and the others.
 fn balances(name: &str, model: &Model<AnyLoading, AnyUnloading>) -> [Balance; 2] {
     let depends = table::loading_law(name).depends_on_modulus_ratio;
     let one = (energy::ANY_MODULUS_RATIO, energy::ANY_MODULUS_RATIO);

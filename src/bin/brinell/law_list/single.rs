@@ -17,13 +17,13 @@ use serde_json::{Value, json};
 use std::error::Error;
 use std::path::Path;
 
-/// The depths of the curve [yield indentations].
+/// The largest depth of the curve [yield indentations].
 const DEEPEST: f64 = 100.0;
 
-/// Points of the curve.
+/// Number of points of the curve.
 const POINTS: u32 = 160;
 
-/// Shows the law `name`: in words, as JSON, or as a picture in `output`.
+/// Shows the law `name`: as text, as JSON, or as a picture in `output`.
 pub fn run(scene: &Scene, name: &str, output: Option<&Path>, as_json: bool) -> Result<(), Box<dyn Error>> {
     let (first, _) = name.split_once('/').unwrap_or((name, ""));
     let list = all(scene);
@@ -57,7 +57,7 @@ fn one(scene: &Scene, name: &str) -> Result<Choice, WrongCall> {
     choices.into_iter().next().ok_or_else(|| WrongCall(format!("no law {name}")))
 }
 
-/// The laws of one name: a loading law and an unloading law may share it.
+/// The laws with one name: a loading law and an unloading law may share it.
 struct Found<'a> {
     list: &'a List,
     name: &'a str,
@@ -80,7 +80,7 @@ impl Found<'_> {
         self.list.damped.iter().filter(|law| law.name.split('/').next() == Some(self.name))
     }
 
-    /// Whether it is a law by which a load is put on.
+    /// Whether it is a loading law.
     fn loads(&self) -> bool {
         self.loading().is_some() || self.damped().next().is_some()
     }
@@ -139,14 +139,14 @@ impl Found<'_> {
     }
 }
 
-/// One formula a line, or more if it is long.
+/// One formula on each line; long ones take several lines.
 fn formulas(formulas: &[String]) -> String {
     let lines =
         formulas.iter().enumerate().map(|(index, formula)| entry(if index == 0 { "formulas" } else { "" }, formula));
     lines.collect()
 }
 
-/// One constant a line, with its range and meaning.
+/// One constant on each line, with its range and meaning.
 fn constants(constants: &[Constant]) -> String {
     if constants.is_empty() {
         return entry("constants", "none that a scene can change");
@@ -168,7 +168,7 @@ fn constants(constants: &[Constant]) -> String {
     text
 }
 
-/// The loading curve and an unloading in units of the yield point, with finite elements.
+/// The loading curve and one unloading in units of the yield point, with finite elements.
 fn curve_points(choice: &Choice) -> Option<[Vec<(f64, f64)>; 2]> {
     let model = choice.model.elastoplastic()?;
     let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);

@@ -1,4 +1,4 @@
-//! The laws for people: tables, then a paragraph for each law.
+//! The laws as text: tables, then a paragraph for each law.
 
 use super::{ASKED, List, Measured, Rated, Told};
 use crate::layout::{paragraph, table};
@@ -36,12 +36,12 @@ pub fn list(list: &List) -> String {
     text
 }
 
-/// A law with several dampings is described once.
+/// A law with several damping variants is described once.
 fn is_first_of_its_kind(law: &Rated) -> bool {
     !law.name.contains('/') || ["/exact", "/original"].iter().any(|first| law.name.ends_with(first))
 }
 
-/// How good the loading laws are.
+/// The accuracy of the loading laws.
 pub fn measured(laws: &[Measured]) -> String {
     let percent = |value: f64| format!("{:+.1} %", 100.0 * value);
     let mut rows = vec![["law/unloading", "worst error", "at d_y", "rms", "jump", "energy"].map(String::from).to_vec()];
@@ -62,12 +62,12 @@ pub fn measured(laws: &[Measured]) -> String {
     table(&rows, 1, 0)
 }
 
-/// What the rate-dependent laws do.
+/// The properties of the rate-dependent laws.
 pub fn rated(laws: &[Rated]) -> String {
     let asked = format!("restitution (for {ASKED})");
     let mut rows = vec![vec!["law".to_string(), asked, "force at first touch".into()]];
     for law in laws {
-        // what the fourth root of the smallest depth leaves is no jump
+        // the fourth root of the smallest depth is not a jump
         let jump = match law.force_at_touch {
             part if part < 0.01 => "none".into(),
             part => format!("{:.0} % of the largest", 100.0 * part),
@@ -111,7 +111,7 @@ fn values(constants: &[Constant]) -> String {
     if all.is_empty() { "none".into() } else { all.join(", ") }
 }
 
-/// `text` behind its `heading`.
+/// `text` after its `heading`.
 pub fn entry(heading: &str, text: &str) -> String {
     paragraph(&format!("  {heading:<12}"), text)
 }

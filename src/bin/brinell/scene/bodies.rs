@@ -1,16 +1,16 @@
-//! The bodies of each contact, and what follows from them alone.
+//! The bodies of each contact, and values that follow from them alone.
 
 use super::Scene;
 use brinell::contact::{Body, Pair};
 use std::collections::HashMap;
 
 impl Scene {
-    /// The bodies of the contacts of `group`; none if they don't fit.
+    /// The bodies of the contacts of `group`; `None` if they do not fit.
     pub(super) fn pair_of(&self, group: usize) -> Option<Pair> {
         self.pair_with(group, &[])
     }
 
-    /// The same bodies with these values of some of their parameters.
+    /// The same bodies with other values for some of their parameters.
     pub fn pair_with(&self, group: usize, values: &[(&str, f64)]) -> Option<Pair> {
         let value = |name| {
             let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
@@ -30,8 +30,8 @@ impl Scene {
         Pair::new(&impactor, &target, strength)
     }
 
-    /// What `of` finds for each group. Ten thousand groups may have the same bodies: what follows from the bodies, their mass and
-    /// the laws of the scene alone is found once for all of them.
+    /// The result of `of` for each group. Ten thousand groups may have the same bodies. A result that follows only from the
+    /// bodies, their mass and the laws of the scene is computed once for all of them.
     pub fn by_bodies<T: Clone>(&self, mut of: impl FnMut(usize) -> T) -> Vec<T> {
         let mut known: HashMap<Option<[u64; 7]>, T> = HashMap::new();
         let groups = 0..self.contacts.len();

@@ -1,4 +1,4 @@
-//! Checking a scene: from the file as it is written to what can be built.
+//! Checks a scene: from the contents of the file to a scene that can be built.
 
 use super::contacts::{Contacts, IMPACTOR_DENSITY};
 use super::coupling;
@@ -56,11 +56,11 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     }
     groups.iter_mut().flat_map(|group| &mut group.own).for_each(|own| own.settable = !is_input(own.name));
     contacts.divide(&parameters, &mut groups, is_input)?;
-    // what every contact has for itself is nobody's
+    // a value that every contact has for itself is not shared
     parameters.retain(|shared| !groups.iter().all(|group| group.own.iter().any(|own| own.name == shared.name)));
     parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
     let mut outputs = check_outputs(&file.fmu.outputs, coupling.is_some())?;
-    // without it such an FMU is of no use
+    // without it such an FMU is useless
     if coupling.is_some() && !outputs.iter().any(|output| output == "mean_force") {
         outputs.push("mean_force".into());
     }
@@ -78,7 +78,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         coupling,
         impact,
         predictions: Vec::new(),
-        // a master that moves the mass itself, by a law that has a stable step
+        // for an importer that moves the mass itself, with a law that has a stable step size
         watches: coupling.is_none()
             && damped.is_none()
             && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
@@ -101,7 +101,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     Ok(scene)
 }
 
-/// The name of an FMU: a C identifier that every operating system takes for that of a file.
+/// The name of an FMU: a C identifier that every operating system accepts as a file name.
 ///
 /// Reference: "Naming Files, Paths, and Namespaces" in the documentation of Windows.
 fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
@@ -122,7 +122,7 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
     let text = name.get_ref();
     let mut characters = text.chars();
     let begins = characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
-    // the name is that of a file too
+    // the name is also used for a file
     let short = text.len() <= 100;
     if short && begins && characters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
         return Ok(text.clone());
@@ -133,7 +133,7 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
     Err(Mistake(name.span(), message))
 }
 
-/// Text that the model description can hold.
+/// A text that the model description can contain.
 fn check_description(given: Option<&Spanned<String>>) -> Result<String, Mistake> {
     let Some(text) = given else { return Ok(String::new()) };
     match xml::forbidden(text.get_ref()) {
@@ -147,8 +147,9 @@ fn check_description(given: Option<&Spanned<String>>) -> Result<String, Mistake>
     }
 }
 
-/// The impact that the scene names, or one at 1 m/s. Its mass is the given one, or that which the unit knows, or else that of a
-/// solid ball with the radius and the density of the first contact's impactor. Without an `[impact]` the ball may be of steel.
+/// The impact of the scene, or an impact at 1 m/s. Its mass is the given mass, otherwise the mass that the FMU knows, otherwise
+/// that of a solid ball with the radius and the density of the first contact's impactor. Without an `[impact]`, the density may
+/// be that of steel.
 fn check_impact(
     given: Option<&Spanned<ImpactTable>>,
     known: Option<&Spanned<f64>>,
@@ -180,10 +181,10 @@ fn check_impact(
     Ok(Impact { mass, speed })
 }
 
-/// Density of the ball that is assumed without an `[impact]` [kg/m^3].
+/// Assumed density of the ball without an `[impact]` [kg/m^3].
 const STEEL: f64 = 7850.0;
 
-/// Refuses bodies that don't touch in one point.
+/// Rejects bodies that do not touch at one point.
 fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mistake> {
     if scene.pair_of(group).is_some() {
         return Ok(());
@@ -199,7 +200,7 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
     Err(Mistake(socket.span(), message))
 }
 
-/// The message about an impact that the law can't be evaluated for.
+/// The message about an impact for which the law cannot be evaluated.
 fn too_hard(scene: &Scene, group: usize) -> String {
     let Impact { mass, speed } = scene.impact_of(group);
     let what = match scene.damped {
@@ -211,14 +212,14 @@ fn too_hard(scene: &Scene, group: usize) -> String {
     format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}")
 }
 
-/// Refuses a value of the parameter `name` out of its range; `owner` comes before the name in the message.
+/// Rejects a value of the parameter `name` outside its range. `owner` precedes the name in the message.
 pub fn check_limits(name: &str, owner: &str, value: &Spanned<f64>) -> Result<(), Mistake> {
     let variable = table::variable(name);
     let allowed = variable.minimum.unwrap_or(f64::MIN)..=variable.maximum.unwrap_or(f64::MAX);
     check_range((name, variable.unit.as_deref().unwrap_or("")), owner, value, allowed)
 }
 
-/// Refuses a value with this name and unit unless it is `allowed`; `owner` comes before the name in the message.
+/// Rejects a value with this name and unit unless it is `allowed`. `owner` precedes the name in the message.
 pub fn check_range(
     (name, unit): (&str, &str),
     owner: &str,
@@ -241,7 +242,7 @@ pub fn positive(name: &str, value: &Spanned<f64>) -> Result<f64, Mistake> {
     Err(Mistake(value.span(), format!("{name} = {number:?} must be positive and finite")))
 }
 
-/// Leaves settable what `chosen` names, or everything: parameters of all contacts, and those of one.
+/// Makes settable only the parameters in `chosen`, or all: those of all contacts and those of one contact.
 fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Result<(), Mistake> {
     let Some(chosen) = chosen else { return Ok(()) };
     let names: HashSet<&str> = chosen.iter().map(|name| name.get_ref().as_str()).collect();
@@ -251,7 +252,7 @@ fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Res
         if mass_is_input && parameter.name == "effective_mass" {
             return;
         }
-        // a parameter that each contact has for itself is there to be set
+        // a parameter that each contact has for itself is meant to be set
         parameter.settable = parameter.per_contact || names.contains(name.as_str());
         known.push(name);
     };

@@ -1,4 +1,4 @@
-//! What is in contact: the numbers that a scene gives for all contacts, and those that a contact has instead.
+//! The contacts: the numbers that a scene gives for all contacts, and those that a contact overrides.
 
 use super::checks::{check_identifier, check_limits, check_range};
 use super::file::{Contact, File, Impactor, SurfaceName, Target};
@@ -10,13 +10,14 @@ use std::collections::HashSet;
 use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
-/// Most contacts of an FMU: the model description then has some hundred megabytes.
+/// Largest number of contacts of an FMU. The model description then has a few hundred megabytes.
 const MOST_CONTACTS: i64 = 100_000;
 
-/// Most values of parameters that each contact has for itself: restoring a state from bytes has them on the stack.
+/// Largest number of values of parameters that each contact has for itself. Restoring a state from bytes puts them on the
+/// stack.
 const MOST_VALUES: usize = 10_000;
 
-/// What the contacts of a scene may give themselves, in the order of the table.
+/// The properties that a contact may override, in the order of the table.
 const PROPERTIES: [&str; 11] = [
     "impactor.radius",
     "impactor.youngs_modulus",
@@ -31,17 +32,17 @@ const PROPERTIES: [&str; 11] = [
     "initial_gap",
 ];
 
-/// A property that the scene gives for all contacts elsewhere.
+/// A property that the scene gives elsewhere for all contacts.
 const MASS: &str = "effective_mass";
 
-/// Properties that are no variables of the FMU.
+/// Properties that are not variables of the FMU.
 const DENSITY: &str = "target.density";
 pub const IMPACTOR_DENSITY: &str = "impactor.density";
 
-/// Allowed densities [kg/m^3]: from thin gases to what no solid is.
+/// Allowed densities [kg/m^3]: from thin gases to beyond any solid.
 const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
 
-/// The numbers of one level, the whole scene or one contact, each with its place in the file.
+/// The numbers at one level, the whole scene or one contact, with their places in the file.
 struct Numbers(Vec<(&'static str, Spanned<f64>)>);
 
 impl Numbers {
@@ -88,22 +89,22 @@ impl Numbers {
         self.0.retain(|(known, _)| *known != name);
     }
 
-    /// As parameters that can be set, where `wanted` says so.
+    /// The numbers as parameters; those that satisfy `wanted` can be set.
     fn parameters(&self, wanted: impl Fn(&str) -> bool) -> Vec<Parameter> {
         let wanted = self.0.iter().filter(|(name, _)| ![DENSITY, IMPACTOR_DENSITY].contains(name) && wanted(name));
         wanted.map(|(name, value)| Parameter::shared(name, *value.get_ref(), true)).collect()
     }
 }
 
-/// One `[[contact]]`, or the one contact of a scene without any.
+/// One `[[contact]]`, or the single contact of a scene without any.
 struct Given {
     name: Option<String>,
     count: Option<usize>,
     surface: Surface,
     own: Numbers,
-    /// What each contact of the group has for itself.
+    /// The properties that each contact of the group has for itself.
     per_contact: Vec<Spanned<String>>,
-    /// Where a mistake in it is shown, if nothing smaller can be shown.
+    /// The place for an error message, if no more precise place is known.
     span: Range<usize>,
 }
 
@@ -114,7 +115,7 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// The contacts of the scene `file`, each complete.
+    /// The contacts of the scene `file`, all of them complete.
     pub fn of(file: &File) -> Result<Contacts, Mistake> {
         let impactor = file.impactor.as_ref().map(Spanned::get_ref);
         let target = file.target.as_ref().map(Spanned::get_ref);
@@ -135,12 +136,12 @@ impl Contacts {
         Ok(contacts)
     }
 
-    /// The number `name` of a contact: its own, or that of all.
+    /// The number `name` of a contact: its own, or that of all contacts.
     pub fn number(&self, index: usize, name: &str) -> Option<&Spanned<f64>> {
         self.given[index].own.get(name).or_else(|| self.shared.get(name))
     }
 
-    /// `text`, with the contact's name before it if there is one.
+    /// `text` with the name of the contact before it, if there is one.
     pub fn said(&self, index: usize, text: &str) -> String {
         self.given[index].name.as_ref().map_or(text.into(), |name| format!("contact `{name}`: {text}"))
     }
@@ -150,7 +151,7 @@ impl Contacts {
         (0..self.given.len()).any(|index| self.number(index, "target.yield_strength").is_some())
     }
 
-    /// Refuses a contact without yield strength for a `law` that needs one.
+    /// Rejects a contact without yield strength for a `law` that needs it.
     pub fn check_strength(&self, law: &str) -> Result<(), Mistake> {
         let elastic = |index: &usize| self.number(*index, "target.yield_strength").is_none();
         let Some(index) = (0..self.given.len()).find(elastic) else { return Ok(()) };
@@ -158,7 +159,7 @@ impl Contacts {
         Err(Mistake(self.given[index].span.clone(), self.said(index, &message)))
     }
 
-    /// For a law that has no yield strength.
+    /// Removes the yield strength, for a law that has none.
     pub fn forget_strength(&mut self) {
         self.shared.remove("target.yield_strength");
         for given in &mut self.given {
@@ -166,7 +167,7 @@ impl Contacts {
         }
     }
 
-    /// Refuses a mass that a contact has for itself where the unit doesn't know it.
+    /// Rejects a mass that a contact has for itself if the FMU does not know the mass.
     pub fn check_masses(&self, known: bool) -> Result<(), Mistake> {
         let given = self.given.iter().enumerate().find_map(|(index, given)| Some((index, given.own.get(MASS)?)));
         match given {
@@ -179,8 +180,8 @@ impl Contacts {
         }
     }
 
-    /// Gives each contact a value of its own of what its group names, which may be a parameter of the group or one of all contacts,
-    /// `shared`; `is_input` says what can't be a parameter, since it is an input.
+    /// Gives each contact its own value of the properties that its group names. They may be parameters of the group or of all
+    /// contacts (`shared`). `is_input` returns whether a property is an input and so cannot be a parameter.
     pub fn divide(
         &self,
         shared: &[Parameter],
@@ -214,7 +215,7 @@ impl Contacts {
         Ok(())
     }
 
-    /// The parameters of all contacts, and the groups with their own.
+    /// The parameters of all contacts, and the groups with their own parameters.
     pub fn parameters(&self) -> (Vec<Parameter>, Vec<Group>) {
         let group = |(index, given): (usize, &Given)| {
             let own = given.own.parameters(|_| true);
@@ -224,7 +225,7 @@ impl Contacts {
         (self.shared.parameters(|_| true), self.given.iter().enumerate().map(group).collect())
     }
 
-    /// Refuses a contact that has not all that a contact needs.
+    /// Rejects an incomplete contact.
     fn check_complete(&self, index: usize) -> Result<(), Mistake> {
         let missing = |name| self.number(index, name).is_none();
         let span = self.given[index].span.clone();
@@ -249,7 +250,7 @@ impl Contacts {
     }
 }
 
-/// Refuses a scene without `[[contact]]` whose tables have not all that a contact needs.
+/// Rejects a scene without `[[contact]]` whose tables are incomplete.
 fn check_tables(file: &File, contacts: &Contacts) -> Result<(), Mistake> {
     let span =
         |table: Option<Range<usize>>, name| table.ok_or_else(|| Mistake(0..0, format!("missing table `{name}`")));
@@ -277,7 +278,7 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
     })
 }
 
-/// Refuses a number out of range; `owner` comes before its name in the message.
+/// Rejects a number outside its range. `owner` precedes its name in the message.
 fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
     numbers.0.iter().try_for_each(|(name, value)| match *name {
         DENSITY | IMPACTOR_DENSITY => check_range((name, "kg/m^3"), owner, value, DENSITIES),
@@ -285,7 +286,7 @@ fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
     })
 }
 
-/// What each contact gives, where the others have `surface`.
+/// The properties that each contact gives; `surface` is the default.
 fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistake> {
     let surface_of = |own: Option<SurfaceName>| own.or(surface).map_or(Surface::Dented, Surface::from);
     let Some(contacts) = &file.contact else {
@@ -322,7 +323,7 @@ fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistak
     Ok(all)
 }
 
-/// The name of a contact, which must not be the beginning of another variable's name.
+/// The name of a contact, which must not be the beginning of the name of another variable.
 fn check_contact_name(name: &Spanned<String>) -> Result<String, Mistake> {
     let text = check_identifier(name)?;
     let mut taken: Vec<_> = VARIABLES.iter().filter_map(|variable| variable.name.split('.').next()).collect();

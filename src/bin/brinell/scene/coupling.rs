@@ -1,4 +1,4 @@
-//! The table `[coupling]`: the mass that the FMU moves, and the co-simulation algorithm that it is made for.
+//! The table `[coupling]`: the mass that the FMU moves, and the co-simulation algorithm of its importer.
 
 use super::checks::positive;
 use super::file::{CouplingTable, MasterName};
@@ -6,10 +6,10 @@ use super::{Coupling, Mistake};
 use crate::nearest::unknown;
 use toml::Spanned;
 
-/// Inputs that an FMU can have beside the rate.
+/// Inputs that an FMU can have in addition to the rate.
 const INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
 
-/// The coupling that the table asks for, and the mass; `damped` is the name of a law whose force depends on the rate.
+/// The coupling in this table, and the mass. `damped` is the name of the law if its force depends on the rate.
 pub fn check(
     given: Option<&Spanned<CouplingTable>>,
     damped: Option<&str>,

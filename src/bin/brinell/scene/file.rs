@@ -1,4 +1,4 @@
-//! The scene file as it is written: tables and keys, without meaning.
+//! The contents of a scene file: tables and keys, without interpretation.
 
 use super::{Mistake, mistakes};
 use crate::parameters::Given;
@@ -83,13 +83,13 @@ pub struct Fmu {
     pub standalone: Option<bool>,
 }
 
-/// How importers read the names of variables.
+/// The naming convention of variables for importers.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum NamesName {
-    /// As they are, dots and all.
+    /// Flat names, in which dots have no meaning.
     Flat,
-    /// With dots and brackets as a tree.
+    /// Structured names: dots and brackets form a tree.
     Structured,
 }
 
@@ -102,26 +102,26 @@ pub struct CouplingTable {
     pub inputs: Vec<Spanned<String>>,
 }
 
-/// Which units a master steps first.
+/// The order in which an importer steps FMUs.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MasterName {
-    /// The contact, whose force it applies over the same step.
+    /// The contact first; its force is applied over the same step.
     Serial,
-    /// All at once.
+    /// All at the same time.
     Parallel,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImpactTable {
-    /// None: that of a solid ball, if the impactor has a density.
+    /// Without a mass, that of a solid ball is used if the impactor has a density.
     pub mass: Option<Spanned<f64>>,
     pub speed: Spanned<f64>,
     pub watch: Option<bool>,
 }
 
-/// One contact, or `count` equal ones: what differs from the tables above.
+/// One contact, or `count` equal contacts, with the values that differ from the tables above.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
@@ -141,7 +141,7 @@ impl File {
     /// Reads the `text` of a scene.
     ///
     /// # Errors
-    /// What is no TOML, of the wrong type, or unknown, with its place.
+    /// Text that is not TOML, has a wrong type, or is unknown, with its place.
     pub fn read(text: &str) -> Result<File, Mistake> {
         toml::from_str::<File>(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);

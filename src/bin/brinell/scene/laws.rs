@@ -1,4 +1,4 @@
-//! The laws that a scene names, and whether they make sense on its bodies.
+//! The laws of a scene, and checks whether they suit its bodies.
 
 use super::contacts::Contacts;
 use super::file::Law;
@@ -15,7 +15,7 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use toml::Spanned;
 
-/// The rate-dependent law that the scene names, with what belongs to it.
+/// The rate-dependent law of the scene, with its damping variant and constants.
 pub fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mistake> {
     let asked = law.loading.as_ref();
     let found = asked.and_then(|asked| AnyDamped::ALL.into_iter().find(|(name, _)| name == asked.get_ref()));
@@ -56,13 +56,13 @@ pub fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mista
     Ok(Some((name, parameters::apply(chosen, "law.loading", parameters, table::damped_law(name))?)))
 }
 
-/// The names of the laws with several dampings, for a message.
+/// The names of the laws with several damping variants, for a message.
 fn with_dampings() -> String {
     let several = AnyDamped::ALL.into_iter().filter(|(_, law)| !law.dampings().is_empty());
     several.map(|(name, _)| name).collect::<Vec<_>>().join("\" and \"")
 }
 
-/// The law `name` with the damping that the scene names.
+/// The law `name` with the damping variant of the scene.
 fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<AnyDamped, Mistake> {
     let dampings = law.dampings();
     if dampings.is_empty() {
@@ -74,7 +74,7 @@ fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<A
         .ok_or_else(|| Mistake(asked.span(), unknown("law.damping", asked.get_ref(), dampings.into_iter())))
 }
 
-/// The loading law of a scene without rate-dependent law.
+/// The loading law of a scene without a rate-dependent law.
 pub fn check_loading(given: &Law, contacts: &Contacts) -> Result<(&'static str, AnyLoading), Mistake> {
     let name = given.loading.as_ref();
     let yields = contacts.any_yields();
@@ -98,7 +98,7 @@ pub fn check_loading(given: &Law, contacts: &Contacts) -> Result<(&'static str, 
     Ok((law.0, parameters::apply(law.1, "law.loading", parameters, table::loading_law(law.0))?))
 }
 
-/// The unloading law; none if the contact is `elastic`.
+/// The unloading law; `None` if the contact is `elastic`.
 pub fn check_unloading(
     given: &Law,
     loading: &str,
@@ -127,12 +127,12 @@ pub fn check_unloading(
     Ok(Some((law.0, parameters::apply(law.1, "law.unloading", parameters, table::unloading_law(law.0))?)))
 }
 
-/// Where the scene gives constants to its laws, if it does.
+/// The place of the constants that the scene gives to its laws, if any.
 fn parameters_span(given: &Law) -> Option<std::ops::Range<usize>> {
     given.loading_parameters.as_ref().or(given.unloading_parameters.as_ref()).map(Spanned::span)
 }
 
-/// Refuses constants of the two laws that contradict each other.
+/// Rejects constants of the two laws that contradict each other.
 pub fn check_parameters(
     given: &Law,
     loading: &(&'static str, AnyLoading),
@@ -142,7 +142,7 @@ pub fn check_parameters(
     pairing::check_ties(*loading, *unloading).map_err(|message| Mistake(span, message))
 }
 
-/// Refuses laws that the scene's constants have made useless on the bodies of `group`.
+/// Rejects laws whose constants from the scene make them useless on the bodies of `group`.
 pub fn check_curves(given: &Law, scene: &Scene, group: usize) -> Result<(), Mistake> {
     let Some(span) = parameters_span(given).filter(|_| scene.unloading.is_some()) else { return Ok(()) };
     let model = scene.model_of(group);
@@ -152,7 +152,7 @@ pub fn check_curves(given: &Law, scene: &Scene, group: usize) -> Result<(), Mist
     law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
 }
 
-/// Whether the scene wants the guard; the unloading law must have a guarded form.
+/// Whether the scene requests the guard. The unloading law must have a guarded form.
 pub fn check_guard(asked: Option<&Spanned<bool>>, unloading: Option<(&str, AnyUnloading)>) -> Result<bool, Mistake> {
     let Some(asked) = asked.filter(|asked| *asked.get_ref()) else { return Ok(false) };
     let Some((name, law)) = unloading else {

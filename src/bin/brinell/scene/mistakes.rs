@@ -1,10 +1,10 @@
-//! What the parser of the scene file says, in the words of its user.
+//! Translates the messages of the parser into the terms of the scene file.
 
 use crate::nearest::{nearest, one_of};
 use crate::table::VARIABLES;
 use crate::units;
 
-/// What a contact here can't have, by the words that somebody would look for it with.
+/// Unsupported features, with the words by which users would look for them.
 const UNSUPPORTED: [(&[&str], &str); 6] = [
     (
         &["friction", "friction_coefficient", "mu", "tangential", "tangential_stiffness", "angle", "spin", "oblique"],
@@ -20,7 +20,7 @@ const UNSUPPORTED: [(&[&str], &str); 6] = [
     (&["temperature", "creep", "strain_rate"], "yield strength depends on neither temperature nor rate"),
 ];
 
-/// Keys that belong elsewhere.
+/// Keys that belong to another table.
 const ELSEWHERE: [(&str, &str); 6] = [
     ("mass", "[impact] has a mass, the bodies have none"),
     ("speed", "[impact] has a speed"),
@@ -30,7 +30,7 @@ const ELSEWHERE: [(&str, &str); 6] = [
     ("poisson_ratio", "it is called poissons_ratio"),
 ];
 
-/// The `message` of the parser about a `line`, of which it means the part `meant`.
+/// The `message` of the parser about the part `meant` of a `line`.
 pub fn words(message: &str, line: &str, meant: &str) -> String {
     if let Some(field) = message.strip_prefix("missing field ") {
         return missing(field, line);
@@ -46,13 +46,13 @@ pub fn words(message: &str, line: &str, meant: &str) -> String {
         let (asked, known) = names.split_first().expect("the parser names the variant");
         return format!("{} in `{line}`", crate::nearest::unknown("word", asked, known.iter().copied()));
     }
-    // the parser speaks of Rust's types and doesn't name the key: the line does
+    // the parser names Rust types but not the key; the key is in the line
     let message =
         message.replace("expected f64", "expected a number").replace("expected i64", "expected a whole number");
     format!("{message} in `{line}`")
 }
 
-/// A key that must be there, of the table that begins in `line`; of the file, where that is none.
+/// The message about a missing key in the table that begins in `line`; without a line, in the file.
 fn missing(field: &str, line: &str) -> String {
     match (field, line) {
         ("`name`", line) if !line.starts_with("[[") => {
@@ -67,7 +67,7 @@ fn quoted(text: &str) -> Vec<&str> {
     text.split('`').skip(1).step_by(2).collect()
 }
 
-/// A key that doesn't exist, and those that do: "`laoding`, expected one of `loading`, `unloading`".
+/// The message about an unknown key, given the known ones: "`laoding`, expected one of `loading`, `unloading`".
 fn unknown_field(names: &str) -> String {
     let names = quoted(names);
     let (asked, known) = names.split_first().expect("the parser names the key");
@@ -85,12 +85,12 @@ fn unknown_field(names: &str) -> String {
     format!("unknown key `{asked}`{more}{}", one_of(known))
 }
 
-/// What is said of a number with a unit behind it, as in `radius = 5mm`.
+/// The message about a number followed by a unit, as in `radius = 5mm`.
 fn hint(line: &str, meant: &str) -> Option<String> {
     let (key, value) = line.split_once('=')?;
     let value = value.split('#').next().unwrap_or_default();
     let key = key.trim().rsplit('.').next()?.trim();
-    // in a table of one line, the part that is meant
+    // in an inline table, the part that is meant
     let (key, value) = match line.find('{') {
         Some(_) => {
             let before = &line[..line.find(meant)?];

@@ -1,4 +1,4 @@
-//! The scene file: what is in contact, by which laws, and what the unit shows of it.
+//! The scene file: the contacts, their laws, and the variables that the FMU has.
 
 mod bodies;
 mod checks;
@@ -20,52 +20,52 @@ use std::path::{Path, PathBuf};
 
 const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
 
-/// A scene that has been checked.
+/// A checked scene.
 #[derive(Debug)]
 pub struct Scene {
-    /// Name of the unit: a C identifier.
+    /// Name of the FMU: a C identifier.
     pub name: String,
     pub description: String,
-    /// The parameters that belong to all contacts, in the order of the table.
+    /// The parameters of all contacts, in the order of the table.
     pub parameters: Vec<Parameter>,
-    /// What is in contact: at least one.
+    /// The groups of contacts: at least one.
     pub contacts: Vec<Group>,
-    /// The chosen outputs beside force.
+    /// The requested outputs in addition to the force.
     pub outputs: Vec<String>,
     pub loading: (&'static str, AnyLoading),
-    /// None for an elastic contact.
+    /// `None` for an elastic contact.
     pub unloading: Option<(&'static str, AnyUnloading)>,
-    /// The law of a contact whose force depends on the rate; it has no other.
+    /// The law of a contact whose force depends on the rate. Such a contact has no other law.
     pub damped: Option<(&'static str, AnyDamped)>,
-    /// Unloading gives back no more than loading took.
+    /// Whether unloading is limited to return no more than the loading took.
     pub passivity_guard: bool,
-    /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law asks for it.
+    /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law needs it.
     pub yield_strength: Option<f64>,
-    /// How the unit moves the bodies through a step by their mass, if it does.
+    /// The coupling of an FMU that moves the bodies by their mass.
     pub coupling: Option<Coupling>,
     pub impact: Impact,
-    /// What the impact will do to the contacts of each group.
+    /// The prediction of the impact for the contacts of each group.
     pub predictions: Vec<Prediction>,
-    /// The scene doesn't name an impact: a solid steel ball at 1 m/s is meant.
+    /// Whether the scene names no impact; a solid steel ball at 1 m/s is then assumed.
     pub impact_is_assumed: bool,
-    /// The FMU warns of steps that are unstable with the mass of the impact.
+    /// Whether the FMU warns of steps that are unstable with the mass of the impact.
     pub watches: bool,
-    /// The names of variables are declared to be a tree, not as flat.
+    /// Whether the names of variables are declared as structured instead of flat.
     pub structured_names: bool,
-    /// The library needs nothing from its process, and takes memory from its importer.
+    /// Whether the library needs nothing from its process, and takes memory from its importer.
     pub standalone: bool,
-    /// The file as it is.
+    /// The text of the file.
     pub text: String,
 }
 
-/// How a unit that knows the mass works together with its master.
+/// The coupling of an FMU that knows the mass with its importer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Coupling {
-    /// The master steps all units at once.
+    /// Whether the importer steps all FMUs at once.
     pub parallel: bool,
-    /// `external_acceleration` is an input.
+    /// Whether `external_acceleration` is an input.
     pub acceleration_input: bool,
-    /// `effective_mass` is an input.
+    /// Whether `effective_mass` is an input.
     pub mass_input: bool,
 }
 
@@ -74,34 +74,34 @@ pub struct Coupling {
 pub struct Parameter {
     pub name: &'static str,
     pub value: f64,
-    /// Whether it stays settable; otherwise it is a constant of the unit.
+    /// Whether it can be set; otherwise it is a constant of the FMU.
     pub settable: bool,
-    /// Whether each contact of a group has a value of its own.
+    /// Whether each contact of a group has its own value.
     pub per_contact: bool,
 }
 
 impl Parameter {
-    /// One that contacts have in common.
+    /// A parameter that contacts share.
     pub fn shared(name: &'static str, value: f64, settable: bool) -> Parameter {
         Parameter { name, value, settable, per_contact: false }
     }
 }
 
-/// One contact, or several equal ones: a table `[[contact]]`, or all that a scene without such a table has.
+/// One contact or several equal ones: a table `[[contact]]`, or the contact of a scene without such tables.
 #[derive(Clone, Debug)]
 pub struct Group {
-    /// None for the one contact of a scene without `[[contact]]`, whose variables have plain names.
+    /// `None` for the single contact of a scene without `[[contact]]`, whose variables have plain names.
     pub name: Option<String>,
-    /// How many contacts the group has, if their names are counted.
+    /// The number of contacts in the group, if their names are counted.
     pub count: Option<usize>,
-    /// The parameters that this group has instead of those of all contacts, in the order of the table.
+    /// The parameters of this group that override those of all contacts, in the order of the table.
     pub own: Vec<Parameter>,
     pub surface: Surface,
-    /// Density of the target [kg/m^3], if it is known. It is no variable; it limits the speeds for which the law is valid.
+    /// Density of the target [kg/m^3], if known. It is not a variable; it limits the speeds for which the law is valid.
     pub density: Option<f64>,
 }
 
-/// A scene that can't be used: where, and why.
+/// A scene that cannot be used, with the place and the reason.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     #[error("{}: {source}", path.display())]
@@ -110,11 +110,11 @@ pub enum SceneError {
     Wrong { path: PathBuf, line: usize, column: usize, message: String },
 }
 
-/// A mistake at a place in the text.
+/// An error at a place in the text.
 pub struct Mistake(pub std::ops::Range<usize>, pub String);
 
 impl Mistake {
-    /// The mistake with its line and column in the `text` of the file at `path`.
+    /// The error with its line and column in the `text` of the file at `path`.
     fn in_file(self, text: &str, path: &Path) -> SceneError {
         let Mistake(span, message) = self;
         let before = &text[..span.start];
@@ -125,7 +125,7 @@ impl Mistake {
 }
 
 impl Scene {
-    /// The scene of a program that is called without one.
+    /// The scene for a program without arguments.
     ///
     /// # Errors
     /// As for [`Scene::read`].
@@ -136,13 +136,13 @@ impl Scene {
     /// Reads and checks the scene at `path`.
     ///
     /// # Errors
-    /// [`SceneError`] with line and column of the first mistake, and what is allowed there.
+    /// [`SceneError`] with line and column of the first error, and what is allowed there.
     pub fn read(path: &Path) -> Result<Scene, SceneError> {
         let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
         Scene::parse(std::fs::read_to_string(path).map_err(unreadable)?, path)
     }
 
-    /// The same, with the doubts about it on standard error.
+    /// The same, with plausibility warnings on standard error.
     ///
     /// # Errors
     /// As for [`Scene::read`].
@@ -155,7 +155,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Checks the scene `text`; `path` is for messages.
+    /// Checks the scene `text`. `path` is used in messages.
     ///
     /// # Errors
     /// As for [`Scene::read`].
@@ -167,28 +167,28 @@ impl Scene {
         }
     }
 
-    /// The value of a parameter of all contacts; `None` if the scene hasn't got it.
+    /// The value of a parameter of all contacts; `None` if the scene does not have it.
     pub fn value(&self, name: &str) -> Option<f64> {
         self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| parameter.value)
     }
 
-    /// The value of a parameter for the contacts of `group`: their own, or that of all.
+    /// The value of a parameter for the contacts of `group`: their own, or that of all contacts.
     pub fn group_value(&self, group: usize, name: &str) -> Option<f64> {
         let own = self.contacts[group].own.iter().find(|parameter| parameter.name == name);
         own.map(|parameter| parameter.value).or_else(|| self.value(name))
     }
 
-    /// The impact on the contacts of `group`: a unit that knows their mass runs it with that.
+    /// The impact on the contacts of `group`. If the FMU knows their mass, that mass is used.
     pub fn impact_of(&self, group: usize) -> Impact {
         Impact { mass: self.group_value(group, "effective_mass").unwrap_or(self.impact.mass), ..self.impact }
     }
 
-    /// Whether contacts of a group may differ, so that each is kept as a group of its own.
+    /// Whether contacts of a group may differ, so that each is treated as a group of its own.
     pub fn contacts_differ(&self) -> bool {
         self.contacts.iter().any(|group| group.len() > 1 && group.own.iter().any(|own| own.per_contact))
     }
 
-    /// Whether the FMU has the input `name` beside the rate.
+    /// Whether the FMU has the input `name`, which is not the rate.
     pub fn has_input(&self, name: &str) -> bool {
         self.coupling.is_some_and(|coupling| match name {
             "external_acceleration" => coupling.acceleration_input,
@@ -197,22 +197,22 @@ impl Scene {
         })
     }
 
-    /// The parameters of all contacts that stay settable.
+    /// The parameters of all contacts that can be set.
     pub fn settable(&self) -> impl Iterator<Item = &Parameter> {
         self.parameters.iter().filter(|parameter| parameter.settable)
     }
 
-    /// How many contacts the unit has.
+    /// The number of contacts of the FMU.
     pub fn contact_count(&self) -> usize {
         self.contacts.iter().map(Group::len).sum()
     }
 
-    /// The first contact as the physics sees it.
+    /// The physical model of the first contact.
     pub fn any_model(&self) -> AnyModel {
         self.any_model_of(0)
     }
 
-    /// The contacts of `group` as the physics sees them.
+    /// The physical model of the contacts of `group`.
     pub fn any_model_of(&self, group: usize) -> AnyModel {
         let Some((_, law)) = self.damped else { return AnyModel::Elastoplastic(self.model_of(group)) };
         AnyModel::Damped(damped::Model {
@@ -223,12 +223,12 @@ impl Scene {
         })
     }
 
-    /// The first contact by its elastoplastic laws.
+    /// The elastoplastic model of the first contact.
     pub fn model(&self) -> Model<AnyLoading, AnyUnloading> {
         self.model_of(0)
     }
 
-    /// The contacts of `group` by their elastoplastic laws; an elastic contact never uses its unloading law.
+    /// The elastoplastic model of the contacts of `group`. An elastic contact never uses its unloading law.
     pub fn model_of(&self, group: usize) -> Model<AnyLoading, AnyUnloading> {
         let pair = self.pair_of(group).expect("a checked scene has bodies that fit");
         let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
@@ -239,12 +239,12 @@ impl Scene {
 }
 
 impl Group {
-    /// How many contacts there are in the group.
+    /// The number of contacts in the group.
     pub fn len(&self) -> usize {
         self.count.unwrap_or(1)
     }
 
-    /// The prefix of the variables of a contact, which is counted from 0: "", "left." or "contact\[7].".
+    /// The prefix of the variables of a contact, counted from 0: "", "left." or "contact\[7].".
     pub fn prefix(&self, index: usize) -> String {
         match (&self.name, self.count) {
             (None, _) => String::new(),
@@ -261,12 +261,12 @@ impl Group {
         }
     }
 
-    /// What the parameter `name` is called in the unit that all contacts of the group have in common.
+    /// The name in the FMU of the parameter `name` that all contacts of the group share.
     pub fn variable(&self, name: &str) -> String {
         self.name.as_ref().map_or(name.into(), |own| format!("{own}.{name}"))
     }
 
-    /// What the group's own `parameter` is called in the unit, for the contact with this `index`.
+    /// The name in the FMU of the group's own `parameter`, for the contact with this `index`.
     pub fn own_variable(&self, parameter: &Parameter, index: usize) -> String {
         match parameter.per_contact {
             true => self.prefix(index) + parameter.name,
@@ -274,7 +274,7 @@ impl Group {
         }
     }
 
-    /// How many variables the group's own `parameter` is.
+    /// The number of variables for the group's own `parameter`.
     pub fn variables_of(&self, parameter: &Parameter) -> usize {
         if parameter.per_contact { self.len() } else { 1 }
     }

@@ -1,4 +1,4 @@
-//! Numbers that may be right and hardly are: a radius of 5 m, a Young's modulus of 210 Pa.
+//! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
 use super::Mistake;
 use super::file::{File, Impactor, Target};
@@ -6,17 +6,17 @@ use crate::numbers::{plain, quantity};
 use std::ops::RangeInclusive;
 use toml::Spanned;
 
-/// What a number of a contact is expected to be.
+/// The plausible range of a number of a contact.
 struct Expected {
     range: RangeInclusive<f64>,
     unit: &'static str,
-    /// Units that somebody may have had in mind, as factors, the likeliest first.
+    /// Factors of units that the user may have had in mind, the most likely one first.
     factors: &'static [f64],
-    /// Where the range comes from.
+    /// Origin of the range.
     why: &'static str,
 }
 
-/// From some micrometres, where continua end, to the size of a machine.
+/// From some micrometres, where continuum mechanics ends, to the size of a machine.
 const RADIUS: Expected =
     Expected { range: 1e-6..=2.0, unit: "m", factors: &[1e-3, 1e-6], why: "balls and tips have 1 um to 2 m" };
 
@@ -44,10 +44,10 @@ const DENSITY: Expected = Expected {
     why: "metals have 500 to 23000 kg/m^3, stones and glasses 2000 to 8000, polymers 800 to 2300",
 };
 
-/// A yield strength above this part of Young's modulus: no solid without defects has more.
+/// A yield strength above this fraction of Young's modulus is implausible: no solid with defects has more.
 const STRENGTH_OVER_MODULUS: f64 = 0.2;
 
-/// What is doubtful in `file`, each with its place.
+/// The doubts about `file`, each with its place.
 pub fn doubts(file: &File) -> Vec<Mistake> {
     let mut doubts = Vec::new();
     let mut bodies = |owner: &str, impactor: Option<&Impactor>, target: Option<&Target>| {
@@ -88,11 +88,11 @@ pub fn doubts(file: &File) -> Vec<Mistake> {
 }
 
 impl Expected {
-    /// The doubt about the value of `key`, if it isn't what is expected.
+    /// The doubt about the value of `key`, if it is implausible.
     fn doubt(&self, key: &str, value: &Spanned<f64>) -> Option<Mistake> {
         let number = *value.get_ref();
         let size = number.abs();
-        // what is no number is refused elsewhere
+        // numbers that are not allowed are rejected elsewhere
         if !size.is_finite() || size == 0.0 || self.range.contains(&size) {
             return None;
         }

@@ -1,7 +1,7 @@
-//! `brinell ssp`: the FMU of a scene as a system of SSP 1.0, with its parameters in a file of their own.
+//! `brinell ssp`: the FMU of a scene as a system (SSP 1.0), with its parameters in a separate file.
 //!
-//! Reference: *System Structure and Parameterization*, version 1.0 (Modelica Association, 2019): SystemStructure.ssd is the
-//! system, a `.ssv` file the values of its parameters, and `resources/` has what both refer to.
+//! Reference: *System Structure and Parameterization*, version 1.0 (Modelica Association, 2019). SystemStructure.ssd is the
+//! system, a `.ssv` file contains the values of its parameters, and `resources/` contains the files that both refer to.
 
 mod structure;
 mod values;
@@ -30,13 +30,13 @@ type Xml = Writer<Cursor<Vec<u8>>>;
 const TOOL: &str = concat!("Brinell ", env!("CARGO_PKG_VERSION"));
 const COMMON: (&str, &str) = ("xmlns:ssc", "http://ssp-standard.org/SSP1/SystemStructureCommon");
 
-/// The name of the unit within the system.
+/// The name of the FMU in the system.
 const COMPONENT: &str = "contact";
 
-/// The command: writes the system of a scene where the user wants it, or into the current folder.
+/// The command: writes the system of a scene to the user's file or to the current folder.
 ///
 /// # Errors
-/// That of the name, the scene, the wiring, the export, or the file.
+/// The error of the name, the scene, the connections, the export, or the file.
 pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let SspArguments { scene, output, with, connect, platforms, way } = arguments;
     let output = output.as_deref();
@@ -104,7 +104,7 @@ fn of_kind<'a>(plan: &'a Plan, causality: Causality) -> impl Iterator<Item = &'a
     plan.variables.iter().filter(move |entry| entry.variable.causality == causality)
 }
 
-/// A file of XML with this content.
+/// An XML file with this content.
 fn document(content: impl FnOnce(&mut Xml) -> io::Result<()>) -> String {
     let mut xml = Writer::new_with_indent(Cursor::new(Vec::new()), b' ', 2);
     let written = xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)));

@@ -1,4 +1,4 @@
-//! `SystemStructure.ssd`: the units of a system, their connectors, and what is connected with what.
+//! `SystemStructure.ssd`: the components of a system, their connectors and their connections.
 
 use super::wiring::{Peer, Wiring};
 use super::{COMMON, COMPONENT, Files, TOOL, Xml, of_kind, values};
@@ -10,8 +10,8 @@ use std::io;
 
 const DESCRIPTION: (&str, &str) = ("xmlns:ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription");
 
-/// The system. If the contact is alone in it, the system has the contact's inputs and outputs; otherwise it has no connectors of
-/// its own, since some tools know connections between units only.
+/// The system. If it contains only the contact, it has the contact's inputs and outputs. Otherwise it has no connectors,
+/// because some tools support only connections between components.
 pub fn write(xml: &mut Xml, plan: &Plan, files: &Files, wiring: &Wiring) -> io::Result<()> {
     let Plan { scene, experiment, .. } = plan;
     let attributes = [
@@ -58,7 +58,7 @@ fn ports<'a>(plan: &'a Plan) -> impl Iterator<Item = (&'a Entry<'a>, &'static st
     entries.flat_map(|(entry, kind)| (0..entry.count).map(move |index| (entry, kind, entry.name(index))))
 }
 
-/// Beside other units an input is shown only if it is connected: fmpy takes one that isn't for one that is.
+/// Among other components, an input is listed only if it is connected, because fmpy treats all listed inputs as connected.
 fn connectors(xml: &mut Xml, plan: &Plan, wiring: &Wiring) -> io::Result<()> {
     let inputs = wiring.connected(COMPONENT, true);
     let alone = wiring.peers.is_empty();
@@ -83,7 +83,7 @@ fn connectors(xml: &mut Xml, plan: &Plan, wiring: &Wiring) -> io::Result<()> {
     Ok(())
 }
 
-/// A unit beside the contact, with what is connected of it.
+/// Another component, with its connected variables.
 fn beside(xml: &mut Xml, peer: &Peer, wiring: &Wiring) -> io::Result<()> {
     let ports = [(true, "input"), (false, "output")].map(|(input, kind)| (wiring.connected(&peer.name, input), kind));
     let file = peer.file();
@@ -109,7 +109,7 @@ fn beside(xml: &mut Xml, peer: &Peer, wiring: &Wiring) -> io::Result<()> {
     Ok(())
 }
 
-/// Those between the units; of a contact that is alone those with the system, from its inputs and to its outputs.
+/// The connections between the components. A system that contains only the contact connects its own inputs and outputs to it.
 fn connections(xml: &mut Xml, plan: &Plan, wiring: &Wiring) -> io::Result<()> {
     if !wiring.peers.is_empty() && wiring.connections.is_empty() {
         return Ok(());
@@ -134,7 +134,7 @@ fn connections(xml: &mut Xml, plan: &Plan, wiring: &Wiring) -> io::Result<()> {
     Ok(())
 }
 
-/// The enumerations among the outputs, with their values.
+/// The enumerations of the outputs, with their values.
 fn enumerations(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
     let mut used: Vec<_> = plan.variables.iter().map(|entry| entry.variable).collect();
     used.retain(|variable| variable.r#type == Type::Enumeration);

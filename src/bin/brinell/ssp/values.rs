@@ -10,7 +10,7 @@ use std::io;
 
 const VALUES: (&str, &str) = ("xmlns:ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues");
 
-/// The parameters with the values of the scene, under their names in the system.
+/// The parameters with the values of the scene, with their names in the system.
 pub fn write(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
     let attributes = [VALUES, COMMON, ("version", "1.0"), ("name", plan.scene.name.as_str()), ("generationTool", TOOL)];
     let parameters: Vec<_> = of_kind(plan, Causality::Parameter).collect();
@@ -35,7 +35,7 @@ pub fn write(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
     Ok(())
 }
 
-/// The units that these variables use; no list if there are none, since the schema allows no empty one.
+/// The units of these variables. Without any, there is no list, because the schema allows no empty one.
 pub fn units(xml: &mut Xml, list: &str, entries: &[&Entry]) -> io::Result<()> {
     let used: BTreeSet<_> = entries.iter().filter_map(|entry| entry.variable.unit.as_deref()).collect();
     if used.is_empty() {

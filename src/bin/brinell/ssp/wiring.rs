@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// A connection that can't be made.
+/// A connection that is not possible.
 #[derive(Debug, thiserror::Error)]
 pub enum WiringError {
     #[error("{path}: {source}", path = path.display())]
@@ -31,7 +31,7 @@ pub enum WiringError {
     Taken { connection: String, input: String },
 }
 
-/// What can be connected.
+/// The variables of a component that can be connected.
 struct Unit {
     name: String,
     inputs: BTreeSet<String>,
@@ -52,7 +52,7 @@ pub struct Peer {
 }
 
 impl Peer {
-    /// Its place in the package.
+    /// Its path in the package.
     pub fn file(&self) -> String {
         format!("resources/{}.fmu", self.name)
     }
@@ -67,7 +67,7 @@ pub struct Wiring {
 }
 
 impl Wiring {
-    /// Reads the units at `with`, and checks the connections.
+    /// Reads the FMUs at `with`, and checks the connections.
     ///
     /// # Errors
     /// [`WiringError`]
@@ -91,7 +91,7 @@ impl Wiring {
         Ok(wiring)
     }
 
-    /// The connected variables of the unit `name`, each once: with `input` those that something goes to.
+    /// The connected variables of the component `name`, each once: its inputs if `input`, otherwise its outputs.
     pub fn connected(&self, name: &str, input: bool) -> BTreeSet<&str> {
         let ends = self.connections.iter().map(|(from, to)| if input { to } else { from });
         ends.filter(|end| end.unit == name).map(|end| end.variable.as_str()).collect()
@@ -107,7 +107,7 @@ fn contact(plan: &Plan) -> Unit {
     Unit { name: COMPONENT.into(), inputs: names(Causality::Input), outputs: names(Causality::Output) }
 }
 
-/// The unit at `path`, which is called as its file.
+/// The FMU at `path`, named after its file.
 fn unit(path: &Path, plan: &Plan, others: &[Unit]) -> Result<Unit, WiringError> {
     let archive = Archive::open(path).map_err(|source| WiringError::Unit { path: path.into(), source })?;
     let Description { fmi_version: version, identifier, variables, .. } = archive.description;
@@ -154,7 +154,7 @@ fn connection(text: &str, units: &[Unit]) -> Result<(End, End), WiringError> {
     Ok((end(from, "output")?, end(to, "input")?))
 }
 
-/// The first of them, in words.
+/// The first names, in words.
 fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     const SHOWN: usize = 20;
     let names: Vec<_> = names.collect();

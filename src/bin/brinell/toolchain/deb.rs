@@ -1,4 +1,4 @@
-//! Packages of Debian: an archive of `ar` with an archive of `tar` in it, compressed by xz.
+//! Debian packages: an `ar` archive that contains a `tar` archive compressed by xz.
 
 use lzma_rust2::XzReader;
 use object::read::archive::ArchiveFile;
@@ -6,10 +6,10 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// The largest index that is read [bytes].
+/// Largest size of an index [bytes].
 const LARGEST_INDEX: u64 = 1 << 30;
 
-/// The bytes that were compressed.
+/// The decompressed bytes.
 ///
 /// # Errors
 /// [`io::Error`]
@@ -19,10 +19,11 @@ pub fn unxz(bytes: &[u8]) -> io::Result<Vec<u8>> {
     Ok(text)
 }
 
-/// Unpacks those files of a package to `folder` whose path is `wanted`. The compiler, `usr/bin/rustc`, becomes `usr/bin/rustc-web`.
+/// Unpacks the files of a package whose paths are `wanted` to `folder`. The compiler, `usr/bin/rustc`, becomes
+/// `usr/bin/rustc-web`.
 ///
 /// # Errors
-/// In words.
+/// A sentence.
 pub fn unpack(package: &Path, folder: &Path, wanted: impl Fn(&str) -> bool) -> Result<(), String> {
     let bytes = fs::read(package).map_err(|error| error.to_string())?;
     let archive = ArchiveFile::parse(bytes.as_slice()).map_err(|error| error.to_string())?;
@@ -52,7 +53,7 @@ fn untar(data: impl Read, folder: &Path, wanted: impl Fn(&str) -> bool) -> io::R
                 fs::create_dir_all(program.parent().unwrap_or(folder))?;
                 entry.unpack(program)?;
             }
-            // refuses what would leave the folder
+            // rejects paths that would leave the folder
             _ => drop(entry.unpack_in(folder)?),
         }
     }

@@ -1,7 +1,7 @@
-//! Downloads, by curl: it knows the proxies and the certificates of the system, and goes on with a file that is there in part.
+//! Downloads with curl, which knows the proxies and certificates of the system and resumes partial downloads.
 //!
-//! A library for HTTPS would bring more code than the rest of the program, some of it in C or assembler, for a command that
-//! is used once on a machine.
+//! A library for HTTPS would add more code than the rest of the program, some of it in C or assembler, for a command that is
+//! used once on a machine.
 
 use super::ToolchainError;
 use super::deb;
@@ -18,23 +18,23 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-/// Where files come from, and the folder that they go to.
+/// The origin of files, and the folder for them.
 pub struct Source<'a> {
     pub mirror: &'a str,
     pub folder: &'a Path,
 }
 
-/// How often progress is shown.
+/// Interval of the progress display.
 const TICK: Duration = Duration::from_millis(100);
 
 impl Source<'_> {
-    /// The text of a file in xz.
+    /// The text of an xz file.
     ///
     /// # Errors
     /// [`ToolchainError`]
     pub fn index(&self, path: &str) -> Result<String, ToolchainError> {
         let (url, file) = (self.url(path), self.folder.join("index.xz"));
-        // the one of an earlier call may be old
+        // a file from an earlier call may be outdated
         let _ = fs::remove_file(&file);
         say(format_args!("reading {url} ..."));
         curl(&url, &file, |_| {})?;
@@ -43,10 +43,10 @@ impl Source<'_> {
         text.map_err(|error| ToolchainError::Package { package: url, reason: error.to_string() })
     }
 
-    /// Downloads what isn't there yet of the packages; gives their files, of which the hash is right.
+    /// Downloads the packages that are missing. Returns their files, whose hashes have been verified.
     ///
     /// # Errors
-    /// [`ToolchainError`]; what has been downloaded stays, unless it is damaged.
+    /// [`ToolchainError`]; complete downloads are kept, unless they are damaged.
     pub fn packages(&self, packages: &[Package]) -> Result<Vec<PathBuf>, ToolchainError> {
         let all: u64 = packages.iter().map(|package| package.size).sum();
         let style = ProgressStyle::with_template("{bar:30} {bytes} of {total_bytes}, {eta} left  {wide_msg}");
@@ -95,11 +95,11 @@ impl Source<'_> {
     }
 }
 
-/// Downloads `url` to `file`, and goes on with what is there of it.
+/// Downloads `url` to `file`, and resumes a partial file.
 fn curl(url: &str, file: &Path, progress: impl Fn(u64)) -> Result<(), ToolchainError> {
     let mut curl = Command::new("curl");
     curl.args(["--fail", "--location", "--silent", "--show-error", "--retry", "3", "--connect-timeout", "30"]);
-    // a connection that stands still is cut, and tried again by the user
+    // a stalled connection is closed; the user can try again
     curl.args(["--speed-limit", "1", "--speed-time", "60", "--continue-at", "-", "--output"]).arg(file).arg(url);
     curl.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let child = interrupt::Child::spawn(&mut curl).map_err(ToolchainError::NoCurl)?;

@@ -1,13 +1,14 @@
-//! Which packages the toolchain is made of: the current ones of Debian.
+//! Selection of the packages of the toolchain: the current ones of Debian.
 //!
-//! Reference: *Debian Repository Format*, for the index of packages. It comes over HTTPS and has the hash of every package.
+//! Reference: *Debian Repository Format*, for the index of packages. The index comes over HTTPS and contains the hash of every
+//! package.
 
 use super::ToolchainError;
 use super::download::Source;
 use serde_json::{Value, json};
 use std::env;
 
-/// The release of Debian that has the packages.
+/// The release of Debian that contains the packages.
 const RELEASE: &str = "bookworm-security";
 
 /// A package of the index.
@@ -22,7 +23,7 @@ pub struct Package {
     pub part: Part,
 }
 
-/// What a package is unpacked for.
+/// The part of the toolchain for which a package is unpacked.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     Compiler,
@@ -30,7 +31,7 @@ pub enum Part {
     Libraries,
     Linker,
     Source,
-    /// `std` for the machine itself.
+    /// `std` for the host.
     Std,
 }
 
@@ -59,7 +60,7 @@ impl Package {
     }
 }
 
-/// The packages of the toolchain, by the index on the mirror.
+/// The packages of the toolchain according to the index on the mirror.
 ///
 /// # Errors
 /// [`ToolchainError`]
@@ -73,7 +74,7 @@ pub fn packages(source: &Source, std: bool) -> Result<Vec<Package>, ToolchainErr
     choose(&index, std)
 }
 
-/// The packages of the toolchain: the compiler, and those that its dependencies name.
+/// The packages of the toolchain: the compiler, and its dependencies.
 fn choose(index: &str, std: bool) -> Result<Vec<Package>, ToolchainError> {
     let rustc = find(index, "rustc-web")?;
     let version = field(rustc, "Version")?;
@@ -115,7 +116,7 @@ fn package(paragraph: &str, part: Part) -> Result<Package, ToolchainError> {
     })
 }
 
-/// The paragraph of the package of this name.
+/// The paragraph of the package with this name.
 fn find<'a>(index: &'a str, name: &str) -> Result<&'a str, ToolchainError> {
     let is_named = |paragraph: &&str| field(paragraph, "Package").is_ok_and(|found| found == name);
     index.split("\n\n").find(is_named).ok_or_else(|| ToolchainError::NoPackage(name.into()))
@@ -126,7 +127,7 @@ fn field<'a>(paragraph: &'a str, key: &str) -> Result<&'a str, ToolchainError> {
     paragraph.lines().find_map(value).ok_or_else(|| ToolchainError::NoPackage(format!("field {key}")))
 }
 
-/// The first package that the paragraph depends on whose name begins with `prefix`.
+/// The first dependency of the paragraph whose name begins with `prefix`.
 fn dependency<'a>(paragraph: &'a str, prefix: &str) -> Result<&'a str, ToolchainError> {
     let mut names = field(paragraph, "Depends")?.split(", ").filter_map(|needed| needed.split(' ').next());
     names.find(|name| name.starts_with(prefix)).ok_or_else(|| ToolchainError::NoPackage(format!("{prefix}...")))

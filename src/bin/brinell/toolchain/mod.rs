@@ -1,8 +1,8 @@
-//! `brinell toolchain`: fetches a compiler that builds for every platform, into a folder of its own and without root.
+//! `brinell toolchain`: downloads a compiler for all platforms into a folder of its own, without root privileges.
 //!
-//! Debian has a Rust compiler with the sources of Rust's libraries, and LLVM's linker, for those who build browsers. The
-//! packages are unpacked and not installed. `core` is then compiled for each target. [`crate::package::Toolchain`] has the
-//! layout of the folder.
+//! For building browsers, Debian has a Rust compiler with the sources of Rust's libraries, and LLVM's linker. The packages are
+//! unpacked but not installed. `core` is then compiled for each target. [`crate::package::Toolchain`] describes the layout of
+//! the folder.
 
 mod deb;
 mod download;
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Why the toolchain isn't there.
+/// The reason why the toolchain is not available.
 #[derive(Debug, thiserror::Error)]
 pub enum ToolchainError {
     #[error("{0}")]
@@ -48,18 +48,18 @@ pub enum ToolchainError {
     Unusable(String),
 }
 
-/// What the command is given.
+/// The arguments of the command.
 pub struct Wanted<'a> {
     pub folder: Option<&'a Path>,
-    /// Also what builds whole programs.
+    /// Also the parts needed to build complete programs.
     pub std: bool,
     pub mirror: &'a str,
 }
 
-/// The command: fetches what isn't there yet.
+/// The command: downloads the missing parts.
 ///
 /// # Errors
-/// [`ToolchainError`]; what has been downloaded stays, and the next call goes on with it.
+/// [`ToolchainError`]; complete downloads are kept, and the next call continues with them.
 pub fn run(wanted: &Wanted, as_json: bool) -> Result<(), ToolchainError> {
     let cache = Cache::open()?;
     let toolchain = match wanted.folder {
@@ -74,7 +74,7 @@ pub fn run(wanted: &Wanted, as_json: bool) -> Result<(), ToolchainError> {
     tell(&toolchain, wanted, as_json)
 }
 
-/// Waits for another call that fetches into the same folder.
+/// Waits for another process that downloads to the same folder.
 fn lock(toolchain: &Toolchain) -> Result<fs::File, FileError> {
     let path = toolchain.folder.join("lock");
     let file = fs::File::create(&path).map_err(FileError::at(&path))?;
@@ -82,7 +82,7 @@ fn lock(toolchain: &Toolchain) -> Result<fs::File, FileError> {
     Ok(file)
 }
 
-/// Whether the toolchain is there with all that is wanted.
+/// Whether the toolchain is available with all required parts.
 fn is_complete(toolchain: &Toolchain, std: bool) -> bool {
     toolchain.is_whole() && (!std || list(toolchain)["std"] == true)
 }
@@ -107,19 +107,19 @@ fn fetch(toolchain: &Toolchain, wanted: &Wanted, cache: &Cache) -> Result<(), To
     let packages: Vec<_> = packages.iter().map(Package::json).collect();
     let list = json!({ "std": wanted.std, "mirror": wanted.mirror, "packages": packages });
     write_whole(&toolchain.list(), format!("{list:#}\n").as_bytes())?;
-    // what can't be removed only takes room
+    // if it cannot be removed, it only takes space
     let _ = fs::remove_dir_all(&folder);
     Ok(())
 }
 
-/// Unpacks the packages, unless a call that was stopped has done so.
+/// Unpacks the packages, unless an interrupted call has done so.
 fn unpack(toolchain: &Toolchain, packages: &[Package], archives: &[PathBuf], std: bool) -> Result<(), ToolchainError> {
     let done = toolchain.folder.join("packages/unpacked");
     let hashes: String = packages.iter().map(|package| format!("{}\n", package.sha256)).collect();
     if fs::read_to_string(&done).is_ok_and(|text| text == hashes) {
         return Ok(());
     }
-    // what is there is of other packages, or half of these
+    // the existing files belong to other packages, or are incomplete
     for path in [toolchain.list(), done.clone()] {
         let _ = fs::remove_file(path);
     }
@@ -137,7 +137,7 @@ fn unpack(toolchain: &Toolchain, packages: &[Package], archives: &[PathBuf], std
     Ok(write_whole(&done, hashes.as_bytes())?)
 }
 
-/// Says what is there.
+/// Prints what is available.
 fn tell(toolchain: &Toolchain, wanted: &Wanted, as_json: bool) -> Result<(), ToolchainError> {
     let size = size(&toolchain.folder).map_err(FileError::at(&toolchain.folder))?;
     let folder = toolchain.folder.display();

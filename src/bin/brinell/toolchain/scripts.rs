@@ -1,4 +1,4 @@
-//! The programs of the toolchain as the exporter calls them: scripts that say where the libraries are.
+//! The programs of the toolchain for the exporter: scripts that set the paths of the libraries.
 
 use crate::files::FileError;
 use crate::package::Toolchain;
@@ -12,13 +12,13 @@ here=${0%/*}
 LD_LIBRARY_PATH=$here/../lib/LIBRARIES exec "$here/rustc-web" "$@"
 "#;
 
-/// LLVM's linker, from its place in `lib/rustlib/HOST/bin`.
+/// LLVM's linker, as called from `lib/rustlib/HOST/bin`.
 const LLD: &str = r#"#!/bin/sh
 usr=${0%/*}/../../../..
 LD_LIBRARY_PATH=$usr/lib/LIBRARIES exec "$usr"/lib/llvm-*/bin/lld "$@"
 "#;
 
-/// The driver of a C compiler that can only link. (Debian's rustc knows no other way to link ELF files.)
+/// A C compiler driver that can only link. Debian's rustc has no other way to link ELF files.
 const DRIVER: &str = r#"#!/bin/sh
 # Takes the arguments of a C compiler, and gives those for the linker to LLVM's.
 set -f
@@ -60,7 +60,7 @@ fn make_executable(path: &Path) -> std::io::Result<()> {
     fs::set_permissions(path, fs::Permissions::from_mode(0o755))
 }
 
-/// There is no toolchain to fetch on such a system.
+/// No toolchain can be downloaded on such a system.
 #[cfg(not(unix))]
 fn make_executable(_path: &Path) -> std::io::Result<()> {
     Ok(())

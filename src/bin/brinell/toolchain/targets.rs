@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// As the crates of the standard library are compiled: what is unstable in them stays so for their users.
+/// Settings for crates of the standard library: their unstable features remain unstable for their users.
 const SETTINGS: [&str; 6] = [
     "--crate-type=rlib",
     "-Copt-level=3",
@@ -22,7 +22,8 @@ const SETTINGS: [&str; 6] = [
     "--cap-lints=allow",
 ];
 
-/// What the build script of `compiler_builtins` says for processors of 64 bits. The functions over bytes are the exporter's.
+/// The configuration by the build script of `compiler_builtins` for 64-bit processors. The functions over bytes are the
+/// exporter's own.
 const BUILTINS: [&str; 6] = [
     "--cfg=feature=\"compiler-builtins\"",
     "--cfg=feature=\"mem-unaligned\"",
@@ -32,7 +33,7 @@ const BUILTINS: [&str; 6] = [
     "--cfg=optimizations_enabled",
 ];
 
-/// Compiles both libraries for all targets that haven't got them.
+/// Compiles both libraries for all targets that do not have them.
 ///
 /// # Errors
 /// [`ToolchainError`]
@@ -80,7 +81,7 @@ fn compile(toolchain: &Toolchain, rustc: &Rustc, library: &Path, target: &Target
         let arguments = SETTINGS.iter().chain(more).map(OsString::from).chain(named.map(OsString::from));
         rustc.run(&folder, arguments.chain(paths.map(PathBuf::into_os_string)), &unstable).map_err(ToolchainError::from)
     };
-    // bitcode alone, since it is optimized together with the library
+    // bitcode only, because it is optimized together with the FMU library
     build("core", library.join("core"), &["-Clinker-plugin-lto"])?;
     let builtins = [BUILTINS.as_slice(), &["--extern=core=libcore.rlib"]].concat();
     build("compiler_builtins", library.join("compiler-builtins/compiler-builtins"), &builtins)?;
@@ -90,10 +91,10 @@ fn compile(toolchain: &Toolchain, rustc: &Rustc, library: &Path, target: &Target
     Ok(())
 }
 
-/// Makes the files of `new` those of `whole`, which may have others (`std` of the machine itself).
+/// Moves the files of `new` to `whole`, which may contain others (`std` of the host).
 fn move_into(new: &Path, whole: &Path) -> std::io::Result<()> {
     fs::create_dir_all(whole)?;
-    // `core` last: a target that has it has all
+    // `core` comes last: a target that has it is complete
     for name in ["libcompiler_builtins.rlib", "libcore.rlib"] {
         fs::rename(new.join(name), whole.join(name))?;
     }

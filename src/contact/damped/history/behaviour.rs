@@ -9,11 +9,11 @@ use core::borrow::Borrow;
 
 impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
     const FOLLOWS_RATE: bool = true;
-    /// The second one would need the third derivative of the indentation.
+    /// The second derivative would need the third derivative of the indentation.
     const DERIVATIVES: i32 = 1;
     const WORDS: usize = 8;
 
-    /// Nothing: a history keeps the factors itself.
+    /// Nothing: the history contains the factors.
     type Kept = ();
 
     fn kept(_model: &Model<D>) {}
@@ -22,7 +22,7 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         History::start(model, gap)
     }
 
-    /// Flight, from a place outside to another.
+    /// Motion without contact, from one position apart to another.
     #[inline]
     fn short_step(&mut self, increment: f64) -> bool {
         let sum = self.indentation.plus(increment);
@@ -33,17 +33,17 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         flies
     }
 
-    /// None: a short step is a flight.
+    /// Zero: a short step has no contact.
     fn mean_force_of_short_step(&self, _from: f64) -> f64 {
         0.0
     }
 
-    /// None: a short step is a flight.
+    /// Zero: a short step has no contact.
     fn mean_force_of_short_course(&self, _from: f64, _course: &Course, _step: f64) -> f64 {
         0.0
     }
 
-    /// The rate must be held: inputs of these laws have no derivatives.
+    /// The rate must be constant: the inputs of these laws have no derivatives.
     fn step<B: Borrow<Model<D>>>(
         &mut self,
         course: &Course,
@@ -61,12 +61,12 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
 
     fn mean_force(&self, _model: &Model<D>, rate: f64, step: f64) -> Result<f64, TooDeep> {
         let mean = History::mean_force(self, rate, step);
-        // a step that can't be made has none
+        // a step that cannot be taken has no mean force
         within(self.indentation.total() + rate * step)?;
         Ok(mean)
     }
 
-    /// Short steps are flights and reach no depth at all.
+    /// True: short steps have no contact and reach no depth.
     fn stays_within(&mut self, depth: f64) -> bool {
         self.max_indentation < depth
     }
@@ -79,7 +79,7 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         self.max_indentation
     }
 
-    /// Nothing remains.
+    /// Zero: these laws leave no dent.
     fn residual_indentation(&self, _model: &Model<D>) -> f64 {
         0.0
     }
@@ -115,12 +115,12 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         self.stored()
     }
 
-    /// Summed step by step, each exactly for its held rate.
+    /// Summed over the steps. Each step is exact for its constant rate.
     fn dissipated_energy(&self, _model: &Model<D>) -> f64 {
         self.dissipated.total()
     }
 
-    /// Between the borders of the law: from the surface or the last border to the next one.
+    /// The interval between two borders of the law that contains the indentation. The surface also counts as a border.
     fn smooth_piece(&self, _model: &Model<D>) -> (f64, f64) {
         let indentation = self.indentation.total();
         let borders = self.law.borders();
@@ -137,7 +137,7 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         model.valid_depth()
     }
 
-    /// Where damping or heat would be beyond all numbers.
+    /// True: a large damping or heat may overflow.
     fn may_refuse(_model: &Model<D>) -> bool {
         true
     }
@@ -145,7 +145,7 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
     fn save(&self, store: &mut impl FnMut(u64)) {
         let Factors { elastic, damping } = self.factors;
         let (Sum { value, rest }, heat) = (self.indentation, self.dissipated);
-        // words are finite; no speed is zero, and stands for none
+        // saved numbers must be finite; no touch speed is zero, so zero means that there was no touch
         let touch_speed = if self.touch_speed < f64::INFINITY { self.touch_speed } else { 0.0 };
         let numbers = [value, rest, self.max_indentation, touch_speed, heat.value, heat.rest, elastic, damping];
         store_numbers(&numbers, store);

@@ -1,17 +1,17 @@
-//! The energies of a rate-dependent contact: what becomes of the work done on it.
+//! The energies of a rate-dependent contact: where the work done on it goes.
 
 use super::History;
 use crate::contact::damped::Damped;
 
 impl<D: Damped + Copy> History<D> {
-    /// What the elastic force would give back on a slow way out \[J\].
+    /// Energy that the elastic force would return in a slow separation \[J\].
     pub(super) fn stored(&self) -> f64 {
         let indentation = self.indentation.total();
         if indentation > 0.0 { self.factors.elastic * self.law.elastic(indentation).integral } else { 0.0 }
     }
 
-    /// Work turned into heat on the way `from`..`to` \[m\], both >= 0, with `rate` \[m/s\], \[J\]: that of the damping, and where the
-    /// surface would have to pull the elastic energy that nobody takes.
+    /// Energy dissipated on the way from `from` to `to` \[m\], both >= 0, at `rate` \[m/s\], in J. It is the work of the
+    /// damping. Where the surface would have to pull, it is the elastic energy that is released without force.
     pub(super) fn dissipation(&self, from: f64, to: f64, rate: f64) -> f64 {
         let damping = |from: f64, to: f64| {
             let way = self.law.damping(to).integral - self.law.damping(from).integral;
@@ -27,14 +27,14 @@ impl<D: Damped + Copy> History<D> {
         let mut end = from;
         let [first, second] = self.law.borders();
         for border in [second, first, to] {
-            // the pieces on the way back, from above to below
+            // the pieces of a separation, from the deepest on
             let begin = end;
             end = if border > to { border } else { to };
             if end >= begin {
                 end = begin;
                 continue;
             }
-            // inside a piece the force changes its sign at most once
+            // within a piece the force changes its sign at most once
             let change = self.sign_change(end, begin, rate);
             let (above, below) = (0.5 * (begin + change), 0.5 * (change + end));
             for (middle, high, low) in [(above, begin, change), (below, change, end)] {

@@ -1,11 +1,11 @@
-//! The momentum that a rate-dependent contact gives in a step.
+//! The impulse of a rate-dependent contact over a step.
 
 use super::History;
 use crate::contact::damped::Damped;
 use crate::contact::quadrature::graded_integral;
 
 impl<D: Damped + Copy> History<D> {
-    /// Mean force \[N\] of a step with `rate` \[m/s\] over `step` \[s\] that has not been made yet.
+    /// Mean force \[N\] of a step of `step` \[s\] at `rate` \[m/s\] that has not been taken yet.
     pub fn mean_force(&self, rate: f64, step: f64) -> f64 {
         if rate == 0.0 {
             return self.force(rate);
@@ -18,7 +18,7 @@ impl<D: Damped + Copy> History<D> {
             let force = if indentation > 0.0 { moved.sum_of_forces(indentation, rate) } else { 0.0 };
             if force > 0.0 { force } else { 0.0 }
         };
-        // the borders where the force begins, ends or has a corner
+        // the positions where the force begins, ends or has a corner
         let when = |indentation: f64| (indentation - from) / rate;
         let [first, second] = self.law.borders();
         let change = moved.sign_change(0.0, if from > 0.0 { from } else { 0.0 }, rate);

@@ -10,29 +10,29 @@ use crate::contact::history::{LARGEST_INDENTATION, Regime, TooDeep};
 use crate::contact::path::Sum;
 use libm::sqrt;
 
-/// Everything a contact remembers, and the factors of its law.
+/// The whole state of a rate-dependent contact, and the factors of its law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct History<D> {
     law: D,
     factors: Factors,
     indentation: Sum,
     max_indentation: f64,
-    /// Closing speed at first touch \[m/s\]; infinite until there was one, so that a rate over it is zero.
+    /// Closing speed at first touch \[m/s\]; infinite before the first touch, so that the ratio of a rate to it is zero.
     touch_speed: f64,
     dissipated: Sum,
 }
 
-/// Halvings that find a number between two others to its last digit, whatever they are.
+/// Enough bisections to find a number between any two others to its last digit.
 const HALVINGS: u32 = 1100;
 
 impl<D: Damped + Copy> History<D> {
-    /// A contact at `gap` \[m\] before any motion. One that starts pressed in has not been touched at any speed: the first
-    /// closing rate then counts as that speed.
+    /// A contact at `gap` \[m\] before any motion. A contact that starts indented has no touch speed yet: the first closing
+    /// rate then counts as the touch speed.
     ///
     /// # Errors
     /// [`TooDeep`] beyond [`LARGEST_INDENTATION`] on either side, and for NaN.
     pub fn start(model: &Model<D>, gap: f64) -> Result<History<D>, TooDeep> {
-        // not -gap, so that no gap is 0.0 and not -0.0
+        // not -gap: a gap of zero must give 0.0 and not -0.0
         let indentation = within(0.0 - gap)?;
         Ok(History {
             law: model.law,
@@ -44,10 +44,10 @@ impl<D: Damped + Copy> History<D> {
         })
     }
 
-    /// Moves the contact with `rate` \[m/s\] over `step` \[s\].
+    /// Moves the contact at `rate` \[m/s\] for `step` \[s\].
     ///
     /// # Errors
-    /// [`TooDeep`] as for [`History::start`], and where force or heat would be beyond all numbers; the history is left as it was.
+    /// [`TooDeep`] as for [`History::start`], and where force or heat would overflow; the history is then unchanged.
     pub fn advance(&mut self, rate: f64, step: f64) -> Result<(), TooDeep> {
         let sum = self.indentation.plus(rate * step);
         let to = within(sum.total())?;
@@ -61,7 +61,7 @@ impl<D: Damped + Copy> History<D> {
         let positive = |d: f64| if d > 0.0 { d } else { 0.0 };
         next.dissipated = self.dissipated.plus(next.dissipation(positive(from), positive(to), rate));
         next.indentation = sum;
-        // written positively, so that a NaN fails
+        // written positively to reject NaN
         let finite = is_finite_at(&next, rate) && next.stored() + next.dissipated.total() < f64::INFINITY;
         if !finite {
             return Err(TooDeep { indentation: to });
@@ -70,7 +70,7 @@ impl<D: Damped + Copy> History<D> {
         Ok(())
     }
 
-    /// Notes the speed of a first touch on the way to `to` \[m\].
+    /// Records the speed of a first touch during the motion to `to` \[m\].
     fn touch(&mut self, to: f64, rate: f64) {
         let touches = if self.indentation.total() > 0.0 { self.touch_speed == f64::INFINITY } else { to > 0.0 };
         if touches && rate > 0.0 {
@@ -78,30 +78,31 @@ impl<D: Damped + Copy> History<D> {
         }
     }
 
-    /// `C d'`, with `d'` over the touch speed if the law wants it \[N\]; none before there was a touch.
+    /// `C d'`, where laws that scale by the touch speed use `d'` over that speed \[N\]; zero before the first touch.
     fn damping_force(&self, rate: f64) -> f64 {
-        // the ratio first: a touch at next to no speed must not divide the factor
+        // the ratio comes first: a tiny touch speed must not divide the factor
         let rate = if self.law.scaled_by_touch() { rate / self.touch_speed } else { rate };
         self.factors.damping * rate
     }
 
-    /// `K phi + C psi d'` at `indentation` > 0, which may be negative \[N\].
+    /// `K phi + C psi d'` at `indentation` > 0 \[N\]; may be negative.
     fn sum_of_forces(&self, indentation: f64, rate: f64) -> f64 {
         self.factors.elastic * self.law.elastic(indentation).value
             + self.damping_force(rate) * self.law.damping(indentation).value
     }
 
-    /// Whether the surface pushes with `rate` \[m/s\]: it never pulls.
+    /// Whether the surface pushes at `rate` \[m/s\]; it never pulls.
     fn pushes(&self, rate: f64) -> bool {
         let indentation = self.indentation.total();
         indentation > 0.0 && self.sum_of_forces(indentation, rate) > 0.0
     }
 
-    /// Where in `low`..`high` \[m\] the force has another sign than at `high`; `low` if it has none other.
+    /// The position between `low` and `high` \[m\] below which the force has another sign than at `high`; `low` if the sign
+    /// does not change.
     fn sign_change(&self, mut low: f64, mut high: f64, rate: f64) -> f64 {
         let pushes = |d: f64| self.sum_of_forces(d, rate) > 0.0;
         let sign = pushes(high);
-        // at zero indentation both forces may vanish: the sign just above counts
+        // at zero indentation both forces may vanish; the sign just above counts
         if pushes(if low > 0.0 { low } else { f64::MIN_POSITIVE }) == sign {
             return low;
         }
@@ -119,14 +120,14 @@ impl<D: Damped + Copy> History<D> {
         high
     }
 
-    /// Normal force with `rate` \[m/s\], \[N\]; zero while apart, and where the surface would have to pull.
+    /// Normal force at `rate` \[m/s\], in N; zero while apart, and where the surface would have to pull.
     pub fn force(&self, rate: f64) -> f64 {
         let indentation = self.indentation.total();
         let force = if indentation > 0.0 { self.sum_of_forces(indentation, rate) } else { 0.0 };
         if force > 0.0 { force } else { 0.0 }
     }
 
-    /// dF/d(indentation) with `rate` held \[N/m\]; zero where there is no force.
+    /// dF/d(indentation) at constant `rate` \[N/m\]; zero where there is no force.
     pub fn stiffness(&self, rate: f64) -> f64 {
         if !self.pushes(rate) {
             return 0.0;
@@ -141,12 +142,12 @@ impl<D: Damped + Copy> History<D> {
         self.indentation.total()
     }
 
-    /// Largest indentation of the present contact, or of the last one \[m\].
+    /// Largest indentation of the present or the last contact \[m\].
     pub fn max_indentation(&self) -> f64 {
         self.max_indentation
     }
 
-    /// Elastic while the surface is pressed in.
+    /// Elastic while in contact, otherwise apart.
     pub fn regime(&self) -> Regime {
         if self.indentation.total() > 0.0 { Regime::Elastic } else { Regime::Apart }
     }
