@@ -111,6 +111,13 @@ mod tests {
     use crate::{constants, documentation, model_description};
     use std::path::Path;
 
+    /// The model description.
+    fn text_of(plan: &Plan) -> String {
+        let mut bytes = Vec::new();
+        model_description::write(plan, "guid", &mut bytes).expect("memory takes everything");
+        String::from_utf8(bytes).expect("XML is written as UTF-8")
+    }
+
     /// Sixty contacts with three kinds of bodies; two kinds differ only in their gap.
     fn scene(law: &str) -> Scene {
         let mut text =
@@ -134,7 +141,7 @@ mod tests {
             let scene = scene(law);
             let plan = Plan::of(&scene);
             let texts = [
-                model_description::write(&plan, "guid"),
+                text_of(&plan),
                 constants::write(&plan, "guid"),
                 documentation::write(&plan),
                 Summary::of(&plan).json(&Default::default()).to_string(),

@@ -5,7 +5,7 @@ use super::error::ExportError;
 use super::folder::Cache;
 use super::link::{self, Linker};
 use super::rustc::Rustc;
-use super::{LIBM_SOURCE, LIBRARY_SOURCE, hash, resource, universal};
+use super::{Hash, LIBM_SOURCE, LIBRARY_SOURCE, resource, universal};
 use crate::files::FileError;
 use crate::parallel;
 use crate::plan::Plan;
@@ -180,7 +180,7 @@ impl Build<'_> {
 fn make_libm(cache: &Cache, rustc: &Rustc, folder: &Path, settings: &[&str]) -> Result<(), ExportError> {
     let made_from = [rustc.identity.as_str()].into_iter().chain(settings.iter().copied()).chain(LIBM);
     let made_from = made_from.chain(LIBM_SOURCE.iter().flat_map(|(name, text)| [*name, *text]));
-    let known = cache.folder.join(format!("libm-{}.rlib", hash(made_from)));
+    let known = cache.folder.join(format!("libm-{}.rlib", Hash::new().with_all(made_from).digits()));
     let here = folder.join("libm.rlib");
     if known.is_file() {
         let copied = fs::hard_link(&known, &here).or_else(|_| fs::copy(&known, &here).map(drop));

@@ -1,9 +1,11 @@
 //! From a plan to an `.fmu`: rustc builds the library, its symbols are checked, everything is zipped.
 
+mod archive;
 mod compiler;
 mod diagnostics;
 mod error;
 mod folder;
+mod hash;
 mod library;
 mod link;
 mod resource;
@@ -12,8 +14,10 @@ mod toolchain;
 mod universal;
 mod way;
 
+pub use archive::archive;
 pub use error::ExportError;
 pub use folder::Cache;
+pub use hash::Hash;
 pub use library::{Source, build as build_libraries};
 pub use rustc::Rustc;
 pub use toolchain::Toolchain;
@@ -22,14 +26,11 @@ pub use way::{How, Way};
 use crate::files::write_whole;
 use crate::plan::Plan;
 use crate::platform::Platform;
-use crate::{documentation, symbols};
-use sha2::{Digest, Sha256};
+use crate::{documentation, model_description, symbols};
+use archive::Archive;
 use std::collections::BTreeSet;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use way::{Made, make};
-use zip::CompressionMethod;
-use zip::write::SimpleFileOptions;
 
 include!(concat!(env!("OUT_DIR"), "/library_source.rs"));
 
@@ -89,7 +90,7 @@ pub fn export(plan: &Plan, way: Way, platforms: &[Platform], path: &Path) -> Res
 /// [`ExportError`]
 pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, Exported), ExportError> {
     let scene = plan.scene;
-    let Made { guid, description, libraries: built, how } = make(plan, way, platforms)?;
+    let Made { guid, libraries: built, how } = make(plan, way, platforms)?;
     let mut libraries = Vec::new();
     for (platform, library) in platforms.iter().zip(&built) {
         let refused = |reason| ExportError::Symbols { platform: platform.folder, reason };
@@ -98,16 +99,16 @@ pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, 
     }
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
     let page = documentation::write(plan);
-    let path = |platform: &Platform| format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension);
-    let mut files: Vec<(String, &[u8])> =
-        vec![("modelDescription.xml".into(), description.as_bytes()), ("model.png".into(), ICON)];
-    files.extend(platforms.iter().zip(&built).map(|(platform, library)| (path(platform), library.as_slice())));
-    files.extend([
-        ("documentation/index.html".into(), page.as_bytes()),
-        ("documentation/licenses/license.txt".into(), license.as_bytes()),
-        ("resources/scene.toml".into(), scene.text.as_bytes()),
-    ]);
-    let archive = archive(&files)?;
+    let mut archive = Archive::new();
+    archive.add_written("modelDescription.xml", |to| model_description::write(plan, &guid, to))?;
+    archive.add("model.png", ICON)?;
+    for (platform, library) in platforms.iter().zip(&built) {
+        archive.add(&format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension), library)?;
+    }
+    archive.add("documentation/index.html", page.as_bytes())?;
+    archive.add("documentation/licenses/license.txt", license.as_bytes())?;
+    archive.add("resources/scene.toml", scene.text.as_bytes())?;
+    let archive = archive.finish()?;
     let size = archive.len();
     Ok((archive, Exported { path: PathBuf::new(), guid, size, libraries, how: Some(how) }))
 }
@@ -129,36 +130,7 @@ pub fn sources<'a>() -> impl Iterator<Item = &'a str> {
 
 /// What the library is recognised by: 16 digits of a hash of its source and that of `libm`.
 pub fn library_identity() -> String {
-    let mut identity = hash(sources());
+    let mut identity = Hash::new().with_all(sources()).digits();
     identity.truncate(16);
     identity
-}
-
-/// The hash of `texts`: 32 digits.
-pub fn hash<'a>(texts: impl Iterator<Item = &'a str>) -> String {
-    let mut hash = Sha256::new();
-    for text in texts {
-        hash.update(text);
-        // so that no two lists of texts are the same
-        hash.update([0]);
-    }
-    hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// The files as a zip archive: the same bytes for the same files.
-///
-/// # Errors
-/// [`ExportError::Zip`]
-pub fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
-    let mut archive = zip::ZipWriter::new(io::Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default()
-        .compression_method(CompressionMethod::Deflated)
-        .compression_level(Some(9))
-        .last_modified_time(zip::DateTime::default())
-        .unix_permissions(0o644);
-    for (name, bytes) in files {
-        archive.start_file(name.as_str(), options)?;
-        archive.write_all(bytes).map_err(zip::result::ZipError::from)?;
-    }
-    Ok(archive.finish()?.into_inner())
 }

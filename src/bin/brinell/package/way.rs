@@ -3,7 +3,7 @@
 use super::folder::Cache;
 use super::library::{self, Source};
 use super::rustc::Rustc;
-use super::{ExportError, GUID_TO_COME, hash, identified, sources};
+use super::{ExportError, GUID_TO_COME, Hash, identified, sources};
 use crate::plan::Plan;
 use crate::platform::Platform;
 use crate::prebuilt::{PrebuiltError, StoreError, Unit};
@@ -23,8 +23,6 @@ pub enum Way {
 /// What an FMU has that depends on how it was made.
 pub struct Made {
     pub guid: String,
-    /// The model description.
-    pub description: String,
     /// One for each platform.
     pub libraries: Vec<Vec<u8>>,
     pub how: How,
@@ -84,10 +82,10 @@ fn no_compiler() -> Option<ExportError> {
 /// `libm`.
 fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
     let begin = Instant::now();
-    let description = model_description::write(plan, GUID_TO_COME);
     let constants = constants::write(plan, GUID_TO_COME);
-    let guid = hash([description.as_str(), &constants].into_iter().chain(sources()));
-    let (description, constants) = (identified(&description, &guid), identified(&constants, &guid));
+    let description = Hash::new().with_written(|to| model_description::write(plan, GUID_TO_COME, to));
+    let guid = description.map_err(zip::result::ZipError::from)?.with(&constants).with_all(sources()).digits();
+    let constants = identified(&constants, &guid);
     let libraries = library::build(&Source::Scene { plan, constants: &constants }, platforms)?;
     let time = begin.elapsed();
     let larger = |unit: Unit| {
@@ -105,7 +103,7 @@ fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
         other => other.to_string(),
     });
     let other = other.and_then(|unit| larger(unit).ok_or_else(|| "there is none for these platforms".into()));
-    Ok(Made { guid, description, libraries, how: How { time, by: By::Compiler(other) } })
+    Ok(Made { guid, libraries, how: How { time, by: By::Compiler(other) } })
 }
 
 /// From a prebuilt library.
@@ -115,7 +113,7 @@ fn fill_in(plan: &Plan, platforms: &[Platform]) -> Result<Made, PrebuiltError> {
     let libraries = platforms.iter().map(|platform| unit.library(platform)).collect::<Result<Vec<_>, _>>()?;
     let saves = platforms.iter().map(|platform| unit.sizes(platform).and_then(|(_, saves)| saves)).sum();
     let how = How { time: begin.elapsed(), by: By::Prebuilt(unit.library.name(), saves) };
-    Ok(Made { guid: unit.guid, description: unit.description, libraries, how })
+    Ok(Made { guid: unit.guid, libraries, how })
 }
 
 impl How {

@@ -2,7 +2,7 @@
 
 use crate::constants;
 use crate::model::Dampings;
-use crate::package::{self, hash};
+use crate::package::{self, Hash};
 use crate::pairing;
 use crate::scene::{Coupling, Scene};
 use crate::table::{Causality, VARIABLES};
@@ -171,7 +171,7 @@ impl Library {
     /// The source file of its own, and what it is made from: a hash of that file and all others.
     pub fn source(&self) -> (String, String) {
         let file = constants::kind::write(&self.scene, "");
-        let made_from = hash([file.as_str()].into_iter().chain(package::sources()));
+        let made_from = Hash::new().with(&file).with_all(package::sources()).digits();
         (constants::kind::write(&self.scene, &made_from), made_from)
     }
 }

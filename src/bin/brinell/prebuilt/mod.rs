@@ -18,12 +18,13 @@ pub use kinds::Library;
 pub use store::StoreError;
 
 use crate::model_description;
-use crate::package::{self, GUID_TO_COME, hash};
+use crate::package::{self, GUID_TO_COME, Hash};
 use crate::plan::Plan;
 use crate::platform::Platform;
 use brinell::scene::identity_of;
 use brinell::scene::prebuilt::block::{Block, Data};
 use fill::FillError;
+use std::io;
 use store::Store;
 
 /// Why an FMU can't be made from a prebuilt library.
@@ -35,6 +36,8 @@ pub enum PrebuiltError {
     NeedsCompiler(#[from] NeedsCompiler),
     #[error("the prebuilt library `{name}` for {platform} can't be filled in: {reason}")]
     Fill { name: String, platform: &'static str, reason: FillError },
+    #[error("the model description can't be written: {0}")]
+    Description(io::Error),
 }
 
 /// The platforms that there are prebuilt libraries for.
@@ -46,7 +49,6 @@ pub fn platforms() -> Vec<Platform> {
 /// A unit that is made from a prebuilt library.
 pub struct Unit {
     pub guid: String,
-    pub description: String,
     /// The library for it.
     pub library: Library,
     made_from: String,
@@ -63,14 +65,14 @@ impl Unit {
         let library = Library::of(plan.scene)?;
         let store = Store::find()?;
         let (source, made_from) = library.source();
-        let description = model_description::write(plan, GUID_TO_COME);
         // the data are as long as the GUID is, too
         let block = Block::filled(0, fit::data_of(plan, GUID_TO_COME)?);
         let words: String = block.words().map(|word| format!("{word:016x}")).collect();
-        let guid = hash([description.as_str(), &words, &source].into_iter().chain(package::sources()));
-        let description = package::identified(&description, &guid);
+        let description = Hash::new().with_written(|to| model_description::write(plan, GUID_TO_COME, to));
+        let made_of = description.map_err(PrebuiltError::Description)?.with(&words).with(&source);
+        let guid = made_of.with_all(package::sources()).digits();
         let data = fit::data_of(plan, &guid)?;
-        Ok(Unit { guid, description, library, made_from, data, store })
+        Ok(Unit { guid, library, made_from, data, store })
     }
 
     /// The library of the unit for `platform`.

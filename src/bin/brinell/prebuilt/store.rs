@@ -5,7 +5,7 @@
 
 use super::kinds::Library;
 use crate::files::{FileError, write_whole};
-use crate::package::{self, hash};
+use crate::package::{self, Hash};
 use crate::platform::Platform;
 use crate::prebuilt_folder;
 use serde::{Deserialize, Serialize};
@@ -83,7 +83,7 @@ fn sha256(bytes: &[u8]) -> String {
 
 /// A hash of the sources that all libraries have in common.
 fn sources() -> String {
-    hash(package::sources())
+    Hash::new().with_all(package::sources()).digits()
 }
 
 /// Ending of a list, and of an archive.

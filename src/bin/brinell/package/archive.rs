@@ -1,0 +1,62 @@
+//! The zip archive of an FMU: the same bytes for the same files.
+
+use super::ExportError;
+use std::io::{self, Cursor, Write};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+/// An archive that is being written.
+pub struct Archive(ZipWriter<Cursor<Vec<u8>>>);
+
+impl Archive {
+    pub fn new() -> Archive {
+        Archive(ZipWriter::new(Cursor::new(Vec::new())))
+    }
+
+    /// Adds a file.
+    ///
+    /// # Errors
+    /// [`ExportError::Zip`]
+    pub fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), ExportError> {
+        self.add_written(name, |to| to.write_all(bytes))
+    }
+
+    /// Adds a file that `write` writes piece by piece.
+    ///
+    /// # Errors
+    /// [`ExportError::Zip`]
+    pub fn add_written(
+        &mut self,
+        name: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), ExportError> {
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .compression_level(Some(9))
+            .last_modified_time(zip::DateTime::default())
+            .unix_permissions(0o644);
+        self.0.start_file(name, options)?;
+        write(&mut self.0).map_err(zip::result::ZipError::from)?;
+        Ok(())
+    }
+
+    /// Its bytes.
+    ///
+    /// # Errors
+    /// [`ExportError::Zip`]
+    pub fn finish(self) -> Result<Vec<u8>, ExportError> {
+        Ok(self.0.finish()?.into_inner())
+    }
+}
+
+/// An archive of `files`.
+///
+/// # Errors
+/// [`ExportError::Zip`]
+pub fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
+    let mut archive = Archive::new();
+    for (name, bytes) in files {
+        archive.add(name, bytes)?;
+    }
+    archive.finish()
+}
