@@ -250,3 +250,27 @@ fn paths_with_spaces_and_other_letters_work() {
     output(command.env("TMPDIR", &inside).args(["check", "kugel ö.fmu"])).with_status(0);
     assert_eq!(contents(&inside), ["ca che", "kugel ö.fmu", "szene ä.toml"]);
 }
+
+/// A check of 100,000 contacts, whose model description is 250 MB, in little memory.
+#[test]
+#[ignore = "it takes half a minute"]
+fn a_hundred_thousand_contacts_are_checked_in_little_memory() {
+    let folder = empty_folder();
+    let outputs = "[\"indentation\", \"max_indentation\", \"residual_indentation\", \"contact_radius\", \"mean_pressure\", \
+                   \"stiffness\", \"work\", \"elastic_energy\", \"dissipated_energy\", \"impulse\", \"regime\"]";
+    let text = format!(
+        "name = \"big\"\nimpactor = {{ radius = 2e-3 }}\ntarget = {{ material = \"mild steel\" }}\n[fmu]\n\
+         outputs = {outputs}\n[[contact]]\nname = \"bead\"\ncount = 100000\n"
+    );
+    fs::write(folder.path().join("big.toml"), text).unwrap();
+    run(folder.path(), ["export", "big.toml"]).with_status(0);
+    // address space, of which a fourth is used
+    let mut command = Command::new("sh");
+    command.current_dir(folder.path()).args([
+        "-c",
+        "ulimit -v 600000; exec \"$@\"",
+        "sh",
+        env!("CARGO_BIN_EXE_brinell"),
+    ]);
+    output(command.args(["check", "big.fmu"])).with_status(0);
+}

@@ -87,7 +87,7 @@ impl Fmu {
         }
         let missing = || ImportError::Part { name: DESCRIPTION, source: io::ErrorKind::NotFound.into() };
         let text = files.get(DESCRIPTION).ok_or_else(missing).map_err(refused)?;
-        let Description { guid, .. } = Description::parse(&String::from_utf8_lossy(text)).map_err(refused)?;
+        let Description { guid, .. } = Description::read(|| Ok(text.as_slice())).map_err(refused)?;
         Ok(Fmu { path: path.into(), guid, files })
     }
 

@@ -7,9 +7,9 @@ use crate::table::{Causality, Type, UNITS, Unit};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::collections::BTreeSet;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 
-type Xml<'a, 'b> = Writer<&'a mut BufWriter<&'b mut dyn Write>>;
+type Xml<'a> = Writer<&'a mut dyn Write>;
 
 /// The log categories of `src/fmi2/report.rs`.
 const LOG_CATEGORIES: [(&str, &str); 4] = [
@@ -28,13 +28,11 @@ const LOG_CATEGORIES: [(&str, &str); 4] = [
 /// # Errors
 /// Those of `to`.
 pub fn write(plan: &Plan, guid: &str, to: &mut dyn Write) -> io::Result<()> {
-    let mut to = BufWriter::new(to);
-    document(&mut Writer::new_with_indent(&mut to, b' ', 2), plan, guid)?;
-    to.write_all(b"\n")?;
-    to.flush()
+    document(&mut Writer::new_with_indent(&mut *to, b' ', 2), plan, guid)?;
+    to.write_all(b"\n")
 }
 
-fn document(xml: &mut Xml<'_, '_>, plan: &Plan, guid: &str) -> io::Result<()> {
+fn document(xml: &mut Xml<'_>, plan: &Plan, guid: &str) -> io::Result<()> {
     let Plan { scene, variables: entries, experiment, .. } = plan;
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let tool = concat!("Brinell ", env!("CARGO_PKG_VERSION"));
@@ -68,7 +66,7 @@ fn document(xml: &mut Xml<'_, '_>, plan: &Plan, guid: &str) -> io::Result<()> {
     Ok(())
 }
 
-fn co_simulation(xml: &mut Xml<'_, '_>, scene: &Scene) -> io::Result<()> {
+fn co_simulation(xml: &mut Xml<'_>, scene: &Scene) -> io::Result<()> {
     let takes_derivatives = scene.damped.is_none() && !scene.has_input("external_acceleration");
     let attributes = [
         ("modelIdentifier", scene.name.as_str()),
@@ -88,7 +86,7 @@ fn co_simulation(xml: &mut Xml<'_, '_>, scene: &Scene) -> io::Result<()> {
 }
 
 /// The units of the variables, with their display units.
-fn units(xml: &mut Xml<'_, '_>, entries: &[Entry]) -> io::Result<()> {
+fn units(xml: &mut Xml<'_>, entries: &[Entry]) -> io::Result<()> {
     let used: BTreeSet<_> = entries.iter().filter_map(|entry| entry.variable.unit.as_deref()).collect();
     xml.create_element("UnitDefinitions").write_inner_content(|xml| {
         for unit in UNITS.iter().filter(|unit| used.contains(unit.name.as_str())) {
@@ -101,7 +99,7 @@ fn units(xml: &mut Xml<'_, '_>, entries: &[Entry]) -> io::Result<()> {
     Ok(())
 }
 
-fn definition(xml: &mut Xml<'_, '_>, unit: &Unit) -> io::Result<()> {
+fn definition(xml: &mut Xml<'_>, unit: &Unit) -> io::Result<()> {
     let exponents = [("kg", unit.kg), ("m", unit.m), ("s", unit.s)];
     let exponents = exponents.into_iter().filter(|(_, exponent)| *exponent != 0);
     let exponents: Vec<_> = exponents.map(|(name, exponent)| (name, exponent.to_string())).collect();
@@ -116,7 +114,7 @@ fn definition(xml: &mut Xml<'_, '_>, unit: &Unit) -> io::Result<()> {
 }
 
 /// The enumerations of the variables, with their values.
-fn types(xml: &mut Xml<'_, '_>, entries: &[Entry]) -> io::Result<()> {
+fn types(xml: &mut Xml<'_>, entries: &[Entry]) -> io::Result<()> {
     let mut used: Vec<_> = entries.iter().map(|entry| entry.variable).collect();
     used.retain(|variable| variable.r#type == Type::Enumeration);
     used.dedup_by_key(|variable| variable.name.as_str());
@@ -145,7 +143,7 @@ fn types(xml: &mut Xml<'_, '_>, entries: &[Entry]) -> io::Result<()> {
     Ok(())
 }
 
-fn variables(xml: &mut Xml<'_, '_>, scene: &Scene, entries: &[Entry]) -> io::Result<()> {
+fn variables(xml: &mut Xml<'_>, scene: &Scene, entries: &[Entry]) -> io::Result<()> {
     xml.create_element("ModelVariables").write_inner_content(|xml| {
         for entry in entries {
             for index in 0..entry.count {
@@ -157,7 +155,7 @@ fn variables(xml: &mut Xml<'_, '_>, scene: &Scene, entries: &[Entry]) -> io::Res
     Ok(())
 }
 
-fn scalar_variable(xml: &mut Xml<'_, '_>, scene: &Scene, entry: &Entry, index: usize) -> io::Result<()> {
+fn scalar_variable(xml: &mut Xml<'_>, scene: &Scene, entry: &Entry, index: usize) -> io::Result<()> {
     let variable = entry.variable;
     let (causality, variability, initial) = match (variable.causality, variable.r#type) {
         (Causality::Input, _) => ("input", "continuous", ""),
@@ -198,7 +196,7 @@ fn scalar_variable(xml: &mut Xml<'_, '_>, scene: &Scene, entry: &Entry, index: u
 
 /// Outputs do not depend on an input at the same instant, unless the law does. Before the first step they depend on the
 /// parameters.
-fn structure(xml: &mut Xml<'_, '_>, entries: &[Entry]) -> io::Result<()> {
+fn structure(xml: &mut Xml<'_>, entries: &[Entry]) -> io::Result<()> {
     let outputs = || {
         let outputs = entries.iter().filter(|entry| entry.variable.causality == Causality::Output);
         outputs.flat_map(|entry| (0..entry.count).map(move |index| (entry, index)))
@@ -225,7 +223,7 @@ fn structure(xml: &mut Xml<'_, '_>, entries: &[Entry]) -> io::Result<()> {
 }
 
 /// The index of an unknown, and those of the input and the parameters on which it depends. Indices in the XML start from 1.
-fn unknown(xml: &mut Xml<'_, '_>, place: usize, dependencies: &[usize]) -> io::Result<()> {
+fn unknown(xml: &mut Xml<'_>, place: usize, dependencies: &[usize]) -> io::Result<()> {
     let index = (place + 1).to_string();
     let dependencies = dependencies.iter().map(|place| (place + 1).to_string());
     let dependencies = dependencies.collect::<Vec<_>>().join(" ");

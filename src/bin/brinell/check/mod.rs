@@ -160,7 +160,7 @@ fn wrong_starts(instance: &mut Instance, description: &Description) -> Result<Ve
     instance.setup_experiment(0.0)?;
     instance.call("fmi2EnterInitializationMode")?;
     for (name, variable) in &description.variables {
-        let Some(start) = variable.start else { continue };
+        let Some(start) = variable.start() else { continue };
         let value = instance.real(variable.reference)?;
         if value.to_bits() != start.to_bits() {
             wrong.push(format!("{name}: {start:?} in the XML, {value:?} in the binary"));

@@ -4,15 +4,31 @@ use super::ImportError;
 use crate::xml;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::HashMap;
+use std::io::{self, BufRead};
 
 /// A variable of the model description.
 #[derive(Clone, Debug)]
 pub struct Variable {
     pub reference: u32,
     pub is_real: bool,
-    pub causality: String,
-    /// Start value of a Real variable.
-    pub start: Option<f64>,
+    pub causality: Causality,
+    /// Start value of a Real variable; NaN if it has none.
+    start: f64,
+}
+
+/// The causalities that matter to this importer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Causality {
+    Input,
+    Output,
+    Other,
+}
+
+impl Variable {
+    /// The start value, if there is one.
+    pub fn start(&self) -> Option<f64> {
+        Some(self.start).filter(|start| !start.is_nan())
+    }
 }
 
 /// The model description.
@@ -26,22 +42,32 @@ pub struct Description {
     pub interpolates_inputs: bool,
     /// Highest order of the derivatives of outputs; 0 for none.
     pub output_derivatives: u32,
-    /// Variables by name.
-    pub variables: HashMap<String, Variable>,
+    /// Variables with their names, in the order of the names. There may be millions of them.
+    pub variables: Vec<(Box<str>, Variable)>,
 }
 
 impl Description {
-    pub fn parse(text: &str) -> Result<Description, ImportError> {
-        if let Some((place, character)) = xml::forbidden(text) {
-            let (line, column) = place_of(&text[..place]);
-            return Err(not_xml(character, &format!(" at {line}:{column}")));
-        }
-        let mut reader = quick_xml::Reader::from_str(text);
+    /// Reads a model description piece by piece, twice.
+    ///
+    /// # Errors
+    /// [`ImportError::Xml`], [`ImportError::Part`]
+    pub fn read<R: BufRead>(open: impl Fn() -> io::Result<R>) -> Result<Description, ImportError> {
+        let unreadable = |source| ImportError::Part { name: "modelDescription.xml", source };
+        check_lines(open().map_err(unreadable)?)?;
+        let mut description = Description::parse(open().map_err(unreadable)?)?;
+        description.variables.sort_by(|(one, _), (other, _)| one.cmp(other));
+        description.variables.shrink_to_fit();
+        Ok(description)
+    }
+
+    fn parse(from: impl BufRead) -> Result<Description, ImportError> {
+        let mut reader = quick_xml::Reader::from_reader(from);
         let mut description = Description::default();
-        let mut current = None;
+        let (mut current, mut piece) = (None, Vec::new());
         let wrong = |error: &dyn std::fmt::Display| ImportError::Xml(error.to_string());
         loop {
-            match reader.read_event().map_err(|error| wrong(&error))? {
+            piece.clear();
+            match reader.read_event_into(&mut piece).map_err(|error| wrong(&error))? {
                 Event::Eof => return Ok(description),
                 Event::Start(element) | Event::Empty(element) => {
                     let attributes = attributes(&element)?;
@@ -58,14 +84,14 @@ impl Description {
                         }
                         "ScalarVariable" => {
                             let reference = get("valueReference").parse().map_err(|error| wrong(&error))?;
-                            current = Some((get("name"), reference, get("causality")));
+                            current = Some((get("name"), reference, Causality::named(&get("causality"))));
                         }
                         kind @ ("Real" | "Integer" | "Enumeration") => {
                             if let Some((name, reference, causality)) = current.take() {
                                 let start = attributes.get("start").map(|start| start.parse());
-                                let start = start.transpose().map_err(|error| wrong(&error))?;
+                                let start = start.transpose().map_err(|error| wrong(&error))?.unwrap_or(f64::NAN);
                                 let variable = Variable { reference, is_real: kind == "Real", causality, start };
-                                description.variables.insert(name, variable);
+                                description.variables.push((name.into(), variable));
                             }
                         }
                         _ => {}
@@ -82,9 +108,45 @@ impl Description {
 
     /// The value reference of the Real variable `name`.
     pub fn real(&self, name: &str) -> Result<u32, ImportError> {
-        let variable = self.variables.get(name).filter(|variable| variable.is_real);
+        let found = self.variables.binary_search_by(|(other, _)| (**other).cmp(name));
+        let variable = found.ok().map(|place| &self.variables[place].1).filter(|variable| variable.is_real);
         variable.map(|variable| variable.reference).ok_or_else(|| ImportError::Variable(name.into()))
     }
+
+    /// Names of the Real variables of this causality.
+    pub fn reals(&self, causality: Causality) -> impl Iterator<Item = &str> {
+        let reals =
+            self.variables.iter().filter(move |(_, variable)| variable.is_real && variable.causality == causality);
+        reals.map(|(name, _)| &**name)
+    }
+}
+
+impl Causality {
+    fn named(name: &str) -> Causality {
+        match name {
+            "input" => Causality::Input,
+            "output" => Causality::Output,
+            _ => Causality::Other,
+        }
+    }
+}
+
+/// Rejects characters that XML can't have, with their place.
+fn check_lines(mut from: impl BufRead) -> Result<(), ImportError> {
+    let mut line = Vec::new();
+    for number in 1_usize.. {
+        line.clear();
+        let unreadable = |source| ImportError::Part { name: "modelDescription.xml", source };
+        if from.read_until(b'\n', &mut line).map_err(unreadable)? == 0 {
+            break;
+        }
+        let text = str::from_utf8(&line).map_err(|_| ImportError::Xml(format!("line {number} is not UTF-8")))?;
+        if let Some((place, character)) = xml::forbidden(text) {
+            let column = text[..place].chars().count() + 1;
+            return Err(not_xml(character, &format!(" at {number}:{column}")));
+        }
+    }
+    Ok(())
 }
 
 fn attributes(element: &BytesStart) -> Result<HashMap<String, String>, ImportError> {
@@ -107,9 +169,4 @@ fn check_characters(text: &str) -> Result<(), ImportError> {
 
 fn not_xml(character: char, place: &str) -> ImportError {
     ImportError::Xml(format!("the character {}{place} is none that XML can have", xml::name(character)))
-}
-
-/// Line and column at the end of the text `before`.
-fn place_of(before: &str) -> (usize, usize) {
-    (before.matches('\n').count() + 1, before.chars().rev().take_while(|&c| c != '\n').count() + 1)
 }

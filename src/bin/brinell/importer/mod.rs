@@ -11,11 +11,12 @@ use crate::interrupt::Folder;
 use crate::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
 use std::ffi::c_int;
+use std::io::BufReader;
 use std::path::Path;
 use std::{env, fs, io};
 
 pub use bounded::Bound;
-pub use description::Description;
+pub use description::{Causality, Description};
 pub use unit::{Instance, Unit};
 
 /// An FMU that cannot be loaded, or a call that failed.
@@ -82,8 +83,7 @@ impl Archive {
         let names = archive.file_names().map(|name| Ok(name?.into_owned())).collect::<Result<Vec<_>, ImportError>>()?;
         let platform = |name: &String| Some(name.strip_prefix("binaries/")?.split('/').next()?.to_string());
         let description_path = folder.path().join("modelDescription.xml");
-        let xml_error = |source| ImportError::Part { name: "modelDescription.xml", source };
-        let description = Description::parse(&fs::read_to_string(description_path).map_err(xml_error)?)?;
+        let description = Description::read(|| fs::File::open(&description_path).map(BufReader::new))?;
         let scene = fs::read_to_string(folder.path().join("resources/scene.toml")).ok();
         Ok(Archive { description, platforms: names.iter().filter_map(platform).collect(), scene, folder })
     }

@@ -36,7 +36,8 @@ impl Archive {
             .last_modified_time(zip::DateTime::default())
             .unix_permissions(0o644);
         self.0.start_file(name, options)?;
-        write(&mut self.0).map_err(zip::result::ZipError::from)?;
+        let mut pieces = Pieces { to: &mut self.0, piece: Vec::with_capacity(PIECE) };
+        write(&mut pieces).and_then(|()| pieces.flush()).map_err(zip::result::ZipError::from)?;
         Ok(())
     }
 
@@ -46,6 +47,34 @@ impl Archive {
     /// [`ExportError::Zip`]
     pub fn finish(self) -> Result<Vec<u8>, ExportError> {
         Ok(self.0.finish()?.into_inner())
+    }
+}
+
+/// Length of the pieces that are compressed at once [bytes].
+const PIECE: usize = 1 << 16;
+
+/// Hands a file to the compressor in pieces of one length: what it makes of them depends on where they end.
+struct Pieces<'a, W> {
+    to: &'a mut W,
+    piece: Vec<u8>,
+}
+
+impl<W: Write> Write for Pieces<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = bytes.len().min(PIECE - self.piece.len());
+        self.piece.extend_from_slice(&bytes[..count]);
+        if self.piece.len() == PIECE {
+            self.to.write_all(&self.piece)?;
+            self.piece.clear();
+        }
+        Ok(count)
+    }
+
+    /// Ends the file: only the last piece is shorter.
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.write_all(&self.piece)?;
+        self.piece.clear();
+        Ok(())
     }
 }
 

@@ -1,7 +1,7 @@
 //! The other FMUs of a system, and their connections.
 
 use super::{COMPONENT, of_kind};
-use crate::importer::{Archive, Description, ImportError};
+use crate::importer::{self, Archive, ImportError};
 use crate::plan::Plan;
 use crate::table::{Causality, Type};
 use std::collections::BTreeSet;
@@ -110,9 +110,9 @@ fn contact(plan: &Plan) -> Unit {
 /// The FMU at `path`, named after its file.
 fn unit(path: &Path, plan: &Plan, others: &[Unit]) -> Result<Unit, WiringError> {
     let archive = Archive::open(path).map_err(|source| WiringError::Unit { path: path.into(), source })?;
-    let Description { fmi_version: version, identifier, variables, .. } = archive.description;
-    if version != "2.0" || identifier.is_empty() {
-        return Err(WiringError::Version { path: path.into(), version });
+    let description = archive.description;
+    if description.fmi_version != "2.0" || description.identifier.is_empty() {
+        return Err(WiringError::Version { path: path.into(), version: description.fmi_version });
     }
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     if !name.chars().all(|character| character.is_ascii_alphanumeric() || "_-".contains(character)) {
@@ -122,11 +122,8 @@ fn unit(path: &Path, plan: &Plan, others: &[Unit]) -> Result<Unit, WiringError> 
     if name == plan.scene.name || others.iter().any(|other| other.name == name) {
         return Err(WiringError::Twice { path: path.into(), name });
     }
-    let names = |causality: &str| {
-        let named = variables.iter().filter(|(_, variable)| variable.is_real && variable.causality == causality);
-        named.map(|(name, _)| name.clone()).collect()
-    };
-    Ok(Unit { name, inputs: names("input"), outputs: names("output") })
+    let names = |causality| description.reals(causality).map(String::from).collect();
+    Ok(Unit { name, inputs: names(importer::Causality::Input), outputs: names(importer::Causality::Output) })
 }
 
 fn connection(text: &str, units: &[Unit]) -> Result<(End, End), WiringError> {
