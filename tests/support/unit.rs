@@ -19,6 +19,25 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("units").join(env!("CARGO_CRATE_NAME"))
 }
 
+/// The folder of the units that this very program has exported, by the text of their scenes, for all test programs. Those of other
+/// programs are removed.
+static KEPT: LazyLock<PathBuf> = LazyLock::new(|| {
+    let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join("kept");
+    let program = fs::read(env!("CARGO_BIN_EXE_brinell")).expect("cargo has built the program");
+    let own = format!("{:016x}", hash(&program));
+    let others = fs::read_dir(&all).into_iter().flatten().flatten().filter(|entry| *entry.file_name() != *own);
+    others.for_each(|entry| drop(fs::remove_dir_all(entry.path())));
+    let folder = all.join(own);
+    fs::create_dir_all(&folder).expect("the target folder can be written to");
+    folder
+});
+
+fn hash(bytes: &[u8]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    hasher.finish()
+}
+
 /// What `make` makes from `source`, made once per process.
 fn once(source: PathBuf, make: impl FnOnce(&Path) -> PathBuf) -> PathBuf {
     // the lock is held while something is made: a second test that asks for it waits. A failed export leaves nothing
@@ -77,11 +96,15 @@ pub fn export(scene: &Path) -> PathBuf {
     let scene = scene.canonicalize().unwrap_or_else(|error| panic!("{}: {error}", scene.display()));
     once(scene, |scene| {
         // two scenes of the same file name don't share a file
-        let mut hash = DefaultHasher::new();
-        scene.hash(&mut hash);
-        let folder = folder().join(format!("{:016x}", hash.finish()));
+        let folder = folder().join(format!("{:016x}", hash(scene.as_os_str().as_encoded_bytes())));
         fs::create_dir_all(&folder).expect("the target folder can be written to");
         let unit = folder.join(scene.file_stem().expect("a scene file has a name")).with_extension("fmu");
+        // a unit follows from the program and the text: another test program may have exported it
+        let text = fs::read(scene).unwrap_or_else(|error| panic!("{}: {error}", scene.display()));
+        let kept = KEPT.join(format!("{:016x}.fmu", hash(&text)));
+        if fs::copy(&kept, &unit).is_ok() {
+            return unit;
+        }
         let output = Command::new(env!("CARGO_BIN_EXE_brinell"))
             .arg("export")
             .arg(scene)
@@ -97,6 +120,9 @@ pub fn export(scene: &Path) -> PathBuf {
             scene.display(),
             String::from_utf8_lossy(&output.stderr)
         );
+        // whole, or not at all
+        let draft = kept.with_extension(std::process::id().to_string());
+        fs::copy(&unit, &draft).and_then(|_| fs::rename(&draft, &kept)).expect("the target folder can be written to");
         unit
     })
 }
