@@ -19,7 +19,7 @@ pub fn run(
     let path = output.map_or_else(|| format!("{}.fmu", scene.name).into(), Path::to_path_buf);
     // what would fail at the end fails before the work
     files::check_goal(&path)?;
-    eprintln!("building {} ...", path.display());
+    crate::layout::tell(&format!("building {} ...", path.display()));
     let plan = Plan::of(scene);
     let exported = package::export(&plan, way, platforms, &path)?;
     let summary = Summary::of(&plan);

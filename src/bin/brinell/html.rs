@@ -13,7 +13,7 @@ figure { margin: 1rem 0; } svg { max-width: 100%; height: auto; background: #fff
 code { font-size: .95em; }";
 
 /// The style of a page of pictures and tables. In the dark the pictures are inverted and their hues turned back, so that every
-/// line keeps its colour and its contrast.
+/// line keeps its colour and its contrast. Maps, whose colours mean something, stay as they are.
 pub const PICTURE_STYLE: &str = "\
 :root { color-scheme: light dark; }
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 76rem; margin: 0 auto; padding: 1rem; }
@@ -28,7 +28,7 @@ th { vertical-align: bottom; white-space: normal; }
 th button { all: unset; cursor: pointer; } th button:focus-visible { outline: 2px solid; }
 [aria-sort=ascending] button::after { content: \" \\2191\"; } [aria-sort=descending] button::after { content: \" \\2193\"; }
 .copy { font: inherit; } .scene th, .scene td, .words { text-align: left; } .lead { font-size: 1.15rem; }
-@media screen and (prefers-color-scheme: dark) { figure svg, .legend i { filter: invert(1) hue-rotate(180deg); } }
+@media screen and (prefers-color-scheme: dark) { figure svg:not(.map), .legend i { filter: invert(1) hue-rotate(180deg); } figure svg.map { background: #fff; border-radius: .4rem; } }
 @media print {
   body { max-width: none; padding: 0; font-size: 9pt; } .csv { display: none; } .table { overflow: visible; max-height: none; font-size: inherit; }
   .panels { grid-template-columns: repeat(3, 1fr); } h2 { break-after: avoid; } tr, figure { break-inside: avoid; }

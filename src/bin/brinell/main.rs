@@ -73,7 +73,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {
-            eprintln!("brinell: {error}");
+            layout::tell(&format!("brinell: {error}"));
             if error.is::<WrongCall>() { ExitCode::from(WRONG_CALL) } else { ExitCode::FAILURE }
         }
     }
@@ -90,7 +90,7 @@ fn not_understood(error: &clap::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let text = error.render().to_string();
-    eprint!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text));
+    layout::tell(&format!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text).trim_end()));
     ExitCode::from(WRONG_CALL)
 }
 

@@ -1,9 +1,10 @@
 //! Checking a scene: from the file as it is written to what can be built.
 
-use super::contacts::{Contacts, IMPACTOR_DENSITY};
+use super::contacts::Contacts;
 use super::coupling;
 use super::file::{File, ImpactTable, NamesName};
 use super::laws;
+use super::numbers::IMPACTOR_DENSITY;
 use super::{Mistake, Parameter, Scene};
 use crate::nearest::unknown;
 use crate::predict;

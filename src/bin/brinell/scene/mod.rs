@@ -7,6 +7,7 @@ mod coupling;
 mod file;
 mod laws;
 mod mistakes;
+mod numbers;
 mod plausible;
 
 use crate::model::AnyModel;
@@ -149,7 +150,7 @@ impl Scene {
         let scene = Scene::read(path)?;
         let file = file::File::read(&scene.text).map_err(|mistake| mistake.in_file(&scene.text, path))?;
         for doubt in plausible::doubts(&file) {
-            eprintln!("brinell: warning: {}", doubt.in_file(&scene.text, path));
+            crate::layout::tell(&format!("brinell: warning: {}", doubt.in_file(&scene.text, path)));
         }
         Ok(scene)
     }

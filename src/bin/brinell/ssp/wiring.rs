@@ -31,6 +31,14 @@ pub enum WiringError {
     Taken { connection: String, input: String },
 }
 
+impl WiringError {
+    /// Whether the arguments are wrong, and not a file.
+    pub fn is_in_call(&self) -> bool {
+        use WiringError::{Form, NoUnit, NoVariable, Taken};
+        matches!(self, Form(_) | NoUnit { .. } | NoVariable { .. } | Taken { .. })
+    }
+}
+
 /// What can be connected.
 struct Unit {
     name: String,

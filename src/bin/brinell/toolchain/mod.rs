@@ -127,7 +127,7 @@ fn unpack(toolchain: &Toolchain, packages: &[Package], archives: &[PathBuf], std
         fs::remove_dir_all(&usr).map_err(FileError::at(&usr))?;
     }
     for (package, archive) in packages.iter().zip(archives) {
-        eprintln!("unpacking {} ...", package.name);
+        crate::layout::tell(&format!("unpacking {} ...", package.name));
         let wanted = |path: &str| package.part.has(path, std);
         deb::unpack(archive, &toolchain.folder, wanted)
             .map_err(|reason| ToolchainError::Package { package: package.name.clone(), reason })?;

@@ -44,7 +44,7 @@ pub fn build(toolchain: &Toolchain, cache: &Path) -> Result<(), ToolchainError> 
     bar.enable_steady_tick(Duration::from_millis(200));
     parallel::each(&Target::ALL, |target| {
         if bar.is_hidden() {
-            eprintln!("compiling core for {} ...", target.triple);
+            crate::layout::tell(&format!("compiling core for {} ...", target.triple));
         }
         let compiled = compile(toolchain, &rustc, &library, target);
         bar.inc(1);

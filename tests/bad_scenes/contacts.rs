@@ -1,12 +1,7 @@
 //! A scene of several contacts that can't be used: which contact is meant, where, and what would be allowed.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/refusal.rs"]
-mod refusal;
-
-use command::{empty_folder, run};
-use refusal::refused_text;
+use super::command::{empty_folder, run};
+use super::refusal::refused_text;
 use std::fs;
 
 /// Two contacts with nothing wrong in them.
