@@ -95,12 +95,16 @@ impl Watched {
     fn look<S: Scene>(&mut self, looks: &mut u32, ahead: &Ahead<S::Contact>) -> Option<f64> {
         let &Ahead { history, rate, time, step, end, mean_force } = ahead;
         let mass = S::impact_mass();
+        // a prebuilt library has none where nothing is to be watched
+        let is_known = mass * LARGEST > 1.0;
+        if !is_known {
+            return None;
+        }
         let follows = self.step > 0.0 && time == self.end;
         // what the importer has seen is the force with the rate before
         let force = history.force(if follows { self.rate } else { rate });
         let stiffness = history.stiffness(rate);
-        let is_large = mass * LARGEST > 1.0 && step * LARGEST > 1.0;
-        let in_range = is_large && force < LARGEST && mean_force < LARGEST && stiffness < LARGEST;
+        let in_range = step * LARGEST > 1.0 && force < LARGEST && mean_force < LARGEST && stiffness < LARGEST;
         if !in_range {
             *self = Watched::default();
             return None;
