@@ -112,7 +112,7 @@ fn a_wrong_type_is_refused_in_the_words_of_the_user() {
 fn a_missing_key_or_table_is_refused() {
     refused("name = \"ball\"\n", "§", &["missing", "`name`"]);
     refused("[impactor]\nradius = 5e-3", "§[impactor]", &["missing", "`radius`"]);
-    refused("name = \"ball\"\n\n[impactor]\nradius = 5e-3\n", "§name = \"ball\"\n", &["missing", "`impactor`"]);
+    refused("name = \"ball\"\n[impactor]\nradius = 5e-3\n", "§name = \"ball\"\n", &["missing", "`impactor`"]);
     refused("[target]\nyoungs_modulus = 206e9\n", "§[target]\n", &["`youngs_modulus`", "`material`", "`mild steel`"]);
     refused_with("§[impact]\nmass = 1", &["missing", "`speed`"]);
 }
