@@ -3,10 +3,13 @@
 
 #[path = "support/python.rs"]
 mod python;
+#[path = "support/unit.rs"]
+mod unit;
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -152,20 +155,22 @@ fn block<'a>(page: &'a str, language: &str) -> &'a str {
     rest.split("```").next().unwrap_or_default()
 }
 
-/// The output in docs/guide/tools/`name`.md is that of its script, with the FMU of the page on MuJoCo.
+fn read(page: &str) -> String {
+    std::fs::read_to_string(root().join("docs/guide/tools").join(page)).expect("the page is there")
+}
+
+/// The unit of the page on MuJoCo, exported once.
+static BALL: LazyLock<PathBuf> =
+    LazyLock::new(|| unit::export(&unit::write_scene("ball", block(&read("mujoco.md"), "toml"))));
+
+/// What docs/guide/tools/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
 fn page(name: &str, packages: &[&str]) {
     if !have(packages, &format!("the page {name}")) {
         return;
     }
-    let read =
-        |name: &str| std::fs::read_to_string(root().join("docs/guide/tools").join(name)).expect("the page is there");
-    let (page, scene) = (read(&format!("{name}.md")), read("mujoco.md"));
+    let page = read(&format!("{name}.md"));
     let folder = tempfile::tempdir().expect("a folder for what the page writes");
-    std::fs::write(folder.path().join("ball.toml"), block(&scene, "toml")).unwrap();
-    let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    program.env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"));
-    let exported = program.args(["export", "ball.toml"]).current_dir(folder.path()).output().unwrap();
-    assert!(exported.status.success(), "{}", text(&exported));
+    std::fs::copy(&*BALL, folder.path().join("ball.fmu")).unwrap();
     let output = interpreter().args(["-c", block(&page, "python")]).current_dir(folder.path()).output().unwrap();
     assert!(output.status.success(), "{}", text(&output));
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();

@@ -87,13 +87,13 @@ fn a_wrong_connection_is_reported_with_the_possible_ones() {
     ];
     for (connection, message) in cases {
         let folder = empty_folder();
-        let said = with_other(folder.path(), &["--connect", connection]).with_status(1);
+        let said = with_other(folder.path(), &["--connect", connection]).with_status(2);
         assert!(said.err.contains(connection) && said.err.contains(message), "{connection}: {said:#?}");
         assert_eq!(contents(folder.path()), ["other.fmu"]);
     }
     let folder = empty_folder();
     let twice = ["--connect", "other.left.force=contact.indentation_rate"].repeat(2);
-    let said = with_other(folder.path(), &twice).with_status(1);
+    let said = with_other(folder.path(), &twice).with_status(2);
     assert!(said.err.contains("the input contact.indentation_rate is already connected"), "{said:#?}");
 }
 

@@ -1,4 +1,4 @@
-//! A unit tells of a master whose steps are unstable, and of no other.
+//! An FMU warns of a master whose steps are unstable, and of no other.
 
 #[path = "support/masters.rs"]
 mod masters;
@@ -11,18 +11,18 @@ use brinell::contact::Surface;
 use brinell::contact::impact::{Impact, predict};
 use brinell::instance::Warning;
 use brinell::scene::{Absent, Present, Real, Scene};
-use masters::{MASS, choice};
+use masters::{MASS, PATTERNS, Pattern, choice};
 use physics::{AnyModel, Random, all_models, mild};
-use scenes::{Chosen, Elastoplastic, choose, ready, set_rate};
+use scenes::{Choice, Chosen, Elastoplastic, choose, ready, set_rate};
 
 type One = Chosen<Elastoplastic, 1, Absent>;
 type WithMomentum = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Absent>;
 
 /// The largest stable step where an impact at 1 m/s is deepest [s].
-fn stable_step(model: &AnyModel) -> f64 {
-    let deepest = predict(model, &Impact { mass: MASS, speed: 1.0 }).unwrap().max_indentation;
-    2.0 * (MASS / model.unloading_segment(deepest, deepest).stiffness(deepest)).sqrt()
+fn stable_step(model: &AnyModel, mass: f64) -> f64 {
+    let deepest = predict(model, &Impact { mass, speed: 1.0 }).unwrap().max_indentation;
+    2.0 * (mass / model.unloading_segment(deepest, deepest).stiffness(deepest)).sqrt()
 }
 
 /// The warning of unstable steps that a mass raises which the contact's force moves, and how fast it has become.
@@ -48,7 +48,7 @@ fn coupled<S: Scene>(model: &AnyModel, step: f64, count: usize) -> (Option<Warni
 #[test]
 fn a_mass_in_steps_that_are_too_long_is_told_and_one_in_shorter_steps_is_not() {
     for (name, model) in all_models(mild()) {
-        let stable = stable_step(&model);
+        let stable = stable_step(&model, MASS);
         for factor in [15.0, 40.0, 150.0] {
             for (told, fastest) in [
                 coupled::<One>(&model, factor * stable, 30),
@@ -68,15 +68,122 @@ fn a_mass_in_steps_that_are_too_long_is_told_and_one_in_shorter_steps_is_not() {
     }
 }
 
+/// The force that a master applies over a step.
+#[derive(Clone, Copy, Debug)]
+enum Applied {
+    /// That at its end: semi-implicit Euler, or leap-frog where rates lie half a step off.
+    New,
+    /// That at its start: explicit Euler.
+    Old,
+    /// Their mean: trapezoidal rule, velocity Verlet.
+    Mean,
+    /// The new one, extrapolated by half a step: the two steps of Adams and Bashforth.
+    Extrapolated,
+    /// The output `mean_force`.
+    MeanForce,
+}
+
+const APPLIED: [Applied; 5] = [Applied::New, Applied::Old, Applied::Mean, Applied::Extrapolated, Applied::MeanForce];
+
+/// A mass that a master moves.
+#[derive(Clone, Copy, Debug)]
+struct Moved {
+    applied: Applied,
+    pattern: Pattern,
+    mass: f64,
+    /// Of the steps [s].
+    step: f64,
+    gap: f64,
+    /// By all other forces [m/s^2].
+    acceleration: f64,
+}
+
+impl Moved {
+    /// Any master, mass, gap and gravity, with a step from 1.05 to 1000 times the largest stable one where an impact at 1 m/s is
+    /// deepest.
+    fn any(model: &AnyModel, random: &mut Random) -> Moved {
+        let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
+        let mass = MASS * decades(-3.0, 3.0);
+        let step = decades(1.05f64.log10(), 3.0) * stable_step(model, mass);
+        let (gap, pull) = (step * decades(-3.0, 0.7), decades(-5.0, -0.5) / step);
+        let acceleration = [0.0, pull, -pull][(3.0 * random.next()) as usize];
+        let applied = APPLIED[(5.0 * random.next()) as usize];
+        // that method has equal steps
+        let pattern = if matches!(applied, Applied::Extrapolated) { 0 } else { (4.0 * random.next()) as usize };
+        Moved { applied, pattern: PATTERNS[pattern], mass, step, gap, acceleration }
+    }
+
+    /// Moves the mass by `count` steps. The result is which was the first that was too long, and the first with a warning.
+    fn run<S: Scene>(&self, model: &AnyModel, count: usize) -> (Option<usize>, Option<usize>) {
+        let Moved { applied, pattern, mass, step, gap, acceleration } = *self;
+        choose(Choice { effective_mass: mass, ..choice(model, Surface::Dented, gap) });
+        let (mut instance, mut random) = (ready::<S>(), Random(7));
+        let (mut speed, mut old, mut long, mut told) = (1.0, 0.0, None, None);
+        for index in 0..count {
+            let step = step * pattern.factor(index, &mut random);
+            let [force, stiffness] = [Real::Force, Real::Stiffness].map(|output| instance.real((output, 0)));
+            let is_long = force > 0.0 && step * step * stiffness / mass > 4.0;
+            long = long.or(is_long.then_some(index));
+            set_rate(&mut instance, 0, speed);
+            // a master may add up the time, or multiply
+            let time = if matches!(pattern, Pattern::Equal) { index as f64 * step } else { instance.time() };
+            if instance.do_step(time, step).is_err() {
+                break;
+            }
+            let warning = instance.take_deep().filter(|warning| matches!(warning, Warning::Unstable { .. }));
+            told = told.or(warning.map(|_| index));
+            let new = instance.real((Real::Force, 0));
+            let force = match applied {
+                Applied::New => new,
+                Applied::Old => old,
+                Applied::Mean => 0.5 * (new + old),
+                Applied::Extrapolated => 1.5 * new - 0.5 * old,
+                Applied::MeanForce => instance.real((Real::MeanForce, 0)),
+            };
+            speed += step * (acceleration - force / mass);
+            old = new;
+        }
+        (long, told)
+    }
+}
+
+#[test]
+fn every_master_whose_steps_are_too_long_is_warned_within_three_steps() {
+    let mut random = Random(41);
+    let (mut cases, mut unstable) = (0, 0);
+    for (name, model) in all_models(mild()) {
+        for _ in 0..40 {
+            let moved = Moved::any(&model, &mut random);
+            let (long, told) = match moved.applied {
+                Applied::MeanForce => moved.run::<WithMomentum>(&model, 60),
+                _ => moved.run::<One>(&model, 60),
+            };
+            cases += 1;
+            match (long, told) {
+                (None, None) => continue,
+                (Some(long), Some(told)) if told >= long && told <= long + 3 => unstable += 1,
+                // the bodies are beyond the range before
+                (Some(long), None) if long + 3 >= 60 => {}
+                _ => panic!("{name}, {moved:?}: too long from step {long:?}, warned in {told:?}"),
+            }
+        }
+    }
+    assert!(2 * unstable > cases, "{unstable} of {cases} masters are unstable");
+}
+
 #[test]
 fn a_motion_that_is_prescribed_is_never_warned_of() {
     let mut random = Random(29);
     for (name, model) in all_models(mild()) {
-        let stable = stable_step(&model);
+        let stable = stable_step(&model, MASS);
         for factor in [1.0, 10.0, 1e3, 1e5] {
             let step = factor * stable;
             // in and out, by some micrometres: held rates, ramps, waves and anything
-            let motions: [&mut dyn FnMut(usize) -> f64; 4] = [
+            let motions: [&mut dyn FnMut(usize) -> f64; 7] = [
+                // one that slows down, by itself or in cycles, and one that turns in each step
+                &mut |count| 4e-6 * 0.9f64.powi(count as i32),
+                &mut |count| 3e-6 * 0.99f64.powi(count as i32) * f64::cos(1.3 * count as f64),
+                &mut |count| if count % 2 == 0 { 2e-6 } else { -2e-6 },
                 &mut |count| if count % 10 < 5 { 2e-6 } else { -2e-6 },
                 &mut |count| 1e-7 * (count % 40) as f64 - 2e-6,
                 &mut |count| 3e-6 * f64::cos(0.3 * count as f64),

@@ -65,7 +65,7 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         metavar="FILE",
         help=".parquet, .csv, .svg or .png; can be repeated",
     )
-    add("--workers", type=int, help="processes [default: all cores]")
+    add("--workers", type=int, help="processes [default: by the number of runs, at most all cores]")
     add("--chunk", type=int, help="runs per task of a process")
     add("--scheduler", metavar="local|ADDRESS", help="use Dask, here or at tcp://HOST:PORT")
     add("--quiet", action="store_true", help="show no progress bar")

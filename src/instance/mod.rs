@@ -37,6 +37,7 @@ use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
 use account::{Account, Ending, Miswired};
 use clock::Clock;
 use coupling::{Curve, Momentum};
+use stability::Watched;
 use start::{Bodies, BodiesOf, model_of};
 
 /// The largest absolute value of the rate of an input \[m/s\].
@@ -63,8 +64,10 @@ struct Contacts<S: Scene> {
     accelerations: IfPresent<<S::Coupling as Coupling>::Acceleration, S, f64>,
     /// Effective masses \[kg\], if they are inputs.
     masses: IfPresent<<S::Coupling as Coupling>::Mass, S, f64>,
-    /// Rates of the last steps that left their branch \[m/s\], where it is noticed that steps are too long.
-    watched: IfPresent<S::Watch, S, f64>,
+    /// The last steps that were looked at, where it is noticed that steps are too long.
+    watched: IfPresent<S::Watch, S, Watched>,
+    /// How many of the next steps are to be looked at.
+    looks: <S::Watch as Presence>::Of<u32, [u32; 1]>,
     miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
 }
 

@@ -98,7 +98,8 @@ impl<S: Scene> Instance<S> {
                 accelerations: Store::filled(0.0),
                 masses: Store::filled(f64::NAN),
                 miswired: Store::filled(Miswired::default()),
-                watched: Store::filled(0.0),
+                watched: Store::filled(Watched::default()),
+                looks: Store::filled(0),
             },
             settings: Settings { lowest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
             deep: Deep { contact: 0, indentation: 0.0 },
@@ -172,7 +173,7 @@ impl<S: Scene> Instance<S> {
             }
             first = end;
         }
-        let Contacts { histories, momenta, endings, accounts, miswired, watched, .. } = &mut self.contacts;
+        let Contacts { histories, momenta, endings, accounts, miswired, watched, looks, .. } = &mut self.contacts;
         for (momentum, history) in momenta.as_mut().iter_mut().zip(histories.as_ref()) {
             *momentum = Momentum::start(history.force(0.0));
         }
@@ -181,7 +182,8 @@ impl<S: Scene> Instance<S> {
         }
         accounts.as_mut().fill(Account::default());
         miswired.as_mut().fill(Miswired::default());
-        watched.as_mut().fill(0.0);
+        watched.as_mut().fill(Watched::default());
+        looks.as_mut().fill(0);
         self.note_forces();
         Ok(())
     }

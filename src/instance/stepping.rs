@@ -1,6 +1,6 @@
 //! Steps: the plain step, and all others.
 
-use super::stability::watch;
+use super::stability::{Ahead, watch};
 use super::*;
 use crate::contact::motion::{Drive, NoMotion};
 use crate::contact::numbers::largest;
@@ -39,8 +39,8 @@ impl<S: Scene> Instance<S> {
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.clock.check(time, step)?;
         self.advance(time + step, step)?;
-        // a search for deep contacts may have been requested
-        if !self.clock.curved {
+        // it may have been asked to look
+        if !self.clock.curved && !self.is_watching() {
             self.clock.release();
         }
         if S::CONTACTS > 1 && !self.is_deep() {
@@ -95,14 +95,16 @@ impl<S: Scene> Instance<S> {
     /// Moves the contact of a simple instance for `step` \[s\], to the time `end` \[s\].
     #[inline(always)]
     fn advance_one(&mut self, end: f64, step: f64) -> Result<(), TooDeep> {
-        let Contacts { histories, rates, watched, .. } = &mut self.contacts;
+        let Contacts { histories, rates, watched, looks, .. } = &mut self.contacts;
         let (Some(history), Some(&rate)) = (histories.as_ref().first(), rates.as_ref().first()) else { return Ok(()) };
-        let long = watch::<S>(watched, 0, history, rate, step);
+        let ahead = Ahead { history, rate, time: self.clock.time, step, end, mean_force: 0.0 };
+        let long = watch::<S>(watched, looks, 0, &ahead);
         self.move_one(rate, step)?;
         // a later step will report the depth
         self.deep = long.unwrap_or(self.deep);
         self.contacts.last_step.as_mut().fill(step);
         self.clock.time = end;
+        self.keep_watching();
         Ok(())
     }
 
@@ -169,17 +171,19 @@ impl<S: Scene> Instance<S> {
         if any {
             self.advance_any(step)?;
         } else {
-            self.advance_held(step)?;
+            self.advance_held(end, step)?;
         }
         self.contacts.last_step.as_mut().fill(step);
         self.clock.time = end;
+        self.keep_watching();
         Ok(())
     }
 
     /// Moves all contacts at constant rates.
     #[inline]
-    fn advance_held(&mut self, step: f64) -> Result<(), Fault> {
-        let Contacts { histories, rates, forces, momenta, watched, .. } = &mut self.contacts;
+    fn advance_held(&mut self, end: f64, step: f64) -> Result<(), Fault> {
+        let (time, watches) = (self.clock.time, self.is_watching());
+        let Contacts { histories, rates, forces, momenta, watched, looks, .. } = &mut self.contacts;
         let settings = &mut self.settings;
         let (forces, momenta) = (forces.as_mut(), momenta.as_mut());
         for (contact, (history, &rate)) in histories.as_mut().iter_mut().zip(rates.as_ref()).enumerate() {
@@ -190,8 +194,12 @@ impl<S: Scene> Instance<S> {
             let group = S::group(contact);
             let kept = || settings.bodies.as_ref().get(group).map(|bodies| bodies.kept).unwrap_or_default();
             let mut long = None;
+            if watches || !short {
+                let mean_force = momenta.get(contact).map_or(0.0, |momentum| momentum.mean_force);
+                let ahead = Ahead { history: &before, rate, time, step, end, mean_force };
+                long = watch::<S>(watched, looks, contact, &ahead);
+            }
             if !short {
-                long = watch::<S>(watched, contact, &before, rate, step);
                 history
                     .step_held(rate, step, &kept(), || settings.model_at_once(group))
                     .map_err(|deep| too_deep(contact, deep))?;

@@ -6,13 +6,18 @@
 
 #include <stdlib.h>
 
-enum { FORCE, RATE, MASS, INITIAL_RATE, VARIABLES };
+enum { FORCE, RATE, MASS, INITIAL_RATE, ACCELERATION, VARIABLES };
+
+/* closing acceleration by all forces but that of the contact [m/s^2] */
+#ifndef GRAVITY
+#define GRAVITY 0.0
+#endif
 
 typedef struct {
     double values[VARIABLES];
 } Body;
 
-static const Body START = {{0.0, 1.0, 4e-3, 1.0}};
+static const Body START = {{0.0, 1.0, 4e-3, 1.0, GRAVITY}};
 
 const char *fmi2GetTypesPlatform(void) { return "default"; }
 
@@ -54,7 +59,7 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference referen
 {
     Body *body = component;
     for (size_t i = 0; i < count; i++) {
-        if (references[i] >= VARIABLES || references[i] == RATE)
+        if (references[i] >= VARIABLES || references[i] == RATE || references[i] == ACCELERATION)
             return fmi2Error;
         body->values[references[i]] = values[i];
         if (references[i] == INITIAL_RATE)
@@ -78,7 +83,7 @@ fmi2Status fmi2DoStep(fmi2Component component, fmi2Real time, fmi2Real step, fmi
 {
     Body *body = component;
     (void)time, (void)no_state_is_set_before;
-    body->values[RATE] -= step * body->values[FORCE] / body->values[MASS];
+    body->values[RATE] += step * (body->values[ACCELERATION] - body->values[FORCE] / body->values[MASS]);
     return fmi2OK;
 }
 

@@ -1,18 +1,20 @@
 """The task of every importer, and the format of its results.
 
-A driver `with_TOOL.py FOLDER RESULT` finds in FOLDER `contact.fmu`, `serial.fmu`, `parallel.fmu`, `mass.fmu`, `ball.ssp` and
-`history.txt`, and writes its results to RESULT as JSON; `tests/importers.rs` evaluates them. A driver has several methods, each
-with a name, the order of execution, and its functions.
+A driver `with_TOOL.py FOLDER RESULT` finds in FOLDER `contact.fmu`, `serial.fmu`, `parallel.fmu`, `mass.fmu`, `heavy.fmu`
+(the same body under gravity), `ball.ssp` and `history.txt`, and writes to RESULT what it found as JSON; `tests/importers.rs` judges it. A driver has ways: a name, the order
+of execution, and what to do.
 """
 
 import importlib.metadata
 import json
 import os
+import re
 import shutil
 import sys
 import tempfile
 import time
 import traceback
+import zipfile
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -32,6 +34,26 @@ package = str(folder / "ball.ssp")
 
 def unit(name):
     return str(folder / f"{name}.fmu")
+
+
+_body = "mass"
+
+
+def body():
+    """The FMU of the ball. Its output `acceleration` is that of gravity, and belongs to the input `external_acceleration`."""
+    return unit(_body)
+
+
+def acceleration():
+    """Of the ball by gravity [m/s^2], for tools that want to know the first value of a connection."""
+    text = zipfile.ZipFile(body()).read("modelDescription.xml").decode()
+    return float(re.search(r'name="acceleration".*start="(.*?)"', text).group(1))
+
+
+def weightless(ball):
+    """A ball that is not run under gravity."""
+    ball.weightless = True
+    return ball
 
 
 class Watch:
@@ -58,11 +80,18 @@ def answer(make, steps):
     return {"value": value, "steps_per_second": steps / watch.seconds if watch.seconds else None}
 
 
+def balls(ball, order, name):
+    """The answers of the ball `name` at each step."""
+    global _body
+    _body = name
+    return [{"step": step} | answer(lambda watch: ball(unit(order), step, watch), BALL_STEPS) for step in BALL_SIZES]
+
+
 def run(package, ways, version=None):
     """Runs all `ways`: a list of (name, order, history, ball), where order is "serial", "parallel" or "-".
 
-    `history(watch)` returns the force after each step of the history, `ball(contact, step, watch)` the final rate of the ball.
-    A tool that cannot do one of the two has None there.
+    The ball is run without gravity, and with it if it is not `weightless`. `history(watch)` gives the force after each step of the history, `ball(contact, step, watch)` the rate of the ball in the end.
+    A tool that can't do one of the two has None there.
     """
     os.chdir(tempfile.mkdtemp(prefix="brinell-"))
     result = {"version": version or importlib.metadata.version(package), "ways": []}
@@ -71,9 +100,9 @@ def run(package, ways, version=None):
         if history:
             way["history"] = answer(history, len(rates))
         if ball:
-            way["ball"] = [
-                {"step": step} | answer(lambda watch: ball(unit(order), step, watch), BALL_STEPS) for step in BALL_SIZES
-            ]
+            way["ball"] = balls(ball, order, "mass")
+            if not getattr(ball, "weightless", False):
+                way["heavy"] = balls(ball, order, "heavy")
         result["ways"].append(way)
         # written after each method, in case the tool crashes in the next one
         result_file.write_text(json.dumps(result))

@@ -3,7 +3,7 @@
 import csv
 
 from cofmupy import Coordinator
-from driver import BALL_STEPS, STEP, rates, run, unit
+from driver import BALL_STEPS, STEP, acceleration, body, rates, run, unit
 
 
 def end(of, variable):
@@ -44,11 +44,13 @@ def history(method):
 
 def ball(method):
     def rate(path, step, watch):
-        # the initial rate of the ball is not an output of an earlier step
-        units = {"contact": (path, {"indentation_rate": 1.0}), "mass": (unit("mass"), {})}
+        # what the ball begins with is no output of a step before
+        begin = {"indentation_rate": 1.0, "external_acceleration": acceleration()}
+        units = {"contact": (path, begin), "mass": (body(), {})}
         coordinator = started(units, [
             (end("contact", "mean_force"), end("mass", "force")),
             (end("mass", "rate"), end("contact", "indentation_rate")),
+            (end("mass", "acceleration"), end("contact", "external_acceleration")),
         ], method)
         # otherwise the order depends on the hashes of the names, which differ from process to process
         coordinator.master.sequence_order = [["contact", "mass"]]

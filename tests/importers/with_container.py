@@ -4,7 +4,7 @@ import logging
 from pathlib import Path
 
 import numpy
-from driver import BALL_STEPS, STEP, folder, rates, run, unit
+from driver import BALL_STEPS, STEP, body, folder, rates, run, unit
 from fmpy import simulate_fmu
 from fmu_manipulation_toolbox.assembly import Assembly
 from fmu_manipulation_toolbox.checker import OperationGenericCheck
@@ -44,12 +44,13 @@ def history(sequential):
 def ball(sequential):
     def rate(path, step, watch):
         bring(path, "contact")
-        bring(unit("mass"), "mass")
+        bring(body(), "mass")
         path = container("ball", [
             "FMU;contact.fmu;;;",
             "FMU;mass.fmu;;;",
             "LINK;contact.fmu;mean_force;mass.fmu;force",
             "LINK;mass.fmu;rate;contact.fmu;indentation_rate",
+            "LINK;mass.fmu;acceleration;contact.fmu;external_acceleration",
             "OUTPUT;mass.fmu;rate;;rate",
         ], step, sequential)
         with watch.running():

@@ -6,7 +6,7 @@ import sys
 # Ecos links it, but neither includes it nor lists it as a requirement
 ctypes.CDLL(f"{sys.prefix}/lib/libtbb.so.12", ctypes.RTLD_GLOBAL)
 
-from driver import BALL_STEPS, STEP, package, rates, run, unit
+from driver import BALL_STEPS, STEP, body, package, rates, run, unit, weightless
 from ecospy import EcosSimulation, EcosSimulationStructure
 
 
@@ -28,12 +28,14 @@ def history(watch):
 def ball(path, step, watch):
     with EcosSimulationStructure() as structure:
         structure.add_model("contact", path)
-        structure.add_model("mass", unit("mass"))
+        structure.add_model("mass", body())
         structure.make_real_connection("mass::rate", "contact::indentation_rate")
         structure.make_real_connection("contact::mean_force", "mass::force")
+        structure.make_real_connection("mass::acceleration", "contact::external_acceleration")
         return rebound(EcosSimulation(structure=structure, step_size=step), watch)
 
 
+@weightless
 def system(_path, step, watch):
     return rebound(EcosSimulation(ssp_path=package, step_size=step), watch)
 

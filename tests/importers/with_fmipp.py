@@ -3,7 +3,7 @@
 import functools
 import os
 
-from driver import BALL_STEPS, STEP, rates, run, unit
+from driver import BALL_STEPS, STEP, body, rates, run, unit
 from fmipp import FMUCoSimulationV2, extractFMU
 
 
@@ -16,8 +16,8 @@ def extracted(path):
 class Slave:
     def __init__(self, path):
         name = os.path.splitext(os.path.basename(path))[0]
-        # it requires the model identifier
-        identifier = "steel_ball" if name == "contact" else name
+        # it wants the model identifier
+        identifier = {"contact": "steel_ball", "heavy": "mass"}.get(name, name)
         self.fmu = FMUCoSimulationV2(extracted(path), identifier, False, 1e-12)
         self.checked(self.fmu.instantiate(name, 0.0, False, False))
         self.checked(self.fmu.initialize(0.0, False, 0.0))
@@ -47,10 +47,11 @@ def history(watch):
 
 def ball(serial):
     def rate(path, step, watch):
-        contact, mass = Slave(path), Slave(unit("mass"))
+        contact, mass = Slave(path), Slave(body())
         with watch.running():
             for index in range(BALL_STEPS):
                 contact.set("indentation_rate", mass.get("rate"))
+                contact.set("external_acceleration", mass.get("acceleration"))
                 if serial:
                     contact.step(index * step, step)
                 mass.set("force", contact.get("mean_force"))

@@ -4,7 +4,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 import fmpy
 import numpy
-from driver import BALL_STEPS, STEP, package, rates, run, unit
+from driver import BALL_STEPS, STEP, body, package, rates, run, unit, weightless
 from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.simulation import simulate_ssp
 
@@ -41,10 +41,11 @@ def history(watch):
 
 
 def serial(path, step, watch):
-    contact, mass = Slave(path), Slave(unit("mass"))
+    contact, mass = Slave(path), Slave(body())
     with watch.running():
         for index in range(BALL_STEPS):
             contact.set("indentation_rate", mass.get("rate"))
+            contact.set("external_acceleration", mass.get("acceleration"))
             contact.fmu.doStep(index * step, step)
             mass.set("force", contact.get("mean_force"))
             mass.fmu.doStep(index * step, step)
@@ -52,10 +53,11 @@ def serial(path, step, watch):
 
 
 def parallel(path, step, watch):
-    contact, mass = Slave(path), Slave(unit("mass"))
+    contact, mass = Slave(path), Slave(body())
     with watch.running():
         for index in range(BALL_STEPS):
             contact.set("indentation_rate", mass.get("rate"))
+            contact.set("external_acceleration", mass.get("acceleration"))
             mass.set("force", contact.get("mean_force"))
             contact.fmu.doStep(index * step, step)
             mass.fmu.doStep(index * step, step)
@@ -86,6 +88,7 @@ def simulated_alone(_index):
     return simulated(Watch())
 
 
+@weightless
 def system(_path, step, watch):
     with watch.running():
         result = simulate_ssp(package, stop_time=(BALL_STEPS - 0.5) * step, step_size=step)

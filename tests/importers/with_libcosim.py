@@ -2,7 +2,7 @@
 
 import zipfile
 
-from driver import BALL_STEPS, STEP, package, rates, run, unit
+from driver import BALL_STEPS, STEP, body, package, rates, run, unit, weightless
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimManipulator import CosimManipulator
 from libcosimpy.CosimObserver import CosimObserver
@@ -45,14 +45,16 @@ def history(watch):
 
 
 def ball(path, step, watch):
-    execution = Execution(step, contact=path, mass=unit("mass"))
+    execution = Execution(step, contact=path, mass=body())
     execution.connect(("mass", "rate"), ("contact", "indentation_rate"))
     execution.connect(("contact", "mean_force"), ("mass", "force"))
+    execution.connect(("mass", "acceleration"), ("contact", "external_acceleration"))
     with watch.running():
         assert execution.execution.step(BALL_STEPS)
     return execution.get("mass", "rate")
 
 
+@weightless
 def system(_path, step, watch):
     # it requires the folder, and finds the parts of the package there
     zipfile.ZipFile(package).extractall("system")

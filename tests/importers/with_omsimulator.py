@@ -1,6 +1,6 @@
 """OMSimulator, through its C interface in Python: a weakly coupled system, whose algorithm `oms_ma` steps all FMUs at once."""
 
-from driver import BALL_STEPS, STEP, rates, run, unit
+from driver import BALL_STEPS, STEP, body, rates, run, unit
 from OMSimulator.capi import Capi
 
 WEAKLY_COUPLED = 2
@@ -54,9 +54,10 @@ def history(watch):
 
 
 def ball(path, step, watch):
-    model = Model(step, contact=path, mass=unit("mass"))
+    model = Model(step, contact=path, mass=body())
     model.connect("contact.mean_force", "mass.force")
     model.connect("mass.rate", "contact.indentation_rate")
+    model.connect("mass.acceleration", "contact.external_acceleration")
     model.start()
     with watch.running():
         model.call("stepUntil", "model", BALL_STEPS * step)

@@ -1,7 +1,7 @@
 """PathSim, with the blocks of `pathsim-fmi`: a step of an FMU is an event. Simultaneous events are in the order of the blocks,
 each with the results of those before it."""
 
-from driver import BALL_STEPS, STEP, rates, run, unit
+from driver import BALL_STEPS, STEP, body, rates, run, unit
 from pathsim import Connection, Simulation
 from pathsim.blocks import Source
 from pathsim_fmi import CoSimulationFMU
@@ -33,13 +33,15 @@ def history(watch):
 
 
 def ball(path, step, watch):
-    (contact, contact_port), (mass, mass_port) = block(path, step), block(unit("mass"), step)
+    (contact, contact_port), (mass, mass_port) = block(path, step), block(body(), step)
     simulation = Simulation([contact, mass], [
         Connection(contact_port("mean_force"), mass_port("force")),
         Connection(mass_port("rate"), contact_port("indentation_rate")),
+        Connection(mass_port("acceleration"), contact_port("external_acceleration")),
     ], dt=step, log=False)
     with watch.running():
-        simulation.run(BALL_STEPS * step)
+        # the units step at the beginning and at the end
+        simulation.run((BALL_STEPS - 1) * step)
     return mass.fmu_wrapper.get_outputs_as_array()[0]
 
 

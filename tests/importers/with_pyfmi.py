@@ -1,6 +1,6 @@
 """PyFMI: one FMU step by step, and its `Master`, which steps all FMUs at once."""
 
-from driver import BALL_STEPS, STEP, rates, run, unit
+from driver import BALL_STEPS, STEP, body, rates, run, unit
 from pyfmi import load_fmu
 from pyfmi.master import Master
 
@@ -22,10 +22,11 @@ def history(watch):
 
 
 def ball(path, step, watch):
-    contact, mass = loaded(path), loaded(unit("mass"))
+    contact, mass = loaded(path), loaded(body())
     master = Master([contact, mass], [
         (contact, "mean_force", mass, "force"),
         (mass, "rate", contact, "indentation_rate"),
+        (mass, "acceleration", contact, "external_acceleration"),
     ])
     options = master.simulate_options()
     options.update(step_size=step, extrapolation_order=0, result_handling="memory")

@@ -1,15 +1,18 @@
 """Studies: plans, runs, failures, files, and continuing after an interruption."""
 
+import multiprocessing
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import brinell
+import fmpy
 import numpy as np
 import pytest
 from brinell import ContactError, ProgramError, Range
-from brinell.studies import impacts, plan, scene, store
+from brinell.studies import impacts, plan, scene, store, study
 
 SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
 SCENE = SCENES / "mass_known.toml"
@@ -152,6 +155,29 @@ def test_warnings_belong_to_their_run(unit, chunk):
     assert [bool(text) for text in table["warning"]] == [False, True, False, True]
 
 
+@pytest.mark.skipif(multiprocessing.get_start_method() != "fork", reason="no process is forked")
+def test_the_processes_of_a_study_do_not_unpack_the_unit_again(unit, tmp_path, monkeypatch):
+    extract, log = fmpy.extract, tmp_path / "log"
+
+    def logged(*arguments, **more):
+        with open(log, "a") as file:
+            file.write(f"{os.getpid()}\n")
+        return extract(*arguments, **more)
+
+    monkeypatch.setattr(fmpy, "extract", logged)
+    # one that this process hasn't unpacked yet
+    fresh = Path(shutil.copy(unit, tmp_path / "fresh.fmu"))
+    quick(fresh, {"speed": "1:2:40"}, workers=2, chunk=5)
+    assert log.read_text() == f"{os.getpid()}\n"
+
+
+def test_a_short_study_has_one_process_and_a_long_one_all_cores(monkeypatch):
+    monkeypatch.setattr(os, "cpu_count", lambda: 4)
+    assert [study._workers(runs, None) for runs in (1, 1999, 2000, 3999, 10**6)] == [1, 1, 2, 3, 4]
+    # other machines may have to be found, and their time is no question
+    assert study._workers(1, "local") == 4
+
+
 def test_workers_chunks_and_dask_change_nothing(unit):
     vary = {"speed": "0.1:10:12log", "target.yield_strength": "2e8:9e8:10"}
     expected = quick(unit, vary)
@@ -283,7 +309,7 @@ def test_a_study_goes_on_with_other_workers_and_chunks(unit, tmp_path, monkeypat
 
     monkeypatch.setattr(impacts, "run", stopped)
     with pytest.raises(KeyboardInterrupt):
-        quick(unit, vary, output=output)
+        quick(unit, vary, output=output, chunk=10)
     monkeypatch.setattr(impacts, "run", ORIGINAL)
     table = quick(unit, vary, output=output, workers=2, chunk=4)
     assert calls == [10, 10, 10]

@@ -42,21 +42,54 @@ pub fn cache() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
 }
 
-/// Runs `command` to its end.
+/// Runs `command` to its end. What our program says on standard error must fit the width of a page; `err` is without the ends of lines
+/// that come from that.
 #[track_caller]
 pub fn output(command: &mut Command) -> Run {
     let output = command.output().unwrap_or_else(|error| panic!("{command:?} can't be started: {error}"));
-    Run {
-        status: output.status.code(),
-        out: String::from_utf8_lossy(&output.stdout).into_owned(),
-        err: String::from_utf8_lossy(&output.stderr).into_owned(),
+    let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    // what another program asks for stays as it is
+    let for_people = !command.get_args().any(|argument| argument == "--json");
+    if for_people && command.get_program() == env!("CARGO_BIN_EXE_brinell") {
+        check_width(&err);
     }
+    Run { status: output.status.code(), out, err: if for_people { unwrapped(&err) } else { err } }
 }
 
 /// Runs the program in `folder` with `arguments`.
 #[track_caller]
 pub fn run<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = A>) -> Run {
     output(brinell(folder).args(arguments))
+}
+
+/// Whether the lines of a message fit a page, but for lines of a scene and for single words, such as paths.
+#[track_caller]
+fn check_width(text: &str) {
+    for line in text.lines().filter(|line| line.chars().count() > WIDTH) {
+        let is_shown = line.trim_start().trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ').starts_with('|');
+        assert!(is_shown || !line.trim().contains(' '), "{} columns: {line}", line.chars().count());
+    }
+}
+
+/// The widest line of a message.
+const WIDTH: usize = 100;
+
+/// `text` with those lines put together again that one line was too short for.
+fn unwrapped(text: &str) -> String {
+    let (mut all, mut last, mut depth) = (String::new(), 0, 0);
+    for line in text.lines() {
+        let (words, size) = (line.trim_start(), line.chars().count());
+        let indent = line.len() - words.len();
+        let word = words.split(' ').next().unwrap_or_default().chars().count();
+        if indent == depth + 2 && last + 1 + word > WIDTH && !words.is_empty() {
+            all += &format!(" {words}");
+        } else {
+            all += &format!("{}{line}", if all.is_empty() { "" } else { "\n" });
+            depth = indent;
+        }
+        last = size;
+    }
+    if text.ends_with('\n') { all + "\n" } else { all }
 }
 
 /// An empty folder.

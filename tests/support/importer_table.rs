@@ -22,7 +22,9 @@ pub struct Row {
     pub agreement: Option<f64>,
     /// Relative error of the restitution at each step size of the ball.
     pub errors: Vec<f64>,
-    /// Steps per second of the history; without a history, of the ball.
+    /// Largest error of the speed of the ball under gravity, over the restitution.
+    pub heavy: Option<f64>,
+    /// Steps per second of the history, or of the ball if there is none.
     pub steps_per_second: Option<f64>,
     /// The reason why there are no other results.
     pub failure: Option<String>,
@@ -42,6 +44,9 @@ impl Row {
         if let Some(agreement) = self.agreement.filter(|agreement| agreement.is_nan() || *agreement > AGREEMENT) {
             return told(format!("forces differ by {agreement:e} of the largest"));
         }
+        if let Some(error) = self.heavy.filter(|error| error.is_nan() || *error > RESTITUTION) {
+            return told(format!("with gravity the speed is off by {error:e} of the restitution"));
+        }
         let error = self.errors.iter().find(|error| error.is_nan() || error.abs() > RESTITUTION)?;
         told(format!("restitution is off by {error:e}"))
     }
@@ -58,15 +63,26 @@ pub fn difference(found: &[f64], forces: &[f64]) -> f64 {
     differences.fold(0.0, |sum: f64, next| if next <= sum { sum } else { next }) / largest
 }
 
-/// A row for each method in the result of a driver.
-pub fn rows<'a>(result: &'a Value, forces: &'a [f64], restitution: f64) -> impl Iterator<Item = Row> + 'a {
+/// A row for each way in the result of a driver; `speeds` are those of the heavy ball in the end.
+pub fn rows<'a>(
+    result: &'a Value,
+    forces: &'a [f64],
+    restitution: f64,
+    speeds: &'a [f64],
+) -> impl Iterator<Item = Row> + 'a {
     let version = result["version"].as_str().unwrap_or_default();
     let ways = result["ways"].as_array().map(Vec::as_slice).unwrap_or_default();
     ways.iter().map(move |way| {
         let text = |key: &str| way[key].as_str().unwrap_or_default();
         let mut row = Row::named(text("name"), version, text("order"));
-        let (history, ball) = (&way["history"], way["ball"].as_array().map(Vec::as_slice).unwrap_or_default());
-        row.failure = [history].into_iter().chain(ball).find_map(|answer| answer["error"].as_str()).map(String::from);
+        let list = |key: &str| way[key].as_array().map(Vec::as_slice).unwrap_or_default();
+        let (history, ball, heavy) = (&way["history"], list("ball"), list("heavy"));
+        row.failure = [history]
+            .into_iter()
+            .chain(ball)
+            .chain(heavy)
+            .find_map(|answer| answer["error"].as_str())
+            .map(String::from);
         if row.failure.is_some() {
             return row;
         }
@@ -75,6 +91,10 @@ pub fn rows<'a>(result: &'a Value, forces: &'a [f64], restitution: f64) -> impl 
             row.agreement = Some(difference(&found, forces));
         }
         row.errors = ball.iter().map(|at| -at["value"].as_f64().unwrap_or(f64::NAN) / restitution - 1.0).collect();
+        let error =
+            |(at, speed): (&Value, &f64)| (at["value"].as_f64().unwrap_or(f64::NAN) - speed).abs() / restitution;
+        // NaN must not be passed over
+        row.heavy = heavy.iter().zip(speeds).map(error).reduce(|worst, next| if next <= worst { worst } else { next });
         let speed = |answer: &Value| answer["steps_per_second"].as_f64();
         row.steps_per_second = speed(history).or_else(|| ball.first().and_then(speed));
         row
@@ -95,8 +115,8 @@ impl Table {
 
     fn markdown(&self) -> String {
         let mut text = String::from(
-            "| importer | version | order | difference of force | restitution at 1 us | 100 us | 2 ms | steps/s |\n\
-             |---|---|---|---|---|---|---|---|\n",
+            "| importer | version | order | difference of force | restitution at 1 us | 100 us | 2 ms | with gravity | steps/s |\n\
+             |---|---|---|---|---|---|---|---|---|\n",
         );
         for row in &self.rows {
             let agreement = row.agreement.map_or_else(|| "-".into(), number);
@@ -106,8 +126,11 @@ impl Table {
             }
             let speed = row.steps_per_second.map_or_else(|| "-".into(), |speed| format!("{speed:.1e}"));
             let cells = match &row.failure {
-                Some(failure) => format!("{failure} | | | | "),
-                None => format!("{agreement} | {} | {speed}", errors.join(" | ")),
+                Some(failure) => format!("{failure} | | | | | "),
+                None => {
+                    let heavy = row.heavy.map_or_else(|| "-".into(), number);
+                    format!("{agreement} | {} | {heavy} | {speed}", errors.join(" | "))
+                }
             };
             let _ = writeln!(text, "| {} | {} | {} | {cells} |", row.name, row.version, row.order);
         }

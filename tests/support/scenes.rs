@@ -197,7 +197,7 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     }
 
     fn impact_mass() -> f64 {
-        4e-3
+        chosen().effective_mass
     }
 
     fn start_values() -> [f64; 3] {

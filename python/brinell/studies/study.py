@@ -20,9 +20,11 @@ from ..variables import Variables
 from . import impacts, plan, scene
 from .impacts import Table
 
-# A chunk of ten runs takes as long as ten times what a scheduler needs for it; one of a thousand
-# loses little when its process ends.
-FEWEST, MOST, CHUNKS = 10, 1000, 200
+# The instance of a chunk takes as long as five runs, and its part of the result on the disk as long as twenty: a
+# hundred runs are worth it. A chunk of a thousand loses little when its process ends.
+FEWEST, MOST, CHUNKS = 100, 1000, 200
+# One run [s], and what a process needs before its first one and after its last one [s], about.
+RUN, PROCESS = 40e-6, 0.02
 ENDINGS = (".parquet", ".csv", ".svg", ".png")
 Rows = NDArray[np.float64]
 Chunks = dict[int, Rows]
@@ -52,8 +54,9 @@ def study(
 
     `output` names files; their extensions select the format: .parquet and .csv for the table, .svg
     and .png for a picture. With a table among them, an interrupted study continues where it was.
-    The study uses all cores, or `workers` processes, in chunks of `chunk` runs. With `scheduler` it
-    uses Dask: "local", or an address such as "tcp://host:8786".
+    The study uses as many processes as there are cores, or fewer if it is short, or `workers`, in
+    chunks of `chunk` runs. With `scheduler` it uses Dask: "local", or an address such as
+    "tcp://host:8786".
 
     A run that fails has its reason in the column `error`, and NaN as its results.
     """
@@ -65,11 +68,13 @@ def study(
         usual |= {"speed": speed} if speed is not None else {}
         usual |= {"mass": mass} if mass is not None else {}
         columns = _columns(values, {**usual, **(parameters or {})})
-        _check(unit, columns)
+        # in memory until the end: processes that are forked have it without unpacking it again
+        library = Library.of(unit)
+        _check(library, columns)
         names, rows = list(columns), np.column_stack(list(columns.values()))
-        workers = workers or os.cpu_count() or 1
+        workers = workers or _workers(len(rows), scheduler)
         size = chunk or max(FEWEST, min(MOST, len(rows) // CHUNKS))
-        table = _run(unit, names, rows, size, outputs, workers, scheduler, progress)
+        table = _run(library, names, rows, size, outputs, workers, scheduler, progress)
     for path in outputs:
         if path.suffix in (".svg", ".png"):
             from .picture import draw
@@ -106,17 +111,23 @@ def _columns(values: Mapping[str, Rows], usual: Mapping[str, float]) -> dict[str
     return columns
 
 
-def _check(unit: Path, columns: Mapping[str, Rows]) -> None:
-    variables = Variables(Library.of(unit))
+def _workers(runs: int, scheduler: str | None) -> int:
+    """How many processes so many runs are worth: each must save more time than it takes."""
+    cores = os.cpu_count() or 1
+    return cores if scheduler else max(1, min(cores, int(runs * RUN / (2.0 * PROCESS))))
+
+
+def _check(library: Library, columns: Mapping[str, Rows]) -> None:
+    variables = Variables(library)
     if not variables.knows_mass or len(variables.contacts) != 1:
-        raise ContactError(f"{unit}: a study needs an FMU with one contact that knows the mass")
+        raise ContactError(f"{library.path}: a study needs an FMU with one contact that knows the mass")
     for name in ("effective_mass", "initial_gap", *(set(columns) - {"speed", "mass"})):
         if name not in variables.parameters:
             raise variables.unknown("parameter", name, ("speed", "mass", *variables.parameters))
 
 
 def _run(
-    unit: Path,
+    library: Library,
     names: list[str],
     rows: Rows,
     size: int,
@@ -131,7 +142,7 @@ def _run(
 
     tables = [path for path in outputs if path.suffix in (".parquet", ".csv")]
     key = repr(names).encode() + rows.tobytes()
-    key += Library.of(unit).description.guid.encode()
+    key += library.description.guid.encode()
     parts = store.Parts(tables[0], key, size) if tables else None
     size = parts.size if parts else size
     chunks = {at: rows[at : at + size] for at in range(0, len(rows), size)}
@@ -139,7 +150,7 @@ def _run(
     before = sum(len(chunks[at]) for at in done)
     with tqdm(total=len(rows), initial=before, unit="run", disable=not progress) as bar:
         left = {at: chunk for at, chunk in chunks.items() if at not in done}
-        for at, table in _results(unit, names, left, workers, scheduler):
+        for at, table in _results(library.path, names, left, workers, scheduler):
             done[at] = table
             if parts:
                 parts.save(at, table)

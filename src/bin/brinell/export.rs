@@ -1,7 +1,6 @@
 //! `brinell export`: builds the FMU of a scene and lists what it contains.
 
 use crate::files;
-use crate::messages::say;
 use crate::package::{self, ExportError, Way};
 use crate::plan::Plan;
 use crate::platform::Platform;
@@ -20,7 +19,7 @@ pub fn run(
     let path = output.map_or_else(|| format!("{}.fmu", scene.name).into(), Path::to_path_buf);
     // errors that would occur at the end are reported before the work
     files::check_goal(&path)?;
-    say(format_args!("building {} ...", path.display()));
+    crate::layout::tell(&format!("building {} ...", path.display()));
     let plan = Plan::of(scene);
     let exported = package::export(&plan, way, platforms, &path)?;
     let summary = Summary::of(&plan);

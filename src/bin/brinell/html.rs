@@ -28,7 +28,7 @@ th { vertical-align: bottom; white-space: normal; }
 th button { all: unset; cursor: pointer; } th button:focus-visible { outline: 2px solid; }
 [aria-sort=ascending] button::after { content: \" \\2191\"; } [aria-sort=descending] button::after { content: \" \\2193\"; }
 .copy { font: inherit; } .scene th, .scene td, .words { text-align: left; } .lead { font-size: 1.15rem; }
-@media screen and (prefers-color-scheme: dark) { figure svg, .legend i { filter: invert(1) hue-rotate(180deg); } }
+@media screen and (prefers-color-scheme: dark) { figure svg:not(.map), .legend i { filter: invert(1) hue-rotate(180deg); } figure svg.map { background: #fff; border-radius: .4rem; } }
 @media print {
   body { max-width: none; padding: 0; font-size: 9pt; } .csv { display: none; } .table { overflow: visible; max-height: none; font-size: inherit; }
   .panels { grid-template-columns: repeat(3, 1fr); } h2 { break-after: avoid; } tr, figure { break-inside: avoid; }

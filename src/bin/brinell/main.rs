@@ -25,7 +25,6 @@ mod laws;
 mod layout;
 mod materials;
 mod merge;
-mod messages;
 mod model;
 mod model_description;
 mod nearest;
@@ -58,7 +57,6 @@ mod xml;
 
 use arguments::{Arguments, Command, PlatformArguments};
 use clap::Parser;
-use messages::say;
 use package::Way;
 use plan::Plan;
 use scene::Scene;
@@ -77,7 +75,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {
-            say(format_args!("brinell: {error}"));
+            layout::tell(&format!("brinell: {error}"));
             if error.is::<WrongCall>() { ExitCode::from(WRONG_CALL) } else { ExitCode::FAILURE }
         }
     }
@@ -94,7 +92,7 @@ fn not_understood(error: &clap::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let text = error.render().to_string();
-    say(format_args!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text).trim_end_matches('\n')));
+    layout::tell(&format!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text).trim_end()));
     ExitCode::from(WRONG_CALL)
 }
 

@@ -159,6 +159,7 @@ fn scalar_variable(xml: &mut Xml<'_>, scene: &Scene, entry: &Entry, index: usize
     let variable = entry.variable;
     let (causality, variability, initial) = match (variable.causality, variable.r#type) {
         (Causality::Input, _) => ("input", "continuous", ""),
+        (Causality::Output, Type::Real) if variable.held => ("output", "discrete", "calculated"),
         (Causality::Output, Type::Real) => ("output", "continuous", "calculated"),
         (Causality::Output, Type::Enumeration) => ("output", "discrete", "calculated"),
         (Causality::Parameter, _) if is_tunable(scene, &variable.name) => ("parameter", "tunable", "exact"),

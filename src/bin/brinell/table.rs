@@ -1,7 +1,10 @@
 //! The tables in `modelDescription/`, as data: variables, units, materials, laws.
 
+mod law;
+
+pub use law::{Law, LawParameter};
+
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 use std::sync::LazyLock;
 
 /// A variable of FMUs; see `modelDescription/variables.toml`.
@@ -24,6 +27,9 @@ pub struct Variable {
     pub nominal_from: Option<String>,
     #[serde(default)]
     pub follows_rate: Follows,
+    /// Whether an output belongs to a whole step, and changes at communication points only.
+    #[serde(default)]
+    pub held: bool,
     pub description: String,
     /// The values of an enumeration, counted from 0.
     #[serde(default)]
@@ -151,106 +157,6 @@ pub struct Material {
     pub source: String,
 }
 
-/// The documentation of a law; see `modelDescription/laws.toml`.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Law {
-    pub name: String,
-    /// The Rust name of the law, and whether it has a form with the passivity guard: for `build/laws.rs`.
-    #[serde(rename = "rust")]
-    _rust: IgnoredAny,
-    #[serde(default, rename = "guarded")]
-    _guarded: IgnoredAny,
-    pub title: String,
-    pub formulas: Vec<String>,
-    pub notes: String,
-    /// The range in which the law was derived or holds, for loading laws.
-    #[serde(default)]
-    pub validity: String,
-    pub reference: String,
-    /// The unloading law with which a loading law was published, if any.
-    pub unloading: Option<String>,
-    /// The reason why a loading law can be combined with no other unloading law.
-    pub no_other_unloading: Option<String>,
-    /// Whether a loading law is above Hertz's curve in places.
-    #[serde(default)]
-    pub above_hertz: bool,
-    /// Whether an unloading law lowers Hertz's curve to the peak.
-    #[serde(default)]
-    pub lowers_hertz: bool,
-    /// The only loading law with which an unloading law can be combined.
-    pub made_for: Option<MadeFor>,
-    /// Whether the force of a loading law jumps, and the fraction by which its contact radius falls: for the tests.
-    #[serde(default, rename = "jumps")]
-    _jumps: IgnoredAny,
-    #[serde(default, rename = "radius_falls_by")]
-    _radius_falls_by: IgnoredAny,
-    /// Whether the normalised curve of a loading law depends on `E*/S`.
-    #[serde(default)]
-    pub depends_on_modulus_ratio: bool,
-    /// For a loading law that is not passive.
-    pub energy: Option<MakesEnergy>,
-    /// The constants that a scene can change.
-    #[serde(default)]
-    pub parameters: Vec<LawParameter>,
-    /// Constants that depend on each other, so that a scene cannot change them.
-    #[serde(default)]
-    pub fixed: Vec<String>,
-}
-
-/// The loading law for which an unloading law was made.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MadeFor {
-    pub loading: String,
-    /// The relation of the unloading law to it: "was fitted to".
-    pub because: String,
-    /// Constants that both laws have, and that must be equal.
-    #[serde(default)]
-    pub same: Vec<String>,
-    /// Constants of the loading law that the unloading law assumes as published.
-    #[serde(default)]
-    pub as_published: Vec<String>,
-}
-
-/// The range in which a loading law is not passive, and by how much.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MakesEnergy {
-    pub why: String,
-    /// Largest restitution for targets with a Poisson's ratio of at least 0, with the unloading law with which it was
-    /// published, otherwise contact-radius.
-    pub restitution: f64,
-    /// For targets with a Poisson's ratio below 0.
-    pub auxetic_restitution: f64,
-    /// Unloading laws with which it is passive.
-    pub passive: Vec<PassiveWith>,
-}
-
-/// An unloading law with which a loading law is passive.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PassiveWith {
-    pub unloading: String,
-    /// The Poisson's ratio of the target from which this holds; `None` if it holds for all.
-    pub from_poissons_ratio: Option<f64>,
-}
-
-/// A constant of a law that a scene can change.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LawParameter {
-    pub name: String,
-    /// Unit; empty for a dimensionless number.
-    #[serde(default)]
-    pub unit: String,
-    pub minimum: f64,
-    pub maximum: f64,
-    /// The parameter of the same law that must be larger.
-    pub below: Option<String>,
-    pub description: String,
-}
-
 #[derive(Deserialize)]
 struct Variables {
     variable: Vec<Variable>,
@@ -299,7 +205,17 @@ static LAWS: LazyLock<Laws> = LazyLock::new(|| {
     toml::from_str(text).expect(PART_OF_THE_PROGRAM)
 });
 
-/// The entry of the loading law `name`.
+/// What is said of laws that a scene names under `law.loading`: elastoplastic and rate-dependent ones.
+pub fn loading_laws() -> Vec<&'static Law> {
+    LAWS.loading.iter().chain(&LAWS.damped).collect()
+}
+
+/// What is said of the unloading laws.
+pub fn unloading_laws() -> Vec<&'static Law> {
+    LAWS.unloading.iter().collect()
+}
+
+/// What is said of the loading law `name`.
 pub fn loading_law(name: &str) -> &'static Law {
     LAWS.loading.iter().find(|law| law.name == name).expect(PART_OF_THE_PROGRAM)
 }

@@ -2,7 +2,7 @@
 
 use super::chart::Chart;
 use super::text::{self, entry};
-use super::{List, all};
+use super::{List, those};
 use crate::curve;
 use crate::files::deliver;
 use crate::laws::{self, Choice};
@@ -13,6 +13,7 @@ use crate::scene::Scene;
 use crate::truth;
 use crate::wrong_call::WrongCall;
 use brinell::contact::Loading;
+use brinell::contact::unloading::AnyUnloading;
 use serde_json::{Value, json};
 use std::error::Error;
 use std::path::Path;
@@ -26,14 +27,14 @@ const POINTS: u32 = 160;
 /// Shows the law `name`: as text, as JSON, or as a picture in `output`.
 pub fn run(scene: &Scene, name: &str, output: Option<&Path>, as_json: bool) -> Result<(), Box<dyn Error>> {
     let (first, _) = name.split_once('/').unwrap_or((name, ""));
-    let list = all(scene);
+    let list = those(scene, |known| known == first);
     let found = Found::of(&list, first);
     let choice = match found.loads() {
         true => Some(one(scene, name)?),
         false => None,
     };
     if found.is_empty() {
-        let unloading = list.unloading.iter().map(|law| law.name);
+        let unloading = AnyUnloading::ALL.into_iter().map(|(name, _)| name);
         return Err(WrongCall(unknown("law", name, laws::loading_names().chain(unloading))).into());
     }
     match (&choice, output) {

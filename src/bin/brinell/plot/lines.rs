@@ -39,7 +39,7 @@ pub struct Frame {
 
 /// Height of a line of text, and width of a letter, on average [1/8 pixel].
 const TEXT: i32 = 15 * SCALE as i32;
-const LETTER: i32 = 54;
+const LETTER: i32 = 62;
 
 /// Most points of a line that show their values; of longer lines some do.
 const POINTERS: usize = 40;
@@ -169,7 +169,7 @@ fn write_names(text: &mut String, lines: &[Line], frame: Frame, name_at: NameAt)
         writeln!(
             text,
             "<text class=\"name\" x=\"{}\" y=\"{}\" text-anchor=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" \
-             fill=\"{}\">{}</text>",
+             fill=\"{}\" stroke=\"#fff\" stroke-width=\"32\" stroke-linejoin=\"round\" paint-order=\"stroke\">{}</text>",
             place.0,
             middle + 4 * SCALE as i32,
             place.1,

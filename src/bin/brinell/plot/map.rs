@@ -52,14 +52,15 @@ impl Map {
     /// The map as SVG.
     pub fn svg(&self) -> String {
         let bottom = MARGIN + ROW * self.rows.len() as i32;
-        svg(WIDTH as u32, (bottom + BELOW) as u32, |root| {
+        let picture = svg(WIDTH as u32, (bottom + BELOW) as u32, |root| {
             self.draw_cells(root);
             self.draw_columns(root, bottom);
             write(root, &self.bar_legend, (LEFT + 12, bottom + 66), HPos::Left);
             draw_bar(root, LEFT + 4, (bottom + 58, bottom + 74));
             self.draw_classes(root, bottom + 96);
             String::new()
-        })
+        });
+        picture.replacen("<svg ", "<svg class=\"map\" ", 1)
     }
 
     /// The place of a column's number [pixels].

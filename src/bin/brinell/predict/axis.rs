@@ -1,5 +1,6 @@
 //! What a sweep varies: a quantity of the impact, or a parameter of the scene.
 
+use super::constants;
 use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_height};
 use crate::laws::Choice;
 use crate::model::AnyModel;
@@ -11,7 +12,7 @@ use brinell::contact::impact::Impact;
 /// Something that a sweep varies, from one value to another.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// As the user names it: `speed`, `target.yield_strength`.
+    /// As the user names it: `speed`, `target.yield_strength`, `law.loading_parameters.exponent`.
     pub name: &'static str,
     /// [SI]
     pub unit: &'static str,
@@ -100,15 +101,20 @@ fn find(name: &str) -> Result<(&'static str, &'static str), String> {
     let parameters = VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter);
     let parameters = parameters.map(|variable| (variable.name.as_str(), variable.unit.as_deref().unwrap_or("")));
     let known: Vec<_> = OF_IMPACT.into_iter().chain(parameters).collect();
-    let found = known.iter().find(|(known, _)| *known == name);
+    let constants: Vec<_> = constants::names().collect();
+    let found = known.iter().chain(&constants).find(|(known, _)| *known == name);
     let names: Vec<_> = known.iter().map(|(name, _)| *name).filter(|name| !WITHOUT_EFFECT.contains(name)).collect();
     match found {
         Some((name, _)) if WITHOUT_EFFECT.contains(name) => Err(format!("an impact doesn't depend on {name}")),
         Some(found) => Ok(*found),
         None => {
-            let guess = nearest(name, names.iter().copied());
-            let guess = guess.map_or(String::new(), |guess| format!("; did you mean `{guess}`?"));
-            Err(format!("no quantity is called `{name}`{guess} Expected {}", one_of(&names)))
+            let all = names.iter().copied().chain(constants.iter().map(|(name, _)| *name));
+            let guess = nearest(name, all).map_or(String::new(), |guess| format!("; did you mean `{guess}`?"));
+            Err(format!(
+                "no quantity is called `{name}`{guess} Expected {}, or a constant that `brinell laws NAME` shows, as in {}NAME",
+                one_of(&names),
+                constants::LOADING
+            ))
         }
     }
 }
@@ -132,6 +138,7 @@ pub fn varied(
             "mass" => impact.mass = positive("mass", value)?,
             "energy" => impact.speed = speed_of_energy(impact.mass, positive("energy", value)?),
             "drop_height" => impact.speed = speed_of_height(positive("drop_height", value)?),
+            name if constants::is_one(name) => constants::set(scene, &mut choice, name, value)?,
             name => {
                 check_limits(name, value)?;
                 match (name, &mut choice.model) {

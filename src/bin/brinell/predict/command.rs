@@ -132,7 +132,14 @@ impl Question<'_> {
         // of several laws those without a yield strength have nothing to vary
         let strength = axes.iter().any(|axis| axis.name == "target.yield_strength") && choices.len() > 1;
         let yields = |choice: &&Choice| choice.model.elastoplastic().is_some() && choice.laws != "hertz";
-        let choices: Vec<Choice> = choices.iter().filter(|choice| !strength || yields(choice)).cloned().collect();
+        let mut choices: Vec<Choice> = choices.iter().filter(|choice| !strength || yields(choice)).cloned().collect();
+        // and of several laws those without a constant
+        let constant = |axis: &&Axis| super::constants::is_one(axis.name);
+        let has_all =
+            |choice: &Choice| axes.iter().filter(constant).all(|axis| super::constants::has(choice, axis.name));
+        if choices.iter().any(has_all) {
+            choices.retain(has_all);
+        }
         let choices = choices.as_slice();
         // what can't be varied, or not so far, is a mistake in the call; what a law can't do isn't
         let failed = |error: PredictError| -> Box<dyn Error> {

@@ -1,12 +1,12 @@
 //! `brinell predict` with two sweeps: an impact over two quantities.
 
 use super::axis::{Axis, varied};
-use super::heat_map::HeatMap;
 use super::sweep::{GRID_COLUMNS, SHOWN, grid};
 use super::{PredictError, one, quantities};
 use crate::columns::{Column, Columns, some};
 use crate::laws::Choice;
 use crate::numbers::{cell, prefixed};
+use crate::plot::{HeatMap, Quantity, heat_maps};
 use crate::scene::Scene;
 use brinell::contact::impact::{Impact, Prediction};
 
@@ -113,19 +113,18 @@ impl Map {
         SHOWN.map(|(name, unit, of)| {
             let values: Vec<Vec<f64>> = predictions.iter().map(|row| row.iter().map(of).collect()).collect();
             let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
-            HeatMap {
-                title: format!("{name}{unit}"),
-                axes: &self.axes,
-                columns: &self.values[0],
-                rows: &self.values[1],
-                values,
-            }
+            let [columns, rows] = [0, 1].map(|index| Quantity {
+                name: self.axes[index].name,
+                title: self.axes[index].title(),
+                values: &self.values[index],
+            });
+            HeatMap { title: format!("{name}{unit}"), columns, rows, values }
         })
     }
 
     /// The maps of all laws, three beside each other for each, as one picture.
     pub fn svg(&self) -> String {
         let rows: Vec<_> = self.laws.iter().map(|(law, predictions)| (law.as_str(), self.maps(predictions))).collect();
-        super::heat_map::svg(&rows)
+        heat_maps(&rows)
     }
 }

@@ -2,7 +2,7 @@
 
 mod axis;
 pub mod command;
-mod heat_map;
+mod constants;
 mod inverse;
 mod map;
 mod notes;

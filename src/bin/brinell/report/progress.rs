@@ -1,6 +1,5 @@
 //! How far a report has come, for those who wait for it: a bar with the time left on a terminal, lines elsewhere.
 
-use crate::messages::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::{Duration, Instant};
 
@@ -57,7 +56,7 @@ impl Progress {
     pub fn say(&self, what: &str) {
         self.bar.set_message(what.to_string());
         if self.bar.is_hidden() {
-            say(format_args!("{:5.1} s  {what} ...", self.began.elapsed().as_secs_f64()));
+            crate::layout::tell(&format!("{:5.1} s  {what} ...", self.began.elapsed().as_secs_f64()));
         }
     }
 

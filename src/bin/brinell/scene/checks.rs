@@ -1,9 +1,10 @@
 //! Checks a scene: from the contents of the file to a scene that can be built.
 
-use super::contacts::{Contacts, IMPACTOR_DENSITY};
+use super::contacts::Contacts;
 use super::coupling;
 use super::file::{File, ImpactTable, NamesName};
 use super::laws;
+use super::numbers::IMPACTOR_DENSITY;
 use super::{Mistake, Parameter, Scene};
 use crate::nearest::unknown;
 use crate::predict;

@@ -1,13 +1,14 @@
 //! The contacts: the numbers that a scene gives for all contacts, and those that a contact overrides.
 
-use super::checks::{check_identifier, check_limits, check_range};
+use super::checks::check_identifier;
 use super::file::{Contact, File, Impactor, SurfaceName, Target};
+use super::numbers::{DENSITY, MASS, Numbers, check_numbers};
 use super::{Group, Mistake, Parameter};
 use crate::nearest::unknown;
-use crate::table::{self, MATERIALS, VARIABLES};
+use crate::table::{MATERIALS, VARIABLES};
 use brinell::contact::Surface;
 use std::collections::HashSet;
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 use toml::Spanned;
 
 /// Largest number of contacts of an FMU. The model description then has a few hundred megabytes.
@@ -17,86 +18,7 @@ const MOST_CONTACTS: i64 = 100_000;
 /// stack.
 const MOST_VALUES: usize = 10_000;
 
-/// The properties that a contact may override, in the order of the table.
-const PROPERTIES: [&str; 11] = [
-    "impactor.radius",
-    "impactor.youngs_modulus",
-    "impactor.poissons_ratio",
-    "target.radius",
-    "target.youngs_modulus",
-    "target.poissons_ratio",
-    "target.yield_strength",
-    DENSITY,
-    IMPACTOR_DENSITY,
-    MASS,
-    "initial_gap",
-];
-
-/// A property that the scene gives elsewhere for all contacts.
-const MASS: &str = "effective_mass";
-
-/// Properties that are not variables of the FMU.
-const DENSITY: &str = "target.density";
-pub const IMPACTOR_DENSITY: &str = "impactor.density";
-
-/// Allowed densities [kg/m^3]: from thin gases to beyond any solid.
-const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
-
-/// The numbers at one level, the whole scene or one contact, with their places in the file.
-struct Numbers(Vec<(&'static str, Spanned<f64>)>);
-
-impl Numbers {
-    /// An explicit number overrides that of a material.
-    fn of(
-        impactor: &Impactor,
-        target: &Target,
-        mass: Option<&Spanned<f64>>,
-        initial_gap: Option<&Spanned<f64>>,
-    ) -> Result<Numbers, Mistake> {
-        let find = |name: &Option<Spanned<String>>| match name {
-            Some(name) => Ok(Some((find_material(name)?, name.span()))),
-            None => Ok(None),
-        };
-        let (of_impactor, of_target) = (find(&impactor.material)?, find(&target.material)?);
-        let from = |material: &Option<(&table::Material, Range<usize>)>, value: fn(&table::Material) -> f64| {
-            let (material, span) = material.as_ref()?;
-            Some(Spanned::new(span.clone(), value(material)))
-        };
-        let of_material = |value| from(&of_target, value);
-        let of_ball = |value| from(&of_impactor, value);
-        let given = [
-            impactor.radius.clone(),
-            impactor.youngs_modulus.clone().or_else(|| of_ball(|material| material.youngs_modulus)),
-            impactor.poissons_ratio.clone().or_else(|| of_ball(|material| material.poissons_ratio)),
-            target.radius.clone(),
-            target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus)),
-            target.poissons_ratio.clone().or_else(|| of_material(|material| material.poissons_ratio)),
-            target.yield_strength.clone().or_else(|| of_material(|material| material.yield_strength)),
-            target.density.clone().or_else(|| of_material(|material| material.density)),
-            impactor.density.clone().or_else(|| of_ball(|material| material.density)),
-            mass.cloned(),
-            initial_gap.cloned(),
-        ];
-        let numbers = PROPERTIES.into_iter().zip(given);
-        Ok(Numbers(numbers.filter_map(|(name, value)| Some((name, value?))).collect()))
-    }
-
-    fn get(&self, name: &str) -> Option<&Spanned<f64>> {
-        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
-    }
-
-    fn remove(&mut self, name: &str) {
-        self.0.retain(|(known, _)| *known != name);
-    }
-
-    /// The numbers as parameters; those that satisfy `wanted` can be set.
-    fn parameters(&self, wanted: impl Fn(&str) -> bool) -> Vec<Parameter> {
-        let wanted = self.0.iter().filter(|(name, _)| ![DENSITY, IMPACTOR_DENSITY].contains(name) && wanted(name));
-        wanted.map(|(name, value)| Parameter::shared(name, *value.get_ref(), true)).collect()
-    }
-}
-
-/// One `[[contact]]`, or the single contact of a scene without any.
+/// One `[[contact]]`, or the one contact of a scene without any.
 struct Given {
     name: Option<String>,
     count: Option<usize>,
@@ -271,26 +193,11 @@ fn target_needs() -> String {
     format!("the target needs `youngs_modulus` and `poissons_ratio`, or a `material`: there are `{names}`")
 }
 
-fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mistake> {
-    MATERIALS.iter().find(|material| &material.name == name.get_ref()).ok_or_else(|| {
-        let names = MATERIALS.iter().map(|material| material.name.as_str());
-        Mistake(name.span(), unknown("material", name.get_ref(), names))
-    })
-}
-
-/// Rejects a number outside its range. `owner` precedes its name in the message.
-fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
-    numbers.0.iter().try_for_each(|(name, value)| match *name {
-        DENSITY | IMPACTOR_DENSITY => check_range((name, "kg/m^3"), owner, value, DENSITIES),
-        _ => check_limits(name, owner, value),
-    })
-}
-
-/// The properties that each contact gives; `surface` is the default.
+/// What each contact gives, where the others have `surface`.
 fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistake> {
     let surface_of = |own: Option<SurfaceName>| own.or(surface).map_or(Surface::Dented, Surface::from);
     let Some(contacts) = &file.contact else {
-        let (own, surface) = (Numbers(Vec::new()), surface_of(None));
+        let (own, surface) = (Numbers::none(), surface_of(None));
         return Ok(vec![Given { name: None, count: None, surface, own, per_contact: Vec::new(), span: 0..0 }]);
     };
     if contacts.get_ref().is_empty() {

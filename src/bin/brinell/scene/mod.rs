@@ -7,9 +7,9 @@ mod coupling;
 mod file;
 mod laws;
 mod mistakes;
+mod numbers;
 mod plausible;
 
-use crate::messages::say;
 use crate::model::AnyModel;
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::impact::{Impact, Prediction};
@@ -150,7 +150,7 @@ impl Scene {
         let scene = Scene::read(path)?;
         let file = file::File::read(&scene.text).map_err(|mistake| mistake.in_file(&scene.text, path))?;
         for doubt in plausible::doubts(&file) {
-            say(format_args!("brinell: warning: {}", doubt.in_file(&scene.text, path)));
+            crate::layout::tell(&format!("brinell: warning: {}", doubt.in_file(&scene.text, path)));
         }
         Ok(scene)
     }

@@ -11,7 +11,6 @@ use crate::arguments::SspArguments;
 use crate::files::{check_goal, ending, write_whole};
 use crate::interface::Entry;
 use crate::layout::paragraph;
-use crate::messages::say;
 use crate::package::{self, Exported};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -46,10 +45,12 @@ pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>
     let platforms = platforms.chosen(way)?;
     let scene = Scene::read_aloud(scene)?;
     let plan = Plan::of(&scene);
-    let wiring = Wiring::read(&plan, with, connect)?;
+    let wiring = Wiring::read(&plan, with, connect).map_err(|error| -> Box<dyn Error> {
+        if error.is_in_call() { WrongCall::of(error).into() } else { error.into() }
+    })?;
     let path = output.map_or_else(|| format!("{}.ssp", scene.name).into(), Path::to_path_buf);
     check_goal(&path)?;
-    say(format_args!("building {} ...", path.display()));
+    crate::layout::tell(&format!("building {} ...", path.display()));
     let (unit, exported) = package::build(&plan, way, &platforms)?;
     let files = Files::of(&plan);
     let structure = document(|xml| structure::write(xml, &plan, &files, &wiring));

@@ -31,7 +31,15 @@ pub enum WiringError {
     Taken { connection: String, input: String },
 }
 
-/// The variables of a component that can be connected.
+impl WiringError {
+    /// Whether the arguments are wrong, and not a file.
+    pub fn is_in_call(&self) -> bool {
+        use WiringError::{Form, NoUnit, NoVariable, Taken};
+        matches!(self, Form(_) | NoUnit { .. } | NoVariable { .. } | Taken { .. })
+    }
+}
+
+/// What can be connected.
 struct Unit {
     name: String,
     inputs: BTreeSet<String>,

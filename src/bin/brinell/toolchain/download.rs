@@ -8,7 +8,6 @@ use super::deb;
 use super::index::Package;
 use crate::files::FileError;
 use crate::interrupt;
-use crate::messages::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use sha2::{Digest, Sha256};
 use std::fs::{self, File};
@@ -36,7 +35,7 @@ impl Source<'_> {
         let (url, file) = (self.url(path), self.folder.join("index.xz"));
         // a file from an earlier call may be outdated
         let _ = fs::remove_file(&file);
-        say(format_args!("reading {url} ..."));
+        crate::layout::tell(&format!("reading {url} ..."));
         curl(&url, &file, |_| {})?;
         let bytes = fs::read(&file).map_err(FileError::at(&file))?;
         let text = deb::unxz(&bytes).and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
@@ -52,13 +51,13 @@ impl Source<'_> {
         let style = ProgressStyle::with_template("{bar:30} {bytes} of {total_bytes}, {eta} left  {wide_msg}");
         let bar = ProgressBar::new(all).with_style(style.expect("a good template"));
         if bar.is_hidden() {
-            say(format_args!("downloading {} packages, {} MB ...", packages.len(), all / 1_000_000));
+            crate::layout::tell(&format!("downloading {} packages, {} MB ...", packages.len(), all / 1_000_000));
         }
         let (mut files, mut before) = (Vec::new(), 0);
         for package in packages {
             bar.set_message(package.name.clone());
             if bar.is_hidden() {
-                say(format_args!("downloading {}, {} MB ...", package.name, package.size / 1_000_000));
+                crate::layout::tell(&format!("downloading {}, {} MB ...", package.name, package.size / 1_000_000));
             }
             files.push(self.package(package, |there| bar.set_position(before + there))?);
             before += package.size;

@@ -11,7 +11,6 @@ mod scripts;
 mod targets;
 
 use crate::files::{FileError, write_whole};
-use crate::messages::say;
 use crate::package::{Cache, ExportError, Toolchain};
 use download::Source;
 use index::Package;
@@ -128,7 +127,7 @@ fn unpack(toolchain: &Toolchain, packages: &[Package], archives: &[PathBuf], std
         fs::remove_dir_all(&usr).map_err(FileError::at(&usr))?;
     }
     for (package, archive) in packages.iter().zip(archives) {
-        say(format_args!("unpacking {} ...", package.name));
+        crate::layout::tell(&format!("unpacking {} ...", package.name));
         let wanted = |path: &str| package.part.has(path, std);
         deb::unpack(archive, &toolchain.folder, wanted)
             .map_err(|reason| ToolchainError::Package { package: package.name.clone(), reason })?;

@@ -2,7 +2,6 @@
 
 use super::ToolchainError;
 use crate::files::FileError;
-use crate::messages::say;
 use crate::package::{Rustc, Toolchain};
 use crate::parallel;
 use crate::platform::Target;
@@ -46,7 +45,7 @@ pub fn build(toolchain: &Toolchain, cache: &Path) -> Result<(), ToolchainError> 
     bar.enable_steady_tick(Duration::from_millis(200));
     parallel::each(&Target::ALL, |target| {
         if bar.is_hidden() {
-            say(format_args!("compiling core for {} ...", target.triple));
+            crate::layout::tell(&format!("compiling core for {} ...", target.triple));
         }
         let compiled = compile(toolchain, &rustc, &library, target);
         bar.inc(1);

@@ -1,10 +1,8 @@
 //! `brinell hardness`: the test of a scene, and the inverse problem.
 
-#[path = "support/command.rs"]
-mod command;
-
+use super::command::{empty_folder, run, scene};
+use super::{close, number};
 use brinell::contact::loading::AnyLoading;
-use command::{empty_folder, run, scene};
 use serde_json::Value;
 use std::fs;
 
@@ -17,15 +15,6 @@ fn tested(text: &str, arguments: &[&str]) -> Value {
     fs::write(folder.path().join("scene.toml"), text).unwrap();
     let all = ["hardness", "scene.toml", "--json"].into_iter().chain(arguments.iter().copied());
     run(folder.path(), all).with_status(0).json()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
-}
-
-#[track_caller]
-fn close(got: f64, expected: f64, tolerance: f64) {
-    assert!((got / expected - 1.0).abs() < tolerance, "{got} instead of {expected}");
 }
 
 /// ISO 6506-1: HBW from force in newtons and lengths in millimetres; Meyer's hardness is the load over the projected area.

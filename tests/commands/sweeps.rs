@@ -1,9 +1,6 @@
 //! `brinell predict` over a range of speeds: tables, pictures and pages, and impacts with too little energy to be any.
 
-#[path = "support/command.rs"]
-mod command;
-
-use command::{empty_folder, run, scene};
+use super::command::{self, empty_folder, run, scene};
 use std::fs;
 
 #[test]
@@ -222,4 +219,68 @@ fn a_sweep_in_a_terminal_is_short_and_has_all_digits_in_json() {
     assert_eq!(law["speed"].as_array().unwrap().len(), 201);
     let one = run(folder.path(), ["predict", &scene, "--speed", "10", "--json"]).with_status(0).json();
     assert_eq!(law["restitution"][200], one["laws"][0]["restitution"]);
+}
+
+const DEFORMED: &str = "loading = \"big-alabo\"\nunloading = \"deformed-radius\"";
+const GUARDED: &str = "loading = \"big-alabo\"\nunloading = \"deformed-radius\"\npassivity_guard = true";
+
+/// Each point is the prediction of the scene with that constant in it.
+#[test]
+fn a_sweep_over_a_constant_of_a_law_is_that_of_scenes_with_it() {
+    let folder = empty_folder();
+    let text = |law: &str, constants: &str| {
+        format!(
+            "name = \"ball\"\nimpactor = {{ radius = 5e-3 }}\ntarget = {{ material = \"mild steel\" }}\n\
+             impact = {{ mass = 4e-3, speed = 1.0 }}\n[law]\n{law}\n{constants}\n"
+        )
+    };
+    let cases = [
+        ("loading = \"thornton\"", "law.loading_parameters.peak_pressure_factor=1.2:2.4:4", "loading"),
+        ("loading = \"power\"", "law.loading_parameters.exponent=1.1:1.4:3", "loading"),
+        (DEFORMED, "law.unloading_parameters.pressure_factor=2:3:3", "unloading"),
+        (GUARDED, "law.unloading_parameters.pressure_factor=2:3:3", "unloading"),
+        ("loading = \"kuwabara-kono\"", "law.loading_parameters.relaxation_time=1e-6:1e-5:2", "loading"),
+    ];
+    for (law, range, kind) in cases {
+        fs::write(folder.path().join("scene.toml"), text(law, "")).unwrap();
+        run(folder.path(), ["predict", "scene.toml", "--sweep", range, "-o", "sweep.csv"]).with_status(0);
+        let table = fs::read_to_string(folder.path().join("sweep.csv")).unwrap();
+        let constant = range.split('=').next().and_then(|name| name.rsplit('.').next()).unwrap();
+        let column = table.lines().next().unwrap().split(',').find(|name| name.contains(constant)).unwrap().to_string();
+        let found: Vec<_> = columns(&table, &column).into_iter().zip(columns(&table, "restitution")).collect();
+        assert!(found.len() > 1 && found[0].1 != found[found.len() - 1].1, "{law}, {range}: {found:?}");
+        for (value, restitution) in found {
+            let constants = format!("{kind}_parameters = {{ {constant} = {value:?} }}");
+            fs::write(folder.path().join("one.toml"), text(law, &constants)).unwrap();
+            let one = run(folder.path(), ["predict", "one.toml", "--json"]).with_status(0).json();
+            let expected = one["laws"][0]["restitution"].as_f64().unwrap();
+            assert!((restitution / expected - 1.0).abs() < 1e-14, "{law}, {constant} = {value}");
+        }
+    }
+}
+
+#[test]
+fn a_constant_that_cannot_be_varied_is_refused_with_what_can() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let refused = |laws: &str, range: &str, words: &str| {
+        let run = run(folder.path(), ["predict", &scene, "--laws", laws, "--sweep", range]).with_status(2);
+        assert!(run.err.contains(words), "{laws}, {range}: {}", run.err);
+    };
+    refused(
+        "thornton",
+        "law.loading_parameters.peak_presure_factor=1:2",
+        "did you mean `law.loading_parameters.peak_pressure_factor`?",
+    );
+    refused("thornton", "law.loading_parameters.stiffness_ratio=2:8", "unknown parameter");
+    refused("hertz", "law.loading_parameters.yield_pressure_factor=1:2", "which has none");
+    refused("hertz", "law.unloading_parameters.pressure_factor=1:2", "no unloading law");
+    refused("tsuji", "law.unloading_parameters.pressure_factor=1:2", "no unloading law");
+    refused("thornton", "law.loading_parameters.peak_pressure_factor=-1:2", "out of range: allowed is");
+    // of several laws those are shown that have it
+    let sweep =
+        ["--laws", "thornton,hertz", "--sweep", "law.loading_parameters.peak_pressure_factor=1.2:2.4:2", "-o", "x.csv"];
+    run(folder.path(), ["predict", &scene].into_iter().chain(sweep)).with_status(0);
+    let table = fs::read_to_string(folder.path().join("x.csv")).unwrap();
+    assert!(table.contains("thornton/") && !table.contains("hertz,"), "{table}");
 }

@@ -1,12 +1,7 @@
 //! Errors in scenes of several contacts: the message names the contact, the place and the allowed values.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/refusal.rs"]
-mod refusal;
-
-use command::{empty_folder, run};
-use refusal::refused_text;
+use super::command::{empty_folder, run};
+use super::refusal::refused_text;
 use std::fs;
 
 /// Two contacts without errors.

@@ -1,17 +1,23 @@
-//! Maps of one number over two quantities, as SVG.
+//! Maps of one number over two quantities, as SVG. Each cell shows its numbers to whoever points at it, which plotters can't do.
 
-use super::axis::Axis;
+use super::colours::viridis;
 use crate::html::escape;
 use crate::numbers::significant;
 use std::fmt::Write;
 
+/// What a map is over.
+pub struct Quantity<'a> {
+    pub name: &'a str,
+    /// The name with its unit.
+    pub title: String,
+    pub values: &'a [f64],
+}
+
 /// A number over two quantities.
 pub struct HeatMap<'a> {
     pub title: String,
-    /// Over the columns, and over the rows.
-    pub axes: &'a [Axis; 2],
-    pub columns: &'a [f64],
-    pub rows: &'a [f64],
+    pub columns: Quantity<'a>,
+    pub rows: Quantity<'a>,
     /// Rows of columns.
     pub values: Vec<Vec<f64>>,
 }
@@ -26,32 +32,6 @@ const BAR: f64 = 14.0;
 
 /// Numbers along an axis.
 const TICKS: usize = 5;
-
-/// The colours of the map `viridis`, evenly spaced: they rise in lightness, and the colour-blind see the order too.
-///
-/// Reference: S. van der Walt, N. Smith, the colour maps of matplotlib 2.0 (CC0).
-const COLOURS: [(u8, u8, u8); 9] = [
-    (68, 1, 84),
-    (71, 44, 122),
-    (59, 81, 139),
-    (44, 113, 142),
-    (33, 144, 141),
-    (39, 173, 129),
-    (92, 200, 99),
-    (170, 220, 50),
-    (253, 231, 37),
-];
-
-/// The colour at `part` of the scale.
-fn colour(part: f64) -> String {
-    let place = part.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
-    let low = (place.floor() as usize).min(COLOURS.len() - 2);
-    let mix = |one: u8, other: u8| {
-        (f64::from(one) + (f64::from(other) - f64::from(one)) * (place - low as f64)).round() as u8
-    };
-    let ((r, g, b), (red, green, blue)) = (COLOURS[low], COLOURS[low + 1]);
-    format!("#{:02x}{:02x}{:02x}", mix(r, red), mix(g, green), mix(b, blue))
-}
 
 /// The scale of the colours.
 struct Scale {
@@ -87,7 +67,7 @@ impl Scale {
 }
 
 /// Pictures in rows: each with a heading, three maps beside each other.
-pub fn svg(rows: &[(&str, [HeatMap; 3])]) -> String {
+pub fn heat_maps(rows: &[(&str, [HeatMap; 3])]) -> String {
     let mut svg = String::new();
     draw(&mut svg, rows).expect("a String takes everything");
     svg
@@ -97,7 +77,7 @@ fn draw(svg: &mut String, rows: &[(&str, [HeatMap; 3])]) -> std::fmt::Result {
     let (width, height) = (3.0 * WIDTH, HEIGHT * rows.len() as f64);
     writeln!(
         svg,
-        "<svg width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" xmlns=\"http://www.w3.org/2000/svg\" \
+        "<svg class=\"map\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" xmlns=\"http://www.w3.org/2000/svg\" \
          font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>"
     )?;
     for (index, (law, maps)) in rows.iter().enumerate() {
@@ -116,22 +96,21 @@ impl HeatMap<'_> {
         let scale = Scale::of(&self.values);
         let middle = LEFT + MAP / 2.0;
         writeln!(svg, "<text x=\"{middle}\" y=\"30\" text-anchor=\"middle\">{}, {}</text>", self.title, escape(law))?;
-        let (wide, high) = (MAP / self.columns.len() as f64, MAP / self.rows.len() as f64);
+        let (wide, high) = (MAP / self.columns.values.len() as f64, MAP / self.rows.values.len() as f64);
         for (row, values) in self.values.iter().enumerate() {
             for (column, value) in values.iter().enumerate() {
                 let (x, y) = (LEFT + wide * column as f64, TOP + MAP - high * (row + 1) as f64);
                 // a little larger, so that nothing shines through between neighbours
                 let (width, height) = (wide + 0.5, high + 0.5);
-                let fill = if value.is_finite() { colour(scale.part(*value)) } else { "#ccc".into() };
-                let [first, second] = self.axes;
+                let fill = if value.is_finite() { viridis(scale.part(*value)) } else { "#ccc".into() };
                 writeln!(
                     svg,
                     "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" fill=\"{fill}\">\
                      <title>{} = {}, {} = {}: {}</title></rect>",
-                    first.name,
-                    significant(self.columns[column], 4),
-                    second.name,
-                    significant(self.rows[row], 4),
+                    self.columns.name,
+                    significant(self.columns.values[column], 4),
+                    self.rows.name,
+                    significant(self.rows.values[row], 4),
                     significant(*value, 4)
                 )?;
             }
@@ -152,18 +131,21 @@ impl HeatMap<'_> {
                 _ => "middle",
             };
             let below = TOP + MAP + 18.0;
-            writeln!(svg, "<text x=\"{x}\" y=\"{below}\" text-anchor=\"{anchor}\">{}</text>", place(self.columns))?;
+            writeln!(
+                svg,
+                "<text x=\"{x}\" y=\"{below}\" text-anchor=\"{anchor}\">{}</text>",
+                place(self.columns.values)
+            )?;
             let (x, y) = (LEFT - 6.0, y + 4.0);
-            writeln!(svg, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"end\">{}</text>", place(self.rows))?;
+            writeln!(svg, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"end\">{}</text>", place(self.rows.values))?;
         }
-        let [first, second] = self.axes;
         let (x, y) = (LEFT + MAP / 2.0, TOP + MAP + 42.0);
-        writeln!(svg, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{}</text>", first.title())?;
+        writeln!(svg, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{}</text>", self.columns.title)?;
         let y = TOP + MAP / 2.0;
         writeln!(
             svg,
             "<text x=\"16\" y=\"{y}\" text-anchor=\"middle\" transform=\"rotate(-90 16 {y})\">{}</text>",
-            second.title()
+            self.rows.title
         )
     }
 }
@@ -176,7 +158,7 @@ fn draw_scale(svg: &mut String, scale: &Scale) -> std::fmt::Result {
         let part = (stripe as f64 + 0.5) / STRIPES as f64;
         let height = MAP / STRIPES as f64;
         let y = TOP + MAP - height * (stripe + 1) as f64;
-        let (height, fill) = (height + 0.5, colour(part));
+        let (height, fill) = (height + 0.5, viridis(part));
         writeln!(svg, "<rect x=\"{left}\" y=\"{y:.2}\" width=\"{BAR}\" height=\"{height:.2}\" fill=\"{fill}\"/>")?;
     }
     for tick in 0..TICKS {

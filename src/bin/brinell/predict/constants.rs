@@ -1,0 +1,106 @@
+//! Constants of laws as quantities of a sweep, under the names that a scene has for them.
+
+use super::PredictError;
+use crate::law_check;
+use crate::laws::{Choice, published};
+use crate::model::AnyModel;
+use crate::pairing::check_ties;
+use crate::parameters::{Given, apply};
+use crate::scene::{Mistake, Scene};
+use crate::table;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+use toml::Spanned;
+
+/// What comes before the names of the constants of a loading law, and of an unloading law.
+pub const LOADING: &str = "law.loading_parameters.";
+const UNLOADING: &str = "law.unloading_parameters.";
+
+/// Every constant that a law has, with its unit; none for a depth in units of the law, such as its yield indentation.
+static ALL: LazyLock<Vec<(String, &str)>> = LazyLock::new(|| {
+    let mut all = Vec::new();
+    for (laws, prefix) in [(table::loading_laws(), LOADING), (table::unloading_laws(), UNLOADING)] {
+        for parameter in laws.iter().flat_map(|law| &law.parameters) {
+            let name = format!("{prefix}{}", parameter.name);
+            if !all.iter().any(|(known, _)| *known == name) {
+                let unit = parameter.unit.as_str();
+                all.push((name, if unit.starts_with("d_") { "" } else { unit }));
+            }
+        }
+    }
+    all
+});
+
+/// The constants of all laws, with their units.
+pub fn names() -> impl Iterator<Item = (&'static str, &'static str)> {
+    ALL.iter().map(|(name, unit)| (name.as_str(), *unit))
+}
+
+/// Whether the quantity `name` is a constant of a law.
+pub fn is_one(name: &str) -> bool {
+    name.starts_with(LOADING) || name.starts_with(UNLOADING)
+}
+
+/// The laws of `choice` by their names; an elastic one has no unloading law, a rate-dependent one a damping in its place.
+fn laws_of(choice: &Choice) -> (&str, Option<&str>, bool) {
+    let (laws, guarded) =
+        choice.laws.strip_suffix(" guarded").map_or((choice.laws.as_str(), false), |laws| (laws, true));
+    let (loading, other) = laws.split_once('/').map_or((laws, None), |(loading, other)| (loading, Some(other)));
+    (loading, other, guarded)
+}
+
+/// The entry of the law of `choice` that a constant called `name` would belong to, if it has one.
+fn law_with(choice: &Choice, name: &str) -> Option<&'static table::Law> {
+    let (loading, other, _) = laws_of(choice);
+    match (&choice.model, name.starts_with(LOADING)) {
+        (AnyModel::Damped(_), true) => Some(table::damped_law(loading)),
+        (AnyModel::Elastoplastic(_), true) => Some(table::loading_law(loading)),
+        (AnyModel::Elastoplastic(_), false) => other.map(table::unloading_law),
+        (AnyModel::Damped(_), false) => None,
+    }
+}
+
+/// Whether the laws of `choice` have the constant `name`.
+pub fn has(choice: &Choice, name: &str) -> bool {
+    let constant = name.rsplit('.').next().unwrap_or_default();
+    law_with(choice, name).is_some_and(|law| law.parameters.iter().any(|parameter| parameter.name == constant))
+}
+
+/// Gives the constant `name` of the laws of `choice` this `value`, with the checks that a scene goes through.
+///
+/// # Errors
+/// What the constant may be, or that the laws have none of this name.
+pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result<(), PredictError> {
+    let wrong = |Mistake(_, message): Mistake| PredictError::Sweep(message);
+    let Some(law) = law_with(choice, name) else {
+        return Err(PredictError::Sweep(format!("{name}: {} has no unloading law with constants", choice.laws)));
+    };
+    let constant = name.rsplit('.').next().unwrap_or_default();
+    let number = Spanned::new(0..0, toml::Value::Float(value));
+    let given: Given = Spanned::new(0..0, BTreeMap::from([(Spanned::new(0..0, constant.to_string()), number)]));
+    let (loading, unloading, guarded) = laws_of(choice);
+    let mut model = match choice.model {
+        AnyModel::Elastoplastic(model) => model,
+        AnyModel::Damped(mut model) => {
+            model.law = apply(model.law, "law.loading", Some(&given), law).map_err(wrong)?;
+            choice.model = AnyModel::Damped(model);
+            return Ok(());
+        }
+    };
+    if name.starts_with(LOADING) {
+        model.loading = apply(model.loading, "law.loading", Some(&given), law).map_err(wrong)?;
+    } else {
+        // the guard is around the law that has the constants
+        let own = scene.unloading.filter(|_| guarded).map_or(model.unloading, |(_, own)| own);
+        let changed = apply(own, "law.unloading", Some(&given), law).map_err(wrong)?;
+        model.unloading = if guarded { changed.guarded().unwrap_or(changed) } else { changed };
+    }
+    let refused = |message: String| PredictError::Sweep(format!("with {name} = {value:?} {message}"));
+    if let Some(unloading) = unloading.filter(|_| !guarded) {
+        check_ties((loading, model.loading), (unloading, model.unloading)).map_err(PredictError::Sweep)?;
+    }
+    law_check::check_loading(&model, published(loading)).map_err(refused)?;
+    law_check::check_unloading(&model).map_err(refused)?;
+    choice.model = AnyModel::Elastoplastic(model);
+    Ok(())
+}

@@ -1,0 +1,172 @@
+//! Laws, couplings and constants that can't be used.
+
+use super::{refused, refused_with};
+
+#[test]
+fn laws_that_do_not_go_together_are_refused_with_the_reason() {
+    let cases = [
+        ("walton-braun", "contact-radius", "no elastic part"),
+        ("stronge", "hertz-shift", "above Hertz's"),
+        ("luding", "contact-radius", "elastic again"),
+        ("big-alabo", "luding", "the loading law \"luding\""),
+        ("johnson", "hertz-shift", "above Hertz's"),
+        ("big-alabo", "etsion", "fitted to the loading law \"kogut-etsion\""),
+    ];
+    for (loading, unloading, reason) in cases {
+        let law = format!("yield_strength = 300e6\n[law]\nloading = \"{loading}\"\nunloading = §\"{unloading}\"\n");
+        refused("yield_strength = 300e6\n", &law, &[loading, unloading, reason]);
+    }
+}
+
+#[test]
+fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
+    let damped = "[law]\nloading = \"tsuji\"\n";
+    refused_with("[law]\nloading = §\"tsuji\"\n", &["needs law.restitution"]);
+    refused_with(&format!("{damped}restitution = §0.0\n"), &["restitution = 0.0", "0.001 to 1.0"]);
+    refused_with(&format!("{damped}restitution = §1.5\n"), &["restitution = 1.5", "0.001 to 1.0"]);
+    refused_with("[law]\nrestitution = §0.5\n", &["law.restitution belongs to", "hunt-crossley", "tsuji"]);
+    let own = "[law]\nloading = \"kuwabara-kono\"\nrestitution = §0.5\n";
+    refused_with(own, &["law.restitution belongs to"]);
+}
+
+#[test]
+fn an_impact_without_an_answer_is_refused() {
+    let deep = "[law]\nloading = \"jackson-green\"\n§[impact]\nmass = 1e250\nspeed = 1e9\n";
+    refused_with(deep, &["mass = 1e250 kg", "speed = 1000000000.0 m/s", "deeper than the law can be evaluated"]);
+    // so light that the damper alone decides
+    let endless = "[law]\nloading = \"kuwabara-kono\"\n§[impact]\nmass = 1e-30\nspeed = 1.0\n";
+    refused_with(endless, &["mass = 1e-30 kg", "speed = 1.0 m/s", "damped so strongly that it never ends"]);
+}
+
+#[test]
+fn an_unloading_law_for_a_contact_that_leaves_no_dent_is_refused() {
+    let scene = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.5\nunloading = §\"thornton\"\n";
+    refused_with(scene, &["law.unloading = \"thornton\"", "hunt-crossley leaves no dent"]);
+}
+
+#[test]
+fn a_constant_that_a_law_has_not_got_is_refused_with_those_that_it_has() {
+    refused_with(
+        "[law]\nloading = \"power\"\nloading_parameters = { coefficient = 2.0, §exponnet = 1.15 }",
+        &["unknown parameter of law.loading = \"power\" `exponnet`", "`coefficient`", "`exponent`"],
+    );
+    refused_with(
+        "[law]\nunloading_parameters = { §factor = 1.0 }",
+        &["`factor`", "\"contact-radius\", which has none"],
+    );
+    refused_with(
+        "[law]\nloading = \"hertz\"\nloading_parameters = { §exponent = 1.6 }",
+        &["\"hertz\", which has none"],
+    );
+}
+
+#[test]
+fn a_constant_of_a_law_out_of_range_is_refused_with_the_range() {
+    let law = |value: &str| format!("[law]\nloading = \"power\"\nloading_parameters = {{ exponent = §{value} }}");
+    for (value, said) in [("0.9", "0.9"), ("2", "2.0"), ("nan", "NaN"), ("inf", "inf"), ("-1.2", "-1.2")] {
+        let said = format!("law.loading_parameters.exponent = {said} is out of range: allowed is 1.0 to 1.8");
+        refused_with(&law(value), &[&said]);
+    }
+    refused_with(&law("\"high\""), &["law.loading_parameters.exponent = \"high\" is not a number"]);
+    refused_with(
+        "[law]\nunloading = \"walton-braun\"\n[law.unloading_parameters]\nstiffness_ratio = §0.5",
+        &["law.unloading_parameters.stiffness_ratio = 0.5", "allowed is 1.0 to 1000000.0"],
+    );
+    refused_with(
+        "[law]\nloading_parameters = { second_region = §0.5 }",
+        &["law.loading_parameters.second_region = 0.5", "allowed is 1.0 to 1000000.0 d_y"],
+    );
+}
+
+#[test]
+fn constants_that_belong_to_a_fit_as_a_whole_are_refused() {
+    refused_with(
+        "[law]\nloading = \"brinell\"\nloading_parameters = { §knots = [1.0, 2.0] }",
+        &["knots", "fit", "brinell"],
+    );
+    refused_with(
+        "[law]\nloading = \"brinell\"\nloading_parameters = { §fully_plastic = 80 }",
+        &["fully_plastic", "fit"],
+    );
+}
+
+#[test]
+fn constants_out_of_order_are_refused() {
+    refused_with(
+        "[law]\nloading_parameters = { second_region = §90.0 }",
+        &["law.loading_parameters.second_region = 90.0 must be below fully_plastic = 82.5"],
+    );
+    refused_with(
+        "[law]\nloading = \"johnson\"\nloading_parameters = { plastic_pressure_factor = §1.0 }",
+        &["yield_pressure_factor = 1.1 must be below plastic_pressure_factor = 1.0"],
+    );
+}
+
+#[test]
+fn constants_that_leave_no_law_are_refused_with_the_place_on_the_curve() {
+    // each within its limits; the second region begins below the first one's end
+    refused_with(
+        "[law]\nloading = \"kogut-etsion\"\nunloading = \"contact-radius\"\n\
+         loading_parameters = §{ second_factor = 0.5 }",
+        &["with these parameters the loading force falls at", "yield indentations"],
+    );
+    refused_with(
+        "[law]\nloading = \"ghaednia\"\nloading_parameters = §{ hardness_factor = 1.5, hardness_loss = 1.4 }",
+        &["with these parameters the loading"],
+    );
+    // above Hertz's curve, which can't be lowered to it
+    refused_with(
+        "[law]\nloading = \"power\"\nunloading = \"hertz-shift\"\nloading_parameters = §{ coefficient = 9.0 }",
+        &["with these parameters the unloading from", "yield indentations begins with", "instead of"],
+    );
+}
+
+#[test]
+fn constants_of_two_laws_that_contradict_each_other_are_refused() {
+    refused_with(
+        "[law]\nloading = \"luding\"\nloading_parameters = §{ stiffness_ratio = 5 }",
+        &["`stiffness_ratio` must be the same", "law.loading_parameters (5.0)", "law.unloading_parameters (4.0)"],
+    );
+    refused_with(
+        "[law]\nloading = \"kogut-etsion\"\nunloading = \"etsion\"\nloading_parameters = §{ hardness_factor = 3.0 }",
+        &["\"etsion\" takes its units from \"kogut-etsion\" as published", "`hardness_factor` must be 2.8"],
+    );
+    refused_with("[law]\nloading = \"hertz\"\nunloading_parameters = §{}", &["unloading_parameters", "hertz unloads"]);
+}
+
+#[test]
+fn a_mass_to_be_known_that_is_none_is_refused() {
+    let mass = |value: &str| format!("[coupling]\neffective_mass = §{value}");
+    for (value, said) in [("0.0", "0.0"), ("-0.0", "-0.0"), ("-4e-3", "-0.004"), ("nan", "NaN"), ("inf", "inf")] {
+        refused_with(&mass(value), &[&format!("coupling.effective_mass = {said}")]);
+    }
+    refused_with("§[coupling]\n", &["effective_mass"]);
+    refused_with("[coupling]\neffective_mass = 1.0\n§mass = 1.0", &["`mass`", "`effective_mass`"]);
+}
+
+#[test]
+fn a_law_that_follows_the_rate_can_not_know_the_mass() {
+    let law = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.5\n";
+    refused_with(&format!("{law}§[coupling]\neffective_mass = 1.0"), &["hunt-crossley", "rate"]);
+}
+
+#[test]
+fn a_coupling_that_there_is_not_is_refused() {
+    let with = |more: &str| format!("[coupling]\neffective_mass = 1e-3\n{more}");
+    refused_with(&with("§colour = 1"), &["`colour`", "`effective_mass`", "`master`", "`inputs`"]);
+    refused_with(&with("master = §\"jacobi\""), &["`jacobi`", "`serial`", "`parallel`"]);
+    refused_with(
+        &with("inputs = [\"effective_mass\", §\"gravity\"]"),
+        &["input", "`gravity`", "`external_acceleration`", "`effective_mass`"],
+    );
+    // an input is no parameter
+    let both =
+        "[fmu]\nparameters = [§\"effective_mass\"]\n[coupling]\neffective_mass = 1e-3\ninputs = [\"effective_mass\"]";
+    refused_with(both, &["parameter", "`effective_mass`", "`target.yield_strength`"]);
+}
+
+#[test]
+fn a_closing_speed_needs_a_mass_and_names_are_of_two_kinds() {
+    refused_with("[fmu]\noutputs = [§\"closing_speed\"]", &["closing_speed", "[coupling] effective_mass"]);
+    refused_with("[fmu]\nnames = §\"round\"", &["`round`", "`flat`", "`structured`"]);
+}
