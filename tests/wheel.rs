@@ -3,13 +3,13 @@
 
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/prebuilt.rs"]
+mod prebuilt;
 #[path = "support/python.rs"]
 mod python;
 
-use command::{Run, contents, empty_folder, output, run, scene};
-use std::ffi::OsStr;
+use command::{Run, contents, empty_folder, output, scene};
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
@@ -23,7 +23,7 @@ fn release(folder: &Path) {
     let mut command = Command::new("python3");
     command.arg(root().join("packaging/release.py")).args(["--program", env!("CARGO_BIN_EXE_brinell")]);
     command.arg("--scratch").arg(python::target_folder().join("packaging")).arg("-o").arg(folder);
-    command.args(PREBUILT.iter().flat_map(|folder| [Path::new("--prebuilt"), folder]));
+    command.arg("--prebuilt").arg(prebuilt::store());
     // nothing is left behind in the source tree
     output(command.env("PYTHONDONTWRITEBYTECODE", "1")).with_status(0);
 }
@@ -63,21 +63,8 @@ impl Installed {
     }
 }
 
-/// The scene that is exported without a compiler, its law, and the kind of prebuilt library that it takes.
-const SCENE: (&str, &str, &str) = ("mass_known", "big-alabo", "serial");
-
-/// A folder with the prebuilt library of [`SCENE`] for this machine; none from a program that can't make it.
-static PREBUILT: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel-prebuilt");
-    let _ = fs::remove_dir_all(&folder);
-    let here = run(root(), ["--help"]).with_status(0).out;
-    if !here.contains("\n  prebuild ") {
-        return None;
-    }
-    let arguments = ["prebuild", "--laws", SCENE.1, "--kinds", SCENE.2, "--output"].map(OsStr::new);
-    run(root(), arguments.into_iter().chain([folder.as_os_str()])).with_status(0);
-    Some(folder)
-});
+/// The scene that is exported without a compiler.
+const SCENE: &str = "mass_known";
 
 /// The wheel, installed with what it needs into an empty environment.
 static INSTALLED: LazyLock<Installed> = LazyLock::new(|| {
@@ -144,7 +131,8 @@ fn the_versions_of_program_module_and_wheel_are_one() {
     assert_eq!(version["library"].as_str().map(str::len), Some(16), "{version}");
     let wheel = INSTALLED.python("import importlib.metadata as m; print(m.version('brinell'))");
     assert_eq!(wheel, env!("CARGO_PKG_VERSION"));
-    assert_eq!(version["prebuilt"].is_null(), PREBUILT.is_none(), "{version}");
+    let folder = version["prebuilt"]["folder"].as_str().expect("prebuilt libraries");
+    assert!(Path::new(folder).starts_with(fs::canonicalize(&INSTALLED.folder).unwrap()), "{version}");
 }
 
 #[test]
@@ -184,12 +172,7 @@ fn the_archive_is_a_program_with_what_belongs_to_it() {
 
 #[test]
 fn a_first_export_takes_no_compiler_and_fmpy_runs_the_unit() {
-    if PREBUILT.is_none() {
-        // past the harness, which keeps what a test prints unless it fails
-        let _ = writeln!(std::io::stderr(), "NOT RUN: an export without a compiler; the program has no `prebuild`");
-        return;
-    }
-    output(INSTALLED.command("brinell").arg("export").arg(scene(SCENE.0))).with_status(0);
+    output(INSTALLED.command("brinell").arg("export").arg(scene(SCENE))).with_status(0);
     let run = "import fmpy; print(len(fmpy.simulate_fmu('mass_known.fmu', stop_time=1e-3, output_interval=1e-5)))";
     assert_eq!(INSTALLED.python(run), "101");
 }

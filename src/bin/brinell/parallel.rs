@@ -8,7 +8,7 @@ use std::thread;
 /// What `work` gives for each of the `items`, in their order. As many are worked on at once as there are processors.
 ///
 /// # Errors
-/// That of the first item which has one.
+/// That of the first item which has one; nothing is begun after it.
 pub fn each<T: Sync, R: Send, E: Send>(items: &[T], work: impl Fn(&T) -> Result<R, E> + Sync) -> Result<Vec<R>, E> {
     let next = AtomicUsize::new(0);
     let worker = || {
@@ -16,7 +16,11 @@ pub fn each<T: Sync, R: Send, E: Send>(items: &[T], work: impl Fn(&T) -> Result<
         while let Some((index, item)) =
             Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|index| Some((index, items.get(index)?)))
         {
-            done.push((index, work(item)));
+            let result = work(item);
+            if result.is_err() {
+                next.store(items.len(), Ordering::Relaxed);
+            }
+            done.push((index, result));
         }
         done
     };

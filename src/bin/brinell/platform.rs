@@ -73,6 +73,11 @@ impl Target {
         }
     }
 
+    /// A platform whose library is for this target alone, called as rustc calls it.
+    pub const fn alone(&'static self) -> Platform {
+        Platform { folder: self.triple, extension: self.system.extension(), targets: std::slice::from_ref(self) }
+    }
+
     /// Whether the program itself runs on this target.
     pub fn is_here(&self) -> bool {
         let system = match self.system {
@@ -89,6 +94,11 @@ impl Target {
 }
 
 impl Platform {
+    /// Whether its library has that of `other` in it, and more.
+    pub fn has(&self, other: &Platform) -> bool {
+        self.targets.len() > other.targets.len() && other.targets.iter().all(|target| self.targets.contains(target))
+    }
+
     /// All platforms. The folders are those of FMI 2.0.5, section 2.3: `linux64`, `win64` and `darwin64` mean x86; other
     /// processors have the names of FMI 3.0. Since importers on Apple silicon look into `darwin64`, too, its library is universal.
     pub const ALL: [Platform; 5] = [
@@ -130,6 +140,17 @@ pub fn loadable() -> Result<Vec<Platform>, NoPlatform> {
     let others = Platform::ALL.into_iter().chain([Platform::ARM64_IN_LINUX64]);
     let others = others.filter(|other| *other != here && other.targets.contains(&here.targets[0]));
     Ok([here].into_iter().chain(others).collect())
+}
+
+/// The targets of `platforms`, each once.
+pub fn targets(platforms: &[Platform]) -> Vec<&'static Target> {
+    let mut targets = Vec::new();
+    for target in platforms.iter().flat_map(|platform| platform.targets) {
+        if !targets.contains(&target) {
+            targets.push(target);
+        }
+    }
+    targets
 }
 
 /// The platform with this folder.

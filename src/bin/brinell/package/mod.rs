@@ -14,9 +14,10 @@ mod way;
 
 pub use error::ExportError;
 pub use folder::Cache;
-pub use library::{Source, build as build_libraries};
+pub use library::{Builder, Source};
 pub use rustc::Rustc;
 pub use toolchain::Toolchain;
+pub use universal::{join, size as joined_size};
 pub use way::{How, Way};
 
 use crate::files::write_whole;
