@@ -165,7 +165,13 @@ fn the_archive_is_a_program_with_what_belongs_to_it() {
     let mut tar = Command::new("tar");
     output(tar.arg("-xzf").arg(file(&INSTALLED.folder, ".tar.gz")).arg("-C").arg(folder.path())).with_status(0);
     let top = folder.path().join(&contents(folder.path())[0]);
-    assert_eq!(contents(&top), ["LICENSE", "bin", "share"]);
+    assert_eq!(contents(&top), ["LICENSE", "THIRD-PARTY-LICENSES", "bin", "share"]);
+    let licenses = fs::read_to_string(top.join("THIRD-PARTY-LICENSES")).unwrap();
+    for crate_and_license in
+        ["\n- brotli ", ": BSD-3-Clause AND MIT\n", "\n- clap ", "Dropbox", "Permission is hereby granted"]
+    {
+        assert!(licenses.contains(crate_and_license), "no {crate_and_license:?} in\n{licenses}");
+    }
     let version = output(Command::new(top.join("bin/brinell")).arg("--version")).with_status(0).out;
     assert!(version.starts_with(concat!("brinell ", env!("CARGO_PKG_VERSION"), "\n")), "{version}");
 }

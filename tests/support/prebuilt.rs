@@ -3,6 +3,7 @@
 
 use super::command::{Run, brinell, output};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -97,10 +98,16 @@ pub fn list(store: &Path) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// The names of the laws in `store`.
-pub fn laws(store: &Path) -> std::collections::BTreeSet<String> {
+/// The names of the libraries in `store`, each the law and the kind.
+pub fn libraries(store: &Path) -> BTreeSet<(String, String)> {
     let list = list(store);
     let streams = list["streams"].as_array().expect("a list").iter();
-    let names = streams.flat_map(|stream| stream["libraries"].as_array().expect("a list"));
-    names.map(|library| library["name"].as_str().expect("LAWS KIND").split(' ').next().expect("LAWS").into()).collect()
+    let libraries = streams.flat_map(|stream| stream["libraries"].as_array().expect("a list"));
+    let names = libraries.map(|library| library["name"].as_str().expect("LAWS KIND"));
+    names.map(|name| name.split_once(' ').expect("LAWS KIND")).map(|(law, kind)| (law.into(), kind.into())).collect()
+}
+
+/// The names of the laws in `store`.
+pub fn laws(store: &Path) -> BTreeSet<String> {
+    libraries(store).into_iter().map(|(law, _)| law).collect()
 }

@@ -178,6 +178,15 @@ mod tests {
     }
 
     #[test]
+    fn the_universal_library_alone_has_that_of_another_platform() {
+        for one in Platform::ALL {
+            for other in Platform::ALL {
+                assert_eq!(one.has(&other), (one.folder, other.folder) == ("darwin64", "aarch64-darwin"));
+            }
+        }
+    }
+
+    #[test]
     fn the_platform_of_this_machine_is_one_of_them() {
         let here = here().expect("tests run on a known platform");
         assert!(Platform::ALL.contains(&here) && here.targets[0].is_here());

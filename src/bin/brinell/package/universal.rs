@@ -47,7 +47,7 @@ mod tests {
 
     #[test]
     fn the_size_is_known_before() {
-        let slices: [&[u8]; 3] = [&[1; 100], &[2; 20_000], &[3; 1]];
+        let slices: [&[u8]; 3] = [&[1; 100], &[2; 20_000], &[3; 12]];
         for count in 1..=3 {
             let sizes: Vec<_> = slices[..count].iter().map(|slice| slice.len()).collect();
             assert_eq!(size(&sizes), join(&slices[..count]).len(), "{count}");
