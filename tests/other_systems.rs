@@ -115,7 +115,7 @@ fn assert_same_bits(kinds: &[&str], systems: Vec<(&str, Result<System, String>)>
     let Some(store) = store() else { return };
     let fmus = fmus(&store, kinds);
     let laws: BTreeSet<_> = fmus.iter().filter_map(|fmu| fmu.name.split(' ').next()).collect();
-    assert!(laws.len() >= 35, "{laws:?}");
+    assert!(laws.len() >= 35 || env::var_os("BRINELL_PREBUILT").is_some(), "{laws:?}");
     let mut wrong = Vec::new();
     for (name, system) in systems {
         match system {
