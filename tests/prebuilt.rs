@@ -5,6 +5,10 @@
 mod both_ways;
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/courses.rs"]
+mod courses;
+#[path = "support/hosts.rs"]
+mod hosts;
 #[path = "support/kinds.rs"]
 mod kinds;
 #[path = "support/loaded.rs"]
@@ -22,12 +26,14 @@ mod unit;
 
 use both_ways::Both;
 use command::{assert_same, brinell, empty_folder, output, run};
+use hosts::{Host, Interface, Loading, cc, compile};
 use kinds::{further, one_of_each_kind, scene};
 use loaded::Unit;
 use physics::Random;
-use prebuilt::{LAWS, export, store};
+use prebuilt::{LAWS, export, export_anew, store};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// Compares scenes of a law in both ways.
 fn compare(law: &str, scenes: Vec<(&str, String)>, store: &Path) {
@@ -60,6 +66,41 @@ fn every_prebuilt_library_shows_the_same_bits_and_says_the_same_as_a_compiled_on
     laws.iter().for_each(|law| compare(law, one_of_each_kind(law), &store));
 }
 
+/// The most instructions that a prebuilt library may take, compared with a compiled one.
+const MOST: f64 = 1.3;
+
+/// Instructions of setting the rate, the step and getting the outputs, over a history with steps of all sizes.
+fn instructions(fmu: &Path, program: &Path) -> f64 {
+    let library = unit::library(fmu);
+    let counts = fmu.with_extension("callgrind");
+    let mut command: Vec<PathBuf> = ["valgrind", "--tool=callgrind"].map(PathBuf::from).into();
+    command.push(format!("--callgrind-out-file={}", counts.display()).into());
+    let functions = ["fmi2SetReal", "fmi2DoStep", "fmi2GetReal"];
+    command.extend(functions.map(|name| PathBuf::from(format!("--toggle-collect={name}"))));
+    command.push(program.into());
+    let host = Host { command, variables: Vec::new() };
+    let said =
+        host.run(&library, &Interface::beside(&library), &courses::history()).unwrap_or_else(|why| panic!("{why}"));
+    courses::assert_rich(&said.bits);
+    let text = fs::read_to_string(counts).expect("callgrind has written its counts");
+    let total = text.lines().find_map(|line| line.strip_prefix("totals: ")).expect("callgrind writes a total");
+    total.trim().parse().expect("a number")
+}
+
+#[test]
+fn a_prebuilt_library_takes_hardly_more_instructions_than_a_compiled_one() {
+    if Command::new("valgrind").arg("--version").output().is_err() {
+        return hosts::skipped("instructions of prebuilt libraries", "there is no valgrind");
+    }
+    let program =
+        compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap_or_else(|why| panic!("{why}"));
+    for (kind, text) in one_of_each_kind("big-alabo") {
+        let [compiled, prebuilt] = [None, Some(store())].map(|store| instructions(&export(&text, store), &program));
+        println!("{kind}: {:.3}", prebuilt / compiled);
+        assert!(prebuilt < MOST * compiled, "{kind}: {prebuilt} instead of {compiled} instructions");
+    }
+}
+
 /// Scenes for each kind of library that go far in a plain simulation.
 fn plain_scenes() -> impl Iterator<Item = (&'static str, String)> {
     // a slow constant rate must reach the surface
@@ -70,7 +111,7 @@ fn plain_scenes() -> impl Iterator<Item = (&'static str, String)> {
 #[test]
 fn fmus_of_every_kind_pass_the_check_and_are_the_same_bytes_each_time() {
     for (kind, text) in plain_scenes() {
-        let (fmu, again) = (export(&text, Some(store())), export(&text, Some(store())));
+        let (fmu, (again, _)) = (export(&text, Some(store())), export_anew(&text, Some(store())));
         assert_same(&fs::read(&fmu).unwrap(), &fs::read(again).unwrap());
         let check = run(fmu.parent().unwrap(), ["check", "unit.fmu", "--json"]).with_status(0).json();
         assert_eq!(check["passed"], true, "{kind}: {check}");

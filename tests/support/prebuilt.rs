@@ -3,12 +3,12 @@
 
 use super::command::{Run, brinell, output};
 use serde_json::Value;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
 
 /// The folder for everything that this test program makes.
 pub fn folder() -> PathBuf {
@@ -70,7 +70,20 @@ pub fn export_by_kind(text: &str, store: &Path) -> (PathBuf, String) {
     (fmu, kind)
 }
 
+/// What the program says of an FMU that was made in this process, by scene and folder of libraries.
+type Made = HashMap<(String, Option<PathBuf>), (PathBuf, Value)>;
+
+/// The FMU of the scene `text`, compiled or with the libraries in `store`, made once per process; and what the program says of it.
 fn exported(text: &str, store: Option<&Path>) -> (PathBuf, Value) {
+    static MADE: LazyLock<Mutex<Made>> = LazyLock::new(Mutex::default);
+    let key = (text.to_string(), store.map(Path::to_path_buf));
+    // the lock is held while something is made: a second test that asks for it waits
+    let mut all = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    all.entry(key).or_insert_with(|| export_anew(text, store)).clone()
+}
+
+/// The same, made once more.
+pub fn export_anew(text: &str, store: Option<&Path>) -> (PathBuf, Value) {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let folder = folder().join(COUNT.fetch_add(1, Ordering::Relaxed).to_string());
     // whatever an earlier run has left

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 /// The compilers that are there.
 pub struct Compilers {
-    /// The folder that nothing is looked for above of.
+    /// The cache, as [`Rustc::find`] takes it.
     cache: PathBuf,
     /// The user's, or why there is none.
     own: Result<Rustc, ExportError>,
