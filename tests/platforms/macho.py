@@ -156,11 +156,11 @@ class Machine:
         elif name in ("_memcpy", "_memmove"):
             self.uc.mem_write(first, bytes(self.uc.mem_read(second, third)))
             result = first
-        elif name in ("_memset", "_bzero"):
+        elif name in ("_memset", "_bzero", "___bzero"):
             byte, count = (second & 255, third) if name == "_memset" else (0, second)
             self.uc.mem_write(first, bytes([byte]) * count)
             result = first
-        elif name == "_memcmp":
+        elif name in ("_memcmp", "_bcmp"):
             one, other = (bytes(self.uc.mem_read(place, third)) for place in (first, second))
             result = ((one > other) - (one < other)) & 0xFFFFFFFF
         elif name == "_strlen":
