@@ -60,8 +60,8 @@ fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
         fs::set_permissions(path, fs::Permissions::from_mode(0o755))
     };
     let server = programs_of_wine.join("wineserver64");
-    // it stays for some seconds, so that the next program starts fast
-    let text = format!("#!/bin/sh\nexec '{}' -p5 \"$@\"\n", server.display());
+    // it ends with the last program: it holds the pipe that the output is read from
+    let text = format!("#!/bin/sh\nexec '{}' -p0 \"$@\"\n", server.display());
     executable(&programs_of_wine.join("wineserver"), text)?;
     // without a display; what is asked of a user when it starts first is not. fmpy's server for other platforms ends itself
     // when it can open its lock file, which it always can under wine: so it gets none.
