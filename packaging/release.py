@@ -20,6 +20,7 @@ from pathlib import Path
 
 import archives
 from archives import Files
+from licenses import third_party
 from platforms import PLATFORMS, ROOT, Tools, environment, has_standard_library, here
 
 VERSION = tomllib.loads((ROOT / "Cargo.toml").read_text())["package"]["version"]
@@ -152,12 +153,16 @@ def _plain_wheel(program: Path, scratch: Path) -> tuple[str, Files]:
 def _pack(name: str, tag: str, base: Files, share: Files, output: Path) -> list[Path]:
     """Writes the wheel and the archive for the platform `name`, and checks them."""
     it = PLATFORMS[name]
-    license_text = (ROOT / "LICENSE").read_bytes()
+    licenses = {
+        "LICENSE": (ROOT / "LICENSE").read_bytes(),
+        "THIRD-PARTY-LICENSES": third_party(it.target),
+    }
     wheel_files = base | {f"{DATA}/data/{path}": data for path, data in share.items()}
-    wheel_files[f"{INFO}/licenses/LICENSE"] = license_text
+    wheel_files |= {f"{INFO}/licenses/{path}": data for path, data in licenses.items()}
     metadata = base[f"{INFO}/METADATA"].decode()
     expression = "License-Expression: MIT\n"
-    metadata = metadata.replace(expression, f"{expression}License-File: LICENSE\n", 1)
+    files_named = "".join(f"License-File: {path}\n" for path in licenses)
+    metadata = metadata.replace(expression, f"{expression}{files_named}", 1)
     wheel_files[f"{INFO}/METADATA"] = metadata.encode()
     wheel = output / f"brinell-{VERSION}-py3-none-{tag}.whl"
     wheel.write_bytes(archives.zipped(archives.with_record(wheel_files, f"{INFO}/RECORD")))
@@ -166,7 +171,8 @@ def _pack(name: str, tag: str, base: Files, share: Files, output: Path) -> list[
     ((path, program),) = ((path, data) for path, data in base.items() if "/scripts/" in path)
     top = f"brinell-{VERSION}-{name}"
     files = {f"{top}/{path}": data for path, data in share.items()}
-    files |= {f"{top}/bin/{path.split('/')[-1]}": program, f"{top}/LICENSE": license_text}
+    files |= {f"{top}/{path}": data for path, data in licenses.items()}
+    files[f"{top}/bin/{path.split('/')[-1]}"] = program
     files = {path: files[path] for path in sorted(files)}
     archive = output / (f"{top}.zip" if "windows" in name else f"{top}.tar.gz")
     archive.write_bytes((archives.zipped if "windows" in name else archives.tarred)(files))

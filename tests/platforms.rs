@@ -190,3 +190,34 @@ fn an_option_puts_the_arm64_library_into_linux64() {
     assert_eq!(kind(library(&files, "linux64")), "ELF 183");
     assert_same(library(&files, "linux64"), library(&files, "aarch64-linux"));
 }
+
+/// Without a compiler the default is an FMU for every machine.
+#[test]
+fn an_fmu_from_prebuilt_libraries_is_for_every_machine_and_small() {
+    let Some(toolchain) = toolchain::toolchain() else { return };
+    let folder = empty_folder();
+    let store = folder.path().join("store");
+    let mut prebuild = brinell(folder.path());
+    prebuild.env("BRINELL_TOOLCHAIN", &toolchain).args(["prebuild", "--laws", "big-alabo", "--kinds", "force"]);
+    output(prebuild.args(["--platforms", "all", "-o"]).arg(&store)).with_status(0);
+    let export = |name: &str, arguments: &[&str]| {
+        let mut command = brinell(folder.path());
+        command.env_remove("CARGO").env("PATH", "/no/path").env("BRINELL_PREBUILT", &store);
+        let said = output(command.arg("export").arg(scene("steel_ball")).args(["--json", "-o", name]).args(arguments));
+        let platforms =
+            said.with_status(0).json()["libraries"].as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+        (files(&folder.path().join(name)), platforms)
+    };
+    let (every_machine, platforms) = export("default.fmu", &[]);
+    assert_eq!(platforms, ["aarch64-linux", "darwin64", "linux64", "win64"]);
+    let size = fs::metadata(folder.path().join("default.fmu")).unwrap().len();
+    assert!(size < 120_000, "{size} bytes");
+    let (every_folder, platforms) = export("all.fmu", &["--platforms", "all"]);
+    assert_eq!(platforms.len(), 5);
+    for platform in ["linux64", "aarch64-linux", "win64", "darwin64"] {
+        assert_same(library(&every_machine, platform), library(&every_folder, platform));
+    }
+    assert!(contains(library(&every_machine, "darwin64"), library(&every_folder, "aarch64-darwin")));
+    let (arm, _) = export("arm.fmu", &["--platforms", "linux64", "--arm64-in-linux64"]);
+    assert_same(library(&arm, "linux64"), library(&every_machine, "aarch64-linux"));
+}

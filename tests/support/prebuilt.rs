@@ -3,13 +3,14 @@
 
 use super::command::{Run, brinell, output};
 use serde_json::Value;
-use std::fs;
+use std::collections::{BTreeSet, HashMap};
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
 
-/// The folder for everything that is made here.
+/// The folder for everything that this test program makes.
 pub fn folder() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("prebuilt").join(env!("CARGO_CRATE_NAME"));
     fs::create_dir_all(&folder).expect("the target folder can be written to");
@@ -17,16 +18,31 @@ pub fn folder() -> PathBuf {
 }
 
 /// The laws that every run of the tests takes; all kinds of libraries are made for them.
-pub const LAWS: [&str; 3] = ["big-alabo", "hunt-crossley/exact", "hunt-crossley/flores"];
+pub const LAWS: [&str; 2] = ["big-alabo", "hunt-crossley/flores"];
 
-/// A folder with the libraries of [`LAWS`], made once per process.
+/// A folder with the libraries of [`LAWS`] for this machine, which the test programs share.
 pub fn store() -> &'static Path {
     static STORE: OnceLock<PathBuf> = OnceLock::new();
-    STORE.get_or_init(|| {
-        let store = folder().join("store");
-        prebuild(&store, &["--laws", &LAWS.join(",")]).with_status(0);
-        store
-    })
+    STORE.get_or_init(|| made_once("some", &["--laws", &LAWS.join(",")]))
+}
+
+/// The folder of libraries that `brinell prebuild` with these arguments makes: once for this very program, by the first test program
+/// that needs it.
+pub fn made_once(name: &str, arguments: &[&str]) -> PathBuf {
+    let store = Path::new(env!("CARGO_TARGET_TMPDIR")).join("prebuilt").join(name);
+    fs::create_dir_all(&store).expect("the target folder can be written to");
+    let lock = File::create(store.with_extension("lock")).expect("the target folder can be written to");
+    lock.lock().expect("the target folder is on a file system with locks");
+    let program = fs::metadata(env!("CARGO_BIN_EXE_brinell")).expect("cargo has built the program");
+    let made_by = format!("{:?} {} {arguments:?}", program.modified().expect("a time"), program.len());
+    let marker = store.with_extension("made-by");
+    if fs::read_to_string(&marker).is_ok_and(|text| text == made_by) {
+        return store;
+    }
+    fs::remove_dir_all(&store).expect("the target folder can be written to");
+    prebuild(&store, arguments).with_status(0);
+    fs::write(&marker, made_by).expect("the target folder can be written to");
+    store
 }
 
 /// Makes libraries in the folder `store`.
@@ -54,7 +70,20 @@ pub fn export_by_kind(text: &str, store: &Path) -> (PathBuf, String) {
     (fmu, kind)
 }
 
+/// What the program says of an FMU that was made in this process, by scene and folder of libraries.
+type Made = HashMap<(String, Option<PathBuf>), (PathBuf, Value)>;
+
+/// The FMU of the scene `text`, compiled or with the libraries in `store`, made once per process; and what the program says of it.
 fn exported(text: &str, store: Option<&Path>) -> (PathBuf, Value) {
+    static MADE: LazyLock<Mutex<Made>> = LazyLock::new(Mutex::default);
+    let key = (text.to_string(), store.map(Path::to_path_buf));
+    // the lock is held while something is made: a second test that asks for it waits
+    let mut all = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    all.entry(key).or_insert_with(|| export_anew(text, store)).clone()
+}
+
+/// The same, made once more.
+pub fn export_anew(text: &str, store: Option<&Path>) -> (PathBuf, Value) {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let folder = folder().join(COUNT.fetch_add(1, Ordering::Relaxed).to_string());
     // whatever an earlier run has left
@@ -65,12 +94,33 @@ fn exported(text: &str, store: Option<&Path>) -> (PathBuf, Value) {
         Some(store) => (without_compiler(&folder, store), "--prebuilt"),
         None => (brinell(&folder), "--compile"),
     };
-    let run = output(command.args(["export", "scene.toml", "-o", "unit.fmu", "--json", way])).with_status(0);
+    // the libraries may be for all platforms
+    command.args(["export", "scene.toml", "-o", "unit.fmu", "--json", way, "--platforms", "linux64"]);
+    let run = output(&mut command).with_status(0);
     (folder.join("unit.fmu"), run.json())
+}
+
+/// The names of the files of `store` for this machine, by their ending.
+pub fn file(ending: &str) -> String {
+    format!("x86_64-unknown-linux-gnu.{ending}")
 }
 
 /// The list of the libraries in `store`.
 pub fn list(store: &Path) -> Value {
-    let text = fs::read_to_string(store.join("linux64.json")).expect("a list");
+    let text = fs::read_to_string(store.join(file("json"))).expect("a list");
     serde_json::from_str(&text).expect("JSON")
+}
+
+/// The names of the libraries in `store`, each the law and the kind.
+pub fn libraries(store: &Path) -> BTreeSet<(String, String)> {
+    let list = list(store);
+    let streams = list["streams"].as_array().expect("a list").iter();
+    let libraries = streams.flat_map(|stream| stream["libraries"].as_array().expect("a list"));
+    let names = libraries.map(|library| library["name"].as_str().expect("LAWS KIND"));
+    names.map(|name| name.split_once(' ').expect("LAWS KIND")).map(|(law, kind)| (law.into(), kind.into())).collect()
+}
+
+/// The names of the laws in `store`.
+pub fn laws(store: &Path) -> BTreeSet<String> {
+    libraries(store).into_iter().map(|(law, _)| law).collect()
 }

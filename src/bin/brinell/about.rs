@@ -2,7 +2,8 @@
 
 use crate::arguments::Arguments;
 use crate::files::FileError;
-use crate::{package, platform, prebuilt_folder};
+use crate::prebuilt_folder::{self, PrebuiltFolder};
+use crate::{package, platform};
 use clap::CommandFactory;
 use clap_complete::Shell;
 use serde_json::json;
@@ -19,7 +20,7 @@ pub fn version(as_json: bool) {
     let prebuilt = prebuilt_folder::find();
     if as_json {
         let platform = platform.map(|(folder, target)| json!({ "folder": folder, "target": target }));
-        let prebuilt = prebuilt.map(|it| json!({ "platforms": it.platforms(), "folder": it.path }));
+        let prebuilt = prebuilt.map(|it| json!({ "platforms": folders(&it), "folder": it.path }));
         let all = json!({ "version": VERSION, "library": library, "platform": platform, "prebuilt": prebuilt });
         println!("{all}");
         return;
@@ -32,13 +33,18 @@ pub fn version(as_json: bool) {
     }
     match prebuilt {
         Some(folder) => {
-            println!("prebuilt libraries: {} in {}", folder.platforms().join(", "), folder.path.display());
+            println!("prebuilt libraries: {} in {}", folders(&folder).join(", "), folder.path.display());
         }
         None => println!("prebuilt libraries: none"),
     }
 }
 
-/// `brinell completions`: prints the completion script for `shell` to standard output.
+/// The platforms that there are prebuilt libraries for, as FMI calls them.
+fn folders(prebuilt: &PrebuiltFolder) -> Vec<&'static str> {
+    prebuilt.platforms().iter().map(|platform| platform.folder).collect()
+}
+
+/// `brinell completions`: the script that completes the program's arguments in `shell`, on standard output.
 ///
 /// # Errors
 /// An error of the standard output.

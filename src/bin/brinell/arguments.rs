@@ -142,8 +142,8 @@ pub struct SspArguments {
 
 #[derive(clap::Args, Default)]
 pub struct PlatformArguments {
-    /// Platforms: linux64, aarch64-linux, win64, darwin64, aarch64-darwin, or "all" [default: this machine's, or all that are
-    /// prebuilt if nothing is compiled]
+    /// Platforms: linux64, aarch64-linux, win64, darwin64, aarch64-darwin, or "all" [default: this machine's; if nothing is compiled,
+    /// all that are prebuilt but aarch64-darwin, whose library is in that of darwin64]
     #[arg(long, value_delimiter = ',', value_name = "PLATFORM")]
     platforms: Vec<String>,
     /// Puts the arm64 library into linux64, for importers on ARM Linux that look only there
@@ -165,7 +165,9 @@ impl PlatformArguments {
             }
         }
         if chosen.is_empty() && !way.compiles() {
-            chosen = prebuilt::platforms();
+            let all = prebuilt::platforms();
+            let is_alone = |platform: &&Platform| !all.iter().any(|other| other.has(platform));
+            chosen = all.iter().filter(is_alone).copied().collect();
         }
         if chosen.is_empty() {
             chosen.push(platform::here().map_err(|error| error.to_string())?);

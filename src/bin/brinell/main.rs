@@ -44,6 +44,7 @@ mod predict;
 mod regime;
 mod report;
 mod scene;
+mod signature;
 mod ssp;
 mod summary;
 mod symbols;

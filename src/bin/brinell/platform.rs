@@ -73,7 +73,12 @@ impl Target {
         }
     }
 
-    /// Whether the program runs on this target.
+    /// A platform whose library is for this target alone, called as rustc calls it.
+    pub const fn alone(&'static self) -> Platform {
+        Platform { folder: self.triple, extension: self.system.extension(), targets: std::slice::from_ref(self) }
+    }
+
+    /// Whether the program itself runs on this target.
     pub fn is_here(&self) -> bool {
         let system = match self.system {
             System::Linux => "linux",
@@ -89,6 +94,11 @@ impl Target {
 }
 
 impl Platform {
+    /// Whether its library has that of `other` in it, and more.
+    pub fn has(&self, other: &Platform) -> bool {
+        self.targets.len() > other.targets.len() && other.targets.iter().all(|target| self.targets.contains(target))
+    }
+
     /// All platforms. The folders are those of FMI 2.0.5, section 2.3: `linux64`, `win64` and `darwin64` mean x86; other
     /// processors have the names of FMI 3.0. The library in `darwin64` is universal, because importers on Apple silicon also
     /// look there.
@@ -134,6 +144,17 @@ pub fn loadable() -> Result<Vec<Platform>, NoPlatform> {
     Ok([here].into_iter().chain(others).collect())
 }
 
+/// The targets of `platforms`, each once.
+pub fn targets(platforms: &[Platform]) -> Vec<&'static Target> {
+    let mut targets = Vec::new();
+    for target in platforms.iter().flat_map(|platform| platform.targets) {
+        if !targets.contains(&target) {
+            targets.push(target);
+        }
+    }
+    targets
+}
+
 /// The platform with this folder.
 ///
 /// # Errors
@@ -156,6 +177,15 @@ mod tests {
         }
         let refusal = named("linux32").unwrap_err();
         assert!(refusal.contains("`linux32`") && refusal.contains("aarch64-linux, win64"), "{refusal}");
+    }
+
+    #[test]
+    fn the_universal_library_alone_has_that_of_another_platform() {
+        for one in Platform::ALL {
+            for other in Platform::ALL {
+                assert_eq!(one.has(&other), (one.folder, other.folder) == ("darwin64", "aarch64-darwin"));
+            }
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The location of the prebuilt FMU libraries.
 
+use crate::platform::{Platform, Target};
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
@@ -13,8 +14,8 @@ const INSTALLED: &str = "share/brinell/prebuilt";
 /// programs of a single user are in `Python311\Scripts`. `share` is beside `bin`, `Scripts` or `Python311`.
 const LEVELS: usize = 3;
 
-/// Extension of the list of libraries of each platform.
-const LIST: &str = "json";
+/// For each target there is a list of its libraries with this ending.
+pub const LIST: &str = "json";
 
 /// A folder with prebuilt libraries.
 #[derive(Debug, PartialEq)]
@@ -40,13 +41,15 @@ fn installed(program: &Path) -> Option<PrebuiltFolder> {
 }
 
 impl PrebuiltFolder {
-    /// The platforms that have libraries, with their names in FMI.
-    pub fn platforms(&self) -> Vec<String> {
-        let files = fs::read_dir(&self.path).into_iter().flatten().flatten().map(|entry| entry.path());
-        let lists = files.filter(|path| path.extension().is_some_and(|ending| ending == LIST));
-        let mut names: Vec<_> = lists.filter_map(|path| Some(path.file_stem()?.to_str()?.to_string())).collect();
-        names.sort();
-        names
+    /// The file with this `ending` for `target`.
+    pub fn file(&self, target: &Target, ending: &str) -> PathBuf {
+        self.path.join(target.triple).with_extension(ending)
+    }
+
+    /// The platforms that there are libraries for.
+    pub fn platforms(&self) -> Vec<Platform> {
+        let is_there = |target: &Target| self.file(target, LIST).is_file();
+        Platform::ALL.into_iter().filter(|platform| platform.targets.iter().all(is_there)).collect()
     }
 }
 
@@ -68,11 +71,15 @@ mod tests {
     }
 
     #[test]
-    fn each_platform_has_a_list() {
+    fn a_platform_takes_a_list_for_each_of_its_targets() {
         let root = tempfile::tempdir().unwrap();
-        for file in ["win64.json", "win64.br", "linux64.json", "linux64.br", "README"] {
-            fs::write(root.path().join(file), "").unwrap();
-        }
-        assert_eq!(PrebuiltFolder { path: root.path().into() }.platforms(), ["linux64", "win64"]);
+        let found = |target: &str| {
+            fs::write(root.path().join(target).with_extension("json"), "").unwrap();
+            let folder = PrebuiltFolder { path: root.path().into() };
+            folder.platforms().iter().map(|platform| platform.folder).collect::<Vec<_>>()
+        };
+        assert_eq!(found("x86_64-unknown-linux-gnu"), ["linux64"]);
+        assert_eq!(found("x86_64-apple-darwin"), ["linux64"], "the library for macOS is universal");
+        assert_eq!(found("aarch64-apple-darwin"), ["linux64", "darwin64", "aarch64-darwin"]);
     }
 }

@@ -1,28 +1,29 @@
 //! Which compiler and which linker make the library for a target: the user's own, or those of the cross toolchain.
 
 use super::error::ExportError;
-use super::folder::Cache;
 use super::link::Linker;
 use super::rustc::Rustc;
 use super::toolchain::{Toolchain, help};
 use crate::platform::{System, Target};
-use std::cell::OnceCell;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// The compilers that are there.
-pub struct Compilers<'a> {
-    cache: &'a Cache,
+pub struct Compilers {
+    /// The cache, as [`Rustc::find`] takes it.
+    cache: PathBuf,
     /// The user's, or why there is none.
     own: Result<Rustc, ExportError>,
     toolchain: Toolchain,
     /// That of the toolchain, asked for only when it is needed; or why it doesn't work.
-    fetched: OnceCell<Result<Rustc, ExportError>>,
+    fetched: OnceLock<Result<Rustc, ExportError>>,
 }
 
-impl Compilers<'_> {
+impl Compilers {
     /// Looks for the user's compiler.
-    pub fn find(cache: &Cache) -> Compilers<'_> {
-        let own = Rustc::find(&cache.folder);
-        Compilers { cache, own, toolchain: Toolchain::of(&cache.folder), fetched: OnceCell::new() }
+    pub fn find(cache: &Path) -> Compilers {
+        let own = Rustc::find(cache);
+        Compilers { cache: cache.into(), own, toolchain: Toolchain::of(cache), fetched: OnceLock::new() }
     }
 
     /// The compiler and the linker for `target`: the user's, if they can compile for it.
@@ -51,7 +52,7 @@ impl Compilers<'_> {
     }
 
     fn fetched(&self) -> Option<&Result<Rustc, ExportError>> {
-        let find = || Rustc::at(self.toolchain.rustc(), &self.cache.folder);
+        let find = || Rustc::at(self.toolchain.rustc(), &self.cache);
         self.toolchain.is_whole().then(|| self.fetched.get_or_init(find))
     }
 

@@ -7,10 +7,12 @@ use super::link::{self, Linker};
 use super::rustc::Rustc;
 use super::{Hash, LIBM_SOURCE, LIBRARY_SOURCE, resource, universal};
 use crate::files::FileError;
+use crate::interrupt::Folder;
 use crate::parallel;
 use crate::plan::Plan;
-use crate::platform::{Platform, System, Target};
-use std::path::{Path, PathBuf};
+use crate::platform::{self, Platform, System, Target};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fs, io};
 
 /// How everything is compiled. There is nothing to unwind, and one piece of code is optimized as one.
@@ -100,30 +102,67 @@ const STANDALONE: &str = "--cfg=feature=\"standalone\"";
 const BYTES_ROOT: (&str, &str) =
     ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\nmod bytes;\n");
 
+/// The module of that crate.
+const BYTES_SOURCE: (&str, &str) = ("src/fmi2/bytes.rs", include_str!("../../../fmi2/bytes.rs"));
+
+/// Compiles libraries. What they share is compiled once.
+pub struct Builder {
+    cache: Cache,
+    compilers: Compilers,
+    folder: Folder,
+    /// How many libraries have been begun.
+    count: AtomicUsize,
+}
+
+impl Builder {
+    /// Looks for compilers, and makes a folder to build in.
+    ///
+    /// # Errors
+    /// [`ExportError`]
+    pub fn new() -> Result<Builder, ExportError> {
+        let cache = Cache::open()?;
+        let compilers = Compilers::find(&cache.folder);
+        let folder = cache.build_folder()?;
+        Ok(Builder { cache, compilers, folder, count: AtomicUsize::new(0) })
+    }
+
+    /// Looks whether there is a compiler for each of the targets.
+    ///
+    /// # Errors
+    /// [`ExportError`] of the first target that there is none for.
+    pub fn check(&self, targets: &[&Target]) -> Result<(), ExportError> {
+        targets.iter().try_for_each(|target| self.compilers.for_target(target).map(drop))
+    }
+
+    /// Compiles the library of `source` for `target`.
+    ///
+    /// # Errors
+    /// [`ExportError`]
+    pub fn build(&self, source: &Source, target: &Target) -> Result<Vec<u8>, ExportError> {
+        let (rustc, linker) = self.compilers.for_target(target)?;
+        let count = self.count.fetch_add(1, Ordering::Relaxed);
+        let folder = self.folder.path().join(format!("{}-{count}", target.triple));
+        let build = Build { cache: &self.cache, folder: &folder, rustc, linker, target };
+        let library = build.run(source);
+        // with many libraries it would be much; all goes in the end
+        let _ = fs::remove_dir_all(&folder);
+        library
+    }
+}
+
 /// Compiles the libraries of `platforms` with `source` and gives their bytes. What two platforms share is compiled once, and
 /// several targets at the same time.
 ///
 /// # Errors
 /// [`ExportError`]
 pub fn build(source: &Source, platforms: &[Platform]) -> Result<Vec<Vec<u8>>, ExportError> {
-    let cache = Cache::open()?;
-    let compilers = Compilers::find(&cache);
-    let mut targets: Vec<Target> = Vec::new();
-    for target in platforms.iter().flat_map(|platform| platform.targets) {
-        if !targets.contains(target) {
-            targets.push(*target);
-        }
-    }
-    let folder = cache.build_folder()?;
+    let targets = platform::targets(platforms);
+    let builder = Builder::new()?;
     // what is missing is told before anything is compiled
-    let builds = targets.iter().map(|target| {
-        let (rustc, linker) = compilers.for_target(target)?;
-        Ok(Build { cache: &cache, folder: folder.path().join(target.triple), rustc, linker, target: *target })
-    });
-    let builds = builds.collect::<Result<Vec<_>, ExportError>>()?;
-    let slices = parallel::each(&builds, |build| build.run(source))?;
+    builder.check(&targets)?;
+    let slices = parallel::each(&targets, |target| builder.build(source, target))?;
     let slice = |target: &Target| {
-        let at = targets.iter().position(|other| other == target).expect("every target was built");
+        let at = targets.iter().position(|other| *other == target).expect("every target was built");
         slices[at].as_slice()
     };
     let join = |platform: &Platform| universal::join(&platform.targets.iter().map(slice).collect::<Vec<_>>());
@@ -133,37 +172,40 @@ pub fn build(source: &Source, platforms: &[Platform]) -> Result<Vec<Vec<u8>>, Ex
 /// One library for one target.
 struct Build<'a> {
     cache: &'a Cache,
-    folder: PathBuf,
+    folder: &'a Path,
     rustc: &'a Rustc,
     linker: Linker,
-    target: Target,
+    target: &'a Target,
 }
 
 impl Build<'_> {
     fn run(&self, source: &Source) -> Result<Vec<u8>, ExportError> {
         let Build { cache, folder, rustc, linker, target } = self;
-        let settings = [SETTINGS.as_slice(), &[optimization(source), "--target", target.triple]].concat();
+        let settings = [SETTINGS.as_slice(), &["--target", target.triple]].concat();
+        let optimized = [settings.as_slice(), &[optimization(source)]].concat();
         fs::create_dir_all(folder).map_err(FileError::at(folder)).map_err(|error| no_space(cache, error))?;
-        make_libm(cache, rustc, folder, &settings)?;
-        let own = [source.file(), BYTES_ROOT];
-        write(cache, folder, LIBRARY_SOURCE.iter().copied().chain(own).chain(link::files()))?;
+        let libm = ["libm/src/lib.rs", "-o", "libm.rlib"];
+        self.make("libm.rlib", &[optimized.as_slice(), &LIBM, &libm].concat(), LIBM_SOURCE)?;
+        self.write(LIBRARY_SOURCE.iter().copied().chain([source.file()]).chain(link::files()))?;
         let mut objects = Vec::new();
         if target.system == System::Windows || source.is_standalone() {
             let bytes = "bytes.obj";
-            let settings = settings.iter().filter(|setting| !setting.starts_with("-Copt-level"));
-            rustc.run(folder, settings.chain(&BYTES).chain(&[bytes, BYTES_ROOT.0]), &[])?;
+            self.make(
+                bytes,
+                &[settings.as_slice(), &BYTES, &[bytes, BYTES_ROOT.0]].concat(),
+                &[BYTES_ROOT, BYTES_SOURCE],
+            )?;
             objects.push(bytes);
         }
         if target.system == System::Windows {
             let version = "version.res";
-            let path = folder.join(version);
-            fs::write(&path, resource::version(source.name())).map_err(FileError::at(&path))?;
+            self.write([(version, resource::version(source.name()))].into_iter())?;
             objects.push(version);
         }
         let library = format!("{}.{}", source.name(), target.system.extension());
         let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library].map(String::from);
         let standalone = source.is_standalone().then_some(&STANDALONE);
-        let arguments = settings
+        let arguments = optimized
             .iter()
             .chain(&LIBRARY)
             .chain(standalone)
@@ -174,35 +216,37 @@ impl Build<'_> {
         let library = folder.join(library);
         Ok(fs::read(&library).map_err(FileError::at(&library))?)
     }
-}
 
-/// Puts `libm.rlib` into `folder`: out of the cache, or else compiled with these `settings` and then put into the cache.
-fn make_libm(cache: &Cache, rustc: &Rustc, folder: &Path, settings: &[&str]) -> Result<(), ExportError> {
-    let made_from = [rustc.identity.as_str()].into_iter().chain(settings.iter().copied()).chain(LIBM);
-    let made_from = made_from.chain(LIBM_SOURCE.iter().flat_map(|(name, text)| [*name, *text]));
-    let known = cache.folder.join(format!("libm-{}.rlib", Hash::new().with_all(made_from).digits()));
-    let here = folder.join("libm.rlib");
-    if known.is_file() {
-        let copied = fs::hard_link(&known, &here).or_else(|_| fs::copy(&known, &here).map(drop));
-        return copied.map_err(FileError::at(&known)).map_err(|error| no_space(cache, error));
+    /// Puts `file` into the folder: out of the cache, or else compiled from `sources` with these `arguments` and then put into the
+    /// cache.
+    fn make(&self, file: &str, arguments: &[&str], sources: &[(&str, &str)]) -> Result<(), ExportError> {
+        let Build { cache, folder, rustc, .. } = self;
+        let made_from = [rustc.identity.as_str()].into_iter().chain(arguments.iter().copied());
+        let made_from = made_from.chain(sources.iter().flat_map(|(name, text)| [*name, *text]));
+        let (name, ending) = file.split_once('.').unwrap_or((file, ""));
+        let known = cache.folder.join(format!("{name}-{}.{ending}", Hash::new().with_all(made_from).digits()));
+        let here = folder.join(file);
+        if known.is_file() {
+            let copied = fs::hard_link(&known, &here).or_else(|_| fs::copy(&known, &here).map(drop));
+            return copied.map_err(FileError::at(&known)).map_err(|error| no_space(cache, error));
+        }
+        self.write(sources.iter().copied())?;
+        rustc.run(folder, arguments, &[])?;
+        // whole, or not at all; a file system without links, and another export that was as far, do no harm
+        let _ = fs::hard_link(&here, &known);
+        Ok(())
     }
-    write(cache, folder, LIBM_SOURCE.iter().copied())?;
-    let named = ["libm/src/lib.rs", "-o", "libm.rlib"];
-    rustc.run(folder, settings.iter().chain(&LIBM).chain(&named), &[])?;
-    // whole, or not at all; a file system without links, and another export that was as far, do no harm
-    let _ = fs::hard_link(&here, &known);
-    Ok(())
-}
 
-/// Writes files into the folder that is built in.
-fn write<'a>(cache: &Cache, folder: &Path, files: impl Iterator<Item = (&'a str, &'a str)>) -> Result<(), ExportError> {
-    for (name, text) in files {
-        let path = folder.join(name);
-        let parent = path.parent().unwrap_or(folder);
-        let written = fs::create_dir_all(parent).and_then(|()| fs::write(&path, text));
-        written.map_err(FileError::at(&path)).map_err(|error| no_space(cache, error))?;
+    /// Writes files into the folder.
+    fn write<'b, T: AsRef<[u8]>>(&self, files: impl Iterator<Item = (&'b str, T)>) -> Result<(), ExportError> {
+        for (name, text) in files {
+            let path = self.folder.join(name);
+            let parent = path.parent().unwrap_or(self.folder);
+            let written = fs::create_dir_all(parent).and_then(|()| fs::write(&path, text));
+            written.map_err(FileError::at(&path)).map_err(|error| no_space(self.cache, error))?;
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// The error of a file in the cache, with the folder to make room in if that is what is missing.

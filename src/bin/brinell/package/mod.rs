@@ -18,9 +18,10 @@ pub use archive::archive;
 pub use error::ExportError;
 pub use folder::Cache;
 pub use hash::Hash;
-pub use library::{Source, build as build_libraries};
+pub use library::{Builder, Source};
 pub use rustc::Rustc;
 pub use toolchain::Toolchain;
+pub use universal::{join, size as joined_size};
 pub use way::{How, Way};
 
 use crate::files::write_whole;

@@ -7,12 +7,24 @@ use object::macho::FAT_MAGIC;
 /// Each library begins at a multiple of the largest page that macOS has: 2 to the power of this.
 const ALIGNMENT: u32 = 14;
 
+/// Where the next library can begin.
+fn align(offset: usize) -> usize {
+    offset.next_multiple_of(1 << ALIGNMENT)
+}
+
+/// Size of the library that [`join`] makes of libraries of these sizes [bytes].
+pub fn size(slices: &[usize]) -> usize {
+    match slices {
+        [only] => *only,
+        _ => slices.iter().fold(1, |end, size| align(end) + size),
+    }
+}
+
 /// One library of several: itself if it is one, otherwise a universal one.
 pub fn join(slices: &[&[u8]]) -> Vec<u8> {
     if let [only] = slices {
         return only.to_vec();
     }
-    let align = |offset: usize| offset.next_multiple_of(1 << ALIGNMENT);
     let mut head: Vec<u32> = vec![FAT_MAGIC, slices.len() as u32];
     let mut offset = align(1);
     for slice in slices {
@@ -27,4 +39,18 @@ pub fn join(slices: &[&[u8]]) -> Vec<u8> {
         file.extend_from_slice(slice);
     }
     file
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{join, size};
+
+    #[test]
+    fn the_size_is_known_before() {
+        let slices: [&[u8]; 3] = [&[1; 100], &[2; 20_000], &[3; 12]];
+        for count in 1..=3 {
+            let sizes: Vec<_> = slices[..count].iter().map(|slice| slice.len()).collect();
+            assert_eq!(size(&sizes), join(&slices[..count]).len(), "{count}");
+        }
+    }
 }

@@ -3,41 +3,37 @@
 use super::kinds::{KINDS, Laws, Library};
 use super::store::{self, Written};
 use crate::arguments::PrebuildArguments;
-use crate::constants;
 use crate::files::FileError;
-use crate::package::{ExportError, Source, Way, build_libraries};
+use crate::package::{Builder, ExportError, Source, Way};
 use crate::plan::Plan;
-use crate::platform::Platform;
-use crate::symbols;
+use crate::platform::{self, Target};
+use crate::{constants, parallel, symbols};
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::error::Error;
-use std::num::NonZero;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::{fs, slice, thread};
+use std::fs;
 
-/// The command: builds the libraries that are asked for, for each platform, and writes them into a folder.
+/// The command: builds the libraries that are asked for, for each target, and writes them into a folder.
 ///
 /// # Errors
 /// A law or kind that there isn't, or that of the first library that can't be built or written.
 pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let libraries = chosen(arguments)?;
-    let platforms = arguments.platforms.chosen(Way::Compiled)?;
+    let targets = platform::targets(&arguments.platforms.chosen(Way::Compiled)?);
+    let builder = Builder::new()?;
+    builder.check(&targets)?;
     fs::create_dir_all(&arguments.output).map_err(FileError::at(&arguments.output))?;
-    for platform in &platforms {
-        let built = build_all(&libraries, platform)?;
-        let saves = compiling_saves(&libraries, &built, platform)?;
+    for target in targets {
+        let built = build_all(&builder, &libraries, target)?;
+        let saves = compiling_saves(&builder, &libraries, &built, target)?;
         let listed: Vec<_> = libraries.iter().zip(built).collect();
-        let Written { libraries, unpacked, packed } = store::write(&arguments.output, platform, &listed, saves)?;
-        let folder = platform.folder;
+        let Written { libraries, unpacked, packed } = store::write(&arguments.output, target, &listed, saves)?;
+        let triple = target.triple;
         if as_json {
-            println!(
-                "{}",
-                json!({ "platform": folder, "libraries": libraries, "size": unpacked, "compressed": packed })
-            );
+            println!("{}", json!({ "target": triple, "libraries": libraries, "size": unpacked, "compressed": packed }));
         } else {
-            println!("{folder}: {libraries} libraries of {unpacked} bytes, {packed} bytes compressed");
+            println!("{triple}: {libraries} libraries of {unpacked} bytes, {packed} bytes compressed");
         }
     }
     Ok(())
@@ -67,60 +63,34 @@ fn refuse_unknown(what: &str, asked: &[String], known: &[String]) -> Result<(), 
     Err(format!("there is no {what} `{unknown}`, but `{}`", known.join("`, `")))
 }
 
-/// Libraries with their places in a list.
-type Built = Vec<(usize, Vec<u8>)>;
-
-/// The libraries for `platform`, as many at a time as there are processors.
-fn build_all(libraries: &[Library], platform: &Platform) -> Result<Vec<Vec<u8>>, ExportError> {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+/// The libraries for `target`.
+fn build_all(builder: &Builder, libraries: &[Library], target: &'static Target) -> Result<Vec<Vec<u8>>, ExportError> {
     let progress = ProgressBar::new(libraries.len() as u64);
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut built = Built::new();
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(library) = libraries.get(index) else { return Ok(built) };
-            let made = build(library, platform);
-            if made.is_err() {
-                // the others needn't go on
-                next.store(libraries.len(), Ordering::Relaxed);
-            }
-            built.push((index, made?));
-            progress.inc(1);
-        }
-    };
-    let parts: Vec<Result<Built, ExportError>> = thread::scope(|scope| {
-        let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        threads.into_iter().map(|thread| thread.join().expect("building doesn't panic")).collect()
+    let built = parallel::each(libraries, |library| {
+        let (text, _) = library.source();
+        let bytes = builder.build(&Source::Kind { text: &text }, target)?;
+        let refused = |reason| ExportError::Symbols { platform: target.triple, reason };
+        symbols::check(&bytes, &target.alone(), false).map_err(refused)?;
+        progress.inc(1);
+        Ok(bytes)
     });
     progress.finish_and_clear();
-    let mut built = parts.into_iter().collect::<Result<Vec<_>, _>>()?.concat();
-    built.sort_by_key(|(index, _)| *index);
-    Ok(built.into_iter().map(|(_, bytes)| bytes).collect())
-}
-
-/// One prebuilt library.
-fn build(library: &Library, platform: &Platform) -> Result<Vec<u8>, ExportError> {
-    let (text, _) = library.source();
-    let bytes = build_libraries(&Source::Kind { text: &text }, slice::from_ref(platform))?.remove(0);
-    let refused = |reason| ExportError::Symbols { platform: platform.folder, reason };
-    symbols::check(&bytes, platform, false).map_err(refused)?;
-    Ok(bytes)
+    built
 }
 
 /// By how much the compiled library of a scene with the same laws and outputs is smaller, for the first laws of each kind.
 fn compiling_saves(
+    builder: &Builder,
     libraries: &[Library],
     built: &[Vec<u8>],
-    platform: &Platform,
+    target: &Target,
 ) -> Result<BTreeMap<String, i64>, ExportError> {
     let mut saves = BTreeMap::new();
     for (library, bytes) in libraries.iter().zip(built) {
         if !saves.contains_key(library.kind.name) {
             let plan = Plan::of(&library.scene);
             let constants = constants::write(&plan, &"0".repeat(32));
-            let source = Source::Scene { plan: &plan, constants: &constants };
-            let compiled = build_libraries(&source, slice::from_ref(platform))?.remove(0);
+            let compiled = builder.build(&Source::Scene { plan: &plan, constants: &constants }, target)?;
             saves.insert(library.kind.name.to_string(), bytes.len() as i64 - compiled.len() as i64);
         }
     }

@@ -1,9 +1,8 @@
 //! Writing the data of a scene into a prebuilt library.
 
-use super::signature::{self, SignatureError};
+use crate::signature::{self, SignatureError};
 use brinell::scene::prebuilt::block::{Block, Data, MAGIC, VERSION};
-use object::read::macho::{FatArch, MachOFatFile32, MachOFatFile64};
-use object::{BinaryFormat, FileKind, Object, ObjectSection};
+use object::{BinaryFormat, Object, ObjectSection};
 use std::ops::Range;
 
 /// What the section of the block is called, in Mach-O and elsewhere.
@@ -34,24 +33,21 @@ pub fn fill(library: &mut [u8], identity: u64, data: Data) -> Result<(), FillErr
     let block: Vec<u8> = Block::filled(identity, data).words().flat_map(u64::to_le_bytes).collect();
     let empty: Vec<u8> = Block::unfilled(identity).words().flat_map(u64::to_le_bytes).collect();
     debug_assert_eq!([block.len(), empty.len()], [size_of::<Block>(); 2]);
-    for slice in slices(library)? {
-        let slice = &mut library[slice];
-        let (format, section) = section(slice)?;
-        let room = &mut slice[section.clone()];
-        if room.len() != block.len() {
-            return Err(FillError::Size { found: room.len(), expected: block.len() });
-        }
-        // numbers that say what it is; the rest of an empty block says nothing
-        if room[..HEAD] != empty[..HEAD] {
-            return Err(FillError::NotEmpty);
-        }
-        if format == BinaryFormat::MachO {
-            signature::check(slice)?;
-        }
-        slice[section.clone()].copy_from_slice(&block);
-        if format == BinaryFormat::MachO {
-            signature::renew(slice, section)?;
-        }
+    let (format, section) = section(library)?;
+    let room = &library[section.clone()];
+    if room.len() != block.len() {
+        return Err(FillError::Size { found: room.len(), expected: block.len() });
+    }
+    // numbers that say what it is; the rest of an empty block says nothing
+    if room[..HEAD] != empty[..HEAD] {
+        return Err(FillError::NotEmpty);
+    }
+    if format == BinaryFormat::MachO {
+        signature::check(library)?;
+    }
+    library[section.clone()].copy_from_slice(&block);
+    if format == BinaryFormat::MachO {
+        signature::renew(library, section)?;
     }
     Ok(())
 }
@@ -59,21 +55,6 @@ pub fn fill(library: &mut [u8], identity: u64, data: Data) -> Result<(), FillErr
 /// Magic, version, library and length.
 const HEAD: usize = 8 * 4;
 const _: () = assert!(MAGIC != 0 && VERSION != 0);
-
-/// The libraries in a file: itself, or those of each processor in a universal one.
-fn slices(file: &[u8]) -> Result<Vec<Range<usize>>, object::Error> {
-    let range = |(offset, size): (u64, u64)| offset as usize..(offset + size) as usize;
-    let whole = 0..file.len();
-    Ok(match FileKind::parse(file)? {
-        FileKind::MachOFat32 => {
-            MachOFatFile32::parse(file)?.arches().iter().map(|arch| range(arch.file_range())).collect()
-        }
-        FileKind::MachOFat64 => {
-            MachOFatFile64::parse(file)?.arches().iter().map(|arch| range(arch.file_range())).collect()
-        }
-        _ => vec![whole],
-    })
-}
 
 /// The format of a library, and where its block is.
 fn section(library: &[u8]) -> Result<(BinaryFormat, Range<usize>), FillError> {

@@ -10,7 +10,6 @@ mod fit;
 mod kinds;
 #[cfg(test)]
 mod macho_tests;
-mod signature;
 mod store;
 
 pub use fit::NeedsCompiler;
@@ -20,7 +19,7 @@ pub use store::StoreError;
 use crate::model_description;
 use crate::package::{self, GUID_TO_COME, Hash};
 use crate::plan::Plan;
-use crate::platform::Platform;
+use crate::platform::{Platform, Target};
 use brinell::scene::identity_of;
 use brinell::scene::prebuilt::block::{Block, Data};
 use fill::FillError;
@@ -34,16 +33,15 @@ pub enum PrebuiltError {
     Store(#[from] StoreError),
     #[error("this scene needs a compiler, which no prebuilt library has room for: {0}")]
     NeedsCompiler(#[from] NeedsCompiler),
-    #[error("the prebuilt library `{name}` for {platform} can't be filled in: {reason}")]
-    Fill { name: String, platform: &'static str, reason: FillError },
+    #[error("the prebuilt library `{name}` for {target} can't be filled in: {reason}")]
+    Fill { name: String, target: &'static str, reason: FillError },
     #[error("the model description can't be written: {0}")]
     Description(io::Error),
 }
 
 /// The platforms that there are prebuilt libraries for.
 pub fn platforms() -> Vec<Platform> {
-    let names = Store::find().map(|store| store.platforms().to_vec()).unwrap_or_default();
-    Platform::ALL.into_iter().filter(|platform| names.iter().any(|name| name == platform.folder)).collect()
+    Store::find().map(|store| store.platforms().to_vec()).unwrap_or_default()
 }
 
 /// A unit that is made from a prebuilt library.
@@ -80,17 +78,24 @@ impl Unit {
     /// # Errors
     /// [`PrebuiltError`] if it isn't there, or damaged.
     pub fn library(&self, platform: &Platform) -> Result<Vec<u8>, PrebuiltError> {
-        let mut library = self.store.library(&self.library, platform)?;
+        let slices = platform.targets.iter().map(|target| self.slice(target)).collect::<Result<Vec<_>, _>>()?;
+        Ok(package::join(&slices.iter().map(Vec::as_slice).collect::<Vec<_>>()))
+    }
+
+    fn slice(&self, target: &Target) -> Result<Vec<u8>, PrebuiltError> {
+        let mut library = self.store.library(&self.library, target)?;
         fill::fill(&mut library, identity_of(&self.made_from), self.data).map_err(|reason| PrebuiltError::Fill {
             name: self.library.name(),
-            platform: platform.folder,
+            target: target.triple,
             reason,
         })?;
         Ok(library)
     }
 
-    /// Size of the prebuilt library for `platform` [bytes], and by how much a compiled one is smaller, as far as it is known.
+    /// Size of the library of the unit for `platform` [bytes], and by how much a compiled one is smaller, as far as it is known.
     pub fn sizes(&self, platform: &Platform) -> Option<(usize, Option<i64>)> {
-        self.store.sizes(&self.library, platform).ok()
+        let sizes = platform.targets.iter().map(|target| self.store.sizes(&self.library, target).ok());
+        let (sizes, saved): (Vec<_>, Vec<_>) = sizes.collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        Some((package::joined_size(&sizes), saved.into_iter().sum()))
     }
 }

@@ -1,4 +1,4 @@
-//! A folder of prebuilt libraries: for each platform an archive, and a list of what is in it with hashes.
+//! A folder of prebuilt libraries: for each target an archive, and a list of what is in it with hashes.
 //!
 //! The libraries of a kind are compressed as one stream: most of their code is the same. One library is then found by unpacking
 //! a fraction of the archive.
@@ -6,8 +6,8 @@
 use super::kinds::Library;
 use crate::files::{FileError, write_whole};
 use crate::package::{self, Hash};
-use crate::platform::Platform;
-use crate::prebuilt_folder;
+use crate::platform::{Platform, Target};
+use crate::prebuilt_folder::{self, LIST, PrebuiltFolder};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -21,8 +21,8 @@ pub enum StoreError {
     NoFolder,
     #[error("there are no prebuilt libraries in {folder}: BRINELL_PREBUILT names the folder where they are", folder = folder.display())]
     Empty { folder: PathBuf },
-    #[error("there are no prebuilt libraries for {platform} in {folder}, only for {known}", folder = folder.display())]
-    NoPlatform { folder: PathBuf, platform: &'static str, known: String },
+    #[error("there are no prebuilt libraries for {target} in {folder}, only for {known}", folder = folder.display())]
+    NoTarget { folder: PathBuf, target: &'static str, known: String },
     #[error("the prebuilt libraries in {folder} are from another version of Brinell ({version}): make them anew by `brinell prebuild`", folder = folder.display())]
     OtherVersion { folder: PathBuf, version: String },
     #[error("there is no prebuilt library `{name}` in {folder}", folder = folder.display())]
@@ -33,7 +33,7 @@ pub enum StoreError {
     File(#[from] FileError),
 }
 
-/// The list of the libraries of one platform.
+/// The list of the libraries for one target.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct List {
@@ -86,14 +86,13 @@ fn sources() -> String {
     Hash::new().with_all(package::sources()).digits()
 }
 
-/// Ending of a list, and of an archive.
-const LIST: &str = "json";
+/// Ending of an archive.
 const ARCHIVE: &str = "br";
 
 /// A folder of prebuilt libraries.
 pub struct Store {
-    folder: PathBuf,
-    platforms: Vec<String>,
+    folder: PrebuiltFolder,
+    platforms: Vec<Platform>,
 }
 
 impl Store {
@@ -107,37 +106,42 @@ impl Store {
         if platforms.is_empty() {
             return Err(StoreError::Empty { folder: found.path });
         }
-        Ok(Store { folder: found.path, platforms })
+        Ok(Store { folder: found, platforms })
     }
 
     /// The platforms that there are libraries for.
-    pub fn platforms(&self) -> &[String] {
+    pub fn platforms(&self) -> &[Platform] {
         &self.platforms
     }
 
-    /// The list of `platform`, of this version.
-    fn list(&self, platform: &Platform) -> Result<List, StoreError> {
-        let path = self.folder.join(platform.folder).with_extension(LIST);
+    /// Where it is.
+    fn folder(&self) -> PathBuf {
+        self.folder.path.clone()
+    }
+
+    /// The list for `target`, of this version.
+    fn list(&self, target: &Target) -> Result<List, StoreError> {
+        let path = self.folder.file(target, LIST);
         if !path.is_file() {
-            let known = self.platforms.join(", ");
-            return Err(StoreError::NoPlatform { folder: self.folder.clone(), platform: platform.folder, known });
+            let known = self.platforms.iter().map(|platform| platform.folder).collect::<Vec<_>>().join(", ");
+            return Err(StoreError::NoTarget { folder: self.folder(), target: target.triple, known });
         }
         let text = fs::read_to_string(&path).map_err(FileError::at(&path))?;
         let list: List = serde_json::from_str(&text)
             .map_err(|error| StoreError::Damaged { path: path.clone(), reason: error.to_string() })?;
         if list.sources != sources() {
-            return Err(StoreError::OtherVersion { folder: self.folder.clone(), version: list.brinell });
+            return Err(StoreError::OtherVersion { folder: self.folder(), version: list.brinell });
         }
         Ok(list)
     }
 
-    /// The prebuilt `library` for `platform`, as it was made.
+    /// The prebuilt `library` for `target`, as it was made.
     ///
     /// # Errors
     /// [`StoreError`]
-    pub fn library(&self, library: &Library, platform: &Platform) -> Result<Vec<u8>, StoreError> {
-        let list = self.list(platform)?;
-        let path = self.folder.join(platform.folder).with_extension(ARCHIVE);
+    pub fn library(&self, library: &Library, target: &Target) -> Result<Vec<u8>, StoreError> {
+        let list = self.list(target)?;
+        let path = self.folder.file(target, ARCHIVE);
         let damaged = |reason: &str| StoreError::Damaged { path: path.clone(), reason: reason.into() };
         let archive = fs::read(&path).map_err(FileError::at(&path))?;
         if !list.archive.is(&archive) {
@@ -163,24 +167,24 @@ impl Store {
             }
             at = end;
         }
-        Err(StoreError::NoLibrary { folder: self.folder.clone(), name })
+        Err(StoreError::NoLibrary { folder: self.folder(), name })
     }
 
-    /// Size of the prebuilt `library` for `platform` [bytes], and by how much a compiled one is smaller.
+    /// Size of the prebuilt `library` for `target` [bytes], and by how much a compiled one is smaller.
     ///
     /// # Errors
     /// [`StoreError`]
-    pub fn sizes(&self, library: &Library, platform: &Platform) -> Result<(usize, Option<i64>), StoreError> {
-        let (list, name) = (self.list(platform)?, library.name());
+    pub fn sizes(&self, library: &Library, target: &Target) -> Result<(usize, Option<i64>), StoreError> {
+        let (list, name) = (self.list(target)?, library.name());
         let mut listed = list.streams.iter().flat_map(|stream| &stream.libraries);
         let found = listed.find(|listed| listed.name == name);
-        let none = || StoreError::NoLibrary { folder: self.folder.clone(), name: name.clone() };
+        let none = || StoreError::NoLibrary { folder: self.folder(), name: name.clone() };
         let size = found.ok_or_else(none)?.size;
         Ok((size, list.compiling_saves.get(library.kind.name).copied()))
     }
 }
 
-/// What was written for a platform.
+/// What was written for a target.
 pub struct Written {
     pub libraries: usize,
     /// All libraries [bytes].
@@ -189,13 +193,13 @@ pub struct Written {
     pub packed: usize,
 }
 
-/// Writes the `libraries` of `platform` into `folder`, those of a kind in one stream.
+/// Writes the `libraries` for `target` into the folder at `path`, those of a kind in one stream.
 ///
 /// # Errors
 /// [`FileError`]
 pub fn write(
-    folder: &Path,
-    platform: &Platform,
+    path: &Path,
+    target: &Target,
     libraries: &[(&Library, Vec<u8>)],
     compiling_saves: BTreeMap<String, i64>,
 ) -> Result<Written, FileError> {
@@ -211,8 +215,8 @@ pub fn write(
         });
         archive.extend(packed);
     }
-    let path = |ending: &str| folder.join(platform.folder).with_extension(ending);
-    let name = format!("{}.{ARCHIVE}", platform.folder);
+    let folder = PrebuiltFolder { path: path.into() };
+    let name = format!("{}.{ARCHIVE}", target.triple);
     let list = List {
         brinell: env!("CARGO_PKG_VERSION").into(),
         sources: sources(),
@@ -222,8 +226,8 @@ pub fn write(
     };
     let mut text = serde_json::to_string_pretty(&list).expect("a list is plain data");
     text.push('\n');
-    write_whole(&path(ARCHIVE), &archive)?;
-    write_whole(&path(LIST), text.as_bytes())?;
+    write_whole(&folder.file(target, ARCHIVE), &archive)?;
+    write_whole(&folder.file(target, LIST), text.as_bytes())?;
     Ok(Written { libraries: libraries.len(), unpacked, packed: archive.len() })
 }
 

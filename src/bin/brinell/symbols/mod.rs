@@ -6,6 +6,7 @@ mod macos;
 mod windows;
 
 use crate::platform::{Platform, Processor, System, Target};
+use crate::signature::SignatureError;
 use object::read::NameOrOrdinal;
 use object::read::macho::{FatArch, MachOFatFile32};
 use object::{Architecture, BinaryFormat, FileKind, Object, ObjectSegment, ObjectSymbol};
@@ -82,7 +83,7 @@ pub enum SymbolError {
     #[error("it needs macOS {found}, and not {wanted}")]
     MacOs { found: String, wanted: String },
     #[error("its signature is not valid: {0}")]
-    Signature(&'static str),
+    Signature(#[from] SignatureError),
 }
 
 /// Checks the library of `platform`; gives the names that it takes from the process. A `standalone` one takes none.

@@ -1,0 +1,61 @@
+"""The licenses of the crates that are compiled into the program."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+from typing import Any
+
+from platforms import ROOT
+
+_HEAD = """\
+The program contains compiled code of the Rust standard library (MIT or Apache-2.0 license, (c) The Rust
+Project Developers) and of these crates:
+
+"""
+
+# How the files are called that have a license's text.
+_NAMES = ("LICENSE", "LICENCE", "COPYING", "UNLICENSE", "NOTICE")
+
+
+def third_party(target: str) -> bytes:
+    """A list of the crates in the program for `target`, and the texts of their licenses, each once."""
+    command = ["cargo", "metadata", "--format-version=1", "--locked", "--filter-platform", target]
+    metadata = subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout
+    crates = _linked(json.loads(metadata))
+    text = _HEAD + "".join(f"- {_name(crate)}: {crate['license']}\n" for crate in crates)
+    by_text: dict[str, list[str]] = {}
+    for crate in crates:
+        for path in _files(Path(crate["manifest_path"]).parent):
+            by_text.setdefault(path.read_text(encoding="utf-8").strip(), []).append(_name(crate))
+    for license_text, names in by_text.items():
+        text += f"\n{'-' * 78}\n{', '.join(names)}:\n\n{license_text}\n"
+    return text.encode()
+
+
+def _name(crate: dict[str, Any]) -> str:
+    return f"{crate['name']} {crate['version']}"
+
+
+def _linked(metadata: dict[str, Any]) -> list[dict[str, Any]]:
+    """The crates that the program depends on, but for itself and those that only build or test it."""
+    nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
+    root = metadata["resolve"]["root"]
+    found, waiting = set(), [root]
+    while waiting:
+        crate = waiting.pop()
+        if crate not in found:
+            found.add(crate)
+            needed = nodes[crate]["deps"]
+            waiting += [it["pkg"] for it in needed if any(kind["kind"] is None for kind in it["dep_kinds"])]
+    crates = [crate for crate in metadata["packages"] if crate["id"] in found - {root}]
+    return sorted(crates, key=_name)
+
+
+def _files(folder: Path) -> list[Path]:
+    """The files with the license of a crate; of MIT and Apache-2.0, which are a choice, the former."""
+    files = [path for path in sorted(folder.iterdir()) if path.name.upper().startswith(_NAMES) and path.is_file()]
+    if any("MIT" in path.name for path in files):
+        files = [path for path in files if "APACHE" not in path.name.upper()]
+    return files

@@ -1,0 +1,133 @@
+//! Other systems on this one: wine for Windows, QEMU for arm64, an emulator of processors for macOS; and the C compiler that
+//! makes programs for them.
+
+use super::debian::{Packages, packages};
+use super::hosts::{Host, Loading, compile, folder};
+use super::python::{environment_of, python, target_folder};
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{fs, io};
+
+/// A system that libraries of one platform run on.
+pub struct System {
+    /// Folder of the platform in an FMU.
+    pub platform: &'static str,
+    /// What it is, with its version.
+    pub name: String,
+    pub host: Host,
+}
+
+/// The interpreter with the packages for other systems.
+fn tools() -> Result<PathBuf, String> {
+    environment_of("platforms-venv", &folder().join("requirements.txt"))
+}
+
+/// The host in tests/platforms, compiled for `target`.
+fn compiled(target: &str, ending: &str) -> Result<PathBuf, String> {
+    let cache = format!("ZIG_GLOBAL_CACHE_DIR={}", target_folder().join("zig").display());
+    let mut compiler = vec!["env".into(), cache.into(), tools()?];
+    compiler.extend(["-m", "ziglang", "cc", "-target", target].map(PathBuf::from));
+    compile(&format!("host-{target}{ending}"), "host.c", Loading::BySystem, &compiler, &[])
+}
+
+/// Windows, as wine has it.
+///
+/// # Errors
+/// Why it can't be had.
+pub fn windows() -> Result<System, String> {
+    let Packages { folder, versions } = packages("wine", "bookworm", &["wine64"], true)?;
+    let version = version_of(&versions, "wine64")?;
+    let wine = prepare_wine(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let program = compiled("x86_64-windows-gnu", ".exe")?;
+    let host = Host { command: vec![wine, program], variables: Vec::new() };
+    Ok(System { platform: "win64", name: format!("wine {version}"), host })
+}
+
+/// What wine's packages do when they are installed, and a program that starts it from where it was unpacked.
+fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
+    let programs = folder.join("programs");
+    let start = programs.join("wine64");
+    fs::create_dir_all(&programs)?;
+    // user32.dll needs a zlib1.dll that says it belongs to wine
+    let mut zlib = fs::read(folder.join("usr/x86_64-w64-mingw32/lib/zlib1.dll"))?;
+    let mark = b"Wine builtin DLL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
+    zlib[64..96].copy_from_slice(mark);
+    fs::write(folder.join("usr/lib/x86_64-linux-gnu/wine/x86_64-windows/zlib1.dll"), zlib)?;
+    let programs_of_wine = folder.join("usr/lib/wine");
+    let executable = |path: &Path, text: String| {
+        fs::write(path, text)?;
+        fs::set_permissions(path, fs::Permissions::from_mode(0o755))
+    };
+    let server = programs_of_wine.join("wineserver64");
+    // it ends with the last program: it holds the pipe that the output is read from
+    let text = format!("#!/bin/sh\nexec '{}' -p0 \"$@\"\n", server.display());
+    executable(&programs_of_wine.join("wineserver"), text)?;
+    // without a display; what is asked of a user when it starts first is not. fmpy's server for other platforms ends itself
+    // when it can open its lock file, which it always can under wine: so it gets none.
+    let text = format!(
+        "#!/bin/sh\nexport LD_LIBRARY_PATH='{libraries}' WINEPREFIX='{prefix}' WINEARCH=win64 WINEDEBUG=-all\n\
+         export WINEDLLOVERRIDES='mscoree,mshtml=' DISPLAY=\n\
+         case \"$1\" in */server_tcp.exe) set -- \"$1\" \"$2\" ;; esac\nexec '{wine}' \"$@\"\n",
+        libraries = folder.join("usr/lib/x86_64-linux-gnu").display(),
+        prefix = folder.join("prefix").display(),
+        wine = programs_of_wine.join("wine64").display(),
+    );
+    executable(&start, text)?;
+    Ok(start)
+}
+
+/// Linux on arm64, as QEMU has it.
+///
+/// # Errors
+/// Why it can't be had.
+pub fn arm64_linux() -> Result<System, String> {
+    let Packages { folder, versions } = packages("qemu", "bookworm", &["qemu-user", "libc6-arm64-cross"], true)?;
+    let name = format!("QEMU {}", version_of(&versions, "qemu-user")?);
+    let libraries = folder.join("usr/lib/x86_64-linux-gnu");
+    let (program, root) = (compiled("aarch64-linux-gnu.2.28", "")?, folder.join("usr/aarch64-linux-gnu"));
+    // its own libraries are not those of the program
+    let start: Vec<PathBuf> = vec![folder.join("usr/bin/qemu-aarch64"), "-E".into(), "LD_LIBRARY_PATH=".into()];
+    let command = [start, vec!["-L".into(), root, program]].concat();
+    let host = Host { command, variables: vec![("LD_LIBRARY_PATH", libraries)] };
+    Ok(System { platform: "aarch64-linux", name, host })
+}
+
+/// The code for macOS on a processor, in an emulator; there is no macOS.
+///
+/// # Errors
+/// Why it can't be had.
+pub fn macos(processor: &str) -> Result<System, String> {
+    let command = vec![tools()?, folder().join("macho.py"), processor.into()];
+    let host = Host { command, variables: Vec::new() };
+    Ok(System { platform: "darwin64", name: format!("unicorn 2.1.4, {processor}"), host })
+}
+
+/// The version of `package` in the list of what was unpacked.
+fn version_of<'a>(versions: &'a str, package: &str) -> Result<&'a str, String> {
+    let mut lines = versions.lines().filter_map(|line| line.split_once(' '));
+    lines.find(|(name, _)| *name == package).map(|(_, version)| version).ok_or(format!("no {package} was unpacked"))
+}
+
+/// What fmpy makes of `fmu` on a history, through `remote` if another system is meant.
+///
+/// # Errors
+/// What it says if it fails or hangs.
+pub fn by_fmpy(fmu: &Path, history: &Path, remote: Option<(&str, &Host)>) -> Result<String, String> {
+    let mut command = Command::new("timeout");
+    command.arg("120").arg(python()).arg(folder().join("with_fmpy.py")).arg(fmu).arg(history);
+    if let Some((platform, host)) = remote {
+        // it looks for wine64 there
+        let programs = host.command[0].parent().ok_or("wine has a folder")?.display();
+        let path = std::env::var("PATH").unwrap_or_default();
+        command.arg(platform).env("PATH", format!("{programs}:{path}"));
+    }
+    let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;
+    let lines = String::from_utf8_lossy(&output.stdout).into_owned();
+    // the server of the other system prints, too
+    let is_row = |line: &&str| line.len() > 16 && line.bytes().all(|byte| byte == b' ' || byte.is_ascii_hexdigit());
+    match output.status.success() {
+        true => Ok(lines.lines().filter(is_row).collect::<Vec<_>>().join("\n")),
+        false => Err(format!("{}: {}", output.status, String::from_utf8_lossy(&output.stderr))),
+    }
+}
