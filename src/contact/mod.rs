@@ -11,6 +11,7 @@
 //! | [`segment`] | the form that the branches of most laws have: `F = c0 + c1 z + c2 z^1.5 + c3 z^2` |
 //! | [`loading`] | one file for each loading law |
 //! | [`unloading`] | one file for each unloading law |
+//! | [`strength`] | what hardening and Poisson's ratio change in the law `brinell` |
 //! | [`path`] | the indentation, summed without loss |
 //! | [`dual`] | slopes of long formulas |
 //! | [`quadrature`] | work and time where there is no closed form |
@@ -38,6 +39,7 @@ pub mod path;
 pub mod piece;
 pub mod quadrature;
 pub mod segment;
+pub mod strength;
 pub mod unloading;
 pub mod validity;
 pub(crate) mod words;

@@ -17,6 +17,8 @@ pub enum Parameter {
     TargetPoissonsRatio,
     /// `target.yield_strength` \[Pa\]; infinite for an elastic contact.
     TargetYieldStrength,
+    /// `target.hardening_modulus` \[Pa\]; zero for a target that doesn't harden.
+    TargetHardeningModulus,
     /// `restitution`, which the damping of a rate-dependent law is made for.
     Restitution,
     /// `effective_mass` \[kg\].

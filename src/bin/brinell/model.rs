@@ -80,6 +80,12 @@ impl AnyModel {
         }
     }
 
+    /// The model with a target of this hardening modulus [Pa]; `None` if its law has none.
+    pub fn with_hardening(&self, hardening_modulus: f64) -> Option<AnyModel> {
+        let model = self.elastoplastic().filter(|model| model.loading.strengthened(hardening_modulus).is_some())?;
+        Some(AnyModel::Elastoplastic(strengthened(model, hardening_modulus)))
+    }
+
     /// The stiffness of the way back from `indentation` [m]; of a rate-dependent law that of its elastic part [N/m].
     pub fn stiffness(&self, indentation: f64) -> f64 {
         match self {
@@ -126,6 +132,16 @@ impl AnyModel {
             }
         }
     }
+}
+
+/// The model with the form of its laws for targets of this hardening modulus [Pa] and any Poisson's ratio, if they have one.
+pub fn strengthened(
+    model: &Model<AnyLoading, AnyUnloading>,
+    hardening_modulus: f64,
+) -> Model<AnyLoading, AnyUnloading> {
+    let Some(loading) = model.loading.strengthened(hardening_modulus) else { return *model };
+    let unloading = model.unloading.strengthened(hardening_modulus).unwrap_or(model.unloading);
+    Model { loading, unloading, ..*model }
 }
 
 /// Some of the `points`, with the first and the last.

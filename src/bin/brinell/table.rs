@@ -161,6 +161,9 @@ pub struct Law {
     _rust: IgnoredAny,
     #[serde(default, rename = "guarded")]
     _guarded: IgnoredAny,
+    /// Whether it has a form for targets that harden.
+    #[serde(default)]
+    pub strengthened: bool,
     pub title: String,
     pub formulas: Vec<String>,
     pub notes: String,

@@ -3,6 +3,9 @@
 // `pub mod big_alabo; pub use big_alabo::BigAlabo;` and so on, of every law in modelDescription/laws.toml; see build/laws.rs
 include!(concat!(env!("OUT_DIR"), "/loading_laws.rs"));
 
+pub mod strengthened;
+pub use strengthened::Strengthened;
+
 use super::history::{LARGEST_INDENTATION, Regime};
 use super::material::{Pair, YieldPoint};
 use super::segment::Segment;
@@ -28,6 +31,14 @@ pub trait Loading {
     /// Whether every piece of the curve is a segment, and none a tangent.
     fn is_segmented(&self) -> bool {
         true
+    }
+
+    /// Whether a segment of the law can have a quadratic term.
+    fn has_squares() -> bool
+    where
+        Self: Sized,
+    {
+        false
     }
 
     /// The first indentation above `indentation` where the curve or its slope is not smooth \[m\].

@@ -4,8 +4,10 @@
 //! `d_e = d_m - d_f`, and with it the whole path. Reloading follows the same path back.
 
 pub mod guarded;
+pub mod strengthened;
 
 pub use guarded::Guarded;
+pub use strengthened::Strengthened;
 
 // `pub mod contact_radius; pub use contact_radius::ContactRadius;` and so on, of every law in modelDescription/laws.toml; see
 // build/laws.rs

@@ -8,12 +8,13 @@ use crate::table::{self, Causality, Variable};
 use std::fmt::Write;
 
 /// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, a contact that never yields,
-/// no damping.
-const ABSENT: [(&str, f64); 6] = [
+/// a target that doesn't harden, no damping.
+const ABSENT: [(&str, f64); 7] = [
     ("impactor.youngs_modulus", f64::INFINITY),
     ("impactor.poissons_ratio", 0.0),
     ("target.radius", f64::INFINITY),
     ("target.yield_strength", f64::INFINITY),
+    ("target.hardening_modulus", 0.0),
     ("restitution", 1.0),
     ("effective_mass", f64::INFINITY),
 ];

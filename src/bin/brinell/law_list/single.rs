@@ -2,7 +2,7 @@
 
 use super::chart::Chart;
 use super::text::{self, entry};
-use super::{List, all};
+use super::{List, all, materials};
 use crate::curve;
 use crate::files::deliver;
 use crate::laws::{self, Choice};
@@ -111,6 +111,9 @@ impl Found<'_> {
             text += &entry("reference", law.reference);
             text.push('\n');
             text += &text::measured(std::slice::from_ref(law));
+            if !law.materials.is_empty() {
+                text += &format!("\n{}", materials::text(&law.materials));
+            }
         }
         if let Some(choice) = choice
             && let Some(chart) = chart(choice)

@@ -31,6 +31,8 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         None => laws::check_loading(&file.law, &contacts)?,
     };
     let elastic = matches!(loading.1, AnyLoading::Hertz(_));
+    let hardens = damped.is_none() && table::loading_law(loading.0).strengthened;
+    contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
     let unloading = laws::check_unloading(&file.law, loading.0, elastic)?;
     laws::check_parameters(&file.law, &loading, unloading.as_ref())?;
     let passivity_guard = laws::check_guard(file.law.passivity_guard.as_ref(), unloading)?;

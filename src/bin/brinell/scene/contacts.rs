@@ -6,6 +6,7 @@ use super::{Group, Mistake, Parameter};
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS, VARIABLES};
 use brinell::contact::Surface;
+use brinell::contact::loading::AnyLoading;
 use std::collections::HashSet;
 use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
@@ -17,7 +18,7 @@ const MOST_CONTACTS: i64 = 100_000;
 const MOST_VALUES: usize = 10_000;
 
 /// What the contacts of a scene may give themselves, in the order of the table.
-const PROPERTIES: [&str; 11] = [
+const PROPERTIES: [&str; 12] = [
     "impactor.radius",
     "impactor.youngs_modulus",
     "impactor.poissons_ratio",
@@ -25,6 +26,7 @@ const PROPERTIES: [&str; 11] = [
     "target.youngs_modulus",
     "target.poissons_ratio",
     "target.yield_strength",
+    HARDENING,
     DENSITY,
     IMPACTOR_DENSITY,
     MASS,
@@ -33,6 +35,9 @@ const PROPERTIES: [&str; 11] = [
 
 /// A property that the scene gives for all contacts elsewhere.
 const MASS: &str = "effective_mass";
+
+/// What only some laws know.
+const HARDENING: &str = "target.hardening_modulus";
 
 /// Properties that are no variables of the FMU.
 const DENSITY: &str = "target.density";
@@ -51,6 +56,7 @@ impl Numbers {
         target: &Target,
         mass: Option<&Spanned<f64>>,
         initial_gap: Option<&Spanned<f64>>,
+        shared: Option<&Numbers>,
     ) -> Result<Numbers, Mistake> {
         let find = |name: &Option<Spanned<String>>| match name {
             Some(name) => Ok(Some((find_material(name)?, name.span()))),
@@ -63,14 +69,17 @@ impl Numbers {
         };
         let of_material = |value| from(&of_target, value);
         let of_ball = |value| from(&of_impactor, value);
+        let modulus = target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus));
+        let hardening = hardening(target, modulus.as_ref().or_else(|| shared?.get("target.youngs_modulus")))?;
         let given = [
             impactor.radius.clone(),
             impactor.youngs_modulus.clone().or_else(|| of_ball(|material| material.youngs_modulus)),
             impactor.poissons_ratio.clone().or_else(|| of_ball(|material| material.poissons_ratio)),
             target.radius.clone(),
-            target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus)),
+            modulus,
             target.poissons_ratio.clone().or_else(|| of_material(|material| material.poissons_ratio)),
             target.yield_strength.clone().or_else(|| of_material(|material| material.yield_strength)),
+            hardening,
             target.density.clone().or_else(|| of_material(|material| material.density)),
             impactor.density.clone().or_else(|| of_ball(|material| material.density)),
             mass.cloned(),
@@ -121,10 +130,12 @@ impl Contacts {
         let standard = (Impactor::default(), Target::default());
         let no_gap = Spanned::new(0..0, 0.0);
         let gap = file.fmu.initial_gap.as_ref().unwrap_or(&no_gap);
-        let shared = Numbers::of(impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1), None, Some(gap))?;
+        let shared =
+            Numbers::of(impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1), None, Some(gap), None)?;
         check_numbers(&shared, "")?;
         let surface = target.and_then(|target| target.surface);
-        let contacts = Contacts { shared, given: given(file, surface)? };
+        let given = given(file, surface, &shared)?;
+        let contacts = Contacts { shared, given };
         for index in 0..contacts.given.len() {
             match contacts.given[index].name {
                 Some(_) => contacts.check_complete(index)?,
@@ -156,6 +167,16 @@ impl Contacts {
         let Some(index) = (0..self.given.len()).find(elastic) else { return Ok(()) };
         let message = format!("law.loading = \"{law}\" needs target.yield_strength (or a material) for every contact");
         Err(Mistake(self.given[index].span.clone(), self.said(index, &message)))
+    }
+
+    /// Refuses a target that hardens for the law `name`, if that has no such form.
+    pub fn check_hardening(&self, name: &str, hardens: bool) -> Result<(), Mistake> {
+        let given = (0..self.given.len()).find_map(|index| Some((index, self.number(index, HARDENING)?)));
+        let Some((index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
+        let laws = AnyLoading::ALL.iter().filter(|(name, _)| table::loading_law(name).strengthened);
+        let laws = laws.map(|(name, _)| *name).collect::<Vec<_>>().join("\", \"");
+        let message = format!("{HARDENING} has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"");
+        Err(Mistake(modulus.span(), self.said(index, &message)))
     }
 
     /// For a law that has no yield strength.
@@ -277,6 +298,27 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
     })
 }
 
+/// The hardening modulus of a target with this Young's modulus: the given one, or that of a tangent modulus `E_t = H/(1 + H/E)`.
+fn hardening(target: &Target, modulus: Option<&Spanned<f64>>) -> Result<Option<Spanned<f64>>, Mistake> {
+    let Some(tangent) = &target.tangent_modulus else { return Ok(target.hardening_modulus.clone()) };
+    if target.hardening_modulus.is_some() {
+        let message = "target.tangent_modulus and target.hardening_modulus say the same: give one of them";
+        return Err(Mistake(tangent.span(), message.into()));
+    }
+    let given = *tangent.get_ref();
+    let Some(modulus) = modulus.map(|modulus| *modulus.get_ref()) else {
+        let message = "target.tangent_modulus needs target.youngs_modulus, or a material";
+        return Err(Mistake(tangent.span(), message.into()));
+    };
+    if !(given >= 0.0 && given < modulus) {
+        let message = format!(
+            "target.tangent_modulus = {given:?} is out of range: allowed is 0.0 to below youngs_modulus = {modulus:?} Pa"
+        );
+        return Err(Mistake(tangent.span(), message));
+    }
+    Ok(Some(Spanned::new(tangent.span(), given / (1.0 - given / modulus))))
+}
+
 /// Refuses a number out of range; `owner` comes before its name in the message.
 fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
     numbers.0.iter().try_for_each(|(name, value)| match *name {
@@ -286,7 +328,7 @@ fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
 }
 
 /// What each contact gives, where the others have `surface`.
-fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistake> {
+fn given(file: &File, surface: Option<SurfaceName>, shared: &Numbers) -> Result<Vec<Given>, Mistake> {
     let surface_of = |own: Option<SurfaceName>| own.or(surface).map_or(Surface::Dented, Surface::from);
     let Some(contacts) = &file.contact else {
         let (own, surface) = (Numbers(Vec::new()), surface_of(None));
@@ -313,7 +355,7 @@ fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistak
                 format!("with contact `{text}` there are {total} contacts in all: allowed are {MOST_CONTACTS}");
             return Err(Mistake(span, message));
         }
-        let own = Numbers::of(impactor, target, effective_mass.as_ref(), initial_gap.as_ref())?;
+        let own = Numbers::of(impactor, target, effective_mass.as_ref(), initial_gap.as_ref(), Some(shared))?;
         check_numbers(&own, &format!("{text}."))?;
         let surface = surface_of(target.surface);
         let (count, per_contact) = (count.map(|count| count as usize), parameters_per_contact.clone());

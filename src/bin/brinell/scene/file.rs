@@ -39,6 +39,8 @@ pub struct Target {
     pub youngs_modulus: Option<Spanned<f64>>,
     pub poissons_ratio: Option<Spanned<f64>>,
     pub yield_strength: Option<Spanned<f64>>,
+    pub hardening_modulus: Option<Spanned<f64>>,
+    pub tangent_modulus: Option<Spanned<f64>>,
     pub density: Option<Spanned<f64>>,
     pub radius: Option<Spanned<f64>>,
     pub surface: Option<SurfaceName>,

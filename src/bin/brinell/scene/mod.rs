@@ -9,12 +9,12 @@ mod laws;
 mod mistakes;
 mod plausible;
 
-use crate::model::AnyModel;
+use crate::model::{AnyModel, strengthened};
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Model, Surface};
+use brinell::contact::{Model, Surface, strength};
 use std::path::{Path, PathBuf};
 
 const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
@@ -230,10 +230,34 @@ impl Scene {
     /// The contacts of `group` by their elastoplastic laws; an elastic contact never uses its unloading law.
     pub fn model_of(&self, group: usize) -> Model<AnyLoading, AnyUnloading> {
         let pair = self.pair_of(group).expect("a checked scene has bodies that fit");
+        let unloading = self.plain_unloading();
+        let model = Model { pair, loading: self.loading.1, unloading, surface: self.contacts[group].surface };
+        strengthened(&model, self.hardening_modulus(group))
+    }
+
+    /// The unloading law as it is for a target that doesn't harden.
+    pub fn plain_unloading(&self) -> AnyUnloading {
         let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
         let guarded = if self.passivity_guard { unloading.guarded() } else { None };
-        let unloading = guarded.unwrap_or(unloading);
-        Model { pair, loading: self.loading.1, unloading, surface: self.contacts[group].surface }
+        guarded.unwrap_or(unloading)
+    }
+
+    /// Hardening modulus of the target of `group` [Pa].
+    pub fn hardening_modulus(&self, group: usize) -> f64 {
+        self.group_value(group, "target.hardening_modulus").unwrap_or(0.0)
+    }
+
+    /// Whether the FMU needs the form of its laws for targets that harden and for their Poisson's ratio: it has a hardening modulus,
+    /// or a Poisson's ratio that is another than that of the laws, or may be.
+    pub fn is_strengthened(&self) -> bool {
+        let form = self.damped.is_none() && self.loading.1.strengthened(0.0).is_some();
+        let all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
+        let needs = |parameter: &Parameter| match parameter.name {
+            "target.hardening_modulus" => true,
+            "target.poissons_ratio" => parameter.settable || parameter.value != strength::POISSONS_RATIO,
+            _ => false,
+        };
+        form && all.into_iter().any(needs)
     }
 }
 
