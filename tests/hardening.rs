@@ -141,7 +141,7 @@ fn what_makes_no_sense_is_refused() {
     );
     refused_text(
         &scene(&target("hardening_modulus = §1e9"), "loading = \"big-alabo\"", ""),
-        &["target.hardening_modulus has no effect on law.loading = \"big-alabo\"", "\"brinell\""],
+        &["the hardening of the target has no effect on law.loading = \"big-alabo\"", "\"brinell\""],
     );
     refused_text(
         &scene(&target("tangent_modulus = §1e9"), "loading = \"tsuji\"\nrestitution = 0.7", ""),
@@ -178,4 +178,63 @@ fn laws_shows_the_error_for_each_material() {
         assert!(text.contains("nu = 0.45") && text.contains("H = 0.05 E"), "{text}");
         assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     }
+}
+
+#[test]
+fn a_power_law_is_the_nearest_line_over_the_strains_of_the_impact() {
+    let folder = empty_folder();
+    let text = |impact: &str| {
+        format!(
+            "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n\
+             power_law = {{ coefficient = 700e6, exponent = 0.2 }}\n[law]\n{BRINELL}\n[impact]\n{impact}\n"
+        )
+    };
+    let predicted = |text: &str, arguments: &[&str]| {
+        write(folder.path(), text);
+        let all = ["predict", "scene.toml", "--json"].into_iter().chain(arguments.iter().copied());
+        run(folder.path(), all).with_status(0).json()
+    };
+    for speed in ["0.5", "5.0"] {
+        let answer = predicted(&text(&format!("mass = 4.11e-3\nspeed = {speed}")), &[]);
+        let of = |name: &str| answer["strength"]["line"][name].as_f64().unwrap();
+        let (strain, strength, modulus) = (of("strain"), of("yield_strength"), of("hardening_modulus"));
+        let radius = answer["laws"][0]["largest_contact_radius"].as_f64().unwrap();
+        assert!((strain / (0.2 * radius / 5e-3) - 1.0).abs() < 1e-9, "{strain} and {radius}");
+        // no other line is nearer: the residual is orthogonal to 1 and to the strain
+        let (mut constant, mut linear) = (0.0, 0.0);
+        let points = 200_000;
+        for point in 0..points {
+            let strain = strain * (f64::from(point) + 0.5) / f64::from(points);
+            let residual = 700e6 * strain.powf(0.2) - strength - modulus * strain;
+            constant += residual / f64::from(points);
+            linear += residual * strain / f64::from(points);
+        }
+        assert!(constant.abs() < 1e-5 * strength && linear.abs() < 1e-5 * strength * strain, "{constant} {linear}");
+        let note = answer["notes"].to_string();
+        assert!(note.contains("Tabor") && note.contains("half or twice"), "{note}");
+        // an impact of the command line has its own line
+        let other = predicted(&text("mass = 4.11e-3\nspeed = 1.0"), &["--speed", speed]);
+        assert_eq!(other["laws"][0]["restitution"], answer["laws"][0]["restitution"]);
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["check", "unit.fmu"]).with_status(0);
+    }
+    let target = "poissons_ratio = 0.3\n";
+    let law = "power_law = { coefficient = 700e6, exponent = 0.2 }";
+    refused_text(
+        &scene(&format!("{target}{law}"), BRINELL, "").replace("yield_strength = 300e6", "yield_strength = §300e6"),
+        &["target.yield_strength and target.power_law say the same"],
+    );
+    let alone = scene(&format!("{target}{law}"), BRINELL, "").replace("yield_strength = 300e6\n", "");
+    refused_text(
+        &alone.replace("exponent = 0.2", "exponent = §1.0"),
+        &["target.power_law.exponent = 1.0 is out of range", "0.0 to 0.9"],
+    );
+    refused_text(
+        &alone.replace(law, &format!("§{law}")).replace(BRINELL, "loading = \"johnson\"").replacen(
+            "§power_law = ",
+            "power_law = §",
+            1,
+        ),
+        &["the hardening of the target has no effect on law.loading = \"johnson\""],
+    );
 }

@@ -2,6 +2,9 @@
 
 use super::checks::{check_identifier, check_limits, check_range};
 use super::file::{Contact, File, Impactor, SurfaceName, Target};
+use super::hardening::{self, Flow};
+use super::power_law::{self, PowerLaw};
+use super::rate::{self, Rate};
 use super::{Group, Mistake, Parameter};
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS, VARIABLES};
@@ -70,7 +73,8 @@ impl Numbers {
         let of_material = |value| from(&of_target, value);
         let of_ball = |value| from(&of_impactor, value);
         let modulus = target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus));
-        let hardening = hardening(target, modulus.as_ref().or_else(|| shared?.get("target.youngs_modulus")))?;
+        let youngs_modulus = modulus.as_ref().or_else(|| shared?.get("target.youngs_modulus"));
+        let Flow { yield_strength, hardening_modulus } = hardening::of(target, youngs_modulus)?;
         let given = [
             impactor.radius.clone(),
             impactor.youngs_modulus.clone().or_else(|| of_ball(|material| material.youngs_modulus)),
@@ -78,8 +82,8 @@ impl Numbers {
             target.radius.clone(),
             modulus,
             target.poissons_ratio.clone().or_else(|| of_material(|material| material.poissons_ratio)),
-            target.yield_strength.clone().or_else(|| of_material(|material| material.yield_strength)),
-            hardening,
+            yield_strength.or_else(|| of_material(|material| material.yield_strength)),
+            hardening_modulus,
             target.density.clone().or_else(|| of_material(|material| material.density)),
             impactor.density.clone().or_else(|| of_ball(|material| material.density)),
             mass.cloned(),
@@ -119,6 +123,11 @@ struct Given {
 /// The contacts of a scene.
 pub struct Contacts {
     shared: Numbers,
+    /// The hardening of all targets by a power law.
+    pub power_law: Option<PowerLaw>,
+    /// How the strength of all targets grows with the strain rate.
+    pub rate: Option<Rate>,
+    rate_span: Range<usize>,
     given: Vec<Given>,
 }
 
@@ -135,7 +144,11 @@ impl Contacts {
         check_numbers(&shared, "")?;
         let surface = target.and_then(|target| target.surface);
         let given = given(file, surface, &shared)?;
-        let contacts = Contacts { shared, given };
+        let power_law = target.and_then(|target| target.power_law.as_ref()).map(power_law::check).transpose()?;
+        let rate_table = target.and_then(|target| target.rate.as_ref());
+        let rate = rate_table.map(rate::check).transpose()?;
+        let rate_span = rate_table.map_or(0..0, Spanned::span);
+        let contacts = Contacts { shared, power_law, rate, rate_span, given };
         for index in 0..contacts.given.len() {
             match contacts.given[index].name {
                 Some(_) => contacts.check_complete(index)?,
@@ -169,13 +182,23 @@ impl Contacts {
         Err(Mistake(self.given[index].span.clone(), self.said(index, &message)))
     }
 
+    /// Refuses a strain rate for a law without strength.
+    pub fn check_rate(&self, has_no_strength: bool) -> Result<(), Mistake> {
+        if self.rate.is_none() || !has_no_strength {
+            return Ok(());
+        }
+        let message = "target.rate has no effect: the law has no yield strength";
+        Err(Mistake(self.rate_span.clone(), message.into()))
+    }
+
     /// Refuses a target that hardens for the law `name`, if that has no such form.
     pub fn check_hardening(&self, name: &str, hardens: bool) -> Result<(), Mistake> {
         let given = (0..self.given.len()).find_map(|index| Some((index, self.number(index, HARDENING)?)));
         let Some((index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
         let laws = AnyLoading::ALL.iter().filter(|(name, _)| table::loading_law(name).strengthened);
         let laws = laws.map(|(name, _)| *name).collect::<Vec<_>>().join("\", \"");
-        let message = format!("{HARDENING} has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"");
+        let message =
+            format!("the hardening of the target has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"");
         Err(Mistake(modulus.span(), self.said(index, &message)))
     }
 
@@ -298,27 +321,6 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
     })
 }
 
-/// The hardening modulus of a target with this Young's modulus: the given one, or that of a tangent modulus `E_t = H/(1 + H/E)`.
-fn hardening(target: &Target, modulus: Option<&Spanned<f64>>) -> Result<Option<Spanned<f64>>, Mistake> {
-    let Some(tangent) = &target.tangent_modulus else { return Ok(target.hardening_modulus.clone()) };
-    if target.hardening_modulus.is_some() {
-        let message = "target.tangent_modulus and target.hardening_modulus say the same: give one of them";
-        return Err(Mistake(tangent.span(), message.into()));
-    }
-    let given = *tangent.get_ref();
-    let Some(modulus) = modulus.map(|modulus| *modulus.get_ref()) else {
-        let message = "target.tangent_modulus needs target.youngs_modulus, or a material";
-        return Err(Mistake(tangent.span(), message.into()));
-    };
-    if !(given >= 0.0 && given < modulus) {
-        let message = format!(
-            "target.tangent_modulus = {given:?} is out of range: allowed is 0.0 to below youngs_modulus = {modulus:?} Pa"
-        );
-        return Err(Mistake(tangent.span(), message));
-    }
-    Ok(Some(Spanned::new(tangent.span(), given / (1.0 - given / modulus))))
-}
-
 /// Refuses a number out of range; `owner` comes before its name in the message.
 fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
     numbers.0.iter().try_for_each(|(name, value)| match *name {
@@ -355,6 +357,7 @@ fn given(file: &File, surface: Option<SurfaceName>, shared: &Numbers) -> Result<
                 format!("with contact `{text}` there are {total} contacts in all: allowed are {MOST_CONTACTS}");
             return Err(Mistake(span, message));
         }
+        hardening::check_contact(&text, target)?;
         let own = Numbers::of(impactor, target, effective_mass.as_ref(), initial_gap.as_ref(), Some(shared))?;
         check_numbers(&own, &format!("{text}."))?;
         let surface = surface_of(target.surface);

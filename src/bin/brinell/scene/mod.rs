@@ -5,9 +5,12 @@ mod checks;
 mod contacts;
 mod coupling;
 mod file;
+mod hardening;
 mod laws;
 mod mistakes;
 mod plausible;
+mod power_law;
+mod rate;
 
 use crate::model::{AnyModel, strengthened};
 use brinell::contact::damped::{self, AnyDamped};
@@ -16,6 +19,9 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Model, Surface, strength};
 use std::path::{Path, PathBuf};
+
+pub use power_law::PowerLaw;
+pub use rate::{InImpact, QuasiStatic, Rate, STEPS, TABOR};
 
 const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
 
@@ -40,6 +46,12 @@ pub struct Scene {
     pub passivity_guard: bool,
     /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law asks for it.
     pub yield_strength: Option<f64>,
+    /// Hardening by a power law, for which the yield strength and the hardening modulus stand.
+    pub power_law: Option<PowerLaw>,
+    /// How the strength grows with the strain rate.
+    pub rate: Option<Rate>,
+    /// The hardening that the scene gives for each group; a power law or a rate puts another in its place.
+    pub quasi_static: Vec<QuasiStatic>,
     /// How the unit moves the bodies through a step by their mass, if it does.
     pub coupling: Option<Coupling>,
     pub impact: Impact,
