@@ -1,6 +1,7 @@
 //! `brinell laws`: the laws, each measured when the command runs.
 
 mod chart;
+mod experiment;
 mod materials;
 mod single;
 mod text;
@@ -36,15 +37,21 @@ pub struct Arguments {
     /// Draw instead: the curve of the law, or the loading curves of all laws over Hertz's force
     #[arg(short, long, value_name = "FILE.svg")]
     pub output: Option<PathBuf>,
+    /// Set every law, or the one that is named, beside measured rebounds and dents
+    #[arg(long, conflicts_with = "output")]
+    pub experiment: bool,
 }
 
 /// The command: lists the laws, shows one, or draws curves into a file.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
-    let Arguments { name, output } = arguments;
+    let Arguments { name, output, experiment } = arguments;
     let output = output.as_deref();
     if let Some(path) = output {
         ending(output, &["svg"]).map_err(WrongCall)?;
         files::check_goal(path)?;
+    }
+    if *experiment {
+        return experiment::run(name.as_deref(), as_json);
     }
     let scene = Scene::default_scene()?;
     if let Some(name) = name {
