@@ -12,8 +12,13 @@ pub const TABLE: &str = "modelDescription/laws.toml";
 
 /// The kinds of laws, named after their folders and their entries.
 const KINDS: [Kind; 3] = [
-    Kind { name: "loading", title: "A loading law", law: LAW_OF_LOADING, others: &["mod", "any"] },
-    Kind { name: "unloading", title: "An unloading law", law: LAW_OF_UNLOADING, others: &["mod", "any", "guarded"] },
+    Kind { name: "loading", title: "A loading law", law: LAW_OF_LOADING, others: &["mod", "any", "strengthened"] },
+    Kind {
+        name: "unloading",
+        title: "An unloading law",
+        law: LAW_OF_UNLOADING,
+        others: &["mod", "any", "guarded", "strengthened"],
+    },
     Kind { name: "damped", title: "A rate-dependent law", law: LAW_OF_DAMPED, others: &[] },
 ];
 
@@ -63,6 +68,8 @@ struct Law {
     rust: String,
     /// Whether the unloading law exists with the passivity guard.
     guarded: bool,
+    /// Whether the law has a form for targets that harden, and with any Poisson's ratio.
+    strengthened: bool,
 }
 
 impl Law {
@@ -133,7 +140,7 @@ fn read(root: &Path, kind: &Kind) -> Vec<Law> {
         if line.starts_with('[') {
             inside = line == format!("[[{}]]", kind.name);
             if inside {
-                laws.push(Law { name: String::new(), rust: String::new(), guarded: false });
+                laws.push(Law { name: String::new(), rust: String::new(), guarded: false, strengthened: false });
             }
         }
         let (Some((key, value)), Some(law)) = (line.split_once(" = "), laws.last_mut().filter(|_| inside)) else {
@@ -143,6 +150,7 @@ fn read(root: &Path, kind: &Kind) -> Vec<Law> {
             "name" => law.name = value.trim_matches('"').into(),
             "rust" => law.rust = value.trim_matches('"').into(),
             "guarded" => law.guarded = value == "true",
+            "strengthened" => law.strengthened = value == "true",
             _ => {}
         }
     }
@@ -195,6 +203,12 @@ fn list(kind: &Kind, laws: &[Law]) -> String {
         holds: format!("Guarded<{law}>"),
         see: "Guarded".into(),
     }));
+    let strengthened: Vec<&str> = laws.iter().filter(|law| law.strengthened).map(Law::type_name).collect();
+    variants.extend(strengthened.iter().map(|law| Variant {
+        name: format!("Strengthened{law}"),
+        holds: "Strengthened".into(),
+        see: "Strengthened".into(),
+    }));
     let declared = |Variant { name, holds, see }: &Variant| format!("    /// See [`{see}`].\n    {name}({holds}),\n");
     let arm = |variant: &Variant| format!("            {any}::{}(law) => law,\n", variant.name);
     let named = |law: &Law| format!("        ({:?}, {any}::{}({})),\n", law.name, law.type_name(), law.rust);
@@ -213,7 +227,29 @@ fn list(kind: &Kind, laws: &[Law]) -> String {
         laws.iter().map(named).collect::<String>(),
         variants.iter().map(arm).collect::<String>(),
     );
-    text + &guarding(&any, &guarded)
+    text + &guarding(&any, &guarded) + &strengthening(&any, &strengthened)
+}
+
+/// The way from a law to its form for other materials, where a kind has some.
+fn strengthening(any: &str, strengthened: &[&str]) -> String {
+    if strengthened.is_empty() {
+        return String::new();
+    }
+    let arm = |law: &&str| {
+        let form = "Strengthened { law, hardening_modulus }";
+        let again = "Strengthened { hardening_modulus, ..form }";
+        format!(
+            "            {any}::{law}(law) => Some({any}::Strengthened{law}({form})),\n            \
+             {any}::Strengthened{law}(form) => Some({any}::Strengthened{law}({again})),\n"
+        )
+    };
+    format!(
+        "\nimpl {any} {{\n    /// The law with the Poisson's ratio of the target and this hardening modulus \\[Pa\\]; none for a \
+         law that has no such form.\n    \
+         pub fn strengthened(self, hardening_modulus: f64) -> Option<{any}> {{\n        match self {{\n{}            \
+         _ => None,\n        }}\n    }}\n}}\n",
+        strengthened.iter().map(arm).collect::<String>()
+    )
 }
 
 /// The function from a law to its guarded form, for a kind that has guarded laws.

@@ -38,6 +38,7 @@ pub mod path;
 pub mod piece;
 pub mod quadrature;
 pub mod segment;
+pub mod strength;
 pub mod unloading;
 pub mod validity;
 pub(crate) mod words;

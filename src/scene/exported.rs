@@ -94,6 +94,7 @@ impl Scene for Exported {
             Parameter::TargetYoungsModulus => values[1],
             Parameter::TargetPoissonsRatio => values[2],
             Parameter::TargetYieldStrength => values[3],
+            Parameter::TargetHardeningModulus => 0.0,
             Parameter::Restitution => 1.0,
             Parameter::EffectiveMass => f64::INFINITY,
             Parameter::InitialGap => values[4],

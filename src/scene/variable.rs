@@ -17,7 +17,9 @@ pub enum Parameter {
     TargetPoissonsRatio,
     /// `target.yield_strength` \[Pa\]; infinite for an elastic contact.
     TargetYieldStrength,
-    /// `restitution` \[-\], for which the damping of a rate-dependent law is computed.
+    /// `target.hardening_modulus` \[Pa\]; zero for a target that doesn't harden.
+    TargetHardeningModulus,
+    /// `restitution`, which the damping of a rate-dependent law is made for.
     Restitution,
     /// `effective_mass` \[kg\].
     EffectiveMass,

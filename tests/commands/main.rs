@@ -335,3 +335,43 @@ fn a_reader_that_leaves_early_is_no_fault() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(0), ""));
 }
+
+/// What `brinell` says of them was computed independently of the program: `experiment/README.md`.
+#[test]
+fn every_law_is_set_beside_the_measured_rebounds_and_dents() {
+    let folder = empty_folder();
+    let experiment = run(folder.path(), ["laws", "--experiment", "--json"]).with_status(0).json();
+    let list = |value: &Value| value.as_array().unwrap().iter().map(number).collect::<Vec<_>>();
+    for (got, expected) in list(&experiment["restitution"]).into_iter().zip([0.574, 0.759, 0.845]) {
+        assert!((got - expected).abs() < 1e-3, "{got} instead of {expected}");
+    }
+    let law = |name: &str| {
+        let found = experiment["laws"].as_array().unwrap().iter().find(|law| law["name"] == name);
+        found.unwrap_or_else(|| panic!("no {name} in {experiment}")).clone()
+    };
+    for (name, expected) in [("brinell", [0.517, 0.684, 0.759]), ("big-alabo", [0.562, 0.808, 0.867])] {
+        for (got, expected) in list(&law(name)["restitution"]).into_iter().zip(expected) {
+            assert!((got - expected).abs() < 2e-3, "{name}: {got} instead of {expected}");
+        }
+    }
+    for (got, expected) in list(&law("brinell")["strength_factor"]).into_iter().zip([1.29, 1.33, 1.39]) {
+        assert!((got - expected).abs() < 0.02, "{got} instead of {expected}");
+    }
+    let yielding = laws::entries("loading").filter(|law| laws::text(law, "name") != "hertz").count();
+    assert_eq!(experiment["laws"].as_array().unwrap().len(), yielding);
+    // one constant for all hardnesses, and what the literature has
+    let rates = experiment["rates"].as_array().unwrap();
+    assert!(number(&rates[2]["worst_restitution"]).abs() < 0.05, "{rates:?}");
+    for (rate, [low, high]) in rates.iter().zip([[1.09, 1.13], [2.9, 3.6], [1.25, 1.45]]) {
+        for factor in list(&rate["factor"]) {
+            assert!(factor > low && factor < high, "{rate}");
+        }
+    }
+    let text = run(folder.path(), ["laws", "--experiment"]).with_status(0).out;
+    assert!(text.contains("measured") && text.contains("printed") && text.contains("brinell/brinell"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    let alone = run(folder.path(), ["laws", "brinell", "--experiment", "--json"]).with_status(0).json();
+    assert_eq!(alone["laws"][0], law("brinell"));
+    let refused = run(folder.path(), ["laws", "hertz", "--experiment"]).with_status(2).err;
+    assert!(refused.contains("unknown law that yields `hertz`") && refused.contains("`brinell`"), "{refused}");
+}

@@ -215,6 +215,7 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
             Parameter::TargetYoungsModulus => choice.youngs_modulus * 1.1f64.powi(group as i32),
             Parameter::TargetPoissonsRatio => choice.poissons_ratio,
             Parameter::TargetYieldStrength => values[1],
+            Parameter::TargetHardeningModulus => 0.0,
             Parameter::Restitution => choice.restitution,
             Parameter::EffectiveMass => choice.effective_mass,
             Parameter::InitialGap => values[2],

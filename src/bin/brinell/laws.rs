@@ -1,6 +1,6 @@
 //! Selection of laws by name.
 
-use crate::model::{AnyModel, Dampings};
+use crate::model::{AnyModel, Dampings, strengthened};
 use crate::nearest::unknown;
 use crate::pairing;
 use crate::scene::Scene;
@@ -122,6 +122,7 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let yield_strength = scene.yield_strength.ok_or_else(|| UnknownLaw::NoYieldStrength(name.into()))?;
     let pair = Pair { yield_strength, ..scene.model().pair };
     let model = Model { pair, loading, unloading, surface: scene.contacts[0].surface };
+    let model = strengthened(&model, scene.hardening_modulus(0));
     let laws = format!("{loading_name}/{chosen}");
     Ok(Choice { name: name.into(), laws, model: AnyModel::Elastoplastic(model) })
 }

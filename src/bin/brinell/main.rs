@@ -10,6 +10,7 @@ mod constants;
 mod curve;
 mod documentation;
 mod energy;
+mod experiment;
 mod export;
 mod files;
 mod guard;

@@ -80,7 +80,13 @@ impl AnyModel {
         }
     }
 
-    /// Stiffness of unloading from `indentation` [m]; for a rate-dependent law, the stiffness of its elastic part [N/m].
+    /// The model with a target of this hardening modulus [Pa]; `None` if its law has none.
+    pub fn with_hardening(&self, hardening_modulus: f64) -> Option<AnyModel> {
+        let model = self.elastoplastic().filter(|model| model.loading.strengthened(hardening_modulus).is_some())?;
+        Some(AnyModel::Elastoplastic(strengthened(model, hardening_modulus)))
+    }
+
+    /// The stiffness of the way back from `indentation` [m]; of a rate-dependent law that of its elastic part [N/m].
     pub fn stiffness(&self, indentation: f64) -> f64 {
         match self {
             AnyModel::Elastoplastic(model) => model.unloading_segment(indentation, indentation).stiffness(indentation),
@@ -128,7 +134,17 @@ impl AnyModel {
     }
 }
 
-/// A selection of the `points`, including the first and the last.
+/// The model with the form of its laws for targets of this hardening modulus [Pa] and any Poisson's ratio, if they have one.
+pub fn strengthened(
+    model: &Model<AnyLoading, AnyUnloading>,
+    hardening_modulus: f64,
+) -> Model<AnyLoading, AnyUnloading> {
+    let Some(loading) = model.loading.strengthened(hardening_modulus) else { return *model };
+    let unloading = model.unloading.strengthened(hardening_modulus).unwrap_or(model.unloading);
+    Model { loading, unloading, ..*model }
+}
+
+/// Some of the `points`, with the first and the last.
 fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let last = points.len() - 1;
     (0..=POINTS).map(|point| points[last * point as usize / POINTS as usize]).collect()

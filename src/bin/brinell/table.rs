@@ -205,17 +205,17 @@ static LAWS: LazyLock<Laws> = LazyLock::new(|| {
     toml::from_str(text).expect(PART_OF_THE_PROGRAM)
 });
 
-/// What is said of laws that a scene names under `law.loading`: elastoplastic and rate-dependent ones.
+/// The entries of the laws that a scene names under `law.loading`: elastoplastic and rate-dependent ones.
 pub fn loading_laws() -> Vec<&'static Law> {
     LAWS.loading.iter().chain(&LAWS.damped).collect()
 }
 
-/// What is said of the unloading laws.
+/// The entries of the unloading laws.
 pub fn unloading_laws() -> Vec<&'static Law> {
     LAWS.unloading.iter().collect()
 }
 
-/// What is said of the loading law `name`.
+/// The entry of the loading law `name`.
 pub fn loading_law(name: &str) -> &'static Law {
     LAWS.loading.iter().find(|law| law.name == name).expect(PART_OF_THE_PROGRAM)
 }

@@ -1,6 +1,10 @@
 //! The finite-element curves of the folder `truth/`, for comparison.
 
-/// The indentations of the curves are in units of the yield point for this ratio of mean pressure to yield strength.
+mod materials;
+
+pub use materials::{MATERIALS, Material};
+
+/// The truth's unit of indentation is the yield point for this mean pressure over the yield strength.
 pub const YIELD_PRESSURE_FACTOR: f64 = 1.1;
 
 const LOADING: &str = include_str!("../../../truth/loading.csv");
@@ -15,12 +19,17 @@ pub struct Point {
 
 /// The loading curve up to 1000 yield indentations, smoothed to remove the sawtooth of the mesh.
 pub fn loading() -> Vec<Point> {
+    points(LOADING)
+}
+
+/// The points of a loading curve.
+fn points(table: &str) -> Vec<Point> {
     let number = |text: &str| text.parse().expect("the truth is a table of numbers");
     let point = |line: &str| {
         let columns: Vec<&str> = line.split(',').collect();
         Point { x: number(columns[0]), f: number(columns[2]) }
     };
-    LOADING.lines().skip(1).map(point).collect()
+    table.lines().skip(1).map(point).collect()
 }
 
 const UNLOADING: [(f64, &str); 5] = [
@@ -56,16 +65,22 @@ pub fn impacts() -> Vec<Impact> {
 
 /// The impact that unloads from `x` along `rows`.
 fn computed(curve: &[Point], x: f64, rows: &str) -> Impact {
+    let points = path(rows);
+    let back: f64 = points.windows(2).map(|pair| 0.5 * (pair[0].x - pair[1].x) * (pair[0].f + pair[1].f)).sum();
+    let (largest, energy) = loaded(curve, x);
+    let dent = points.last().map_or(x, |point| point.x);
+    Impact { largest, energy, rebound: Some(Rebound { restitution: (back / energy).sqrt(), dent }) }
+}
+
+/// The points of an unloading, from the largest indentation down.
+fn path(rows: &str) -> Vec<Point> {
     let number = |text: &str| text.parse().expect("the truth is a table of numbers");
     let points = rows.lines().filter_map(|line| line.strip_prefix("unload,")).map(|line| {
         let mut columns = line.split(',');
-        [(); 2].map(|()| number(columns.next().unwrap_or_default()))
+        let [x, f] = [(); 2].map(|()| number(columns.next().unwrap_or_default()));
+        Point { x, f }
     });
-    let points: Vec<[f64; 2]> = points.collect();
-    let back: f64 = points.windows(2).map(|pair| 0.5 * (pair[0][0] - pair[1][0]) * (pair[0][1] + pair[1][1])).sum();
-    let (largest, energy) = loaded(curve, x);
-    let dent = points.last().map_or(x, |point| point[0]);
-    Impact { largest, energy, rebound: Some(Rebound { restitution: (back / energy).sqrt(), dent }) }
+    points.collect()
 }
 
 /// Force and work at the indentation `x`: interpolated linearly, with Hertz's law before the first point.

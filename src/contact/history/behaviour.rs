@@ -121,7 +121,7 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
 
     #[inline(always)]
     fn force(&self, _rate: f64) -> f64 {
-        self.force_at::<U>(self.indentation.total())
+        self.force_at::<L, U>(self.indentation.total())
     }
 
     fn damping(&self, _rate: f64) -> f64 {

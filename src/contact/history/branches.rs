@@ -184,7 +184,7 @@ impl History {
             // loading and unloading follow the same curve
             (self.segment.lower, self.segment.upper) = (TOUCHING, largest);
         } else if model.yields_before(point, largest) {
-            let peak = model.peak_at(point, largest, self.force_at::<U>(largest));
+            let peak = model.peak_at(point, largest, self.force_at::<L, U>(largest));
             let path = model.unloading.path(&model.pair, &peak);
             self.unload(model, &peak, path, indentation, false);
         } else {

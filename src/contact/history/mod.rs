@@ -124,9 +124,9 @@ impl History {
 
     /// Force \[N\] of the branch at `indentation` \[m\].
     #[inline(always)]
-    fn force_at<U: Unloading>(&self, indentation: f64) -> f64 {
+    fn force_at<L: Loading, U: Unloading>(&self, indentation: f64) -> f64 {
         // most laws never have a quadratic term
-        match U::SQUARES {
+        match U::SQUARES || L::has_squares() {
             true => self.segment.force(indentation),
             false => self.segment.force_without_square(indentation),
         }

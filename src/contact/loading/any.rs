@@ -22,6 +22,10 @@ impl Loading for AnyLoading {
         self.law().is_segmented()
     }
 
+    fn has_squares() -> bool {
+        true
+    }
+
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         self.law().next_corner(pair, indentation)
     }

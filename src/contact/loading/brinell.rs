@@ -22,7 +22,7 @@ const PIECES: usize = 8;
 /// after yield.
 ///
 /// Within 0.5 % of the truth from first contact to `x = 1000` (0.1 % rms), which is the truth's own error; contact radius
-/// within 0.6 %. Small strain, nu = 0.3, no hardening; large deformation differs by 0.5 % up to `x = 200` at `E*/S = 1000`,
+/// within 0.6 %. Small strain, nu = 0.3, no hardening ([`Strengthened`](super::Strengthened) has both); large deformation differs by 0.5 % up to `x = 200` at `E*/S = 1000`,
 /// by 1 % at `x = 82.5` and 7 % at `x = 200` at `E*/S = 100`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
@@ -53,6 +53,10 @@ struct Piece {
 impl Piece {
     fn value(&self, x: f64) -> f64 {
         self.c0 + x * (self.c1 + self.c2 * sqrt(x))
+    }
+
+    fn slope(&self, x: f64) -> f64 {
+        self.c1 + 1.5 * self.c2 * sqrt(x)
     }
 }
 
@@ -88,6 +92,30 @@ impl Brinell {
             value = piece.value(to);
         }
         piece
+    }
+
+    /// Force and slope at `x >= 1` \[F_y, F_y/d_y\].
+    pub(in crate::contact) fn force_and_slope(&self, x: f64) -> (f64, f64) {
+        let piece = self.piece(&self.force_slopes, x);
+        (piece.value(x), piece.slope(x))
+    }
+
+    /// Contact area at `x >= 1`: `a^2/(R d_y)`.
+    pub(in crate::contact) fn area(&self, x: f64) -> f64 {
+        self.piece(&self.area_slopes, x).value(x)
+    }
+
+    /// The regime at `indentation` \[m\] of a contact that yields at `d_y` \[m\].
+    pub(super) fn regime_in(&self, d_y: f64, indentation: f64) -> Regime {
+        if indentation < d_y {
+            Regime::Elastic
+        } else if indentation < self.second_region * d_y {
+            Regime::ElastoplasticFirst
+        } else if indentation < self.fully_plastic * d_y {
+            Regime::ElastoplasticSecond
+        } else {
+            Regime::FullyPlastic
+        }
     }
 }
 
@@ -128,15 +156,6 @@ impl Loading for Brinell {
     }
 
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
-        let d_y = self.yield_point(pair).indentation;
-        if indentation < d_y {
-            Regime::Elastic
-        } else if indentation < self.second_region * d_y {
-            Regime::ElastoplasticFirst
-        } else if indentation < self.fully_plastic * d_y {
-            Regime::ElastoplasticSecond
-        } else {
-            Regime::FullyPlastic
-        }
+        self.regime_in(self.yield_point(pair).indentation, indentation)
     }
 }

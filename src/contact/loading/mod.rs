@@ -3,6 +3,9 @@
 // for every law in modelDescription/laws.toml: `pub mod big_alabo; pub use big_alabo::BigAlabo;` and so on; see build/laws.rs
 include!(concat!(env!("OUT_DIR"), "/loading_laws.rs"));
 
+pub mod strengthened;
+pub use strengthened::Strengthened;
+
 use super::history::{LARGEST_INDENTATION, Regime};
 use super::material::{Pair, YieldPoint};
 use super::segment::Segment;
@@ -30,7 +33,15 @@ pub trait Loading {
         true
     }
 
-    /// The first indentation above `indentation` at which the curve or its slope is not smooth \[m\].
+    /// Whether a segment of the law can have a quadratic term.
+    fn has_squares() -> bool
+    where
+        Self: Sized,
+    {
+        false
+    }
+
+    /// The first indentation above `indentation` where the curve or its slope is not smooth \[m\].
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
         self.segment(pair, indentation).upper
     }

@@ -34,9 +34,26 @@ impl Brinell {
         let hertz_force = pair.hertz_stiffness() * (peak.indentation * sqrt(peak.indentation));
         let lag = 1.0 - peak.force / hertz_force;
         // just above yield the two forces differ by rounding
-        let lag = if lag > 0.0 { lag } else { 0.0 };
+        self.shape_of(if lag > 0.0 { lag } else { 0.0 })
+    }
+
+    /// The shape `g` where the force lags behind Hertz's by this part of it.
+    pub(super) fn shape_of(&self, lag: f64) -> f64 {
         let root = sqrt(lag + self.onset);
         self.height * lag * (1.0 - self.decline * lag * lag * lag) / (root * sqrt(root))
+    }
+}
+
+/// The path from `peak` to the `residual` indentation \[m\] with this shape `g`.
+pub(super) fn path_to(peak: &Peak, residual: f64, shape: f64) -> Segment {
+    let recovery = peak.indentation - residual;
+    Segment {
+        lower: residual,
+        upper: peak.indentation,
+        origin: residual,
+        power: (1.0 + shape) * peak.force / (recovery * sqrt(recovery)),
+        square: -shape * peak.force / (recovery * recovery),
+        ..Segment::NOTHING
     }
 }
 
@@ -46,16 +63,7 @@ impl Unloading for Brinell {
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment {
         let shape = self.shape(pair, peak);
         let recovery = (3.0 - shape) * peak.force / (4.0 * pair.modulus * peak.contact_radius);
-        let residual = residual_after(peak, recovery);
-        let recovery = peak.indentation - residual;
-        Segment {
-            lower: residual,
-            upper: peak.indentation,
-            origin: residual,
-            power: (1.0 + shape) * peak.force / (recovery * sqrt(recovery)),
-            square: -shape * peak.force / (recovery * recovery),
-            ..Segment::NOTHING
-        }
+        path_to(peak, residual_after(peak, recovery), shape)
     }
 
     fn contact_radius(&self, pair: &Pair, _peak: &Peak, path: &Segment, indentation: f64) -> f64 {

@@ -4,8 +4,10 @@
 //! where unloading begins. Reloading follows the same path.
 
 pub mod guarded;
+pub mod strengthened;
 
 pub use guarded::Guarded;
+pub use strengthened::Strengthened;
 
 // for every law in modelDescription/laws.toml: `pub mod contact_radius; pub use contact_radius::ContactRadius;` and so on; see
 // build/laws.rs

@@ -1,6 +1,6 @@
 //! The kind of a prebuilt library as Rust: the file `src/scene/kind.rs` of the library.
 
-use super::{DAMPED_MODEL, File, MODEL, add_laws, follow, parts};
+use super::{DAMPED_MODEL, File, add_laws, follow, model_of, parts};
 use crate::scene::Scene;
 use crate::table::{Causality, Type, VARIABLES, Variable};
 use std::fmt::Write;
@@ -23,9 +23,10 @@ pub fn write(scene: &Scene, made_from: &str) -> String {
             DAMPED_MODEL,
         );
     } else {
+        let value = if scene.is_strengthened() { "value" } else { "_value" };
         file.add_method(
-            "model(pair: Pair, surface: Surface, _value: impl Fn(Parameter) -> f64) -> Self::Model",
-            &format!("{MODEL} }}"),
+            &format!("model(pair: Pair, surface: Surface, {value}: impl Fn(Parameter) -> f64) -> Self::Model"),
+            &model_of(scene, "value(Parameter::TargetHardeningModulus)", "surface"),
         );
     }
     add_places(&mut file, scene, Type::Real);

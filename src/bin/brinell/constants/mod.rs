@@ -183,9 +183,12 @@ fn add_laws(file: &mut File, scene: &Scene) {
         return;
     }
     let loading = add_law(file, "LOADING", "loading", &value_of(&scene.loading.1));
-    // an elastic contact never uses an unloading law; the compiler removes it
-    let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.model().unloading));
+    // an elastic contact never unloads by another law; the compiler leaves out whatever is here
+    let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.plain_unloading()));
     let unloading = add_law(file, "UNLOADING", "unloading", &unloading);
+    let form = |kind: String, module: &str, has| if has { format!("{module}::Strengthened") } else { kind };
+    let [of_loading, of_unloading] = strengthened_forms(scene);
+    let (loading, unloading) = (form(loading, "loading", of_loading), form(unloading, "unloading", of_unloading));
     file.model = format!("contact::Model<{loading}, {unloading}>");
     file.contact = "contact::History".into();
 }
@@ -193,7 +196,31 @@ fn add_laws(file: &mut File, scene: &Scene) {
 /// The expressions of a model of each kind, from its laws.
 const DAMPED_MODEL: &str = "let (restitution, mass) = (value(Parameter::Restitution), value(Parameter::EffectiveMass));\n\
                             damped::Model { pair, law: LAW, restitution, mass }";
-const MODEL: &str = "contact::Model { pair, loading: LOADING, unloading: UNLOADING, surface";
+
+/// Whether the FMU needs the form of its loading law, and of its unloading law, for targets that harden and for their Poisson's
+/// ratio.
+fn strengthened_forms(scene: &Scene) -> [bool; 2] {
+    let unloads = scene.plain_unloading().strengthened(0.0).is_some();
+    [scene.is_strengthened(), scene.is_strengthened() && unloads]
+}
+
+/// The expression of a model by elastoplastic laws; `value` is one of the hardening modulus, `surface` of the surface.
+fn model_of(scene: &Scene, value: &str, surface: &str) -> String {
+    let [loading, unloading] = strengthened_forms(scene);
+    let law = |module: &str, constant: &str, has| match has {
+        true => format!("{module}::Strengthened {{ law: {constant}, hardening_modulus }}"),
+        false => constant.to_string(),
+    };
+    if !loading {
+        return format!("contact::Model {{ pair, loading: LOADING, unloading: UNLOADING, {surface} }}");
+    }
+    format!(
+        "let hardening_modulus = {value};\n\
+         contact::Model {{\n    pair,\n    loading: {},\n    unloading: {},\n    {surface},\n}}",
+        law("loading", "LOADING", true),
+        law("unloading", "UNLOADING", unloading)
+    )
+}
 
 /// The model of a group.
 fn add_model(file: &mut File, scene: &Scene) {
@@ -205,9 +232,17 @@ fn add_model(file: &mut File, scene: &Scene) {
         return;
     }
     let (group, surface) = groups::surface(file, scene);
+    let (group, values) = match scene.is_strengthened() {
+        true => ("group", "values"),
+        false => (group, "_values"),
+    };
     file.add_method(
-        &format!("model(pair: Pair, {group}: usize, _values: &Self::Values) -> Self::Model"),
-        &format!("{MODEL}: {surface} }}"),
+        &format!("model(pair: Pair, {group}: usize, {values}: &Self::Values) -> Self::Model"),
+        &model_of(
+            scene,
+            "Self::parameter(Parameter::TargetHardeningModulus, group, values)",
+            &format!("surface: {surface}"),
+        ),
     );
 }
 

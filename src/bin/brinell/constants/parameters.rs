@@ -7,13 +7,14 @@ use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, Variable};
 use std::fmt::Write;
 
-/// The values of parameters that a scene does not have: a rigid impactor, a flat target, a contact that never yields, no
-/// damping.
-const ABSENT: [(&str, f64); 6] = [
+/// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, a contact that never yields,
+/// a target that doesn't harden, no damping.
+const ABSENT: [(&str, f64); 7] = [
     ("impactor.youngs_modulus", f64::INFINITY),
     ("impactor.poissons_ratio", 0.0),
     ("target.radius", f64::INFINITY),
     ("target.yield_strength", f64::INFINITY),
+    ("target.hardening_modulus", 0.0),
     ("restitution", 1.0),
     ("effective_mass", f64::INFINITY),
 ];

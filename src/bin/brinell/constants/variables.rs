@@ -126,6 +126,7 @@ mod tests {
             TargetYoungsModulus,
             TargetPoissonsRatio,
             TargetYieldStrength,
+            TargetHardeningModulus,
             Restitution,
             EffectiveMass,
             InitialGap,
@@ -138,6 +139,7 @@ mod tests {
             | TargetYoungsModulus
             | TargetPoissonsRatio
             | TargetYieldStrength
+            | TargetHardeningModulus
             | Restitution
             | EffectiveMass
             | InitialGap => {}

@@ -1,6 +1,8 @@
 //! `brinell laws`: the laws, each evaluated when the command runs.
 
 mod chart;
+mod experiment;
+mod materials;
 mod single;
 mod text;
 
@@ -9,7 +11,7 @@ use crate::energy::{self, Balance};
 use crate::files::{self, deliver, ending};
 use crate::law_text::{self, LawText};
 use crate::laws::{self, unloading_of};
-use crate::model::Dampings;
+use crate::model::{Dampings, strengthened};
 use crate::parameters::{self, Constant};
 use crate::scene::Scene;
 use crate::table;
@@ -21,6 +23,7 @@ use brinell::contact::impact::Impact;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model};
+use materials::Errors;
 use serde::Serialize;
 use std::error::Error;
 use std::path::PathBuf;
@@ -34,15 +37,21 @@ pub struct Arguments {
     /// Draw instead: the curve of the law, or the loading curves of all laws over Hertz's force
     #[arg(short, long, value_name = "FILE.svg")]
     pub output: Option<PathBuf>,
+    /// Set every law, or the one that is named, beside measured rebounds and dents
+    #[arg(long, conflicts_with = "output")]
+    pub experiment: bool,
 }
 
 /// The command: lists the laws, shows one of them, or draws curves to a file.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
-    let Arguments { name, output } = arguments;
+    let Arguments { name, output, experiment } = arguments;
     let output = output.as_deref();
     if let Some(path) = output {
         ending(output, &["svg"]).map_err(WrongCall)?;
         files::check_goal(path)?;
+    }
+    if *experiment {
+        return experiment::run(name.as_deref(), as_json);
     }
     let scene = Scene::default_scene()?;
     if let Some(name) = name {
@@ -93,6 +102,8 @@ pub struct Measured {
     pub worst_at: f64,
     /// Root mean square of that error.
     pub rms_error: f64,
+    /// Against the truth of other materials, of a law that has a form for them.
+    pub materials: Vec<Errors>,
     pub formulas: Vec<String>,
     pub parameters: Vec<Constant>,
     pub validity: String,
@@ -198,6 +209,7 @@ fn balances(name: &str, model: &Model<AnyLoading, AnyUnloading>) -> [Balance; 2]
 fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
     let (unloading_name, unloading) = unloading_of(name);
     let model = Model { loading, unloading, ..scene.model() };
+    let model = strengthened(&model, 0.0);
     let unit = model.pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
     let force = |d: f64| loading.segment(&model.pair, d).force(d);
     let (mut worst_error, mut worst_at, mut squares) = (0.0f64, 0.0, 0.0);
@@ -233,6 +245,7 @@ fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
         worst_error,
         worst_at,
         rms_error: (squares / points.len() as f64).sqrt(),
+        materials: if told.strengthened { materials::errors(&model) } else { Vec::new() },
         formulas,
         parameters: parameters::constants(&loading, told),
         validity,

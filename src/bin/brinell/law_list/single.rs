@@ -2,7 +2,7 @@
 
 use super::chart::Chart;
 use super::text::{self, entry};
-use super::{List, those};
+use super::{List, materials, those};
 use crate::curve;
 use crate::files::deliver;
 use crate::laws::{self, Choice};
@@ -112,6 +112,9 @@ impl Found<'_> {
             text += &entry("reference", law.reference);
             text.push('\n');
             text += &text::measured(std::slice::from_ref(law));
+            if !law.materials.is_empty() {
+                text += &format!("\n{}", materials::text(&law.materials));
+            }
         }
         if let Some(choice) = choice
             && let Some(chart) = chart(choice)

@@ -1,6 +1,6 @@
 //! The laws as text: tables, then a paragraph for each law.
 
-use super::{ASKED, List, Measured, Rated, Told};
+use super::{ASKED, List, Measured, Rated, Told, materials};
 use crate::layout::{paragraph, table};
 use crate::numbers::significant;
 use crate::parameters::Constant;
@@ -15,6 +15,9 @@ pub fn list(list: &List) -> String {
     );
     text.push('\n');
     text += &measured(&list.loading);
+    for law in list.loading.iter().filter(|law| !law.materials.is_empty()) {
+        text += &format!("\n{}", materials::text(&law.materials));
+    }
     text += "\nEach law with its reference constants; a scene changes them by law.loading_parameters.\n";
     for law in &list.loading {
         text += &loading(law);

@@ -25,6 +25,9 @@ pub struct Axis {
 /// The quantities of an impact, with their units.
 const OF_IMPACT: [(&str, &str); 4] = [("speed", "m/s"), ("mass", "kg"), ("energy", "J"), ("drop_height", "m")];
 
+/// A parameter that only some laws have, in a scene or not.
+const HARDENING: &str = "target.hardening_modulus";
+
 /// Parameters that an impact doesn't depend on.
 const WITHOUT_EFFECT: [&str; 1] = ["initial_gap"];
 
@@ -170,7 +173,7 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
     let missing = |name: &str| PredictError::Sweep(format!("{name}: {}", why_absent(name)));
     for (name, _) in bodies {
         // a rigid impactor has no modulus, a flat target no radius; a strength is no parameter of an elastic law
-        let is_there = scene.group_value(0, name).is_some() || *name == "target.radius";
+        let is_there = scene.group_value(0, name).is_some() || ["target.radius", HARDENING].contains(name);
         let strength = *name == "target.yield_strength";
         let yields = choice.model.elastoplastic().is_some() && choice.laws != "hertz";
         if if strength { !yields } else { !is_there } {
@@ -185,12 +188,17 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
         ))
     })?;
     let strength = bodies.iter().find(|(name, _)| *name == "target.yield_strength").map(|(_, value)| *value);
-    Ok(choice.model.on(pair, strength))
+    let model = choice.model.on(pair, strength);
+    match bodies.iter().find(|(name, _)| *name == HARDENING) {
+        Some((_, modulus)) => model.with_hardening(*modulus).ok_or_else(|| missing(HARDENING)),
+        None => Ok(model),
+    }
 }
 
 fn why_absent(name: &str) -> &'static str {
     match name {
         "target.yield_strength" => "the law has no yield strength",
+        HARDENING => "the law has no hardening; brinell has",
         _ => "the impactor of the scene is rigid; give youngs_modulus and poissons_ratio, or a material",
     }
 }

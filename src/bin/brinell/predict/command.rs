@@ -69,8 +69,9 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let axes = arguments.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>();
     let axes = axes.map_err(WrongCall::of)?;
     let scene = Scene::read_aloud(&arguments.scene)?;
-    let choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
     let impact = impact(&scene, arguments).map_err(WrongCall::of)?;
+    let scene = scene.with_strengths_for(Some(&impact)).ok_or("the impact is too hard for the law of the scene")?;
+    let choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
     let question = Question { scene: &scene, choices: &choices, impact, as_json };
     if !axes.is_empty() {
         return question.sweep(axes, output, format);

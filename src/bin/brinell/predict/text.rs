@@ -5,7 +5,7 @@ use crate::laws::Choice;
 use crate::layout::{paragraph, table};
 use crate::numbers::{Prefixed, cell, prefixed, quantity};
 use crate::regime;
-use crate::scene::Scene;
+use crate::scene::{InImpact, Scene};
 use crate::validity;
 use brinell::contact::Regime;
 use brinell::contact::impact::{Impact, Prediction};
@@ -76,6 +76,11 @@ impl Answer<'_> {
         warnings
     }
 
+    /// Strength of the target in this impact, if it depends on that.
+    fn strength(&self) -> Option<InImpact> {
+        self.scene.depends_on_impact().then(|| self.scene.in_impact(0, &self.impact)).flatten()
+    }
+
     /// Height of the rebound [m].
     fn rebound_height(&self, prediction: &Prediction) -> Option<f64> {
         Some(self.fall? * prediction.restitution * prediction.restitution)
@@ -103,9 +108,9 @@ impl Answer<'_> {
             text.push('\n');
             text += &paragraph("warning: ", &warning);
         }
-        for note in notes::of(self.scene, self.choices, &self.predictions) {
+        for note in notes::of(self.scene, &self.impact, self.choices, &self.predictions) {
             text.push('\n');
-            text += &paragraph("note: ", note);
+            text += &paragraph("note: ", &note);
         }
         text
     }
@@ -196,7 +201,8 @@ impl Answer<'_> {
         let Impact { mass, speed } = self.impact;
         json!({
             "mass": mass, "speed": speed, "drop_height": self.fall, "laws": self.laws().map(law).collect::<Vec<_>>(),
-            "notes": notes::of(self.scene, self.choices, &self.predictions),
+            "notes": notes::of(self.scene, &self.impact, self.choices, &self.predictions),
+            "strength": self.strength(),
         })
     }
 }

@@ -33,7 +33,7 @@ impl Scene {
     /// The result of `of` for each group. Ten thousand groups may have the same bodies. A result that follows only from the
     /// bodies, their mass and the laws of the scene is computed once for all of them.
     pub fn by_bodies<T: Clone>(&self, mut of: impl FnMut(usize) -> T) -> Vec<T> {
-        let mut known: HashMap<Option<[u64; 7]>, T> = HashMap::new();
+        let mut known: HashMap<Option<[u64; 8]>, T> = HashMap::new();
         let groups = 0..self.contacts.len();
         groups
             .map(|group| {
@@ -41,7 +41,8 @@ impl Scene {
                     let Pair { radius, modulus, yield_strength, youngs_modulus, poissons_ratio } = pair;
                     let restitution = self.group_value(group, "restitution").unwrap_or(f64::NAN);
                     let mass = self.impact_of(group).mass;
-                    [radius, modulus, yield_strength, youngs_modulus, poissons_ratio, restitution, mass]
+                    let hardening = self.hardening_modulus(group);
+                    [radius, modulus, yield_strength, youngs_modulus, poissons_ratio, hardening, restitution, mass]
                         .map(f64::to_bits)
                 });
                 known.entry(bodies).or_insert_with(|| of(group)).clone()

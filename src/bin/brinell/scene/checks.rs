@@ -5,7 +5,7 @@ use super::coupling;
 use super::file::{File, ImpactTable, NamesName};
 use super::laws;
 use super::numbers::IMPACTOR_DENSITY;
-use super::{Mistake, Parameter, Scene};
+use super::{Mistake, Parameter, QuasiStatic, Scene};
 use crate::nearest::unknown;
 use crate::predict;
 use crate::table::{self, Causality, VARIABLES};
@@ -32,6 +32,9 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         None => laws::check_loading(&file.law, &contacts)?,
     };
     let elastic = matches!(loading.1, AnyLoading::Hertz(_));
+    let hardens = damped.is_none() && table::loading_law(loading.0).strengthened;
+    contacts.check_rate(damped.is_some() || elastic)?;
+    contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
     let unloading = laws::check_unloading(&file.law, loading.0, elastic)?;
     laws::check_parameters(&file.law, &loading, unloading.as_ref())?;
     let passivity_guard = laws::check_guard(file.law.passivity_guard.as_ref(), unloading)?;
@@ -76,6 +79,9 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         damped,
         passivity_guard,
         yield_strength,
+        power_law: contacts.power_law,
+        rate: contacts.rate,
+        quasi_static: Vec::new(),
         coupling,
         impact,
         predictions: Vec::new(),
@@ -94,6 +100,13 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
         laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
     }
+    let quasi_static = |group| QuasiStatic {
+        yield_strength: scene.group_value(group, "target.yield_strength").unwrap_or(f64::INFINITY),
+        hardening_modulus: scene.hardening_modulus(group),
+    };
+    scene.quasi_static = (0..scene.contacts.len()).map(quasi_static).collect();
+    let message = too_hard(&scene, 0);
+    scene = scene.with_strengths_for(None).ok_or_else(|| Mistake(impact_span.clone(), message))?;
     let no_prediction = |group| Mistake(impact_span.clone(), contacts.said(group, &too_hard(&scene, group)));
     let predict = |group| scene.any_model_of(group).predict(&scene.impact_of(group));
     let predictions = scene.by_bodies(predict).into_iter().enumerate();

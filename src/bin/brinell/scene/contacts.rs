@@ -2,11 +2,15 @@
 
 use super::checks::check_identifier;
 use super::file::{Contact, File, Impactor, SurfaceName, Target};
-use super::numbers::{DENSITY, MASS, Numbers, check_numbers};
+use super::hardening;
+use super::numbers::{DENSITY, HARDENING, MASS, Numbers, check_numbers};
+use super::power_law::{self, PowerLaw};
+use super::rate::{self, Rate};
 use super::{Group, Mistake, Parameter};
 use crate::nearest::unknown;
-use crate::table::{MATERIALS, VARIABLES};
+use crate::table::{self, MATERIALS, VARIABLES};
 use brinell::contact::Surface;
+use brinell::contact::loading::AnyLoading;
 use std::collections::HashSet;
 use std::ops::Range;
 use toml::Spanned;
@@ -33,6 +37,11 @@ struct Given {
 /// The contacts of a scene.
 pub struct Contacts {
     shared: Numbers,
+    /// The hardening of all targets by a power law.
+    pub power_law: Option<PowerLaw>,
+    /// How the strength of all targets grows with the strain rate.
+    pub rate: Option<Rate>,
+    rate_span: Range<usize>,
     given: Vec<Given>,
 }
 
@@ -44,10 +53,16 @@ impl Contacts {
         let standard = (Impactor::default(), Target::default());
         let no_gap = Spanned::new(0..0, 0.0);
         let gap = file.fmu.initial_gap.as_ref().unwrap_or(&no_gap);
-        let shared = Numbers::of(impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1), None, Some(gap))?;
+        let shared =
+            Numbers::of(impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1), None, Some(gap), None)?;
         check_numbers(&shared, "")?;
         let surface = target.and_then(|target| target.surface);
-        let contacts = Contacts { shared, given: given(file, surface)? };
+        let given = given(file, surface, &shared)?;
+        let power_law = target.and_then(|target| target.power_law.as_ref()).map(power_law::check).transpose()?;
+        let rate_table = target.and_then(|target| target.rate.as_ref());
+        let rate = rate_table.map(rate::check).transpose()?;
+        let rate_span = rate_table.map_or(0..0, Spanned::span);
+        let contacts = Contacts { shared, power_law, rate, rate_span, given };
         for index in 0..contacts.given.len() {
             match contacts.given[index].name {
                 Some(_) => contacts.check_complete(index)?,
@@ -81,7 +96,27 @@ impl Contacts {
         Err(Mistake(self.given[index].span.clone(), self.said(index, &message)))
     }
 
-    /// Removes the yield strength, for a law that has none.
+    /// Refuses a strain rate for a law without strength.
+    pub fn check_rate(&self, has_no_strength: bool) -> Result<(), Mistake> {
+        if self.rate.is_none() || !has_no_strength {
+            return Ok(());
+        }
+        let message = "target.rate has no effect: the law has no yield strength";
+        Err(Mistake(self.rate_span.clone(), message.into()))
+    }
+
+    /// Refuses a target that hardens for the law `name`, if that has no such form.
+    pub fn check_hardening(&self, name: &str, hardens: bool) -> Result<(), Mistake> {
+        let given = (0..self.given.len()).find_map(|index| Some((index, self.number(index, HARDENING)?)));
+        let Some((index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
+        let laws = AnyLoading::ALL.iter().filter(|(name, _)| table::loading_law(name).strengthened);
+        let laws = laws.map(|(name, _)| *name).collect::<Vec<_>>().join("\", \"");
+        let message =
+            format!("the hardening of the target has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"");
+        Err(Mistake(modulus.span(), self.said(index, &message)))
+    }
+
+    /// For a law that has no yield strength.
     pub fn forget_strength(&mut self) {
         self.shared.remove("target.yield_strength");
         for given in &mut self.given {
@@ -194,7 +229,7 @@ fn target_needs() -> String {
 }
 
 /// What each contact gives, where the others have `surface`.
-fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistake> {
+fn given(file: &File, surface: Option<SurfaceName>, shared: &Numbers) -> Result<Vec<Given>, Mistake> {
     let surface_of = |own: Option<SurfaceName>| own.or(surface).map_or(Surface::Dented, Surface::from);
     let Some(contacts) = &file.contact else {
         let (own, surface) = (Numbers::none(), surface_of(None));
@@ -221,7 +256,8 @@ fn given(file: &File, surface: Option<SurfaceName>) -> Result<Vec<Given>, Mistak
                 format!("with contact `{text}` there are {total} contacts in all: allowed are {MOST_CONTACTS}");
             return Err(Mistake(span, message));
         }
-        let own = Numbers::of(impactor, target, effective_mass.as_ref(), initial_gap.as_ref())?;
+        hardening::check_contact(&text, target)?;
+        let own = Numbers::of(impactor, target, effective_mass.as_ref(), initial_gap.as_ref(), Some(shared))?;
         check_numbers(&own, &format!("{text}."))?;
         let surface = surface_of(target.surface);
         let (count, per_contact) = (count.map(|count| count as usize), parameters_per_contact.clone());

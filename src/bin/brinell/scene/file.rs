@@ -39,9 +39,32 @@ pub struct Target {
     pub youngs_modulus: Option<Spanned<f64>>,
     pub poissons_ratio: Option<Spanned<f64>>,
     pub yield_strength: Option<Spanned<f64>>,
+    pub hardening_modulus: Option<Spanned<f64>>,
+    pub tangent_modulus: Option<Spanned<f64>>,
+    pub power_law: Option<Spanned<PowerLawTable>>,
+    pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
     pub radius: Option<Spanned<f64>>,
     pub surface: Option<SurfaceName>,
+}
+
+/// How the flow stress grows with the strain rate.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RateTable {
+    pub model: Spanned<String>,
+    pub c: Option<Spanned<f64>>,
+    pub reference_rate: Option<Spanned<f64>>,
+    pub d: Option<Spanned<f64>>,
+    pub q: Option<Spanned<f64>>,
+}
+
+/// Flow stress `coefficient eps_p^exponent`.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PowerLawTable {
+    pub coefficient: Spanned<f64>,
+    pub exponent: Spanned<f64>,
 }
 
 #[derive(Clone, Copy, Deserialize)]

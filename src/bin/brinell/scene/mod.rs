@@ -5,18 +5,24 @@ mod checks;
 mod contacts;
 mod coupling;
 mod file;
+mod hardening;
 mod laws;
 mod mistakes;
 mod numbers;
 mod plausible;
+mod power_law;
+mod rate;
 
-use crate::model::AnyModel;
+use crate::model::{AnyModel, strengthened};
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Model, Surface};
+use brinell::contact::{Model, Surface, strength};
 use std::path::{Path, PathBuf};
+
+pub use power_law::PowerLaw;
+pub use rate::{InImpact, QuasiStatic, Rate, STEPS, TABOR};
 
 const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
 
@@ -41,7 +47,13 @@ pub struct Scene {
     pub passivity_guard: bool,
     /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law needs it.
     pub yield_strength: Option<f64>,
-    /// The coupling of an FMU that moves the bodies by their mass.
+    /// Hardening by a power law, for which the yield strength and the hardening modulus stand.
+    pub power_law: Option<PowerLaw>,
+    /// How the strength grows with the strain rate.
+    pub rate: Option<Rate>,
+    /// The hardening that the scene gives for each group; a power law or a rate puts another in its place.
+    pub quasi_static: Vec<QuasiStatic>,
+    /// How the unit moves the bodies through a step by their mass, if it does.
     pub coupling: Option<Coupling>,
     pub impact: Impact,
     /// The prediction of the impact for the contacts of each group.
@@ -231,10 +243,34 @@ impl Scene {
     /// The elastoplastic model of the contacts of `group`. An elastic contact never uses its unloading law.
     pub fn model_of(&self, group: usize) -> Model<AnyLoading, AnyUnloading> {
         let pair = self.pair_of(group).expect("a checked scene has bodies that fit");
+        let unloading = self.plain_unloading();
+        let model = Model { pair, loading: self.loading.1, unloading, surface: self.contacts[group].surface };
+        strengthened(&model, self.hardening_modulus(group))
+    }
+
+    /// The unloading law as it is for a target that doesn't harden.
+    pub fn plain_unloading(&self) -> AnyUnloading {
         let unloading = self.unloading.map_or(AnyUnloading::ALL[0].1, |(_, law)| law);
         let guarded = if self.passivity_guard { unloading.guarded() } else { None };
-        let unloading = guarded.unwrap_or(unloading);
-        Model { pair, loading: self.loading.1, unloading, surface: self.contacts[group].surface }
+        guarded.unwrap_or(unloading)
+    }
+
+    /// Hardening modulus of the target of `group` [Pa].
+    pub fn hardening_modulus(&self, group: usize) -> f64 {
+        self.group_value(group, "target.hardening_modulus").unwrap_or(0.0)
+    }
+
+    /// Whether the FMU needs the form of its laws for targets that harden and for their Poisson's ratio: it has a hardening modulus,
+    /// or a Poisson's ratio that is another than that of the laws, or may be.
+    pub fn is_strengthened(&self) -> bool {
+        let form = self.damped.is_none() && self.loading.1.strengthened(0.0).is_some();
+        let all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
+        let needs = |parameter: &Parameter| match parameter.name {
+            "target.hardening_modulus" => true,
+            "target.poissons_ratio" => parameter.settable || parameter.value != strength::POISSONS_RATIO,
+            _ => false,
+        };
+        form && all.into_iter().any(needs)
     }
 }
 

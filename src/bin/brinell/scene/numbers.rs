@@ -1,15 +1,16 @@
-//! The numbers that a scene gives for all contacts, or for one: of the bodies, or from their materials.
+//! The numbers that a scene gives for all contacts, or for one contact: directly, or by a material.
 
 use super::checks::{check_limits, check_range};
 use super::file::{Impactor, Target};
+use super::hardening::{self, Flow};
 use super::{Mistake, Parameter};
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS};
 use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
-/// What the contacts of a scene may give themselves, in the order of the table.
-const PROPERTIES: [&str; 11] = [
+/// The properties that a contact may override, in the order of the table.
+const PROPERTIES: [&str; 12] = [
     "impactor.radius",
     "impactor.youngs_modulus",
     "impactor.poissons_ratio",
@@ -17,23 +18,27 @@ const PROPERTIES: [&str; 11] = [
     "target.youngs_modulus",
     "target.poissons_ratio",
     "target.yield_strength",
+    HARDENING,
     DENSITY,
     IMPACTOR_DENSITY,
     MASS,
     "initial_gap",
 ];
 
-/// A property that the scene gives for all contacts elsewhere.
+/// A property that the scene gives elsewhere for all contacts.
 pub const MASS: &str = "effective_mass";
 
-/// Properties that are no variables of the FMU.
+/// A property that only some laws use.
+pub const HARDENING: &str = "target.hardening_modulus";
+
+/// Properties that are not variables of the FMU.
 pub const DENSITY: &str = "target.density";
 pub const IMPACTOR_DENSITY: &str = "impactor.density";
 
-/// Allowed densities [kg/m^3]: from thin gases to what no solid is.
+/// Allowed densities [kg/m^3]: from thin gases to beyond any solid.
 const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
 
-/// The numbers of one level, the whole scene or one contact, each with its place in the file.
+/// The numbers at one level, the whole scene or one contact, with their places in the file.
 pub struct Numbers(Vec<(&'static str, Spanned<f64>)>);
 
 impl Numbers {
@@ -48,6 +53,7 @@ impl Numbers {
         target: &Target,
         mass: Option<&Spanned<f64>>,
         initial_gap: Option<&Spanned<f64>>,
+        shared: Option<&Numbers>,
     ) -> Result<Numbers, Mistake> {
         let find = |name: &Option<Spanned<String>>| match name {
             Some(name) => Ok(Some((find_material(name)?, name.span()))),
@@ -60,14 +66,18 @@ impl Numbers {
         };
         let of_material = |value| from(&of_target, value);
         let of_ball = |value| from(&of_impactor, value);
+        let modulus = target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus));
+        let youngs_modulus = modulus.as_ref().or_else(|| shared?.get("target.youngs_modulus"));
+        let Flow { yield_strength, hardening_modulus } = hardening::of(target, youngs_modulus)?;
         let given = [
             impactor.radius.clone(),
             impactor.youngs_modulus.clone().or_else(|| of_ball(|material| material.youngs_modulus)),
             impactor.poissons_ratio.clone().or_else(|| of_ball(|material| material.poissons_ratio)),
             target.radius.clone(),
-            target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus)),
+            modulus,
             target.poissons_ratio.clone().or_else(|| of_material(|material| material.poissons_ratio)),
-            target.yield_strength.clone().or_else(|| of_material(|material| material.yield_strength)),
+            yield_strength.or_else(|| of_material(|material| material.yield_strength)),
+            hardening_modulus,
             target.density.clone().or_else(|| of_material(|material| material.density)),
             impactor.density.clone().or_else(|| of_ball(|material| material.density)),
             mass.cloned(),
@@ -85,7 +95,7 @@ impl Numbers {
         self.0.retain(|(known, _)| *known != name);
     }
 
-    /// As parameters that can be set, where `wanted` says so.
+    /// The numbers as parameters; those that satisfy `wanted` can be set.
     pub fn parameters(&self, wanted: impl Fn(&str) -> bool) -> Vec<Parameter> {
         let wanted = self.0.iter().filter(|(name, _)| ![DENSITY, IMPACTOR_DENSITY].contains(name) && wanted(name));
         wanted.map(|(name, value)| Parameter::shared(name, *value.get_ref(), true)).collect()
@@ -99,7 +109,7 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
     })
 }
 
-/// Refuses a number out of range; `owner` comes before its name in the message.
+/// Rejects a number outside its range. `owner` precedes its name in the message.
 pub fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
     numbers.0.iter().try_for_each(|(name, value)| match *name {
         DENSITY | IMPACTOR_DENSITY => check_range((name, "kg/m^3"), owner, value, DENSITIES),

@@ -1,38 +1,41 @@
-//! What the tables say of laws.
+//! Laws in the tables.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-/// What the documentation says of a law; see `modelDescription/laws.toml`.
+/// The documentation of a law; see `modelDescription/laws.toml`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Law {
     pub name: String,
-    /// What the law is in Rust, and whether it has a form with the passivity guard: for `build/laws.rs`.
+    /// The Rust name of the law, and whether it has a form with the passivity guard: for `build/laws.rs`.
     #[serde(rename = "rust")]
     _rust: IgnoredAny,
     #[serde(default, rename = "guarded")]
     _guarded: IgnoredAny,
+    /// Whether the law has a form for targets that harden.
+    #[serde(default)]
+    pub strengthened: bool,
     pub title: String,
     pub formulas: Vec<String>,
     pub notes: String,
-    /// In which range the law was made, or holds; of loading laws.
+    /// The range in which the law was derived or holds, for loading laws.
     #[serde(default)]
     pub validity: String,
     pub reference: String,
-    /// The unloading law that a loading law was published with, if it was with one.
+    /// The unloading law with which a loading law was published, if any.
     pub unloading: Option<String>,
-    /// Why a loading law goes with no other unloading law.
+    /// The reason why a loading law can be combined with no other unloading law.
     pub no_other_unloading: Option<String>,
     /// Whether a loading law is above Hertz's curve in places.
     #[serde(default)]
     pub above_hertz: bool,
-    /// Whether an unloading law lowers Hertz's curve to the largest load.
+    /// Whether an unloading law lowers Hertz's curve to the peak.
     #[serde(default)]
     pub lowers_hertz: bool,
-    /// The one loading law that an unloading law goes with.
+    /// The only loading law with which an unloading law can be combined.
     pub made_for: Option<MadeFor>,
-    /// Whether the force of a loading law jumps, and by which part its contact radius falls: for the tests.
+    /// Whether the force of a loading law jumps, and the fraction by which its contact radius falls: for the tests.
     #[serde(default, rename = "jumps")]
     _jumps: IgnoredAny,
     #[serde(default, rename = "radius_falls_by")]
@@ -40,51 +43,51 @@ pub struct Law {
     /// Whether the normalised curve of a loading law depends on `E*/S`.
     #[serde(default)]
     pub depends_on_modulus_ratio: bool,
-    /// Of a loading law that makes energy.
+    /// For a loading law that is not passive.
     pub energy: Option<MakesEnergy>,
-    /// What a scene can change.
+    /// The constants that a scene can change.
     #[serde(default)]
     pub parameters: Vec<LawParameter>,
-    /// Constants that belong together, so that a scene can't change them.
+    /// Constants that depend on each other, so that a scene cannot change them.
     #[serde(default)]
     pub fixed: Vec<String>,
 }
 
-/// The loading law that an unloading law was made for.
+/// The loading law for which an unloading law was made.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MadeFor {
     pub loading: String,
-    /// What the unloading law did with it: "was fitted to".
+    /// The relation of the unloading law to it: "was fitted to".
     pub because: String,
-    /// Constants that both have, and that must be the same.
+    /// Constants that both laws have, and that must be equal.
     #[serde(default)]
     pub same: Vec<String>,
-    /// Constants of the loading law that the unloading law takes as published.
+    /// Constants of the loading law that the unloading law assumes as published.
     #[serde(default)]
     pub as_published: Vec<String>,
 }
 
-/// Where a loading law makes energy, and how much.
+/// The range in which a loading law is not passive, and by how much.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MakesEnergy {
     pub why: String,
-    /// The largest with the unloading law that it was published with, or else contact-radius, of targets with a Poisson's
-    /// ratio from 0 on.
+    /// Largest restitution for targets with a Poisson's ratio of at least 0, with the unloading law with which it was
+    /// published, otherwise contact-radius.
     pub restitution: f64,
-    /// Of targets with a Poisson's ratio below 0.
+    /// For targets with a Poisson's ratio below 0.
     pub auxetic_restitution: f64,
-    /// Unloading laws with which it makes none.
+    /// Unloading laws with which it is passive.
     pub passive: Vec<PassiveWith>,
 }
 
-/// An unloading law with which a loading law makes no energy.
+/// An unloading law with which a loading law is passive.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PassiveWith {
     pub unloading: String,
-    /// From which Poisson's ratio of the target on; none if it is so for all.
+    /// The Poisson's ratio of the target from which this holds; `None` if it holds for all.
     pub from_poissons_ratio: Option<f64>,
 }
 
@@ -93,12 +96,12 @@ pub struct PassiveWith {
 #[serde(deny_unknown_fields)]
 pub struct LawParameter {
     pub name: String,
-    /// Empty for a pure number.
+    /// Unit; empty for a dimensionless number.
     #[serde(default)]
     pub unit: String,
     pub minimum: f64,
     pub maximum: f64,
-    /// The parameter of the same law that it must be below.
+    /// The parameter of the same law that must be larger.
     pub below: Option<String>,
     pub description: String,
 }

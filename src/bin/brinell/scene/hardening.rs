@@ -1,0 +1,80 @@
+//! Yield strength and hardening of a target, in whatever words the scene says them.
+
+use super::Mistake;
+use super::file::Target;
+use super::power_law;
+use toml::Spanned;
+
+/// Yield strength and hardening modulus [Pa], each with its place in the file.
+#[derive(Default)]
+pub struct Flow {
+    pub yield_strength: Option<Spanned<f64>>,
+    pub hardening_modulus: Option<Spanned<f64>>,
+}
+
+/// The flow stress that `target` gives itself, with this Young's modulus: two numbers, a tangent modulus `E_t = H/(1 + H/E)`, or a
+/// power law, for which two numbers stand until the impact is known.
+pub fn of(target: &Target, youngs_modulus: Option<&Spanned<f64>>) -> Result<Flow, Mistake> {
+    if let Some(table) = &target.power_law {
+        check_alone(target)?;
+        let line = power_law::placeholder(&power_law::check(table)?);
+        let at = |value| Some(Spanned::new(table.span(), value));
+        return Ok(Flow { yield_strength: at(line.yield_strength), hardening_modulus: at(line.hardening_modulus) });
+    }
+    let hardening_modulus = match &target.tangent_modulus {
+        Some(tangent) => Some(of_tangent(target, tangent, youngs_modulus)?),
+        None => target.hardening_modulus.clone(),
+    };
+    Ok(Flow { yield_strength: target.yield_strength.clone(), hardening_modulus })
+}
+
+/// Refuses numbers beside a power law.
+fn check_alone(target: &Target) -> Result<(), Mistake> {
+    let others = [
+        ("yield_strength", &target.yield_strength),
+        ("hardening_modulus", &target.hardening_modulus),
+        ("tangent_modulus", &target.tangent_modulus),
+    ];
+    let Some((name, value)) = others.iter().find_map(|(name, value)| Some((name, value.as_ref()?))) else {
+        return Ok(());
+    };
+    let message = format!(
+        "target.{name} and target.power_law say the same: yield strength and hardening follow from the power law"
+    );
+    Err(Mistake(value.span(), message))
+}
+
+/// The hardening modulus of a `tangent` modulus.
+fn of_tangent(
+    target: &Target,
+    tangent: &Spanned<f64>,
+    youngs_modulus: Option<&Spanned<f64>>,
+) -> Result<Spanned<f64>, Mistake> {
+    let wrong = |message: String| Err(Mistake(tangent.span(), message));
+    if target.hardening_modulus.is_some() {
+        return wrong("target.tangent_modulus and target.hardening_modulus say the same: give one of them".into());
+    }
+    let Some(modulus) = youngs_modulus.map(|modulus| *modulus.get_ref()) else {
+        return wrong("target.tangent_modulus needs target.youngs_modulus, or a material".into());
+    };
+    let given = *tangent.get_ref();
+    // a NaN is in no range
+    if !(0.0..modulus).contains(&given) {
+        return wrong(format!(
+            "target.tangent_modulus = {given:?} is out of range: allowed is 0.0 to below youngs_modulus = {modulus:?} Pa"
+        ));
+    }
+    Ok(Spanned::new(tangent.span(), given / (1.0 - given / modulus)))
+}
+
+/// Refuses what belongs to all contacts in the target of the contact `name`.
+pub fn check_contact(name: &str, target: &Target) -> Result<(), Mistake> {
+    let power_law = target.power_law.as_ref().map(|table| ("power_law", table.span()));
+    let rate = target.rate.as_ref().map(|table| ("rate", table.span()));
+    match power_law.or(rate) {
+        Some((key, span)) => {
+            Err(Mistake(span, format!("contact `{name}`: target.{key} belongs to [target], for all contacts")))
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,61 @@
+//! Power-law hardening as a linear one, over the strains of the scene's impact.
+
+use super::Mistake;
+use super::file::PowerLawTable;
+use serde::Serialize;
+use toml::Spanned;
+
+/// Representative strain of an indentation over its contact radius in units of the effective radius.
+///
+/// Reference: D. Tabor, *The Hardness of Metals*, Oxford 1951, chapter V.
+pub const TABOR: f64 = 0.2;
+
+/// The strain from which the search for that of an impact begins.
+pub const FIRST_STRAIN: f64 = 0.05;
+
+/// The flow stress `sigma = K eps_p^n`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerLaw {
+    /// `K` [Pa].
+    pub coefficient: f64,
+    /// `n`.
+    pub exponent: f64,
+}
+
+/// A power law as a linear one.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Linear {
+    /// The largest plastic strain that counts.
+    pub strain: f64,
+    /// `S` [Pa].
+    pub yield_strength: f64,
+    /// `H` [Pa].
+    pub hardening_modulus: f64,
+    /// Error of the flow stress at the largest strain, relative.
+    pub error: f64,
+}
+
+impl PowerLaw {
+    /// The straight line `S + H eps_p` that is nearest to the power law from no strain to `strain`, by least squares.
+    pub fn up_to(&self, strain: f64) -> Linear {
+        let PowerLaw { coefficient, exponent: n } = *self;
+        let stress = coefficient * libm::pow(strain, n);
+        let scale = stress / ((n + 1.0) * (n + 2.0));
+        let (yield_strength, rise) = (2.0 * (1.0 - n) * scale, 6.0 * n * scale);
+        let error = (yield_strength + rise) / stress - 1.0;
+        Linear { strain, yield_strength, hardening_modulus: rise / strain, error }
+    }
+}
+
+/// The power law that a scene gives.
+pub fn check(table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
+    let PowerLawTable { coefficient, exponent } = table.get_ref();
+    super::checks::check_range(("coefficient", "Pa"), "target.power_law.", coefficient, 1e-6..=1e18)?;
+    super::checks::check_range(("exponent", ""), "target.power_law.", exponent, 0.0..=0.9)?;
+    Ok(PowerLaw { coefficient: *coefficient.get_ref(), exponent: *exponent.get_ref() })
+}
+
+/// What stands for the power law until the impact is known.
+pub fn placeholder(law: &PowerLaw) -> Linear {
+    law.up_to(FIRST_STRAIN)
+}

@@ -1,0 +1,193 @@
+//! Strain rate: the strength that a target has in the scene's impact.
+
+use super::file::RateTable;
+use super::power_law::Linear;
+pub use super::power_law::TABOR;
+use super::{Mistake, Scene, checks};
+use crate::model::{AnyModel, strengthened};
+use crate::nearest::unknown;
+use brinell::contact::impact::{Impact, Prediction};
+use brinell::contact::{Model, Pair};
+use serde::Serialize;
+use toml::Spanned;
+
+/// The names of the models, as scenes call them.
+const MODELS: [&str; 2] = ["johnson-cook", "cowper-symonds"];
+
+/// A change below which factor and strain are found, relative, and the steps after which the search is given up.
+const CLOSE: f64 = 1e-12;
+pub const STEPS: u32 = 200;
+
+/// How the flow stress grows with the strain rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rate {
+    /// `1 + c ln(rate/reference)`, and 1 below the reference rate.
+    ///
+    /// Reference: G. R. Johnson, W. H. Cook, *7th Int. Symp. on Ballistics*, The Hague 1983, 541-547.
+    JohnsonCook {
+        c: f64,
+        /// [1/s]
+        reference_rate: f64,
+    },
+    /// `1 + (rate/d)^(1/q)`.
+    ///
+    /// Reference: G. R. Cowper, P. S. Symonds, Brown University, Division of Applied Mathematics, report 28 (1957).
+    CowperSymonds {
+        /// [1/s]
+        d: f64,
+        q: f64,
+    },
+}
+
+impl Rate {
+    /// Flow stress at a strain rate [1/s] over the quasi-static one.
+    pub fn factor(&self, rate: f64) -> f64 {
+        match *self {
+            Rate::JohnsonCook { c, reference_rate } => 1.0 + c * libm::log(rate / reference_rate).max(0.0),
+            Rate::CowperSymonds { d, q } => 1.0 + libm::pow(rate / d, 1.0 / q),
+        }
+    }
+}
+
+/// The rate model that a scene gives.
+pub fn check(table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
+    let RateTable { model, c, reference_rate, d, q } = table.get_ref();
+    let keys = [("c", c), ("reference_rate", reference_rate), ("d", d), ("q", q)];
+    let own: &[&str] = match model.get_ref().as_str() {
+        "johnson-cook" => &["c", "reference_rate"],
+        "cowper-symonds" => &["d", "q"],
+        other => return Err(Mistake(model.span(), unknown("target.rate.model", other, MODELS.into_iter()))),
+    };
+    let foreign =
+        keys.iter().find_map(|(name, value)| value.as_ref().filter(|_| !own.contains(name)).map(|v| (name, v)));
+    if let Some((name, value)) = foreign {
+        let message = format!(
+            "target.rate.{name} doesn't belong to model = \"{}\", which has {}",
+            model.get_ref(),
+            own.join(" and ")
+        );
+        return Err(Mistake(value.span(), message));
+    }
+    let number = |name: &str, unit, allowed| {
+        let value = keys.iter().find(|(known, _)| *known == name).and_then(|(_, value)| value.as_ref());
+        let missing =
+            || Mistake(table.span(), format!("target.rate with model = \"{}\" needs {name}", model.get_ref()));
+        let value = value.ok_or_else(missing)?;
+        checks::check_range((name, unit), "target.rate.", value, allowed)?;
+        Ok(*value.get_ref())
+    };
+    match own[0] {
+        "c" => Ok(Rate::JohnsonCook {
+            c: number("c", "", 0.0..=1.0)?,
+            reference_rate: number("reference_rate", "1/s", 1e-9..=1e9)?,
+        }),
+        _ => Ok(Rate::CowperSymonds { d: number("d", "1/s", 1e-9..=1e15)?, q: number("q", "", 0.5..=100.0)? }),
+    }
+}
+
+/// What the target of a group is worth in an impact.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct InImpact {
+    /// Yield strength and hardening modulus [Pa], with the factor.
+    pub yield_strength: f64,
+    pub hardening_modulus: f64,
+    /// The straight line that stands for a power law, before the factor.
+    pub line: Option<Linear>,
+    /// Mean strain rate of the loading [1/s].
+    pub strain_rate: f64,
+    /// Flow stress over the quasi-static one.
+    pub factor: f64,
+}
+
+/// The quasi-static hardening of a group.
+#[derive(Clone, Copy, Debug)]
+pub struct QuasiStatic {
+    /// [Pa]
+    pub yield_strength: f64,
+    /// [Pa]
+    pub hardening_modulus: f64,
+}
+
+impl Scene {
+    /// Whether the strength of the targets depends on the impact.
+    pub fn depends_on_impact(&self) -> bool {
+        self.power_law.is_some() || self.rate.is_some()
+    }
+
+    /// What the target of `group` is worth in an `impact`: a fixed point, since its depth and its duration depend on that. The strain is
+    /// Tabor's, `0.2 a/R` at the largest contact radius, and the rate that strain over the time of the loading. `None` beyond
+    /// what the law can be evaluated for.
+    pub fn in_impact(&self, group: usize, impact: &Impact) -> Option<InImpact> {
+        let own = |group: usize| self.contacts[group].own.iter().any(|own| own.name == "target.yield_strength");
+        let line = |strain: f64| self.power_law.filter(|_| !own(group)).map(|law| law.up_to(strain));
+        let (mut strain, mut factor, mut strain_rate) = (super::power_law::FIRST_STRAIN, 1.0, 0.0);
+        for _ in 0..STEPS {
+            let prediction = self.with_strength(group, line(strain), factor).predict(impact)?;
+            let radius = self.pair_of(group)?.radius;
+            let next = TABOR * prediction.max_contact_radius / radius;
+            strain_rate = next / prediction.loading_time;
+            let more = self.rate.map_or(1.0, |rate| rate.factor(strain_rate));
+            let change = (next / strain - 1.0).abs().max((more / factor - 1.0).abs());
+            (strain, factor) = (next, more);
+            if change < CLOSE {
+                break;
+            }
+        }
+        let QuasiStatic { yield_strength, hardening_modulus } = self.hardening_of(group, line(strain));
+        Some(InImpact {
+            yield_strength: factor * yield_strength,
+            hardening_modulus: factor * hardening_modulus,
+            line: line(strain),
+            strain_rate,
+            factor,
+        })
+    }
+
+    /// The quasi-static hardening of `group`, or that of a `line`.
+    fn hardening_of(&self, group: usize, line: Option<Linear>) -> QuasiStatic {
+        let given = self.quasi_static[group];
+        line.map_or(given, |Linear { yield_strength, hardening_modulus, .. }| QuasiStatic {
+            yield_strength,
+            hardening_modulus,
+        })
+    }
+
+    /// The contacts of `group` with `factor` times the strength that is given or that of a `line`.
+    fn with_strength(&self, group: usize, line: Option<Linear>, factor: f64) -> AnyModel {
+        let QuasiStatic { yield_strength, hardening_modulus } = self.hardening_of(group, line);
+        let model = self.model_of(group);
+        let pair = Pair { yield_strength: factor * yield_strength, ..model.pair };
+        AnyModel::Elastoplastic(strengthened(&Model { pair, ..model }, factor * hardening_modulus))
+    }
+
+    /// The prediction of `impact` on the first contact with the straight line for another `strain`.
+    pub fn predict_with_strain(&self, impact: &Impact, strain: f64, factor: f64) -> Option<Prediction> {
+        self.with_strength(0, self.power_law.map(|law| law.up_to(strain)), factor).predict(impact)
+    }
+
+    /// The scene with the strengths that its targets have in its own impact, or in the given one on all contacts. `None` beyond what
+    /// the law can be evaluated for.
+    pub fn with_strengths_for(mut self, given: Option<&Impact>) -> Option<Scene> {
+        if !self.depends_on_impact() {
+            return Some(self);
+        }
+        let impact = |group: usize| given.copied().unwrap_or_else(|| self.impact_of(group));
+        let found = self.by_bodies(|group| self.in_impact(group, &impact(group)));
+        let found: Vec<InImpact> = found.into_iter().collect::<Option<_>>()?;
+        let set = |parameters: &mut [super::Parameter], found: &InImpact| {
+            for parameter in parameters {
+                match parameter.name {
+                    "target.yield_strength" => parameter.value = found.yield_strength,
+                    "target.hardening_modulus" => parameter.value = found.hardening_modulus,
+                    _ => {}
+                }
+            }
+        };
+        set(&mut self.parameters, &found[0]);
+        for (group, found) in self.contacts.iter_mut().zip(&found) {
+            set(&mut group.own, found);
+        }
+        self.yield_strength = Some(found[0].yield_strength);
+        Some(self)
+    }
+}

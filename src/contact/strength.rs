@@ -1,0 +1,130 @@
+//! What hardening and Poisson's ratio change in the law `brinell`: one effective strength.
+//!
+//! Lengths are in units of the yield indentation `d_Y` of the material, forces in units of its yield force `F_Y`:
+//! `k = d/d_Y`, `phi = F/F_Y`. `Phi` and `A` are the force and the area of the law `brinell` itself.
+
+use super::material::{Pair, YieldPoint};
+use libm::{exp, pow, sqrt};
+
+/// Poisson's ratio for which the law `brinell` was made.
+pub const POISSONS_RATIO: f64 = 0.3;
+
+// The constants that `fit/fit_materials.py` finds; a test compares them with the file that it writes.
+const GROWTH: [f64; 2] = [0.741, 0.097];
+const DECAY_SCALE: f64 = 21.26;
+const DECAY_POWER: f64 = 0.5854;
+const DECAY_SHIFT: f64 = 2.944;
+const RISE: f64 = 0.9452;
+const RISE_POWER: f64 = 0.3895;
+const SATURATION: f64 = 1.318;
+const RADIUS_POWER: f64 = 0.8647;
+const DENT_FALL: f64 = 1.584;
+const DENT_DECAY_SCALE: f64 = 7.392;
+const DENT_DECAY_POWER: f64 = 0.5016;
+const SLOPE_POWER: f64 = 1.111;
+const LARGEST_SHAPE: f64 = 0.75;
+
+/// Where the loading curve of a material that hardens, or has another Poisson's ratio, takes value and slope of its form \[d_Y\].
+pub const KNOTS: [f64; 11] = [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500.0, 1000.0, 2000.0];
+
+/// The effective strength of a material, relative to its strength at first yield.
+///
+/// A material that hardens behaves like one of a higher strength, and the more so the deeper it is indented. So does one with
+/// another Poisson's ratio, and the less so the deeper. Both together are a product: `t = t_nu t_H`, with
+/// `phi = t^3 Phi(k/t^2)`:
+///
+/// - at first yield, relative to `nu = 0.3`: `s0 = exp(0.741 (nu - 0.3) + 0.097 (nu - 0.3)^2)`, so that the contact yields at
+///   `s0^2 d_y` (theory: 0.825, 0.955, 1.110, 1.198 for `nu = 0.2, 0.3, 0.4, 0.45`; K. L. Johnson, *Contact Mechanics*,
+///   Cambridge 1985, section 6.2);
+/// - `t_nu = 1 + (1/s0 - 1) w/(1 + w)` with `w = s0^2.944 (k^0.5854 - 1)/21.26`;
+/// - `t_H = 1 + 0.9452 h s0^0.779 (k^0.3895 - 1)` with `h = eta/(1 + 1.318 eta)` and `eta = H/E*`.
+///
+/// `eta` is that of the pair: `(1 - nu^2) H/E` if the impactor is rigid. That it is the right one for an elastic impactor, and
+/// that the two effects are independent, are assumptions. Fitted for `nu` from 0.2 to 0.45 and `H/E` up to 0.1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strength {
+    /// `s0`.
+    at_yield: f64,
+    /// `1/s0 - 1`.
+    ease: f64,
+    /// `s0^2.944`.
+    shift: f64,
+    /// `h`.
+    hardening: f64,
+    /// What `k^0.3895 - 1` is multiplied with.
+    rise: f64,
+}
+
+impl Strength {
+    /// The strength of the target of `pair` with this `hardening_modulus` \[Pa\]; none if nothing differs from what the law
+    /// `brinell` was made for.
+    pub fn of(pair: &Pair, hardening_modulus: f64) -> Option<Strength> {
+        let differs = pair.poissons_ratio != POISSONS_RATIO || hardening_modulus != 0.0;
+        differs.then(|| Strength::new(pair, hardening_modulus))
+    }
+
+    #[inline(never)]
+    fn new(pair: &Pair, hardening_modulus: f64) -> Strength {
+        let [first, second] = GROWTH;
+        let more = pair.poissons_ratio - POISSONS_RATIO;
+        let logarithm = more * (first + second * more);
+        // a quotient with a soft pair below may overflow, this one doesn't
+        let hardening = hardening_modulus / (pair.modulus + SATURATION * hardening_modulus);
+        Strength {
+            at_yield: exp(logarithm),
+            ease: exp(-logarithm) - 1.0,
+            shift: exp(DECAY_SHIFT * logarithm),
+            hardening,
+            rise: RISE * hardening * exp(2.0 * RISE_POWER * logarithm),
+        }
+    }
+
+    /// The yield point of the material, where `standard` is that for `nu = 0.3`.
+    pub fn yield_point(&self, pair: &Pair, standard: &YieldPoint) -> YieldPoint {
+        let indentation = self.at_yield * self.at_yield * standard.indentation;
+        YieldPoint { indentation, force: pair.hertz_stiffness() * (indentation * sqrt(indentation)) }
+    }
+
+    /// `1 + (1/s0 - 1) w/(1 + w)`, and its slope by `k`.
+    fn fading(&self, k: f64, scale: f64, power: f64) -> (f64, f64) {
+        let (raised, unit) = (pow(k, power), self.shift / scale);
+        let w = unit * (raised - 1.0);
+        let slope = unit * power * raised / k;
+        (1.0 + self.ease * w / (1.0 + w), self.ease * slope / ((1.0 + w) * (1.0 + w)))
+    }
+
+    /// `t` at `k >= 1`, and its slope.
+    pub fn at(&self, k: f64) -> (f64, f64) {
+        let (one, one_slope) = self.fading(k, DECAY_SCALE, DECAY_POWER);
+        let raised = pow(k, RISE_POWER);
+        let (other, other_slope) = (1.0 + self.rise * (raised - 1.0), self.rise * RISE_POWER * raised / k);
+        (one * other, one_slope * other + one * other_slope)
+    }
+
+    /// The strength that a dent from `k >= 1` shows; it forgets Poisson's ratio sooner.
+    pub fn of_dent(&self, k: f64) -> f64 {
+        self.fading(k, DENT_DECAY_SCALE, DENT_DECAY_POWER).0
+    }
+
+    /// By what the hardening divides the depth of a dent.
+    pub fn dent_divisor(&self) -> f64 {
+        1.0 + DENT_FALL * self.hardening
+    }
+}
+
+/// By what the contact area differs from `A(k)`, where the force is `ratio` times `Phi(k)`: the harder, the smaller.
+pub fn area_factor(ratio: f64) -> f64 {
+    pow(ratio, -RADIUS_POWER)
+}
+
+/// By what the square of the radius that the slope of an unloading shows differs, where the force is `ratio` times that of the
+/// law itself.
+pub fn slope_factor(ratio: f64) -> f64 {
+    pow(ratio, -SLOPE_POWER)
+}
+
+/// The shape `g` of an unloading, held between 0 and a number that no fitted curve reaches. Without that materials far from
+/// those that were fitted would give back more than they took.
+pub fn held(shape: f64) -> f64 {
+    shape.clamp(0.0, LARGEST_SHAPE)
+}

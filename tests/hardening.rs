@@ -1,0 +1,240 @@
+//! Scenes whose target hardens, or has another Poisson's ratio than 0.3: what is refused, what the unit has, and that it does what
+//! is predicted.
+
+#[path = "support/command.rs"]
+mod command;
+#[path = "support/refusal.rs"]
+mod refusal;
+
+use command::{empty_folder, run};
+use refusal::refused_text;
+use std::fs;
+use std::path::Path;
+
+/// A scene with these lines of its target, its laws and what can be set.
+fn scene(target: &str, law: &str, fmu: &str) -> String {
+    format!(
+        "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nyoungs_modulus = 206e9\nyield_strength = 300e6\n{target}\n\
+         [law]\n{law}\n[fmu]\n{fmu}\n[impact]\nmass = 4.11e-3\nspeed = 2.0\n"
+    )
+}
+
+const BRINELL: &str = "loading = \"brinell\"";
+
+fn write(folder: &Path, text: &str) {
+    fs::write(folder.join("scene.toml"), text).unwrap();
+}
+
+/// What the scene `text` predicts, with further arguments.
+fn predicted(text: &str, arguments: &[&str]) -> serde_json::Value {
+    let folder = empty_folder();
+    write(folder.path(), text);
+    let all = ["predict", "scene.toml", "--json"].into_iter().chain(arguments.iter().copied());
+    run(folder.path(), all).with_status(0).json()["laws"][0].clone()
+}
+
+/// The scene as Rust.
+fn constants(text: &str) -> String {
+    let folder = empty_folder();
+    write(folder.path(), text);
+    run(folder.path(), ["constants", "scene.toml"]).with_status(0).out
+}
+
+#[test]
+fn a_unit_that_hardens_does_what_is_predicted() {
+    let folder = empty_folder();
+    let laws = [BRINELL, "loading = \"brinell\"\nunloading = \"contact-radius\""];
+    let coupled = "[coupling]\neffective_mass = 4.11e-3\n";
+    for (target, law, more) in [
+        ("poissons_ratio = 0.3\nhardening_modulus = 4e9", laws[0], ""),
+        ("poissons_ratio = 0.4\nhardening_modulus = 4e9", laws[1], ""),
+        ("poissons_ratio = 0.45\nhardening_modulus = 4e9", laws[0], coupled),
+        ("poissons_ratio = 0.2", laws[0], coupled),
+    ] {
+        let outputs = "outputs = [\"work\", \"dissipated_energy\", \"contact_radius\", \"residual_indentation\"]";
+        write(folder.path(), &(scene(target, law, outputs) + more));
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["check", "unit.fmu"]).with_status(0);
+    }
+}
+
+#[test]
+fn only_a_unit_that_needs_it_has_the_form_for_other_materials() {
+    let fixed = "parameters = [\"target.yield_strength\"]";
+    for (target, law, fmu, has) in [
+        ("poissons_ratio = 0.3", BRINELL, fixed, false),
+        ("poissons_ratio = 0.3", "loading = \"johnson\"", "", false),
+        ("poissons_ratio = 0.3", BRINELL, "", true),
+        ("poissons_ratio = 0.29", BRINELL, fixed, true),
+        ("poissons_ratio = 0.3\nhardening_modulus = 0.0", BRINELL, fixed, true),
+    ] {
+        let rust = constants(&scene(target, law, fmu));
+        assert_eq!(rust.contains("loading::Strengthened"), has, "{target}, {law}, {fmu}:\n{rust}");
+        assert_eq!(rust.contains("unloading::Strengthened"), has, "{target}, {law}, {fmu}:\n{rust}");
+    }
+    let other = constants(&scene("poissons_ratio = 0.4", "loading = \"brinell\"\nunloading = \"thornton\"", ""));
+    assert!(other.contains("loading::Strengthened") && !other.contains("unloading::Strengthened"), "{other}");
+}
+
+#[test]
+fn a_unit_whose_target_does_not_harden_has_no_such_parameter_and_a_smaller_library() {
+    let folder = empty_folder();
+    let size = |target: &str, fmu: &str| {
+        write(folder.path(), &scene(target, BRINELL, fmu));
+        let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
+        exported["library_size"].as_u64().unwrap()
+    };
+    let fixed = "parameters = [\"target.yield_strength\"]";
+    let (plain, other) = (size("poissons_ratio = 0.3", fixed), size("poissons_ratio = 0.4", fixed));
+    assert!(plain + 500 < other, "{plain} and {other} bytes");
+    assert!(!constants(&scene("poissons_ratio = 0.3", BRINELL, "")).contains("\"target.hardening_modulus\""));
+    let hardens = constants(&scene("poissons_ratio = 0.3\nhardening_modulus = 1e9", BRINELL, ""));
+    assert!(hardens.contains("\"target.hardening_modulus\""), "{hardens}");
+}
+
+#[test]
+fn a_tangent_modulus_is_a_hardening_modulus_in_other_words() {
+    // E_t = H/(1 + H/E)
+    let hardening = 10e9;
+    let tangent = hardening / (1.0 + hardening / 206e9);
+    let one = predicted(&scene(&format!("poissons_ratio = 0.3\nhardening_modulus = {hardening:e}"), BRINELL, ""), &[]);
+    let other = predicted(&scene(&format!("poissons_ratio = 0.3\ntangent_modulus = {tangent:e}"), BRINELL, ""), &[]);
+    for name in ["restitution", "largest_force", "dent"] {
+        let [one, other] = [&one, &other].map(|law| law[name].as_f64().unwrap());
+        assert!((one / other - 1.0).abs() < 1e-12, "{name}: {one} and {other}");
+    }
+    // of a material, and of a contact whose modulus is that of the scene
+    let of_material = "name = \"unit\"\nimpactor = { radius = 5e-3 }\nlaw = { loading = \"brinell\" }\n\
+                       target = { material = \"mild steel\" }\n[[contact]]\nname = \"one\"\n";
+    let rust = constants(&format!("{of_material}target = {{ tangent_modulus = 2e9 }}\n"));
+    let modulus = 2e9 / (1.0 - 2e9 / 206e9);
+    assert!(rust.contains(&format!("{modulus:e}")), "{modulus:e} in {rust}");
+}
+
+#[test]
+fn a_sweep_and_a_comparison_know_the_hardening() {
+    let text = scene("poissons_ratio = 0.3\nhardening_modulus = 2e9", BRINELL, "");
+    let alone = predicted(&text, &[])["restitution"].as_f64().unwrap();
+    let named = predicted(&text, &["--laws", "brinell"])["restitution"].as_f64().unwrap();
+    assert_eq!(alone, named);
+    let none = predicted(&scene("poissons_ratio = 0.3", BRINELL, ""), &[])["restitution"].as_f64().unwrap();
+    assert!(alone > none + 1e-3, "{alone} and {none}");
+    let folder = empty_folder();
+    write(folder.path(), &text);
+    run(folder.path(), ["predict", "scene.toml", "--sweep", "target.hardening_modulus=0:10e9:6", "-o", "sweep.csv"])
+        .with_status(0);
+    let table = fs::read_to_string(folder.path().join("sweep.csv")).unwrap();
+    let heads: Vec<_> = table.lines().next().unwrap().split(',').map(str::to_string).collect();
+    let place = heads.iter().position(|head| head.contains("restitution")).unwrap_or_else(|| panic!("{heads:?}"));
+    let restitution: Vec<f64> =
+        table.lines().skip(1).map(|row| row.split(',').nth(place).unwrap().parse().unwrap()).collect();
+    assert!(restitution.len() == 6 && restitution.is_sorted() && restitution[0] == none, "{restitution:?}");
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let nu = "poissons_ratio = 0.3\n";
+    let target = |line: &str| format!("{nu}{line}");
+    refused_text(
+        &scene(&target("hardening_modulus = §-1.0"), BRINELL, ""),
+        &["target.hardening_modulus = -1.0 is out of range", "0.0 to 1e18 Pa"],
+    );
+    refused_text(
+        &scene(&target("hardening_modulus = §1e9"), "loading = \"big-alabo\"", ""),
+        &["the hardening of the target has no effect on law.loading = \"big-alabo\"", "\"brinell\""],
+    );
+    refused_text(
+        &scene(&target("tangent_modulus = §1e9"), "loading = \"tsuji\"\nrestitution = 0.7", ""),
+        &["has no effect on law.loading = \"tsuji\""],
+    );
+    refused_text(
+        &scene(&target("tangent_modulus = §206e9"), BRINELL, ""),
+        &["target.tangent_modulus = 206000000000.0 is out of range", "below youngs_modulus"],
+    );
+    refused_text(
+        &scene(&target("hardening_modulus = 1e9\ntangent_modulus = §1e9"), BRINELL, ""),
+        &["say the same: give one of them"],
+    );
+}
+
+#[test]
+fn laws_shows_the_error_for_each_material() {
+    let folder = empty_folder();
+    let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
+    let errors = |name: &str| {
+        let found = laws["loading"].as_array().unwrap().iter().find(|law| law["name"] == name);
+        found.unwrap()["materials"].as_array().unwrap().clone()
+    };
+    assert!(errors("big-alabo").is_empty());
+    let all = errors("brinell");
+    assert_eq!(all.len(), 7);
+    for material in &all {
+        let worst = |name: &str| material[name].as_f64().unwrap().abs();
+        assert!(worst("worst_force") < 7e-3 && worst("worst_unloading") < 1.4e-2, "{material}");
+        assert!(worst("worst_restitution") < 8e-3 && worst("worst_dent") < 2e-2, "{material}");
+    }
+    for command in [vec!["laws"], vec!["laws", "brinell"]] {
+        let text = run(folder.path(), command).with_status(0).out;
+        assert!(text.contains("nu = 0.45") && text.contains("H = 0.05 E"), "{text}");
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    }
+}
+
+#[test]
+fn a_power_law_is_the_nearest_line_over_the_strains_of_the_impact() {
+    let folder = empty_folder();
+    let text = |impact: &str| {
+        format!(
+            "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n\
+             power_law = {{ coefficient = 700e6, exponent = 0.2 }}\n[law]\n{BRINELL}\n[impact]\n{impact}\n"
+        )
+    };
+    let predicted = |text: &str, arguments: &[&str]| {
+        write(folder.path(), text);
+        let all = ["predict", "scene.toml", "--json"].into_iter().chain(arguments.iter().copied());
+        run(folder.path(), all).with_status(0).json()
+    };
+    for speed in ["0.5", "5.0"] {
+        let answer = predicted(&text(&format!("mass = 4.11e-3\nspeed = {speed}")), &[]);
+        let of = |name: &str| answer["strength"]["line"][name].as_f64().unwrap();
+        let (strain, strength, modulus) = (of("strain"), of("yield_strength"), of("hardening_modulus"));
+        let radius = answer["laws"][0]["largest_contact_radius"].as_f64().unwrap();
+        assert!((strain / (0.2 * radius / 5e-3) - 1.0).abs() < 1e-9, "{strain} and {radius}");
+        // no other line is nearer: the residual is orthogonal to 1 and to the strain
+        let (mut constant, mut linear) = (0.0, 0.0);
+        let points = 200_000;
+        for point in 0..points {
+            let strain = strain * (f64::from(point) + 0.5) / f64::from(points);
+            let residual = 700e6 * strain.powf(0.2) - strength - modulus * strain;
+            constant += residual / f64::from(points);
+            linear += residual * strain / f64::from(points);
+        }
+        assert!(constant.abs() < 1e-5 * strength && linear.abs() < 1e-5 * strength * strain, "{constant} {linear}");
+        let note = answer["notes"].to_string();
+        assert!(note.contains("Tabor") && note.contains("half or twice"), "{note}");
+        // an impact of the command line has its own line
+        let other = predicted(&text("mass = 4.11e-3\nspeed = 1.0"), &["--speed", speed]);
+        assert_eq!(other["laws"][0]["restitution"], answer["laws"][0]["restitution"]);
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["check", "unit.fmu"]).with_status(0);
+    }
+    let target = "poissons_ratio = 0.3\n";
+    let law = "power_law = { coefficient = 700e6, exponent = 0.2 }";
+    refused_text(
+        &scene(&format!("{target}{law}"), BRINELL, "").replace("yield_strength = 300e6", "yield_strength = §300e6"),
+        &["target.yield_strength and target.power_law say the same"],
+    );
+    let alone = scene(&format!("{target}{law}"), BRINELL, "").replace("yield_strength = 300e6\n", "");
+    refused_text(
+        &alone.replace("exponent = 0.2", "exponent = §1.0"),
+        &["target.power_law.exponent = 1.0 is out of range", "0.0 to 0.9"],
+    );
+    refused_text(
+        &alone.replace(law, &format!("§{law}")).replace(BRINELL, "loading = \"johnson\"").replacen(
+            "§power_law = ",
+            "power_law = §",
+            1,
+        ),
+        &["the hardening of the target has no effect on law.loading = \"johnson\""],
+    );
+}
