@@ -20,6 +20,7 @@
 //! | [`piece`] | the smooth pieces of the law along which a contact moves |
 //! | [`momentum`] | the integral of force over time, along branches or by pieces |
 //! | [`motion`] | a contact that knows the mass |
+//! | [`tangential`] | friction: the tangential force of a contact |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
 //! | [`validity`] | the range in which the laws are valid |
 
@@ -38,6 +39,7 @@ pub mod path;
 pub mod piece;
 pub mod quadrature;
 pub mod segment;
+pub mod tangential;
 pub mod unloading;
 pub mod validity;
 pub(crate) mod words;
