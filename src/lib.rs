@@ -13,9 +13,9 @@
 //! the result does not depend on how time is divided.
 //!
 //! # Validity
-//! Quasi-static, frictionless normal contact of a paraboloid: `a/R` up to about 0.3, contact long compared with the travel
-//! of elastic waves, no hardening, no strain-rate effects. [`contact::validity`] has the limits in numbers; an FMU logs a
-//! warning when it leaves them.
+//! Quasi-static normal contact of a paraboloid: `a/R` up to about 0.3, contact long compared with the travel of elastic waves,
+//! no hardening, no strain-rate effects. [`contact::validity`] has the limits in numbers; an FMU logs a warning when it leaves
+//! them. FMUs are frictionless; [`contact::tangential`] has friction for whoever uses the library.
 //!
 //! # Units
 //! SI throughout: m, kg, s, N, Pa, J. The documentation of each public item states its unit.
@@ -71,3 +71,8 @@ pub mod scene;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/guide/rust.md")]
 mod guide {}
+
+/// The Rust code of the page on friction, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/guide/friction.md")]
+mod friction {}

@@ -9,6 +9,7 @@ use brinell::contact::Segment;
 use brinell::contact::tangential::{Friction, Sliding, Stuck, Way};
 use friction::{assert_close, hertz};
 use physics::Random;
+use std::f64::consts::PI;
 
 const MODULUS: f64 = 2e11;
 const RADIUS: f64 = 5e-3;
@@ -210,6 +211,46 @@ fn a_cycle_at_constant_normal_force_loses_what_mindlin_and_deresiewicz_say() {
         let expected = 9.0 * limit * limit / (10.0 * contact_radius * shear) * bracket;
         assert_close(&format!("loss at {part}"), lost, expected, expected, 1e-12 / (part * part * part));
         assert_eq!(run.stuck.sliding(), Sliding::PartialSlip);
+    }
+}
+
+/// The worst error of a list of twelve on a path over `steps`, each to an indentation and a displacement [m], in parts of the force.
+fn error_of_twelve(steps: u32, place: impl Fn(f64) -> (f64, f64)) -> f64 {
+    let curve = hertz(MODULUS, RADIUS);
+    let (mut full, mut short) = (Run::<512>::new(curve), Run::<12>::new(curve));
+    let (mut before, mut worst) = ((0.0, 0.0), 0.0_f64);
+    for step in 1..=steps {
+        let here = place(f64::from(step));
+        let way = (here.0 - before.0, here.1 - before.1);
+        before = here;
+        full.step(way, 1);
+        short.step(way, 1);
+        worst = worst.max((full.pull() - short.pull()).abs() / full.force());
+    }
+    worst
+}
+
+#[test]
+fn a_list_of_twelve_is_close_to_one_that_is_never_full() {
+    let quadrature = |step: f64| {
+        let phase = 2.0 * PI * step / 200.0;
+        (1e-5 * (1.0 + 0.6 * phase.sin()), 3e-6 * phase.cos())
+    };
+    let decaying = |step: f64| (1e-5, 8e-6 * (-step / 800.0).exp() * (2.0 * PI * step / 20.0).sin());
+    let two_frequencies = |step: f64| {
+        let wave = 0.3 * (step / 7.0).sin() + 0.25 * (step / 31.0).sin();
+        (1e-5 * (1.0 + wave), 6e-6 * (step / 211.0).sin())
+    };
+    let ratchet = |step: f64| (1e-8 * step + 1e-6 * (step / 3.0).sin() + 2e-6, 2e-9 * step + 5e-7 * (step / 3.0).cos());
+    let errors = [
+        ("quadrature", error_of_twelve(1000, quadrature)),
+        ("decaying vibration", error_of_twelve(800, decaying)),
+        ("two frequencies", error_of_twelve(2000, two_frequencies)),
+        ("ratchet", error_of_twelve(1000, ratchet)),
+    ];
+    for (name, error) in errors {
+        println!("{name}: {error:.1e}");
+        assert!(error < 1e-2, "{name}: {error:e}");
     }
 }
 

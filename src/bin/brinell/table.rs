@@ -161,6 +161,13 @@ pub struct Law {
     _rust: IgnoredAny,
     #[serde(default, rename = "guarded")]
     _guarded: IgnoredAny,
+    /// How exact the tangential force is, or why there is none: for the library in Rust. No FMU has friction yet.
+    #[serde(default, rename = "friction_error")]
+    _friction_error: IgnoredAny,
+    #[serde(default, rename = "friction_error_of")]
+    _friction_error_of: IgnoredAny,
+    #[serde(default, rename = "no_friction")]
+    _no_friction: IgnoredAny,
     pub title: String,
     pub formulas: Vec<String>,
     pub notes: String,

@@ -26,6 +26,7 @@
 //! - V. L. Popov, M. Hess, *Facta Univ. Mech. Eng.* 12 (2014) 1-18.
 //! - M. A. Krasnosel'skii, A. V. Pokrovskii, *Systems with Hysteresis*, 1989: the play operator.
 
+mod contact;
 mod growth;
 mod growth_steps;
 mod list;
@@ -37,6 +38,7 @@ mod saved;
 mod stuck;
 mod way;
 
+pub use contact::RoughContact;
 pub use list::{List, Vertex};
 pub use outputs::Sliding;
 pub use rough::{RoughModel, Springs};
