@@ -194,9 +194,9 @@ fn a_cycle_at_constant_normal_force_loses_what_mindlin_and_deresiewicz_say() {
     let limit = FRICTION.coefficient * curve.force(indentation);
     let shear = FRICTION.stiffness_ratio * MODULUS / 4.0;
     let contact_radius = (RADIUS * indentation).sqrt();
-    for part in [0.01, 0.1, 0.5, 0.9, 0.999] {
+    for part in [0.01_f64, 0.1, 0.5, 0.9, 0.999] {
         // displacement at a tangential force of `part` of the limit
-        let amplitude = indentation * (1.0 - (1.0 - part as f64).powf(2.0 / 3.0));
+        let amplitude = indentation * (1.0 - (1.0 - part).powf(2.0 / 3.0));
         let mut run = Run::<12>::new(curve);
         run.step((indentation, 0.0), 1);
         run.step((0.0, amplitude), 1);
