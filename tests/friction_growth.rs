@@ -181,3 +181,23 @@ fn a_saved_contact_goes_on_with_the_same_bits() {
         }
     }
 }
+
+#[test]
+fn a_fresh_surface_has_no_dent_left_for_the_springs() {
+    let unit = unit(&mild()).indentation;
+    for (name, mut model) in models() {
+        model.normal.surface = brinell::contact::Surface::Fresh;
+        let mut run = Run::<12>::new(&model);
+        run.step(&model, (50.0 * unit, 20.0 * unit), 10);
+        let back = -unit - run.contact.indentation();
+        run.step(&model, (back, 0.0), 1);
+        let mut fresh = Run::<12>::new(&model);
+        fresh.step(&model, (-unit, 0.0), 1);
+        for step in [(1.5 * unit, unit), (3.0 * unit, -0.5 * unit), (-2.0 * unit, 0.2 * unit), (4.0 * unit, unit)] {
+            run.step(&model, step, 3);
+            fresh.step(&model, step, 3);
+            let size = 0.3 * model.normal.peak(6.0 * unit).force;
+            friction::assert_close(&name, run.pull(), fresh.pull(), size, allowed(&name).max(1e-9));
+        }
+    }
+}

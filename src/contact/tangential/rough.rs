@@ -71,7 +71,8 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         let scale = model.friction.scale();
         let way = Way { from, to, shift: scale * slip, normal: rates.0, tangential: scale * rates.1 };
         let pull = self.follow(model, &way, is_asked);
-        if model.normal.surface == Surface::Fresh && to < 0.0 && self.curve.lower > 0.0 {
+        // a fresh surface forgets the dent where the bodies part beyond the original surface
+        if model.normal.surface == Surface::Fresh && from >= 0.0 && to < 0.0 {
             self.curve = model.curve_below(0.0);
         }
         Ok(model.friction.coefficient * pull)
