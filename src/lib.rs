@@ -71,3 +71,8 @@ pub mod scene;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/guide/rust.md")]
 mod guide {}
+
+/// The Rust code of the page on friction, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/guide/friction.md")]
+mod friction {}

@@ -21,6 +21,8 @@
 //! | [`momentum`] | the integral of force over time, along branches or by pieces |
 //! | [`motion`] | the motion of bodies of known mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
+//! | [`strength`] | hardening and Poisson's ratio as one effective strength |
+//! | [`tangential`] | friction: the tangential force of a contact |
 //! | [`validity`] | the range in which the laws are valid |
 
 pub mod behaviour;
@@ -39,6 +41,7 @@ pub mod piece;
 pub mod quadrature;
 pub mod segment;
 pub mod strength;
+pub mod tangential;
 pub mod unloading;
 pub mod validity;
 pub(crate) mod words;

@@ -13,6 +13,13 @@ pub struct Law {
     _rust: IgnoredAny,
     #[serde(default, rename = "guarded")]
     _guarded: IgnoredAny,
+    /// The error of the tangential force, or the reason why there is none: for the Rust library. FMUs have no friction yet.
+    #[serde(default, rename = "friction_error")]
+    _friction_error: IgnoredAny,
+    #[serde(default, rename = "friction_error_of")]
+    _friction_error_of: IgnoredAny,
+    #[serde(default, rename = "no_friction")]
+    _no_friction: IgnoredAny,
     /// Whether the law has a form for targets that harden.
     #[serde(default)]
     pub strengthened: bool,

@@ -1,0 +1,57 @@
+//! Oblique impacts of a ball beside a normal one: what a step costs when the contact slides, slips at its edge, grows in stick, and
+//! merges segments in each step.
+
+use brinell::contact::Segment;
+use brinell::contact::tangential::{Stuck, Way};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use std::hint::black_box;
+use std::time::Duration;
+
+/// Steps in an impact with everything of size one: a mass of 1 at a speed of 1 on `F = 4/3 d^1.5`.
+const STEPS: u32 = 500;
+/// Duration of that impact over its steps.
+const STEP: f64 = 2.8683 / STEPS as f64;
+const SCALE: f64 = 1.4 / 1.7 / 0.1;
+
+fn curve() -> Segment {
+    Segment { upper: 1e100, power: 4.0 / 3.0, ..Segment::NOTHING }
+}
+
+/// The impact of a ball with the tangential speed `slip`; the result is where its speeds end.
+#[inline(always)]
+fn impact<const N: usize>(curve: &Segment, slip: Option<f64>) -> (f64, f64) {
+    let mut stuck = Stuck::<N>::APART;
+    let (mut indentation, mut normal, mut tangential) = (0.0, 1.0, slip.unwrap_or(0.0));
+    for _ in 0..STEPS {
+        let to = indentation + STEP * normal;
+        if slip.is_some() {
+            stuck.advance(curve, &Way::straight(indentation, to, SCALE * STEP * tangential));
+            // the contact point of a solid ball has two sevenths of its mass
+            tangential -= 3.5 * STEP * 0.1 * stuck.pull(curve, to);
+        }
+        indentation = to;
+        normal -= STEP * curve.force(indentation);
+    }
+    (normal, tangential)
+}
+
+fn friction(criterion: &mut Criterion) {
+    let curve = curve();
+    let mut group = criterion.benchmark_group("step of an impact");
+    group.throughput(Throughput::Elements(u64::from(STEPS)));
+    group.bench_function("normal", |bencher| bencher.iter(|| impact::<12>(black_box(&curve), None)));
+    for (name, slip) in [("sliding", 3.0), ("partial slip", 0.4), ("stick and merges", 0.02)] {
+        group.bench_function(name, |bencher| bencher.iter(|| impact::<12>(black_box(&curve), Some(black_box(slip)))));
+    }
+    group.bench_function("stick without merges", |bencher| {
+        bencher.iter(|| impact::<512>(black_box(&curve), Some(black_box(0.02))));
+    });
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_millis(700));
+    targets = friction
+}
+criterion_main!(benches);

@@ -1,0 +1,155 @@
+//! The stuck offsets of a contact as a polyline of bounded length.
+
+use crate::contact::segment::Segment;
+use libm::fabs;
+
+use super::SAME;
+use super::merge::merge;
+
+/// A vertex of the polyline, and the segment that begins there and ends in the next vertex. The last segment ends in the
+/// present indentation and displacement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Height of the springs at the vertex: the indentation at which they touch \[m\].
+    pub height: f64,
+    /// Stuck offset there: scaled tangential displacement at which these springs are relaxed \[m\].
+    pub offset: f64,
+    /// d(offset)/d(height) of the segment; 1 and -1 where its springs slip.
+    pub slope: f64,
+    /// Normal force of the curve at `height` \[N\].
+    pub force: f64,
+    /// Tangential force of all segments below, over the coefficient of friction \[N\].
+    pub below: f64,
+}
+
+/// A polyline of at most `N` segments, from the lowest height to the highest.
+///
+/// One segment more than that merges two of those below it: see [`merge`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct List<const N: usize> {
+    count: usize,
+    vertices: [Vertex; N],
+}
+
+impl Vertex {
+    const NONE: Vertex = Vertex { height: 0.0, offset: 0.0, slope: 0.0, force: 0.0, below: 0.0 };
+
+    /// A vertex at `height` and `offset` \[m\] of springs whose normal force is that of `curve`.
+    pub fn new(curve: &Segment, height: f64, offset: f64, slope: f64) -> Vertex {
+        Vertex { height, offset, slope, force: curve.force(height), below: 0.0 }
+    }
+
+    /// Tangential force of all segments up to a point of this one where the normal force is `force` \[N\], over the coefficient of
+    /// friction \[N\].
+    pub fn pull_up_to(&self, force: f64) -> f64 {
+        self.below + self.slope * (force - self.force)
+    }
+
+    /// Offset on the segment, or on its extension, at `height` \[m\].
+    pub fn offset_at(&self, height: f64) -> f64 {
+        self.offset + self.slope * (height - self.height)
+    }
+}
+
+impl<const N: usize> List<N> {
+    /// No contact.
+    pub const EMPTY: List<N> = {
+        // the shortest list in which two segments take the place of three, below a last one
+        assert!(N >= 4);
+        List { count: 0, vertices: [Vertex::NONE; N] }
+    };
+
+    /// The vertices from the lowest height up.
+    #[inline(always)]
+    pub fn vertices(&self) -> &[Vertex] {
+        self.vertices.get(..self.count).unwrap_or(&[])
+    }
+
+    /// Whether there is no segment.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// The highest segment.
+    #[inline(always)]
+    pub fn last(&self) -> Option<&Vertex> {
+        self.vertices().last()
+    }
+
+    /// Gives the highest segment another slope.
+    pub fn set_slope(&mut self, slope: f64) {
+        if let Some(last) = self.vertices.get_mut(..self.count).and_then(<[Vertex]>::last_mut) {
+            last.slope = slope;
+        }
+    }
+
+    /// Keeps the lowest `count` segments.
+    #[inline(always)]
+    pub fn truncate(&mut self, count: usize) {
+        self.count = if count < self.count { count } else { self.count };
+    }
+
+    /// Adds a segment above the others. Of a full list two segments are merged before, along the `curve` of the normal force.
+    #[inline]
+    pub fn push(&mut self, curve: &Segment, vertex: Vertex) {
+        push(&mut self.vertices, &mut self.count, curve, vertex);
+    }
+
+    /// Whether no slope is steeper than that of slipping springs. Then the cone of a point cuts a top off the polyline, and leaves
+    /// the rest as it is.
+    pub fn is_within_cones(&self) -> bool {
+        self.vertices().iter().all(|vertex| fabs(vertex.slope) <= 1.0 + SAME)
+    }
+}
+
+/// Adds a segment above the `count` others in `room`; if that is full, two of them are merged before.
+#[inline(always)]
+fn push(room: &mut [Vertex], count: &mut usize, curve: &Segment, mut vertex: Vertex) {
+    if *count >= room.len() {
+        *count = merge(room, &vertex, curve);
+    }
+    let last = count.checked_sub(1).and_then(|last| room.get(last));
+    vertex.below = last.map_or(0.0, |last| last.pull_up_to(vertex.force));
+    if let Some(slot) = room.get_mut(*count) {
+        *slot = vertex;
+        *count += 1;
+    }
+}
+
+/// A polyline while it is put together, with room for more segments than a [`List`] keeps.
+pub(super) struct Draft<const N: usize> {
+    count: usize,
+    vertices: [[Vertex; N]; 4],
+}
+
+impl<const N: usize> Draft<N> {
+    /// Without segments.
+    pub(super) const EMPTY: Draft<N> = Draft { count: 0, vertices: [[Vertex::NONE; N]; 4] };
+
+    /// Adds a segment above the others, unless it continues the last one in a straight line.
+    pub(super) fn extend(&mut self, curve: &Segment, vertex: Vertex) {
+        let room = self.vertices.as_flattened_mut();
+        let last = self.count.checked_sub(1).and_then(|last| room.get(last));
+        if last.is_none_or(|last| fabs(last.slope - vertex.slope) > SAME) {
+            push(room, &mut self.count, curve, vertex);
+        }
+    }
+
+    /// The list of these segments, of which as many are merged as there are too many.
+    pub(super) fn into_list(mut self, curve: &Segment) -> List<N> {
+        let room = self.vertices.as_flattened_mut();
+        while self.count > N
+            && let Some(([rest @ .., last], _)) = room.split_at_mut_checked(self.count)
+        {
+            let last = *last;
+            self.count = merge(rest, &last, curve);
+            push(room, &mut self.count, curve, last);
+        }
+        let mut list = List::EMPTY;
+        for vertex in room.iter().take(self.count) {
+            list.push(curve, *vertex);
+        }
+        list
+    }
+}

@@ -1,0 +1,124 @@
+//! The tangential state of a contact, and its step along one elastic curve.
+
+use super::{List, SAME, Vertex, Way};
+use crate::contact::path::Sum;
+use crate::contact::segment::Segment;
+use libm::fabs;
+
+/// The springs of a contact: the tangential displacement, and the polyline of the offsets at which they are stuck.
+///
+/// The `curve` in the methods is the elastic normal force over the indentation, from the surface (its lower end) on: Hertz's law,
+/// or the unloading path of a dent. It has to be the same one in all calls until the contact has parted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stuck<const N: usize> {
+    /// Scaled tangential displacement \[m\] since the touch or since the whole contact slid.
+    pub(super) displacement: Sum,
+    pub(super) list: List<N>,
+}
+
+impl<const N: usize> Stuck<N> {
+    /// No contact.
+    pub const APART: Stuck<N> = Stuck { displacement: Sum::new(0.0), list: List::EMPTY };
+
+    /// A contact that is pressed in without tangential displacement, at `indentation` \[m\].
+    pub fn pressed(curve: &Segment, indentation: f64) -> Stuck<N> {
+        let mut stuck = Stuck::APART;
+        if indentation > curve.lower {
+            stuck.touch(curve);
+        }
+        stuck
+    }
+
+    /// Lets the first spring touch.
+    pub(super) fn touch(&mut self, curve: &Segment) {
+        *self = Stuck::APART;
+        self.list.push(curve, Vertex::new(curve, curve.lower, 0.0, 0.0));
+    }
+
+    /// Moves the contact on its way along `curve`.
+    ///
+    /// The end point alone decides: on a straight way, what its cone cuts off the polyline is what the cones of all points on the
+    /// way do.
+    #[inline]
+    pub fn advance(&mut self, curve: &Segment, way: &Way) {
+        if way.to <= curve.lower {
+            *self = Stuck::APART;
+            return;
+        }
+        if !way.moves() {
+            return;
+        }
+        let is_new = self.list.is_empty();
+        if is_new {
+            self.touch(curve);
+        }
+        // one that begins pressed in has springs already
+        let is_fresh = is_new && way.from <= curve.lower;
+        let way = if is_fresh { way.above(curve.lower) } else { *way };
+        let before = self.displacement.total();
+        self.displacement = self.displacement.plus(way.shift);
+        if !way.sticks() {
+            self.slip(curve, &way, is_fresh);
+        } else if is_fresh {
+            self.list.set_slope(way.slope());
+        } else if way.to > way.from && self.turns(way.slope()) {
+            self.list.push(curve, Vertex::new(curve, way.from, before, way.slope()));
+        }
+    }
+
+    /// Whether the last segment doesn't go on with this `slope`.
+    fn turns(&self, slope: f64) -> bool {
+        self.list.last().is_none_or(|last| fabs(last.slope - slope) > SAME)
+    }
+
+    /// Cuts the polyline with the cone of the point at which the contact has arrived.
+    fn slip(&mut self, curve: &Segment, way: &Way, is_fresh: bool) {
+        let (displacement, indentation) = (self.displacement.total(), way.to);
+        let mut left = self.list.vertices();
+        let sign = way.slip().unwrap_or_else(|| {
+            while let Some((last, below)) = left.split_last()
+                && !below.is_empty()
+                && last.height >= indentation
+            {
+                left = below;
+            }
+            let line = left.last().map_or(0.0, |last| last.offset_at(indentation));
+            if displacement > line { 1.0 } else { -1.0 }
+        });
+        while let Some((last, below)) = left.split_last()
+            && distance(last, sign, displacement, indentation) <= SAME * indentation
+        {
+            left = below;
+        }
+        let count = if is_fresh { 0 } else { left.len() };
+        self.list.truncate(count);
+        let Some(last) = self.list.last() else {
+            // only the direction of sliding matters from here on
+            self.displacement = Sum::new(0.0);
+            let offset = -sign * (indentation - curve.lower);
+            self.list.push(curve, Vertex::new(curve, curve.lower, offset, sign));
+            return;
+        };
+        if fabs(last.slope - sign) > SAME {
+            let front = front(last, sign, distance(last, sign, displacement, indentation));
+            if front < indentation {
+                let offset = last.offset_at(front);
+                self.list.push(curve, Vertex::new(curve, front, offset, sign));
+            }
+        }
+    }
+}
+
+/// How far `vertex` is inside of the side of the cone of `displacement` and `indentation` \[m\] that slips in the direction `sign`
+/// \[m\].
+#[inline(always)]
+pub(super) fn distance(vertex: &Vertex, sign: f64, displacement: f64, indentation: f64) -> f64 {
+    sign * (vertex.offset - displacement) + indentation - vertex.height
+}
+
+/// Height \[m\] of the front of slip in the direction `sign` on the segment of `vertex`, which is at this `distance` \[m\] from the
+/// side of the cone. The slope of the segment isn't `sign`.
+#[inline(always)]
+pub(super) fn front(vertex: &Vertex, sign: f64, distance: f64) -> f64 {
+    vertex.height + distance / (1.0 - sign * vertex.slope)
+}
