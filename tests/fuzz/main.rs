@@ -26,6 +26,7 @@ use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};
 use std::time::{Duration, Instant};
+use tempfile::TempDir;
 
 /// Calls over all FMUs in a usual run.
 const CALLS: u64 = 100_000;
@@ -87,6 +88,8 @@ fn worker() {
 struct Target {
     name: String,
     library: PathBuf,
+    /// For the files of its processes.
+    scratch: TempDir,
 }
 
 /// How a process ended that didn't do its work.
@@ -107,7 +110,7 @@ impl fmt::Display for Failure {
 impl Target {
     /// Runs `count` scripts from `first` on; gives the number of calls, or the script that failed.
     fn run(&self, first: u64, count: u64, kept: Option<&[usize]>) -> Result<u64, (u64, Failure)> {
-        let progress = self.library.with_extension("progress");
+        let progress = self.scratch.path().join("progress");
         let program = env::current_exe().expect("a test program");
         let mut command = Command::new(program);
         command.args(["worker", "--exact", "--ignored", "--nocapture"]);
@@ -116,7 +119,7 @@ impl Target {
         if let Some(kept) = kept {
             command.env(KEPT, kept.iter().map(usize::to_string).collect::<Vec<_>>().join(","));
         }
-        let log = self.library.with_extension("log");
+        let log = self.scratch.path().join("log");
         let file = std::fs::File::create(&log).expect("the target folder can be written to");
         command.stdout(file.try_clone().expect("a file")).stderr(file);
         let mut child = command.spawn().expect("a test program can be started");
@@ -208,6 +211,7 @@ fn targets() -> Vec<Target> {
     let target = |scene: PathBuf| Target {
         name: scene.file_stem().expect("a name").to_string_lossy().into_owned(),
         library: unit::library(&unit::export(&scene)),
+        scratch: tempfile::tempdir().expect("a folder for temporary files"),
     };
     scenes.map(target).collect()
 }

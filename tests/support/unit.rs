@@ -99,7 +99,7 @@ pub fn export(scene: &Path) -> PathBuf {
         let shared = shared_folder(scene);
         let unit = Path::new(scene.file_stem().expect("a scene file has a name")).with_extension("fmu");
         if !shared.exists() {
-            let draft = shared.with_extension(format!("{}-{:?}", std::process::id(), std::thread::current().id()));
+            let draft = draft_of(&shared);
             fs::create_dir_all(&draft).expect("the target folder can be written to");
             build(scene, &draft.join(&unit));
             // another test program may have been faster
@@ -130,25 +130,34 @@ fn build(scene: &Path, unit: &Path) {
     );
 }
 
-/// The library inside a unit, unpacked beside it.
+/// A place beside `path` for this thread alone.
+fn draft_of(path: &Path) -> PathBuf {
+    path.with_extension(format!("{}-{:?}", std::process::id(), std::thread::current().id()))
+}
+
+/// Unpacks `fmu` into `folder`.
+fn unpack(fmu: &Path, folder: &Path) {
+    let output = Command::new("python3")
+        .args(["-m", "zipfile", "-e"])
+        .args([fmu, folder])
+        .output()
+        .unwrap_or_else(|error| panic!("python3 unpacks the FMU, and it can't be started: {error}"));
+    assert!(output.status.success(), "{} isn't unpacked:\n{}", fmu.display(), String::from_utf8_lossy(&output.stderr));
+}
+
+/// The library inside an FMU, unpacked. Tests only read what is unpacked.
 pub fn library(fmu: &Path) -> PathBuf {
     once(fmu.to_path_buf(), |fmu| {
-        // what is unpacked may be changed, what is shared not
-        let mut hash = DefaultHasher::new();
-        fmu.hash(&mut hash);
-        let folder = folder().join(format!("{:016x}", hash.finish()));
-        let _ = fs::remove_dir_all(&folder);
-        let output = Command::new("python3")
-            .args(["-m", "zipfile", "-e"])
-            .args([fmu, &folder])
-            .output()
-            .unwrap_or_else(|error| panic!("python3 unpacks the unit, and it can't be started: {error}"));
-        assert!(
-            output.status.success(),
-            "{} isn't unpacked:\n{}",
-            fmu.display(),
-            String::from_utf8_lossy(&output.stderr)
-        );
+        // the path of an FMU contains hashes of its scene and of the program, so the contents are always the same
+        let folder = folder().join(hash_of(&[fmu.as_os_str().as_encoded_bytes()]));
+        if !folder.exists() {
+            let draft = draft_of(&folder);
+            unpack(fmu, &draft);
+            // another process may have been faster
+            if fs::rename(&draft, &folder).is_err() {
+                let _ = fs::remove_dir_all(&draft);
+            }
+        }
         let platforms = fs::read_dir(folder.join("binaries")).expect("a unit has binaries");
         let files = platforms.flat_map(|platform| {
             fs::read_dir(platform.expect("a readable folder").path()).expect("a folder for each platform")
