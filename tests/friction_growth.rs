@@ -1,4 +1,4 @@
-//! What holds for every history of a contact with friction that yields, with all pairs of laws whose unloading is one segment.
+//! Properties of every history of a yielding contact with friction, for all pairs of laws whose unloading is one segment.
 
 #[path = "support/friction.rs"]
 mod friction;
@@ -15,7 +15,7 @@ const LATTICE: bool = true;
 
 type Model = RoughModel<AnyLoading, AnyUnloading>;
 
-/// Pairs of laws that make no energy in normal motion, and whose friction the table of laws doesn't exclude.
+/// Pairs of laws that are passive in normal motion and support friction.
 fn models() -> Vec<(String, Model)> {
     let models = all_models(mild()).into_iter().filter(|(name, model)| {
         let unloading = name.rsplit(' ').next().expect("a law's name");
@@ -24,7 +24,7 @@ fn models() -> Vec<(String, Model)> {
     models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION })).collect()
 }
 
-/// The allowed error of friction with the pair of laws called `name`, in parts of Coulomb's limit.
+/// The allowed error of friction for the pair of laws called `name`, relative to Coulomb's limit.
 fn allowed(name: &str) -> f64 {
     let (loading, unloading) = name.split_once(" with ").expect("two laws");
     let entry = physics::laws::entry("unloading", unloading);
@@ -33,7 +33,7 @@ fn allowed(name: &str) -> f64 {
     error.unwrap_or_else(|| panic!("{unloading} has an error of friction"))
 }
 
-/// Steps of a random history [m]: up to some hundred yield indentations, with separations.
+/// Steps of a random history [m]: up to about a hundred yield indentations, with separations.
 fn history(seed: u64, length: usize) -> Vec<(f64, f64)> {
     let mut random = Random(seed);
     let unit = unit(&mild()).indentation;
@@ -64,7 +64,7 @@ impl<const N: usize> Run<N> {
         Run { contact, springs: Springs::start(model, &contact) }
     }
 
-    /// One step, divided into `parts`; the mean force.
+    /// One step, divided into `parts`. Returns the mean force.
     fn step(&mut self, model: &Model, (rise, slip): (f64, f64), parts: u32) -> f64 {
         let part = 1.0 / f64::from(parts);
         let mut mean = 0.0;
