@@ -1,4 +1,4 @@
-//! `brinell report`, quickly: the page stands alone, and its numbers are those of the theory.
+//! `brinell report` in quick mode: the page is self-contained, and its numbers agree with theory.
 
 #[path = "support/command.rs"]
 mod command;
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
-/// The quick report of a scene: its folder, and its data.
+/// The quick report of a scene: its folder and its data.
 fn report(name: &str) -> (TempDir, Value) {
     let folder = empty_folder();
     let scene = scene(name).display().to_string();
@@ -20,7 +20,7 @@ fn report(name: &str) -> (TempDir, Value) {
     (folder, data)
 }
 
-/// That of the default scene, made once.
+/// The report of the default scene, made once.
 static DEFAULT: LazyLock<(TempDir, Value)> = LazyLock::new(|| report("steel_ball"));
 
 /// The ways of an FMU that knows the mass.
@@ -59,7 +59,7 @@ static ELASTIC: LazyLock<Value> = LazyLock::new(|| report("elastic").1);
 
 #[test]
 fn the_stable_limits_of_an_elastic_scene_are_those_of_theory() {
-    // the smallest root of the polynomial in (h omega)^2 at which input derivatives have the eigenvalue -1
+    // the smallest root of the polynomial in (h omega)^2 for which input derivatives have the eigenvalue -1
     let polynomial = |z: f64| ((z - 48.0) * z + 432.0) * z - 576.0;
     let (mut low, mut high) = (0.0, 2.0f64);
     for _ in 0..60 {
@@ -166,7 +166,7 @@ fn restitution_over_speed_has_every_law() {
     }
     let truth = rows(&DEFAULT.1, "restitution").iter().filter(|row| row["law"] == "finite elements");
     let truth: Vec<f64> = truth.map(|row| row["restitution"].as_f64().expect("a number")).collect();
-    // of truth/README.md; the slowest of its impacts is slower than a hundredth of the scene's speed
+    // from truth/README.md; its slowest impact is slower than a hundredth of the scene's speed
     let printed = [0.777, 0.645, 0.536, 0.450];
     assert_eq!(truth.len(), printed.len(), "{truth:?}");
     assert!(truth.iter().zip(printed).all(|(one, other)| (one - other).abs() < 6e-4), "{truth:?}");
@@ -219,7 +219,7 @@ fn the_page_needs_nothing_else_and_its_data_stand_beside_it() {
     for outside in ["<link", "<img", "@import", "src=", "url(", "fetch(", "import(", "XMLHttpRequest"] {
         assert!(!page.contains(outside), "the page has {outside}");
     }
-    // an address of the web is the name of the vector format, nothing that is loaded
+    // the only web address is the name of the vector format, which is not loaded
     let addresses = page.matches("http").count();
     assert_eq!(addresses, page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
     let expected = [

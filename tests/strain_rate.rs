@@ -1,4 +1,4 @@
-//! Scenes whose target is stronger when it is indented fast.
+//! Scenes with a target whose strength depends on the strain rate.
 
 #[path = "support/command.rs"]
 mod command;
@@ -75,7 +75,7 @@ fn the_unit_starts_with_the_strength_of_the_impact_and_does_what_is_predicted() 
         let rust = run(folder.path(), ["constants", "scene.toml"]).with_status(0).out;
         for name in ["yield_strength", "hardening_modulus"] {
             let value = number(&strength[name]);
-            // the last digit may be lost where JSON is read
+            // reading the JSON may change the last digit
             let digits: String = format!("{value:e}").chars().take(14).collect();
             assert!(value == 0.0 || rust.contains(&digits), "{name} = {value:e} in {rust}");
         }
