@@ -47,7 +47,7 @@ fn rates(seed: u64, length: usize) -> Vec<(f64, f64)> {
 }
 
 #[test]
-fn held_rates_lead_to_the_bits_of_springs_that_follow_by_hand() {
+fn held_rates_give_the_same_bits_as_springs_advanced_by_hand() {
     let model = plastic();
     let mut contact = Rough::start(&model, 0.0).expect("within range");
     let mut normal = History::start(&model.normal, 0.0).expect("within range");
@@ -113,7 +113,7 @@ fn a_course_is_followed_to_second_order_of_the_step() {
 }
 
 #[test]
-fn a_saved_contact_goes_on_with_the_same_bits() {
+fn a_restored_contact_continues_with_the_same_bits() {
     let model = plastic();
     let mut contact = Rough::start(&model, 0.0).expect("within range");
     for (rate, slip) in rates(3, 100) {
@@ -133,7 +133,7 @@ fn a_saved_contact_goes_on_with_the_same_bits() {
 }
 
 #[test]
-fn a_refused_step_leaves_the_contact_where_it_was() {
+fn a_rejected_step_leaves_the_contact_unchanged() {
     let model = plastic();
     let mut contact = Rough::start(&model, -1e-6).expect("within range");
     contact.set_tangential_rate(1.0);

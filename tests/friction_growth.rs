@@ -86,7 +86,7 @@ impl<const N: usize> Run<N> {
 }
 
 #[test]
-fn a_step_divided_into_parts_ends_with_the_same_force_but_for_the_error_of_the_law() {
+fn a_step_divided_into_parts_ends_with_the_same_force_within_the_error_of_the_law() {
     let mut failed = Vec::new();
     for (name, model) in models() {
         let mut worst = 0.0_f64;
@@ -109,7 +109,7 @@ fn a_step_divided_into_parts_ends_with_the_same_force_but_for_the_error_of_the_l
 }
 
 #[test]
-fn the_force_keeps_coulombs_bound_and_friction_loses_energy() {
+fn the_force_keeps_coulombs_bound_and_friction_dissipates_energy() {
     let mut failed = Vec::new();
     for (name, model) in models() {
         let (mut excess, mut gain) = (0.0_f64, 0.0_f64);
@@ -164,7 +164,7 @@ fn before_yield_every_law_has_the_friction_of_hertz() {
 }
 
 #[test]
-fn a_saved_contact_goes_on_with_the_same_bits() {
+fn a_restored_contact_continues_with_the_same_bits() {
     for (name, model) in models() {
         for seed in 200..205 {
             let mut run = Run::<12>::new(&model);
@@ -183,7 +183,7 @@ fn a_saved_contact_goes_on_with_the_same_bits() {
 }
 
 #[test]
-fn a_fresh_surface_has_no_dent_left_for_the_springs() {
+fn a_fresh_surface_leaves_no_dent_for_the_springs() {
     let unit = unit(&mild()).indentation;
     for (name, mut model) in models() {
         model.normal.surface = brinell::contact::Surface::Fresh;

@@ -81,7 +81,7 @@ fn rms(name: &str, quantity: &str, computed: impl Fn(f64) -> f64) -> f64 {
 const MEASURED: &str = "oblique_elastic.csv";
 
 #[test]
-fn rebounds_of_aluminium_oxide_from_glass_are_those_of_the_measurement() {
+fn rebounds_of_aluminium_oxide_from_glass_agree_with_the_measurement() {
     let restitution = rms(MEASURED, "e_t", |degrees| kharaz(degrees).restitution.1);
     let spin = rms(MEASURED, "omega", |degrees| -kharaz(degrees).ball.spin);
     let angle = rms(MEASURED, "rebound_angle_centre", |degrees| kharaz(degrees).angle);
@@ -92,7 +92,7 @@ fn rebounds_of_aluminium_oxide_from_glass_are_those_of_the_measurement() {
 }
 
 #[test]
-fn one_spring_for_the_contact_misses_the_measurement_by_far_more() {
+fn a_single_spring_for_the_contact_has_a_far_larger_error() {
     let rescaled: Computation =
         |ball, curve, modulus, friction| impact_with_one_spring(ball, curve, modulus, friction, true);
     let plain: Computation =
@@ -114,7 +114,7 @@ fn chung_and_ooi(psi: f64) -> Rebound {
 }
 
 #[test]
-fn rebounds_of_equal_bodies_are_those_of_finite_elements() {
+fn rebounds_of_equal_bodies_agree_with_finite_elements() {
     let elements = "oblique_elastic_finite_elements.csv";
     let slip = rms(elements, "psi2", |psi| chung_and_ooi(psi).slip / 0.3);
     let spin = rms(elements, "omega_n", |psi| chung_and_ooi(psi).ball.spin * 0.01 / 0.3);
@@ -124,7 +124,7 @@ fn rebounds_of_equal_bodies_are_those_of_finite_elements() {
 }
 
 #[test]
-fn a_ball_that_slides_throughout_keeps_what_coulombs_law_leaves() {
+fn a_ball_that_slides_throughout_rebounds_as_coulombs_law_predicts() {
     let modulus = 1e11;
     let friction = Friction { coefficient: 0.1, stiffness_ratio: 0.8 };
     for degrees in [50.0_f64, 65.0, 80.0, 89.0] {

@@ -78,7 +78,7 @@ fn rows(case: &str) -> Vec<Row> {
 }
 
 #[test]
-fn histories_through_yield_have_the_forces_and_energies_of_the_table() {
+fn histories_through_yield_agree_with_the_forces_and_energies_of_the_table() {
     for case in ["thornton/thornton", "big-alabo/contact-radius"] {
         let mut run = Run::<512, false>::new(case);
         for row in rows(case) {
@@ -122,7 +122,7 @@ fn impact<const N: usize>(case: &str, ball: Ball, step: f64) -> Rebound {
 }
 
 #[test]
-fn impacts_through_yield_have_the_rebounds_of_the_table() {
+fn impacts_through_yield_agree_with_the_rebounds_of_the_table() {
     let rows = table("impact");
     let mut worst = 0.0_f64;
     for row in rows.iter().filter(|row| row.case.contains('/')) {

@@ -190,7 +190,7 @@ fn four_thousand_springs_have_the_same_tangential_force() {
 }
 
 #[test]
-fn a_cycle_at_constant_normal_force_loses_what_mindlin_and_deresiewicz_say() {
+fn a_cycle_at_constant_normal_force_dissipates_as_mindlin_and_deresiewicz_derived() {
     let curve = hertz(MODULUS, RADIUS);
     let indentation = 1e-5;
     let limit = FRICTION.coefficient * curve.force(indentation);
@@ -258,7 +258,7 @@ fn a_list_of_twelve_is_close_to_one_that_is_never_full() {
 }
 
 #[test]
-fn a_long_vibration_leaves_no_more_segments_behind() {
+fn a_long_vibration_does_not_add_segments() {
     let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
     let mut random = Random(7);
     run.step((1e-5, 0.0), 1);
@@ -304,7 +304,7 @@ fn the_derivative_of_the_force_is_the_limit_of_small_steps() {
 }
 
 #[test]
-fn saved_springs_go_on_with_the_same_bits() {
+fn restored_springs_continue_with_the_same_bits() {
     for seed in 3000..3030 {
         let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
         for step in history(seed, 40) {
@@ -322,7 +322,7 @@ fn saved_springs_go_on_with_the_same_bits() {
 }
 
 #[test]
-fn damaged_words_are_no_springs() {
+fn damaged_words_are_rejected() {
     let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
     run.step((1e-6, 1e-7), 1);
     let mut words = Vec::new();

@@ -41,7 +41,7 @@ fn constants(text: &str) -> String {
 }
 
 #[test]
-fn a_unit_that_hardens_does_what_is_predicted() {
+fn an_fmu_that_hardens_agrees_with_the_prediction() {
     let folder = empty_folder();
     let laws = [BRINELL, "loading = \"brinell\"\nunloading = \"contact-radius\""];
     let coupled = "[coupling]\neffective_mass = 4.11e-3\n";
@@ -59,7 +59,7 @@ fn a_unit_that_hardens_does_what_is_predicted() {
 }
 
 #[test]
-fn only_a_unit_that_needs_it_has_the_form_for_other_materials() {
+fn only_an_fmu_that_needs_it_has_the_form_for_other_materials() {
     let fixed = "parameters = [\"target.yield_strength\"]";
     for (target, law, fmu, has) in [
         ("poissons_ratio = 0.3", BRINELL, fixed, false),
@@ -77,7 +77,7 @@ fn only_a_unit_that_needs_it_has_the_form_for_other_materials() {
 }
 
 #[test]
-fn a_unit_whose_target_does_not_harden_has_no_such_parameter_and_a_smaller_library() {
+fn an_fmu_whose_target_does_not_harden_has_no_such_parameter_and_a_smaller_library() {
     let folder = empty_folder();
     let size = |target: &str, fmu: &str| {
         write(folder.path(), &scene(target, BRINELL, fmu));
@@ -93,7 +93,7 @@ fn a_unit_whose_target_does_not_harden_has_no_such_parameter_and_a_smaller_libra
 }
 
 #[test]
-fn a_tangent_modulus_is_a_hardening_modulus_in_other_words() {
+fn a_tangent_modulus_is_equivalent_to_a_hardening_modulus() {
     // E_t = H/(1 + H/E)
     let hardening = 10e9;
     let tangent = hardening / (1.0 + hardening / 206e9);
@@ -112,7 +112,7 @@ fn a_tangent_modulus_is_a_hardening_modulus_in_other_words() {
 }
 
 #[test]
-fn a_sweep_and_a_comparison_know_the_hardening() {
+fn a_sweep_and_a_comparison_include_the_hardening() {
     let text = scene("poissons_ratio = 0.3\nhardening_modulus = 2e9", BRINELL, "");
     let alone = predicted(&text, &[])["restitution"].as_f64().unwrap();
     let named = predicted(&text, &["--laws", "brinell"])["restitution"].as_f64().unwrap();
@@ -132,7 +132,7 @@ fn a_sweep_and_a_comparison_know_the_hardening() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused() {
+fn contradictory_settings_are_rejected() {
     let nu = "poissons_ratio = 0.3\n";
     let target = |line: &str| format!("{nu}{line}");
     refused_text(
@@ -181,7 +181,7 @@ fn laws_shows_the_error_for_each_material() {
 }
 
 #[test]
-fn a_power_law_is_the_nearest_line_over_the_strains_of_the_impact() {
+fn a_power_law_becomes_the_closest_line_over_the_strains_of_the_impact() {
     let folder = empty_folder();
     let text = |impact: &str| {
         format!(

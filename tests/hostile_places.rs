@@ -203,7 +203,7 @@ fn a_library_that_never_returns_is_a_failed_check() {
 }
 
 #[test]
-fn a_force_that_is_no_number_and_an_impact_without_end_are_failed_checks() {
+fn a_nan_force_and_an_endless_impact_are_failed_checks() {
     for (option, said) in [
         ("-DFORCE=NAN", "the force is NaN"),
         ("-DFORCE=INFINITY", "the force is inf"),
@@ -216,7 +216,7 @@ fn a_force_that_is_no_number_and_an_impact_without_end_are_failed_checks() {
 
 /// An archive that declares 3 GB, or contains them.
 #[test]
-fn an_archive_that_unpacks_to_gigabytes_is_refused() {
+fn an_archive_that_unpacks_to_gigabytes_is_rejected() {
     let folder = empty_folder();
     let make = "
 import sys, zipfile

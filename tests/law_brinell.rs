@@ -126,7 +126,7 @@ fn force_and_slope_are_continuous_at_every_knot() {
 
 /// Results of the program that made the fit, with all its printed digits.
 #[test]
-fn the_law_is_the_one_that_was_fitted() {
+fn the_law_equals_the_fitted_one() {
     // x, f, w, a/a_y, x_f, W_rec/W
     let table = [
         [0.95, 9.259454628e-1, 3.518592758e-1, 9.746794345e-1, 0.0, 1.0],
@@ -161,7 +161,7 @@ fn the_law_is_the_one_that_was_fitted() {
 }
 
 #[test]
-fn the_constants_in_the_source_are_those_that_the_fit_wrote() {
+fn the_constants_in_the_source_equal_those_of_the_fit() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fit/brinell_law.json");
     let written: serde_json::Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     let list = |name: &str| -> Vec<f64> {

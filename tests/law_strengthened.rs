@@ -157,7 +157,7 @@ fn restitution_is_within_0_8_percent_and_the_dent_within_2_percent() {
 
 /// Results of the program that made the fit, with all its printed digits.
 #[test]
-fn the_law_is_the_one_that_was_fitted() {
+fn the_law_equals_the_fitted_one() {
     // nu, eta, k, phi, work, alpha, dent, g
     let table = [
         [0.3, 0.05, 1.5, 1.821616537, 1.099643996, 1.516327696, 5.246159327e-2, 6.465092304e-2],
@@ -191,7 +191,7 @@ fn the_law_is_the_one_that_was_fitted() {
 }
 
 #[test]
-fn the_constants_in_the_source_are_those_that_the_fit_wrote() {
+fn the_constants_in_the_source_equal_those_of_the_fit() {
     let written: serde_json::Value = serde_json::from_str(&read("fit/materials_law.json")).unwrap();
     let source = read("src/contact/strength.rs");
     let has = |line: &str| assert!(source.contains(line), "src/contact/strength.rs lacks {line}");
@@ -265,7 +265,7 @@ fn force_and_slope_are_continuous_at_every_knot_of_any_material() {
 }
 
 #[test]
-fn no_material_gives_back_more_than_it_took_and_a_deeper_dent_costs_more() {
+fn no_material_returns_more_energy_than_it_received_and_a_deeper_dent_costs_more() {
     for model in random_materials(300) {
         let pair = &model.pair;
         let unit = model.yield_point().indentation;
@@ -289,7 +289,7 @@ fn no_material_gives_back_more_than_it_took_and_a_deeper_dent_costs_more() {
 }
 
 #[test]
-fn a_way_in_many_steps_ends_as_in_one() {
+fn many_steps_end_at_the_same_force_as_one() {
     for model in random_materials(100) {
         let unit = model.yield_point().indentation;
         for (from, to) in [(0.3, 40.0), (1.5, 3e3), (700.0, 650.0), (90.0, 20.0)] {
@@ -333,7 +333,7 @@ fn work_is_the_integral_of_the_force() {
 
 /// The hardening enters as `H/E*` of the pair; with a soft impactor the same hardening has a larger effect.
 #[test]
-fn an_elastic_impactor_counts_by_the_effective_modulus() {
+fn an_elastic_impactor_enters_through_the_effective_modulus() {
     let rigid = on_steel(0.3, 0.02);
     let pair = Pair { modulus: 0.5 * rigid.pair.modulus, ..rigid.pair };
     let soft = strengthened(pair, 0.5 * 0.02 * 206e9);
@@ -365,7 +365,7 @@ fn hardening_and_a_higher_poissons_ratio_make_an_impact_harder_and_its_dent_shal
 
 /// An FMU names its laws, without the enums that the other tests use.
 #[test]
-fn another_unloading_law_goes_with_the_loading_law_too() {
+fn the_loading_law_also_combines_with_another_unloading_law() {
     let pair = Pair { poissons_ratio: 0.4, ..mild() };
     let law = loading::Strengthened { law: loading::Brinell::REFERENCE, hardening_modulus: 5e9 };
     let model = Model { pair, loading: law, unloading: unloading::ContactRadius, surface: Surface::Dented };

@@ -50,14 +50,14 @@ fn compare(law: &str, scenes: Vec<(&str, String)>, store: &Path) {
 }
 
 #[test]
-fn a_prebuilt_library_shows_the_same_bits_and_says_the_same_as_a_compiled_one() {
+fn a_prebuilt_library_gives_the_same_bits_and_messages_as_a_compiled_one() {
     LAWS.iter().for_each(|law| compare(law, one_of_each_kind(law), store()));
 }
 
 /// The same for every law, with more scenes for each law. BRINELL_PREBUILT may name a folder with libraries.
 #[test]
 #[ignore = "compiles 300 libraries: cargo test --release --test prebuilt -- --ignored"]
-fn every_prebuilt_library_shows_the_same_bits_and_says_the_same_as_a_compiled_one() {
+fn every_prebuilt_library_gives_the_same_bits_and_messages_as_a_compiled_one() {
     let named = std::env::var_os("BRINELL_PREBUILT").map(Into::into);
     let store = named.unwrap_or_else(|| prebuilt::made_once("every", &[]));
     let laws = prebuilt::laws(&store);
@@ -119,7 +119,7 @@ fn fmus_of_every_kind_pass_the_check_and_are_the_same_bytes_each_time() {
 }
 
 #[test]
-fn fmpy_takes_fmus_of_every_kind() {
+fn fmpy_accepts_fmus_of_every_kind() {
     let fmu = |(kind, text): (&str, String)| (kind.to_string(), export(&text, Some(store())));
     let fmus = plain_scenes().map(fmu).collect();
     for file in [
@@ -136,7 +136,7 @@ fn fmpy_takes_fmus_of_every_kind() {
 
 /// With a compiler the scene is compiled unless the user requests a prebuilt library; without a compiler it is not.
 #[test]
-fn the_summary_tells_how_the_fmu_was_made_and_what_the_other_way_would_save() {
+fn the_summary_shows_how_the_fmu_was_made_and_what_the_other_way_would_save() {
     let folder = empty_folder();
     let text = scene("big-alabo", &["indentation"], "");
     fs::write(folder.path().join("scene.toml"), text).unwrap();
@@ -158,7 +158,7 @@ fn the_summary_tells_how_the_fmu_was_made_and_what_the_other_way_would_save() {
 
 /// FMUs of two laws with different numbers, compiled and prebuilt: none accepts a state of another.
 #[test]
-fn states_of_other_scenes_are_refused() {
+fn states_of_other_scenes_are_rejected() {
     let texts = [
         scene("big-alabo", &["work"], ""),
         scene("big-alabo", &["work"], "[fmu]\ninitial_gap = 1e-9\n"),
@@ -189,7 +189,7 @@ fn the_kind_in_the_source_tree_is_that_of_the_default_scene() {
 
 /// The same bytes from any run, with any number of threads.
 #[test]
-fn prebuilding_is_reproducible_and_refuses_unknown_laws() {
+fn prebuilding_is_reproducible_and_rejects_unknown_laws() {
     let again = prebuilt::folder().join("again");
     prebuilt::prebuild(&again, &["--laws", "hunt-crossley/flores", "--kinds", "force"]).with_status(0);
     let library = |store: &Path| {

@@ -45,7 +45,7 @@ fn fitted_orders_are_those_of_the_methods() {
 }
 
 #[test]
-fn a_unit_that_knows_the_mass_is_right_to_rounding_at_every_step() {
+fn an_fmu_that_knows_the_mass_is_exact_to_rounding_for_every_step() {
     for way in KNOWN {
         let known = rows(&DEFAULT.1, "precision").iter().filter(|row| row["way"] == way);
         let errors: Vec<f64> = known.map(|row| row["error_of_restitution"].as_f64().expect("an error")).collect();
@@ -85,7 +85,7 @@ fn the_stable_limits_of_an_elastic_scene_are_those_of_theory() {
 }
 
 #[test]
-fn programs_are_told_the_stable_limit_of_every_way() {
+fn the_json_has_the_stable_limit_of_every_way() {
     let used = &ELASTIC["use"];
     let stable = used["stable"].as_array().expect("a list");
     let limits = rows(&ELASTIC, "limits");
@@ -100,7 +100,7 @@ fn programs_are_told_the_stable_limit_of_every_way() {
 }
 
 #[test]
-fn each_kind_of_master_has_one_recommended_way_and_it_is_the_cheapest_that_reaches_one_percent() {
+fn each_co_simulation_algorithm_has_one_recommended_way_the_cheapest_that_reaches_one_percent() {
     let ways = DEFAULT.1["use"]["ways"].as_array().expect("a list");
     let time = |way: &Value| way["one_percent"]["time_per_impact_s"].as_f64().unwrap_or(f64::INFINITY);
     for master in ["serial (Gauss-Seidel)", "parallel (Jacobi)"] {
@@ -144,7 +144,7 @@ fn the_map_has_every_way_at_every_step() {
 }
 
 #[test]
-fn a_unit_that_knows_the_mass_makes_energy_at_no_step() {
+fn an_fmu_that_knows_the_mass_creates_energy_at_no_step() {
     for (data, way) in [&DEFAULT.1, &*ELASTIC].into_iter().flat_map(|data| KNOWN.map(|way| (data, way))) {
         for (step, energy) in energies(data, way) {
             assert!(energy <= 1.0 + 1e-9, "{way}: h sqrt(K/m) = {step}: {energy}");
@@ -153,7 +153,7 @@ fn a_unit_that_knows_the_mass_makes_energy_at_no_step() {
 }
 
 #[test]
-fn a_late_force_makes_energy_at_a_big_step() {
+fn a_delayed_force_creates_energy_at_a_large_step() {
     let (step, energy) = *energies(&DEFAULT.1, "late force").last().expect("steps");
     assert!(energy > 1.0, "h sqrt(K/m) = {step}: {energy}");
 }
@@ -196,7 +196,7 @@ fn the_spread_has_the_extremes_of_the_laws() {
 }
 
 #[test]
-fn all_extreme_cases_are_judged_and_none_has_failed() {
+fn all_extreme_cases_are_judged_and_pass() {
     let cases = rows(&DEFAULT.1, "extremes");
     assert!(cases.len() >= 50, "some dozens of cases, not {}", cases.len());
     for case in cases {
@@ -212,7 +212,7 @@ fn all_extreme_cases_are_judged_and_none_has_failed() {
 }
 
 #[test]
-fn the_page_needs_nothing_else_and_its_data_stand_beside_it() {
+fn the_page_is_self_contained_with_its_data_beside_it() {
     let folder = DEFAULT.0.path().join("report");
     let page = fs::read_to_string(folder.join("index.html")).expect("a page");
     assert!(page.ends_with("</html>\n"), "the page is whole");
@@ -271,7 +271,7 @@ fn a_scene_with_several_contacts_or_a_rate_dependent_law_has_a_report_too() {
 }
 
 #[test]
-fn the_unit_alone_adds_nothing_but_rounding() {
+fn the_fmu_alone_adds_only_rounding() {
     let alone: Vec<_> = rows(&DEFAULT.1, "precision").iter().filter(|row| row["way"] == "unit alone").collect();
     assert_eq!(alone.len(), 7, "4 to 256 steps per contact");
     for row in alone {
@@ -296,7 +296,7 @@ fn the_error_of_the_dent_has_the_order_of_the_method_too() {
 }
 
 #[test]
-fn a_unit_is_right_to_refuse_what_its_law_has_no_answer_to_and_the_summary_warns_of_a_wide_impact() {
+fn an_fmu_may_reject_impacts_beyond_its_law_and_the_summary_warns_of_a_wide_impact() {
     let folder = empty_folder();
     let text = fs::read_to_string(scene("steel_ball")).expect("a scene");
     let text = text.replace("loading = \"big-alabo\"", "loading = \"jackson-green\"");
@@ -317,7 +317,7 @@ fn a_unit_is_right_to_refuse_what_its_law_has_no_answer_to_and_the_summary_warns
 }
 
 #[test]
-fn what_a_law_itself_makes_of_energy_is_no_failure_of_its_unit_and_is_told() {
+fn energy_created_by_a_law_is_reported_and_is_no_failure_of_its_fmu() {
     let folder = empty_folder();
     let text = fs::read_to_string(scene("steel_ball")).expect("a scene");
     let text =

@@ -69,7 +69,7 @@ fn numbers(rows: &[&Value], key: &str) -> Vec<f64> {
 }
 
 #[test]
-fn the_same_unit_as_a_peer_gives_the_same_numbers_to_the_last_bit() {
+fn the_same_fmu_as_a_peer_gives_the_same_numbers_bit_for_bit() {
     let own = unit::export(&scene("steel_ball"));
     let named = own.with_file_name("twin.fmu");
     fs::copy(&own, &named).unwrap();
@@ -90,7 +90,7 @@ fn the_same_unit_as_a_peer_gives_the_same_numbers_to_the_last_bit() {
 
 /// Its mean force applies to the next step.
 #[test]
-fn a_peer_for_masters_that_step_all_units_at_once_is_stepped_so() {
+fn a_peer_for_the_jacobi_scheme_is_stepped_accordingly() {
     let text = fs::read_to_string(scene("mass_known")).unwrap().replacen("mass_known", "at_once", 1);
     let text = text.replacen("[coupling]", "[coupling]\nmaster = \"parallel\"", 1);
     let peer = unit::export(&unit::write_scene("at_once", &text));
@@ -104,7 +104,7 @@ fn a_peer_for_masters_that_step_all_units_at_once_is_stepped_so() {
 }
 
 #[test]
-fn a_unit_of_another_maker_is_run_with_what_it_has() {
+fn an_fmu_from_another_exporter_runs_with_its_own_features() {
     let folder = empty_folder();
     let spring = pack(folder.path(), "-DPLAIN", &description("2.0", &SPRING));
     let (run, _folder, data) = report("elastic", &[&spring]);

@@ -46,7 +46,7 @@ fn coupled<S: Scene>(model: &AnyModel, step: f64, count: usize) -> (Option<Warni
 }
 
 #[test]
-fn a_mass_in_steps_that_are_too_long_is_told_and_one_in_shorter_steps_is_not() {
+fn steps_that_are_too_long_for_a_mass_cause_a_warning_and_shorter_ones_do_not() {
     for (name, model) in all_models(mild()) {
         let stable = stable_step(&model, MASS);
         for factor in [15.0, 40.0, 150.0] {
@@ -148,7 +148,7 @@ impl Moved {
 }
 
 #[test]
-fn every_master_whose_steps_are_too_long_is_warned_within_three_steps() {
+fn every_importer_with_steps_that_are_too_long_is_warned_within_three_steps() {
     let mut random = Random(41);
     let (mut cases, mut unstable) = (0, 0);
     for (name, model) in all_models(mild()) {
@@ -172,7 +172,7 @@ fn every_master_whose_steps_are_too_long_is_warned_within_three_steps() {
 }
 
 #[test]
-fn a_motion_that_is_prescribed_is_never_warned_of() {
+fn a_prescribed_motion_never_causes_a_warning() {
     let mut random = Random(29);
     for (name, model) in all_models(mild()) {
         let stable = stable_step(&model, MASS);

@@ -48,7 +48,7 @@ fn its_library_has_no_undefined_symbol_and_is_hardly_larger() {
 }
 
 #[test]
-fn its_model_description_says_so() {
+fn its_model_description_declares_it() {
     let [standalone, other] = libraries(&unit::scene("steel_ball"));
     assert!(standalone::is_standalone(&standalone) && !standalone::is_standalone(&other));
     let page = standalone.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY").join("documentation/index.html");
@@ -144,7 +144,7 @@ fn message() -> String {
 }
 
 #[test]
-fn an_importer_without_functions_for_memory_gets_no_instance_and_the_name_of_what_is_missing() {
+fn an_importer_without_memory_functions_gets_no_instance_and_an_error_that_names_the_missing_one() {
     let (library, guid) = loaded();
     for (take, give_back, missing) in [
         (None, Some(give_back as GiveBack), "allocateMemory"),
@@ -158,7 +158,7 @@ fn an_importer_without_functions_for_memory_gets_no_instance_and_the_name_of_wha
 }
 
 #[test]
-fn instances_and_states_are_memory_of_the_importer_which_gets_it_back() {
+fn instances_and_states_use_memory_of_the_importer_and_free_it() {
     type Get = unsafe extern "C" fn(*mut c_void, *mut *mut c_void) -> c_int;
     type Free = unsafe extern "C" fn(*mut c_void);
     let (library, guid) = loaded();

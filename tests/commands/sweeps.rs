@@ -47,7 +47,7 @@ fn sweep_page(text: &str) -> String {
 
 /// The page once said "A rigid sphere meets a half-space", without the numbers.
 #[test]
-fn the_page_of_a_sweep_knows_bodies_that_only_the_contact_gives() {
+fn the_page_of_a_sweep_shows_bodies_that_only_the_contact_gives() {
     let contact = "impactor = { radius = 4e-3, youngs_modulus = 7e10, poissons_ratio = 0.22 }\n\
                    target = { material = \"mild steel\", radius = -0.5 }\n";
     let page = sweep_page(&format!(
@@ -76,7 +76,7 @@ fn the_page_of_a_sweep_shows_the_contacts_number_and_not_the_scenes() {
 
 /// Such an impact has no energy balance.
 #[test]
-fn the_page_of_a_sweep_says_how_rate_dependent_impacts_were_found() {
+fn the_page_of_a_sweep_states_how_rate_dependent_impacts_were_computed() {
     let text = fs::read_to_string(scene("damped")).unwrap();
     let page = sweep_page(&text);
     assert!(page.contains("by integrating the motion") && !page.contains("energy balance"), "{page}");
@@ -261,7 +261,7 @@ fn a_sweep_over_a_constant_of_a_law_is_that_of_scenes_with_it() {
 }
 
 #[test]
-fn a_constant_that_cannot_be_varied_is_refused_with_what_can() {
+fn a_constant_that_cannot_be_varied_is_rejected_with_those_that_can() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     let refused = |laws: &str, range: &str, words: &str| {
