@@ -6,8 +6,7 @@
 //! | path | what |
 //! |---|---|
 //! | `packages.json` | the packages of the toolchain; written last: without this file the toolchain is incomplete |
-//! | `usr/bin/rustc` | the compiler: a script that passes the location of the libraries to `rustc-web` in the same
-//! folder |
+//! | `usr/bin/rustc` | the compiler: a script that passes the location of the libraries to `rustc-web` beside it |
 //! | `usr/bin/cc-lld` | a script that takes the arguments of a C compiler and links ELF files |
 //! | `usr/lib/rustlib/HOST/bin/rust-lld` | LLVM's linker for all systems, a script; the first argument is `-flavor` |
 //! | `usr/lib/rustlib/TARGET/lib` | `core` and `compiler_builtins` for each target |

@@ -124,7 +124,7 @@ impl Contacts {
         }
     }
 
-    /// Rejects a mass of a contact of its own if the FMU does not know the mass.
+    /// Rejects the mass of a single contact if the FMU does not know the mass.
     pub fn check_masses(&self, known: bool) -> Result<(), Mistake> {
         let given = self.given.iter().enumerate().find_map(|(index, given)| Some((index, given.own.get(MASS)?)));
         match given {
