@@ -1,5 +1,5 @@
-//! Oblique impacts of a ball beside a normal one: what a step costs when the contact slides, slips at its edge, grows in stick, and
-//! merges segments in each step.
+//! Oblique impacts of a ball, compared with a normal impact: the cost of a step in sliding, in partial slip, in stick
+//! with growth, and with merging of segments in each step.
 
 use brinell::contact::Segment;
 use brinell::contact::tangential::{Stuck, Way};
@@ -7,9 +7,9 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// Steps in an impact with everything of size one: a mass of 1 at a speed of 1 on `F = 4/3 d^1.5`.
+/// Number of steps in a normalised impact: a mass of 1 at a speed of 1 with `F = 4/3 d^1.5`.
 const STEPS: u32 = 500;
-/// Duration of that impact over its steps.
+/// Duration of that impact divided by the number of steps.
 const STEP: f64 = 2.8683 / STEPS as f64;
 const SCALE: f64 = 1.4 / 1.7 / 0.1;
 
@@ -17,7 +17,7 @@ fn curve() -> Segment {
     Segment { upper: 1e100, power: 4.0 / 3.0, ..Segment::NOTHING }
 }
 
-/// The impact of a ball with the tangential speed `slip`; the result is where its speeds end.
+/// The impact of a ball with the tangential speed `slip`; returns the final speeds.
 #[inline(always)]
 fn impact<const N: usize>(curve: &Segment, slip: Option<f64>) -> (f64, f64) {
     let mut stuck = Stuck::<N>::APART;
@@ -26,7 +26,7 @@ fn impact<const N: usize>(curve: &Segment, slip: Option<f64>) -> (f64, f64) {
         let to = indentation + STEP * normal;
         if slip.is_some() {
             stuck.advance(curve, &Way::straight(indentation, to, SCALE * STEP * tangential));
-            // the contact point of a solid ball has two sevenths of its mass
+            // the effective tangential mass at the contact point of a solid ball is two sevenths of its mass
             tangential -= 3.5 * STEP * 0.1 * stuck.pull(curve, to);
         }
         indentation = to;

@@ -1,7 +1,7 @@
-//! Oblique impacts of a ball of aluminium oxide on glass, as Kharaz, Gorham and Salman measured them in 2001: the rebound
-//! against the angle of incidence, as a table that `docs/guide/pictures/oblique.py` draws.
+//! Oblique impacts of an aluminium oxide ball on glass, as measured by Kharaz, Gorham and Salman in 2001. The example
+//! prints the rebound over the angle of incidence as a table, which `docs/guide/pictures/oblique.py` draws.
 //!
-//! It needs the physics alone: `cargo run --release --example oblique --no-default-features`.
+//! It needs only the physics: `cargo run --release --example oblique --no-default-features`.
 
 use brinell::contact::tangential::{Friction, Stuck, Way};
 use brinell::contact::{Body, Loading, Pair, loading};
@@ -14,7 +14,7 @@ const DENSITY: f64 = 4000.0;
 const SPEED: f64 = 3.9;
 /// Coefficient of friction.
 const COEFFICIENT: f64 = 0.092;
-/// Step of the leap-frog [s]: some thousand of them in a contact.
+/// Step of the leap-frog method [s]: about a thousand steps in a contact.
 const STEP: f64 = 1.5e-8;
 
 fn main() {
@@ -37,7 +37,7 @@ fn main() {
         let mut springs = Stuck::<12>::APART;
         let (mut indentation, mut lost) = (0.0, 0.0);
         while indentation > 0.0 || normal > 0.0 {
-            // the contact moves with the speeds of the two contact points, and its new force acts on the ball
+            // the contact moves with the relative speeds of the two contact points; its new force acts on the ball
             let slip = (tangential + spin * RADIUS) * STEP;
             let way = Way::straight(indentation, indentation + normal * STEP, friction.scale() * slip);
             let stored = springs.energy(&curve, indentation);

@@ -1,28 +1,30 @@
-"""Finds what hardening and Poisson's ratio change in the contact law `brinell`, from the curves in ../truth/materials.
+"""Fits the effect of hardening and Poisson's ratio in the contact law `brinell` to the curves in ../truth/materials.
 
     python -m venv venv && venv/bin/pip install -r requirements.txt && venv/bin/python fit_materials.py
 
-Writes materials_law.json and materials_residuals.svg next to this file; prints the residuals, the same with each curve
-left out of the fit, and the checks (an assertion fails if one does). `fit_brinell.py` finds the law itself.
+Writes materials_law.json and materials_residuals.svg next to this file. Prints the residuals, those of a
+cross-validation that leaves out one curve at a time, and the checks, which are assertions. `fit_brinell.py` fits the law
+itself.
 
-Everything is normalised by the yield point of the material: k = d/d_Y, phi = F/F_Y, alpha = a^2/(R d_Y). Yield is where
-the law `brinell` has it (x = d/d_y = 1 for a mean pressure of 1.1 S) times s0^2, with the strength at first yield
-s0 = exp(a1 (nu - 0.3) + a2 (nu - 0.3)^2) relative to nu = 0.3: theory's first yield 0.825, 0.955, 1.110 and 1.198 for
-nu = 0.2, 0.3, 0.4 and 0.45, over 0.955 (K. L. Johnson, Contact Mechanics, section 6.2). Phi and A are force and area of
-the law itself, eta = H/E* is the hardening modulus over the effective modulus: (1 - nu^2) H/E of a rigid sphere.
+Everything is normalised by the yield point of the material: k = d/d_Y, phi = F/F_Y, alpha = a^2/(R d_Y). The yield
+indentation is that of the law `brinell` (x = d/d_y = 1 for a mean pressure of 1.1 S) times s0^2. The strength at first
+yield, relative to nu = 0.3, is s0 = exp(a1 (nu - 0.3) + a2 (nu - 0.3)^2), from the theoretical first yield 0.825, 0.955,
+1.110 and 1.198 for nu = 0.2, 0.3, 0.4 and 0.45, over 0.955 (K. L. Johnson, Contact Mechanics, section 6.2). Phi and A are
+force and area of the law itself. eta = H/E* is the hardening modulus over the effective modulus: (1 - nu^2) H/E for a
+rigid sphere.
 
 Loading.  phi = t^3 Phi(k/t^2) with one effective strength t = t_nu t_H:
-    t_nu = 1 + (1/s0 - 1) D(k; decay_scale, decay_power): far from yield Poisson's ratio matters less
+    t_nu = 1 + (1/s0 - 1) D(k; decay_scale, decay_power): the effect of Poisson's ratio decays far from yield
     t_H = 1 + rise h s0^(2 rise_power) (k^rise_power - 1) with h = eta/(1 + saturation eta)
     D(k; scale, power) = w/(1 + w), w = s0^decay_shift (k^power - 1)/scale
-The law has the values and slopes of this form at the knots, and c0 + c1 k + c2 k^1.5 + c3 k^2 between them; beyond the
-last knot it is a straight line.
+The law has the values and slopes of this form at the knots, and is c0 + c1 k + c2 k^1.5 + c3 k^2 between them. Beyond
+the last knot it is a straight line.
 Contact radius.  alpha = A(k) (phi/Phi(k))^-radius_power.
 Dent.  k_f = (k - u^2 recovery(k/u^2))/(1 + dent_fall h) with the strength
 u = 1 + (1/s0 - 1) D(k; dent_decay_scale, dent_decay_power) and the recovery of the law itself.
-Unloading.  The form of the law, (1 + g) s^1.5 - g s^2 from the slope 2 E* a: g = 3 (1 - recovery sqrt(beta)/phi), held
-between 0 and LARGEST_G, which no fitted curve reaches. The radius sqrt(beta) follows the force more than the contact
-radius does: beta = u^2 A(k/u^2) (phi/(u^3 Phi(k/u^2)))^-slope_power.
+Unloading.  The form of the law, (1 + g) s^1.5 - g s^2 with the initial slope 2 E* a: g = 3 (1 - recovery sqrt(beta)/phi),
+limited to the range from 0 to LARGEST_G, which no fitted curve reaches. The radius sqrt(beta) depends on the force more
+than the contact radius does: beta = u^2 A(k/u^2) (phi/(u^3 Phi(k/u^2)))^-slope_power.
 """
 import json
 from pathlib import Path
@@ -33,23 +35,23 @@ import fit_brinell as plain
 
 HERE = Path(__file__).parent
 MATERIALS = HERE.parent / "truth" / "materials"
-# First yield for these Poisson's ratios over that for 0.3, by theory.
+# Theoretical first yield for these Poisson's ratios over that for 0.3.
 FIRST_YIELD = {0.2: 0.825 / 0.955, 0.4: 1.110 / 0.955, 0.45: 1.198 / 0.955}
-# Those of the law, and some between: the strength changes between them, too.
+# The knots of the law and additional ones, because the strength also changes between the knots.
 KNOTS = np.array([1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500.0, 1000.0, 2000.0])
 HARDENING = {"H0.005": 0.005, "H0.02": 0.02, "H0.05": 0.05, "H0.1": 0.1}
 RATIOS = {"nu0.2": 0.2, "nu0.4": 0.4, "nu0.45": 0.45}
 NAMES = ["decay_scale", "decay_power", "decay_shift", "rise", "rise_power", "saturation", "radius_power", "dent_fall",
          "dent_decay_scale", "dent_decay_power", "slope_power"]
 START = [22.0, 0.6, 3.0, 0.95, 0.39, 1.3, 0.86, 1.6, 6.0, 0.46, 1.1]
-# Without this bound materials far from those that were fitted would give back more than they took.
+# Without this bound, materials far from the fitted ones would return more energy than they received.
 LARGEST_G = 0.75
 # Digits of the constants: more would not change the fourth digit of a force.
 SIGNIFICANT = 4
 
 
 def law_itself():
-    """The law `brinell` with the constants that `fit_brinell.py` has written."""
+    """The law `brinell` with the constants from `fit_brinell.py`."""
     constants = json.loads((HERE / "brinell_law.json").read_text())
     shape = [constants["unloading_height"], constants["unloading_onset"]]
     return plain.Law(constants["force_slopes"], constants["area_slopes"], shape)
@@ -59,7 +61,7 @@ LAW = law_itself()
 
 
 def strength_at_yield():
-    """a1 and a2 of s0, from theory's first yields."""
+    """a1 and a2 of s0, from the theoretical first yields."""
     shift = np.array([ratio - 0.3 for ratio in FIRST_YIELD])
     logarithm = 0.5 * np.log(list(FIRST_YIELD.values()))
     return np.linalg.lstsq(np.array([shift, shift**2]).T, logarithm)[0].round(3)
@@ -102,7 +104,7 @@ class Material:
         return one * other, one_slope * other + one * other_slope
 
     def exact(self, k):
-        """The form itself, of which the law has values and slopes at the knots."""
+        """The form itself; the law has its values and slopes at the knots."""
         t, t_slope = self.strength(k)
         scaled = k / t**2
         force, slope = LAW.force(scaled), LAW.force.slope(scaled)
@@ -153,7 +155,7 @@ class Material:
 
 
 class Curve:
-    """A curve of the truth with its unloadings."""
+    """A finite-element curve with its unloadings."""
 
     def __init__(self, name):
         self.name, self.h, self.ratio = name, HARDENING.get(name, 0.0), RATIOS.get(name, 0.3)
@@ -173,7 +175,7 @@ class Curve:
         return Material(self.ratio, (1 - self.ratio**2) * self.h, constants)
 
     def errors(self, constants):
-        """Of force and radius, and of each unloading: (depth, path over F_m, restitution, dent over recovery)."""
+        """Errors of force and radius, and of each unloading: (depth, path over F_m, restitution, dent over recovery)."""
         law = self.material(constants)
         unit = law.s0**2
         force = law.s0**3 * law.force(self.x / unit) / self.f - 1
@@ -188,7 +190,8 @@ class Curve:
 
 
 def fit(curves, start):
-    """All constants at once: force to 0.07 %, radius to 0.5 %, paths to 0.3 % of F_m, restitution 0.2 %, recovery 0.3 %."""
+    """Fits all constants at once. Scales of the residuals: force 0.07 %, radius 0.5 %, paths 0.3 % of F_m, restitution 0.2 %,
+    recovery 0.3 %."""
     def residuals(constants):
         out = []
         for curve in curves:
@@ -226,7 +229,7 @@ def report(curves, constants):
 
 
 def check(constants):
-    """What the law promises for every material, from yield to 1e8 yield indentations: smallest margins over all."""
+    """Checks the guarantees of the law for every material up to 1e8 yield indentations; returns the smallest margins."""
     k = 1 + np.geomspace(1e-4, 1e8, 20_001)
     s = np.linspace(0, 1, 101)[1:-1]
     margins = {}

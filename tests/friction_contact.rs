@@ -1,4 +1,4 @@
-//! A contact with friction as a contact like all others: steps on courses, momentum, prediction, saved states.
+//! A contact with friction behaves like every contact: steps on courses, momentum, prediction, saved states.
 
 #[path = "support/friction.rs"]
 mod friction;
@@ -47,7 +47,7 @@ fn rates(seed: u64, length: usize) -> Vec<(f64, f64)> {
 }
 
 #[test]
-fn held_rates_lead_to_the_bits_of_springs_that_follow_by_hand() {
+fn held_rates_give_the_same_bits_as_springs_advanced_by_hand() {
     let model = plastic();
     let mut contact = Rough::start(&model, 0.0).expect("within range");
     let mut normal = History::start(&model.normal, 0.0).expect("within range");
@@ -77,7 +77,7 @@ fn impulse_and_work_are_those_of_the_mean_force_and_friction_work_never_falls() 
         Contact::step(&mut contact, &Course::held(rate), STEP, || model).expect("within range");
         impulse += contact.mean_tangential_force() * STEP;
         assert_close("impulse", contact.tangential_impulse(), impulse, 1e-4, 1e-12);
-        // segments that are merged may store a little more or less
+        // merged segments may store slightly more or less energy
         let now = contact.friction_work(&model);
         assert!(now >= lost - 1e-4 * now.abs() - 1e-15, "{now:e} after {lost:e}");
         lost = now;
@@ -85,13 +85,13 @@ fn impulse_and_work_are_those_of_the_mean_force_and_friction_work_never_falls() 
     assert!(lost > 0.0);
 }
 
-/// The tangential force behind a course that turns inside of the step, in this many parts.
+/// The tangential force after a course that reverses within the step, for this number of parts.
 fn behind_course(parts: u32) -> f64 {
     let model = elastic();
     let mut contact = RoughContact::<512>::start(&model, -2e-6).expect("within range");
     contact.set_tangential_rate(0.1);
     let part = STEP / f64::from(parts);
-    // 3 m/s in, and out again at 1 m/s
+    // in at 3 m/s, and out at 1 m/s
     let mut course = Course { rate: 3.0, slope: -4.0 / STEP, bend: 0.0 };
     for _ in 0..parts {
         Contact::step(&mut contact, &course, part, || model).expect("within range");
@@ -113,7 +113,7 @@ fn a_course_is_followed_to_second_order_of_the_step() {
 }
 
 #[test]
-fn a_saved_contact_goes_on_with_the_same_bits() {
+fn a_restored_contact_continues_with_the_same_bits() {
     let model = plastic();
     let mut contact = Rough::start(&model, 0.0).expect("within range");
     for (rate, slip) in rates(3, 100) {
@@ -133,7 +133,7 @@ fn a_saved_contact_goes_on_with_the_same_bits() {
 }
 
 #[test]
-fn a_refused_step_leaves_the_contact_where_it_was() {
+fn a_rejected_step_leaves_the_contact_unchanged() {
     let model = plastic();
     let mut contact = Rough::start(&model, -1e-6).expect("within range");
     contact.set_tangential_rate(1.0);

@@ -1,4 +1,4 @@
-//! What holds for every history of a contact with friction that yields, with all pairs of laws whose unloading is one segment.
+//! Properties of every history of a yielding contact with friction, for all pairs of laws whose unloading is one segment.
 
 #[path = "support/friction.rs"]
 mod friction;
@@ -15,7 +15,7 @@ const LATTICE: bool = true;
 
 type Model = RoughModel<AnyLoading, AnyUnloading>;
 
-/// Pairs of laws that make no energy in normal motion, and whose friction the table of laws doesn't exclude.
+/// Pairs of laws that are passive in normal motion and support friction.
 fn models() -> Vec<(String, Model)> {
     let models = all_models(mild()).into_iter().filter(|(name, model)| {
         let unloading = name.rsplit(' ').next().expect("a law's name");
@@ -24,7 +24,7 @@ fn models() -> Vec<(String, Model)> {
     models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION })).collect()
 }
 
-/// The allowed error of friction with the pair of laws called `name`, in parts of Coulomb's limit.
+/// The allowed error of friction for the pair of laws called `name`, relative to Coulomb's limit.
 fn allowed(name: &str) -> f64 {
     let (loading, unloading) = name.split_once(" with ").expect("two laws");
     let entry = physics::laws::entry("unloading", unloading);
@@ -33,7 +33,7 @@ fn allowed(name: &str) -> f64 {
     error.unwrap_or_else(|| panic!("{unloading} has an error of friction"))
 }
 
-/// Steps of a random history [m]: up to some hundred yield indentations, with separations.
+/// Steps of a random history [m]: up to about a hundred yield indentations, with separations.
 fn history(seed: u64, length: usize) -> Vec<(f64, f64)> {
     let mut random = Random(seed);
     let unit = unit(&mild()).indentation;
@@ -64,7 +64,7 @@ impl<const N: usize> Run<N> {
         Run { contact, springs: Springs::start(model, &contact) }
     }
 
-    /// One step, divided into `parts`; the mean force.
+    /// One step, divided into `parts`. Returns the mean force.
     fn step(&mut self, model: &Model, (rise, slip): (f64, f64), parts: u32) -> f64 {
         let part = 1.0 / f64::from(parts);
         let mut mean = 0.0;
@@ -86,7 +86,7 @@ impl<const N: usize> Run<N> {
 }
 
 #[test]
-fn a_step_divided_into_parts_ends_with_the_same_force_but_for_the_error_of_the_law() {
+fn a_step_divided_into_parts_ends_with_the_same_force_within_the_error_of_the_law() {
     let mut failed = Vec::new();
     for (name, model) in models() {
         let mut worst = 0.0_f64;
@@ -109,7 +109,7 @@ fn a_step_divided_into_parts_ends_with_the_same_force_but_for_the_error_of_the_l
 }
 
 #[test]
-fn the_force_keeps_coulombs_bound_and_friction_loses_energy() {
+fn the_force_keeps_coulombs_bound_and_friction_dissipates_energy() {
     let mut failed = Vec::new();
     for (name, model) in models() {
         let (mut excess, mut gain) = (0.0_f64, 0.0_f64);
@@ -164,7 +164,7 @@ fn before_yield_every_law_has_the_friction_of_hertz() {
 }
 
 #[test]
-fn a_saved_contact_goes_on_with_the_same_bits() {
+fn a_restored_contact_continues_with_the_same_bits() {
     for (name, model) in models() {
         for seed in 200..205 {
             let mut run = Run::<12>::new(&model);
@@ -183,7 +183,7 @@ fn a_saved_contact_goes_on_with_the_same_bits() {
 }
 
 #[test]
-fn a_fresh_surface_has_no_dent_left_for_the_springs() {
+fn a_fresh_surface_leaves_no_dent_for_the_springs() {
     let unit = unit(&mild()).indentation;
     for (name, mut model) in models() {
         model.normal.surface = brinell::contact::Surface::Fresh;

@@ -1,4 +1,4 @@
-//! Oblique impacts against measurements, finite elements and the limit of full sliding.
+//! Oblique impacts compared with measurements, finite elements and the limit of full sliding.
 
 #[path = "support/friction.rs"]
 mod friction;
@@ -8,13 +8,13 @@ use brinell::contact::{Body, Pair, Segment};
 use friction::{Ball, Rebound, assert_close, file, hertz};
 use std::f64::consts::PI;
 
-/// A thousandth of an impact by Hertz's law [s].
+/// A thousandth of the duration of an impact with Hertz's law [s].
 fn step_of(ball: &Ball, modulus: f64) -> f64 {
     let speed_and_stiffness = (ball.mass * ball.mass / (ball.radius * modulus * modulus * ball.normal)).powf(0.2);
     2.87 * speed_and_stiffness * (15.0_f64 / 16.0).powf(0.4) / 1000.0
 }
 
-/// The impact of `ball` by elastic contact.
+/// The impact of `ball` with an elastic contact.
 fn impact(ball: Ball, curve: &Segment, modulus: f64, friction: &Friction) -> Rebound {
     let step = step_of(&ball, modulus);
     let mut stuck = Stuck::<12>::APART;
@@ -27,8 +27,8 @@ fn impact(ball: Ball, curve: &Segment, modulus: f64, friction: &Friction) -> Reb
     })
 }
 
-/// The same with one tangential spring as discrete-element codes have it: Mindlin's stiffness `8 G* a`, in unloading less force by
-/// the ratio of the contact radii if it `rescales`, and Coulomb's limit.
+/// The same with a single tangential spring, as in discrete-element codes: Mindlin's stiffness `8 G* a` and Coulomb's
+/// limit. If it `rescales`, the force is reduced in unloading by the ratio of the contact radii.
 fn impact_with_one_spring(ball: Ball, curve: &Segment, modulus: f64, friction: &Friction, rescales: bool) -> Rebound {
     let step = step_of(&ball, modulus);
     let (mut indentation, mut pull) = (0.0, 0.0);
@@ -44,7 +44,7 @@ fn impact_with_one_spring(ball: Ball, curve: &Segment, modulus: f64, friction: &
     })
 }
 
-/// A way to compute an impact from the ball, the curve of the normal force, the effective modulus and friction.
+/// A method to compute an impact from the ball, the curve of the normal force, the effective modulus and friction.
 type Computation = fn(Ball, &Segment, f64, &Friction) -> Rebound;
 
 /// The impact of Kharaz, Gorham and Salman at `degrees` from the normal.
@@ -52,7 +52,7 @@ fn kharaz(degrees: f64) -> Rebound {
     kharaz_with(impact, degrees)
 }
 
-/// The same with another way to compute it.
+/// The same with another method.
 fn kharaz_with(impact: Computation, degrees: f64) -> Rebound {
     let alumina = Body { radius: 2.5e-3, youngs_modulus: 380e9, poissons_ratio: 0.23 };
     let glass = Body { radius: f64::INFINITY, youngs_modulus: 70e9, poissons_ratio: 0.25 };
@@ -64,7 +64,7 @@ fn kharaz_with(impact: Computation, degrees: f64) -> Rebound {
     impact(ball, &hertz(pair.modulus, pair.radius), pair.modulus, &friction)
 }
 
-/// Root of the mean square of what `computed` misses the measured values of a `quantity` by, over all digitisations.
+/// Root-mean-square difference between `computed` and measured values of a `quantity`, over all digitisations.
 fn rms(name: &str, quantity: &str, computed: impl Fn(f64) -> f64) -> f64 {
     let text = file(name);
     // value, place and name of the quantity are the last three fields
@@ -81,7 +81,7 @@ fn rms(name: &str, quantity: &str, computed: impl Fn(f64) -> f64) -> f64 {
 const MEASURED: &str = "oblique_elastic.csv";
 
 #[test]
-fn rebounds_of_aluminium_oxide_from_glass_are_those_of_the_measurement() {
+fn rebounds_of_aluminium_oxide_from_glass_agree_with_the_measurement() {
     let restitution = rms(MEASURED, "e_t", |degrees| kharaz(degrees).restitution.1);
     let spin = rms(MEASURED, "omega", |degrees| -kharaz(degrees).ball.spin);
     let angle = rms(MEASURED, "rebound_angle_centre", |degrees| kharaz(degrees).angle);
@@ -92,7 +92,7 @@ fn rebounds_of_aluminium_oxide_from_glass_are_those_of_the_measurement() {
 }
 
 #[test]
-fn one_spring_for_the_contact_misses_the_measurement_by_far_more() {
+fn a_single_spring_for_the_contact_has_a_far_larger_error() {
     let rescaled: Computation =
         |ball, curve, modulus, friction| impact_with_one_spring(ball, curve, modulus, friction, true);
     let plain: Computation =
@@ -114,7 +114,7 @@ fn chung_and_ooi(psi: f64) -> Rebound {
 }
 
 #[test]
-fn rebounds_of_equal_bodies_are_those_of_finite_elements() {
+fn rebounds_of_equal_bodies_agree_with_finite_elements() {
     let elements = "oblique_elastic_finite_elements.csv";
     let slip = rms(elements, "psi2", |psi| chung_and_ooi(psi).slip / 0.3);
     let spin = rms(elements, "omega_n", |psi| chung_and_ooi(psi).ball.spin * 0.01 / 0.3);
@@ -124,7 +124,7 @@ fn rebounds_of_equal_bodies_are_those_of_finite_elements() {
 }
 
 #[test]
-fn a_ball_that_slides_throughout_keeps_what_coulombs_law_leaves() {
+fn a_ball_that_slides_throughout_rebounds_as_coulombs_law_predicts() {
     let modulus = 1e11;
     let friction = Friction { coefficient: 0.1, stiffness_ratio: 0.8 };
     for degrees in [50.0_f64, 65.0, 80.0, 89.0] {

@@ -1,4 +1,4 @@
-//! The tangential force of contacts that yield, against tables of another program.
+//! The tangential force of yielding contacts, compared with tables from another program.
 
 #[path = "support/friction.rs"]
 mod friction;
@@ -57,8 +57,8 @@ impl<const N: usize, const LATTICE: bool> Run<N, LATTICE> {
     }
 }
 
-/// Where the contact radius of big-alabo has corners [m], at which the table divides its steps, too: it stays that of yield until
-/// force over pressure is a larger area, and the pressure ends at 2.8 S.
+/// Corners of the contact radius of big-alabo [m], at which the table also divides its steps. The radius stays that
+/// of yield until force over pressure is a larger area; the pressure ends at 2.8 S.
 fn radius_corners(model: &Model) -> Vec<f64> {
     let law = &model.normal;
     let unit = law.yield_point().indentation;
@@ -78,7 +78,7 @@ fn rows(case: &str) -> Vec<Row> {
 }
 
 #[test]
-fn histories_through_yield_have_the_forces_and_energies_of_the_table() {
+fn histories_through_yield_agree_with_the_forces_and_energies_of_the_table() {
     for case in ["thornton/thornton", "big-alabo/contact-radius"] {
         let mut run = Run::<512, false>::new(case);
         for row in rows(case) {
@@ -122,7 +122,7 @@ fn impact<const N: usize>(case: &str, ball: Ball, step: f64) -> Rebound {
 }
 
 #[test]
-fn impacts_through_yield_have_the_rebounds_of_the_table() {
+fn impacts_through_yield_agree_with_the_rebounds_of_the_table() {
     let rows = table("impact");
     let mut worst = 0.0_f64;
     for row in rows.iter().filter(|row| row.case.contains('/')) {
@@ -133,8 +133,8 @@ fn impacts_through_yield_have_the_rebounds_of_the_table() {
             0.0 => impact::<512>(&row.case, ball, row.get("h")),
             _ => impact::<12>(&row.case, ball, row.get("h")),
         };
-        // where the dent grows and the list is full, two programs needn't choose the same segments to merge: the result is then as
-        // far off as that of any merging list
+        // If the list is full while the dent grows, two programs may merge different segments. The error is then that
+        // of any list that merges.
         let tolerance = match limit {
             0.0 => 1e-9,
             _ if degrees >= 50.0 => 1e-9,

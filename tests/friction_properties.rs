@@ -1,4 +1,4 @@
-//! What holds for every history of a contact with friction on an elastic curve.
+//! Properties of every history of a contact with friction on an elastic curve.
 
 #[path = "support/friction.rs"]
 mod friction;
@@ -16,13 +16,14 @@ const RADIUS: f64 = 5e-3;
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const DEEPEST: f64 = 2e-5;
 
-/// Either sign, and any size from `largest` down by five decades.
+/// A number of either sign, with a size of up to five decades below `largest`.
 fn any_size(random: &mut Random, largest: f64) -> f64 {
     let size = largest * 10f64.powf(-5.0 * random.next());
     if random.next() < 0.5 { size } else { -size }
 }
 
-/// Steps of a random history: change of the indentation and scaled tangential displacement [m]. Some have only one of the two.
+/// Steps of a random history: changes of the indentation and of the scaled tangential displacement [m]. In some steps
+/// only one of them changes.
 fn history(seed: u64, length: usize) -> Vec<(f64, f64)> {
     let mut random = Random(seed);
     let mut indentation: f64 = 0.0;
@@ -52,7 +53,7 @@ impl<const N: usize> Run<N> {
         Run { curve, stuck: Stuck::APART, indentation: 0.0 }
     }
 
-    /// One step, divided into `parts`. The result is the mean pull.
+    /// One step, divided into `parts`. Returns the mean force.
     fn step(&mut self, (rise, shift): (f64, f64), parts: u32) -> f64 {
         let from = self.indentation;
         let mut mean = 0.0;
@@ -101,7 +102,8 @@ fn a_step_divided_into_up_to_a_thousand_parts_ends_with_the_same_forces() {
     assert!(worst_mean < 1e-11, "mean: {worst_mean:e}");
 }
 
-/// The largest excess over Coulomb's bound and the largest loss of friction work, as parts of the largest force and energy.
+/// The largest excess over Coulomb's bound and the largest loss of friction work, relative to the largest force and
+/// energy.
 fn bounds<const N: usize>() -> (f64, f64) {
     let curve = hertz(MODULUS, RADIUS);
     let (largest, scale) = (curve.force(DEEPEST), curve.work(DEEPEST));
@@ -126,17 +128,17 @@ fn the_tangential_force_never_exceeds_coulombs_bound_and_friction_never_does_wor
     let (excess, gain) = bounds::<512>();
     println!("512 segments: {excess:.1e} {gain:.1e}");
     assert!(excess <= 1e-15 && gain <= 1e-14, "{excess:e} {gain:e}");
-    // merged segments may store a little more or less
+    // merged segments may store slightly more or less energy
     let (excess, gain) = bounds::<12>();
     println!("12 segments: {excess:.1e} {gain:.1e}");
     assert!(excess <= 1e-15 && gain <= 1e-4, "{excess:e} {gain:e}");
 }
 
-/// Many springs, each by itself: an independent judge.
+/// Many independent springs as a reference.
 struct Springs {
     indentation: f64,
     displacement: f64,
-    /// Height and offset; none before it touches.
+    /// Height and offset; `None` before the spring touches.
     springs: Vec<(f64, Option<f64>)>,
     width: f64,
 }
@@ -188,7 +190,7 @@ fn four_thousand_springs_have_the_same_tangential_force() {
 }
 
 #[test]
-fn a_cycle_at_constant_normal_force_loses_what_mindlin_and_deresiewicz_say() {
+fn a_cycle_at_constant_normal_force_dissipates_as_mindlin_and_deresiewicz_derived() {
     let curve = hertz(MODULUS, RADIUS);
     let indentation = 1e-5;
     let limit = FRICTION.coefficient * curve.force(indentation);
@@ -214,7 +216,8 @@ fn a_cycle_at_constant_normal_force_loses_what_mindlin_and_deresiewicz_say() {
     }
 }
 
-/// The worst error of a list of twelve on a path over `steps`, each to an indentation and a displacement [m], in parts of the force.
+/// The largest error of a list of twelve segments on a path over `steps`, each to an indentation and a displacement
+/// [m], relative to the force.
 fn error_of_twelve(steps: u32, place: impl Fn(f64) -> (f64, f64)) -> f64 {
     let curve = hertz(MODULUS, RADIUS);
     let (mut full, mut short) = (Run::<512>::new(curve), Run::<12>::new(curve));
@@ -255,7 +258,7 @@ fn a_list_of_twelve_is_close_to_one_that_is_never_full() {
 }
 
 #[test]
-fn a_long_vibration_leaves_no_more_segments_behind() {
+fn a_long_vibration_does_not_add_segments() {
     let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
     let mut random = Random(7);
     run.step((1e-5, 0.0), 1);
@@ -301,7 +304,7 @@ fn the_derivative_of_the_force_is_the_limit_of_small_steps() {
 }
 
 #[test]
-fn saved_springs_go_on_with_the_same_bits() {
+fn restored_springs_continue_with_the_same_bits() {
     for seed in 3000..3030 {
         let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
         for step in history(seed, 40) {
@@ -319,7 +322,7 @@ fn saved_springs_go_on_with_the_same_bits() {
 }
 
 #[test]
-fn damaged_words_are_no_springs() {
+fn damaged_words_are_rejected() {
     let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
     run.step((1e-6, 1e-7), 1);
     let mut words = Vec::new();

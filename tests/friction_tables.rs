@@ -1,4 +1,4 @@
-//! The tangential force on elastic curves against tables of another program: histories, and impacts in steps.
+//! The tangential force on elastic curves compared with tables from another program: histories, and impacts in steps.
 
 #[path = "support/friction.rs"]
 mod friction;
@@ -51,7 +51,7 @@ fn histories_on_hertz_curve_have_the_forces_and_energies_of_the_table() {
     println!("worst error of T: {worst:.1e} of the largest");
 }
 
-/// The impact of `ball` by elastic contact, in steps of `step` [s].
+/// The impact of `ball` with an elastic contact, in steps of `step` [s].
 fn impact<const N: usize>(ball: Ball, curve: &Segment, friction: &Friction, step: f64) -> Rebound {
     let mut stuck = Stuck::<N>::APART;
     let mut indentation = 0.0;

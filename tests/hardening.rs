@@ -1,5 +1,5 @@
-//! Scenes whose target hardens, or has another Poisson's ratio than 0.3: what is refused, what the unit has, and that it does what
-//! is predicted.
+//! Scenes with a target that hardens or has a Poisson's ratio other than 0.3: rejected settings, the contents of the
+//! FMU, and its agreement with the predictions.
 
 #[path = "support/command.rs"]
 mod command;
@@ -11,7 +11,7 @@ use refusal::refused_text;
 use std::fs;
 use std::path::Path;
 
-/// A scene with these lines of its target, its laws and what can be set.
+/// A scene with these lines in its target, these laws and these settable parameters.
 fn scene(target: &str, law: &str, fmu: &str) -> String {
     format!(
         "name = \"unit\"\n[impactor]\nradius = 5e-3\n[target]\nyoungs_modulus = 206e9\nyield_strength = 300e6\n{target}\n\
@@ -25,7 +25,7 @@ fn write(folder: &Path, text: &str) {
     fs::write(folder.join("scene.toml"), text).unwrap();
 }
 
-/// What the scene `text` predicts, with further arguments.
+/// The predictions for the scene `text`, with additional arguments.
 fn predicted(text: &str, arguments: &[&str]) -> serde_json::Value {
     let folder = empty_folder();
     write(folder.path(), text);
@@ -33,7 +33,7 @@ fn predicted(text: &str, arguments: &[&str]) -> serde_json::Value {
     run(folder.path(), all).with_status(0).json()["laws"][0].clone()
 }
 
-/// The scene as Rust.
+/// The Rust source of the scene.
 fn constants(text: &str) -> String {
     let folder = empty_folder();
     write(folder.path(), text);
@@ -41,7 +41,7 @@ fn constants(text: &str) -> String {
 }
 
 #[test]
-fn a_unit_that_hardens_does_what_is_predicted() {
+fn an_fmu_that_hardens_agrees_with_the_prediction() {
     let folder = empty_folder();
     let laws = [BRINELL, "loading = \"brinell\"\nunloading = \"contact-radius\""];
     let coupled = "[coupling]\neffective_mass = 4.11e-3\n";
@@ -59,7 +59,7 @@ fn a_unit_that_hardens_does_what_is_predicted() {
 }
 
 #[test]
-fn only_a_unit_that_needs_it_has_the_form_for_other_materials() {
+fn only_an_fmu_that_needs_it_has_the_form_for_other_materials() {
     let fixed = "parameters = [\"target.yield_strength\"]";
     for (target, law, fmu, has) in [
         ("poissons_ratio = 0.3", BRINELL, fixed, false),
@@ -77,7 +77,7 @@ fn only_a_unit_that_needs_it_has_the_form_for_other_materials() {
 }
 
 #[test]
-fn a_unit_whose_target_does_not_harden_has_no_such_parameter_and_a_smaller_library() {
+fn an_fmu_whose_target_does_not_harden_has_no_such_parameter_and_a_smaller_library() {
     let folder = empty_folder();
     let size = |target: &str, fmu: &str| {
         write(folder.path(), &scene(target, BRINELL, fmu));
@@ -93,7 +93,7 @@ fn a_unit_whose_target_does_not_harden_has_no_such_parameter_and_a_smaller_libra
 }
 
 #[test]
-fn a_tangent_modulus_is_a_hardening_modulus_in_other_words() {
+fn a_tangent_modulus_is_equivalent_to_a_hardening_modulus() {
     // E_t = H/(1 + H/E)
     let hardening = 10e9;
     let tangent = hardening / (1.0 + hardening / 206e9);
@@ -103,7 +103,7 @@ fn a_tangent_modulus_is_a_hardening_modulus_in_other_words() {
         let [one, other] = [&one, &other].map(|law| law[name].as_f64().unwrap());
         assert!((one / other - 1.0).abs() < 1e-12, "{name}: {one} and {other}");
     }
-    // of a material, and of a contact whose modulus is that of the scene
+    // for a material, and for a contact with the modulus of the scene
     let of_material = "name = \"unit\"\nimpactor = { radius = 5e-3 }\nlaw = { loading = \"brinell\" }\n\
                        target = { material = \"mild steel\" }\n[[contact]]\nname = \"one\"\n";
     let rust = constants(&format!("{of_material}target = {{ tangent_modulus = 2e9 }}\n"));
@@ -112,7 +112,7 @@ fn a_tangent_modulus_is_a_hardening_modulus_in_other_words() {
 }
 
 #[test]
-fn a_sweep_and_a_comparison_know_the_hardening() {
+fn a_sweep_and_a_comparison_include_the_hardening() {
     let text = scene("poissons_ratio = 0.3\nhardening_modulus = 2e9", BRINELL, "");
     let alone = predicted(&text, &[])["restitution"].as_f64().unwrap();
     let named = predicted(&text, &["--laws", "brinell"])["restitution"].as_f64().unwrap();
@@ -132,7 +132,7 @@ fn a_sweep_and_a_comparison_know_the_hardening() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused() {
+fn contradictory_settings_are_rejected() {
     let nu = "poissons_ratio = 0.3\n";
     let target = |line: &str| format!("{nu}{line}");
     refused_text(
@@ -181,7 +181,7 @@ fn laws_shows_the_error_for_each_material() {
 }
 
 #[test]
-fn a_power_law_is_the_nearest_line_over_the_strains_of_the_impact() {
+fn a_power_law_becomes_the_closest_line_over_the_strains_of_the_impact() {
     let folder = empty_folder();
     let text = |impact: &str| {
         format!(
@@ -200,7 +200,7 @@ fn a_power_law_is_the_nearest_line_over_the_strains_of_the_impact() {
         let (strain, strength, modulus) = (of("strain"), of("yield_strength"), of("hardening_modulus"));
         let radius = answer["laws"][0]["largest_contact_radius"].as_f64().unwrap();
         assert!((strain / (0.2 * radius / 5e-3) - 1.0).abs() < 1e-9, "{strain} and {radius}");
-        // no other line is nearer: the residual is orthogonal to 1 and to the strain
+        // no other line is closer: the residual is orthogonal to 1 and to the strain
         let (mut constant, mut linear) = (0.0, 0.0);
         let points = 200_000;
         for point in 0..points {
@@ -212,7 +212,7 @@ fn a_power_law_is_the_nearest_line_over_the_strains_of_the_impact() {
         assert!(constant.abs() < 1e-5 * strength && linear.abs() < 1e-5 * strength * strain, "{constant} {linear}");
         let note = answer["notes"].to_string();
         assert!(note.contains("Tabor") && note.contains("half or twice"), "{note}");
-        // an impact of the command line has its own line
+        // an impact from the command line has its own line
         let other = predicted(&text("mass = 4.11e-3\nspeed = 1.0"), &["--speed", speed]);
         assert_eq!(other["laws"][0]["restitution"], answer["laws"][0]["restitution"]);
         run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);

@@ -1,5 +1,5 @@
-//! The program in hostile places: interrupted, with a reader that has gone, with links and devices where it writes, and with FMUs
-//! of strangers that harm the process that loads them.
+//! The program under difficult conditions: interrupted, with a closed pipe, writing to links and devices, and with
+//! FMUs that harm the process that loads them.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -15,12 +15,12 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// The names of what is built in `cache`.
+/// The names of the build folders in `cache`.
 fn builds(cache: &Path) -> Vec<String> {
     contents(cache).into_iter().filter(|name| name.starts_with("build-")).collect()
 }
 
-/// Processes that run in a folder below `folder`.
+/// Number of processes that run in a folder below `folder`.
 fn processes_below(folder: &Path) -> usize {
     let folder = folder.canonicalize().expect("it exists");
     let entries = fs::read_dir("/proc").expect("Linux").flatten();
@@ -67,7 +67,7 @@ fn a_symbolic_link_stays_and_its_target_is_written() {
     let path = |name: &str| folder.path().join(name);
     fs::create_dir(path("deep")).unwrap();
     fs::write(path("deep/old.csv"), "old").unwrap();
-    // a chain of links, and one to a file that isn't there yet
+    // a chain of links, and one to a missing file
     symlink("deep/old.csv", path("middle.csv")).unwrap();
     symlink("middle.csv", path("link.csv")).unwrap();
     symlink("deep/new.csv", path("dangling.csv")).unwrap();
@@ -147,14 +147,14 @@ fn a_closed_pipe_ends_quietly_and_the_work_is_done() {
         for arguments in [&["laws"][..], &["predict", &scene], &["check", "steel_ball.fmu"], &["materials"]] {
             assert_eq!(without_reader(folder.path(), &all(arguments), of_errors), Some(0), "{arguments:?}");
         }
-        // an error stays one
+        // an error still counts
         let status = without_reader(folder.path(), &all(&["check", "none.fmu"]), of_errors);
         assert_eq!(status, Some(1), "of errors: {of_errors}");
         assert_eq!(without_reader(folder.path(), &all(&["nothing"]), of_errors), Some(2), "of errors: {of_errors}");
     }
 }
 
-/// Copies an FMU, with another library.
+/// Copies an FMU with another library.
 const REPLACE: &str = "
 import sys, zipfile
 source, goal, library = sys.argv[1:]
@@ -163,7 +163,7 @@ with zipfile.ZipFile(source) as old, zipfile.ZipFile(goal, 'w') as new:
         new.writestr(name, open(library, 'rb').read() if name.endswith('.so') else old.read(name))
 ";
 
-/// The default scene's FMU with the library of a stranger, as `unit.fmu`.
+/// The default scene's FMU with a harmful library, as `unit.fmu`.
 fn stranger(option: &str) -> TempDir {
     let folder = empty_folder();
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/c/stranger.c");
@@ -177,7 +177,7 @@ fn stranger(option: &str) -> TempDir {
     folder
 }
 
-/// What `check` says of such an FMU; its temporary files are gone.
+/// The output of `check` for such an FMU; its temporary files are removed.
 #[track_caller]
 fn said_of(option: &str) -> Run {
     let (folder, temporary) = (stranger(option), empty_folder());
@@ -203,7 +203,7 @@ fn a_library_that_never_returns_is_a_failed_check() {
 }
 
 #[test]
-fn a_force_that_is_no_number_and_an_impact_without_end_are_failed_checks() {
+fn a_nan_force_and_an_endless_impact_are_failed_checks() {
     for (option, said) in [
         ("-DFORCE=NAN", "the force is NaN"),
         ("-DFORCE=INFINITY", "the force is inf"),
@@ -214,9 +214,9 @@ fn a_force_that_is_no_number_and_an_impact_without_end_are_failed_checks() {
     }
 }
 
-/// An archive that says it has 3 GB, or has them.
+/// An archive that declares 3 GB, or contains them.
 #[test]
-fn an_archive_that_unpacks_to_gigabytes_is_refused() {
+fn an_archive_that_unpacks_to_gigabytes_is_rejected() {
     let folder = empty_folder();
     let make = "
 import sys, zipfile
@@ -236,7 +236,7 @@ with zipfile.ZipFile(sys.argv[1], 'w', zipfile.ZIP_DEFLATED, compresslevel=1) as
     assert_eq!(contents(folder.path()), ["bomb.fmu"]);
 }
 
-/// Paths that are hard to pass on.
+/// Paths that are difficult to pass on.
 #[test]
 fn paths_with_spaces_and_other_letters_work() {
     let folder = empty_folder();
@@ -251,7 +251,7 @@ fn paths_with_spaces_and_other_letters_work() {
     assert_eq!(contents(&inside), ["ca che", "kugel ö.fmu", "szene ä.toml"]);
 }
 
-/// A check of 100,000 contacts, whose model description is 250 MB, in little memory.
+/// A check of 100,000 contacts, with a model description of 250 MB, in little memory.
 #[test]
 #[ignore = "it takes half a minute"]
 fn a_hundred_thousand_contacts_are_checked_in_little_memory() {
@@ -264,7 +264,7 @@ fn a_hundred_thousand_contacts_are_checked_in_little_memory() {
     );
     fs::write(folder.path().join("big.toml"), text).unwrap();
     run(folder.path(), ["export", "big.toml"]).with_status(0);
-    // address space, of which a fourth is used
+    // address space, of which a quarter is used
     let mut command = Command::new("sh");
     command.current_dir(folder.path()).args([
         "-c",

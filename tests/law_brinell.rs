@@ -1,4 +1,4 @@
-//! The law `brinell` against the finite-element truth it was fitted to, in `truth/`.
+//! The law `brinell` compared with the finite-element results of its fit, in `truth/`.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -8,7 +8,7 @@ use physics::{AnyModel, advance, model, pressed, unit};
 use std::fs;
 use std::path::Path;
 
-/// The rows of a table of the truth, without its heading.
+/// The rows of a finite-element table, without its heading.
 fn truth(name: &str) -> Vec<Vec<String>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth").join(name);
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -29,7 +29,7 @@ fn force(model: &AnyModel, x: f64) -> f64 {
     model.loading.segment(&model.pair, x * unit.indentation).force(x * unit.indentation) / unit.force
 }
 
-/// The unloading from one depth in the truth: (x, f), from the largest indentation down.
+/// The unloading from one depth in the finite-element results: (x, f), from the largest indentation downwards.
 fn unloading(depth: &str) -> Vec<(f64, f64)> {
     let rows = truth(&format!("unloading_from_{depth}.csv"));
     rows.iter().filter(|row| row[0] == "unload").map(|row| (number(&row[1]), number(&row[2]))).collect()
@@ -45,7 +45,7 @@ fn the_loading_force_is_within_half_a_percent_of_the_truth_up_to_a_thousand_yiel
     for row in rows {
         let (x, expected) = (number(&row[0]), number(&row[2]));
         let error = force(&model, x) / expected - 1.0;
-        // asked for is 1 %; the fit reaches 0.46 % at the last point
+        // the requirement is 1 %; the fit reaches 0.46 % at the last point
         assert!(error.abs() < 5e-3, "x = {x}: {:.3} %", 100.0 * error);
     }
 }
@@ -74,7 +74,7 @@ fn the_unloading_path_is_within_half_a_percent_of_the_largest_force() {
             let step = x * unit.indentation - history.indentation();
             advance(&mut history, &model, step);
             let error = (history.force() / unit.force - f) / f_m;
-            // asked for is 2 %
+            // the requirement is 2 %
             assert!(error.abs() < 5e-3, "from {depth} at x = {x}: {:.3} % of F_m", 100.0 * error);
         }
     }
@@ -82,7 +82,7 @@ fn the_unloading_path_is_within_half_a_percent_of_the_largest_force() {
 
 #[test]
 fn recovery_dissipation_and_restitution_are_within_one_percent_of_the_truth() {
-    // x_m, recovery in d_y, work given back over loading work: the table in truth/README.md
+    // x_m, recovery in d_y, returned work over loading work: the table in truth/README.md
     let table = [
         (3.0, 2.516, 0.8482),
         (10.0, 6.030, 0.6031),
@@ -107,7 +107,7 @@ fn recovery_dissipation_and_restitution_are_within_one_percent_of_the_truth() {
     }
 }
 
-/// Value and slope at the corners, to the rounding of the slope's three terms.
+/// Value and slope at the corners, within the rounding of the three terms of the slope.
 #[test]
 fn force_and_slope_are_continuous_at_every_knot() {
     let model = fitted();
@@ -124,9 +124,9 @@ fn force_and_slope_are_continuous_at_every_knot() {
     }
 }
 
-/// Numbers of the program that made the fit, to the digits that it printed.
+/// Results of the program that made the fit, with all its printed digits.
 #[test]
-fn the_law_is_the_one_that_was_fitted() {
+fn the_law_equals_the_fitted_one() {
     // x, f, w, a/a_y, x_f, W_rec/W
     let table = [
         [0.95, 9.259454628e-1, 3.518592758e-1, 9.746794345e-1, 0.0, 1.0],
@@ -151,7 +151,7 @@ fn the_law_is_the_one_that_was_fitted() {
             ("W_rec/W", model.recovered_work(largest, largest) / work, returned),
         ];
         for (name, got, expected) in pairs {
-            // half a unit of the tenth digit
+            // half a unit in the tenth digit
             assert!(
                 (got - expected).abs() <= 5.1e-10 * expected.abs(),
                 "{name} at x = {x}: {got} instead of {expected}"
@@ -161,7 +161,7 @@ fn the_law_is_the_one_that_was_fitted() {
 }
 
 #[test]
-fn the_constants_in_the_source_are_those_that_the_fit_wrote() {
+fn the_constants_in_the_source_equal_those_of_the_fit() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fit/brinell_law.json");
     let written: serde_json::Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     let list = |name: &str| -> Vec<f64> {

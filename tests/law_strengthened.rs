@@ -1,5 +1,5 @@
-//! The law `brinell` for targets that harden and for their Poisson's ratio, against the finite-element curves in
-//! `truth/materials/`.
+//! The law `brinell` for targets that harden and for other Poisson's ratios, compared with the finite-element curves
+//! in `truth/materials/`.
 
 #[path = "support/physics.rs"]
 mod physics;
@@ -11,7 +11,7 @@ use physics::{AnyModel, MASS, Random, advance, corners, logarithmic, mild, model
 use std::fs;
 use std::path::Path;
 
-/// A curve of the truth: Poisson's ratio, `H/E`, and the depths from which it unloads.
+/// A finite-element curve: Poisson's ratio, `H/E`, and the depths of its unloadings.
 struct Curve {
     name: &'static str,
     poissons_ratio: f64,
@@ -36,7 +36,7 @@ fn read(name: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The first columns of a table of the truth as numbers, of the rows that begin with `start`, without that.
+/// The first columns, as numbers, of the rows of a finite-element table that begin with `start`, without that.
 fn truth(name: &str, start: &str) -> Vec<Vec<f64>> {
     let text = read(&format!("truth/materials/{name}.csv"));
     let rows = text.lines().skip(1).filter_map(|line| line.strip_prefix(start));
@@ -73,13 +73,13 @@ impl Curve {
         within.collect()
     }
 
-    /// Indentation and force from the largest indentation down.
+    /// Indentation and force from the largest indentation downwards.
     fn unloading(&self, depth: &str) -> Vec<[f64; 2]> {
         let rows = truth(&format!("unloading_{}_from_{depth}", self.name), "unload,");
         rows.iter().map(|row| [row[0], row[1]]).collect()
     }
 
-    /// Work over these points, from the last one back to the first.
+    /// Work over these points, from the last one to the first.
     fn work(points: &[[f64; 2]]) -> f64 {
         points.windows(2).map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1])).sum::<f64>().abs()
     }
@@ -131,7 +131,7 @@ fn the_unloading_is_within_1_4_percent_of_the_largest_force_and_1_2_percent_up_t
     }
 }
 
-/// The loading work of the truth begins with Hertz's, and goes on by trapezoids between its points.
+/// The loading work of the finite-element curve: Hertz's law at the start, then trapezoids between its points.
 #[test]
 fn restitution_is_within_0_8_percent_and_the_dent_within_2_percent() {
     for curve in &CURVES {
@@ -155,9 +155,9 @@ fn restitution_is_within_0_8_percent_and_the_dent_within_2_percent() {
     }
 }
 
-/// Numbers of the program that made the fit, to the digits that it printed.
+/// Results of the program that made the fit, with all its printed digits.
 #[test]
-fn the_law_is_the_one_that_was_fitted() {
+fn the_law_equals_the_fitted_one() {
     // nu, eta, k, phi, work, alpha, dent, g
     let table = [
         [0.3, 0.05, 1.5, 1.821616537, 1.099643996, 1.516327696, 5.246159327e-2, 6.465092304e-2],
@@ -191,7 +191,7 @@ fn the_law_is_the_one_that_was_fitted() {
 }
 
 #[test]
-fn the_constants_in_the_source_are_those_that_the_fit_wrote() {
+fn the_constants_in_the_source_equal_those_of_the_fit() {
     let written: serde_json::Value = serde_json::from_str(&read("fit/materials_law.json")).unwrap();
     let source = read("src/contact/strength.rs");
     let has = |line: &str| assert!(source.contains(line), "src/contact/strength.rs lacks {line}");
@@ -208,7 +208,7 @@ fn the_constants_in_the_source_are_those_that_the_fit_wrote() {
     }
 }
 
-/// Any bodies that a unit takes, with a hardening modulus from a millionth of `E*` to a million times of it, or none.
+/// Any bodies that an FMU accepts, with a hardening modulus from a millionth of `E*` to a million times `E*`, or none.
 fn random_materials(count: usize) -> impl Iterator<Item = AnyModel> {
     let mut random = Random(7);
     (0..count).map(move |index| {
@@ -265,7 +265,7 @@ fn force_and_slope_are_continuous_at_every_knot_of_any_material() {
 }
 
 #[test]
-fn no_material_gives_back_more_than_it_took_and_a_deeper_dent_costs_more() {
+fn no_material_returns_more_energy_than_it_received_and_a_deeper_dent_costs_more() {
     for model in random_materials(300) {
         let pair = &model.pair;
         let unit = model.yield_point().indentation;
@@ -289,7 +289,7 @@ fn no_material_gives_back_more_than_it_took_and_a_deeper_dent_costs_more() {
 }
 
 #[test]
-fn a_way_in_many_steps_ends_as_in_one() {
+fn many_steps_end_at_the_same_force_as_one() {
     for model in random_materials(100) {
         let unit = model.yield_point().indentation;
         for (from, to) in [(0.3, 40.0), (1.5, 3e3), (700.0, 650.0), (90.0, 20.0)] {
@@ -331,9 +331,9 @@ fn work_is_the_integral_of_the_force() {
     }
 }
 
-/// What counts is `H/E*` of the pair, so that a soft impactor makes the same hardening matter more.
+/// The hardening enters as `H/E*` of the pair; with a soft impactor the same hardening has a larger effect.
 #[test]
-fn an_elastic_impactor_counts_by_the_effective_modulus() {
+fn an_elastic_impactor_enters_through_the_effective_modulus() {
     let rigid = on_steel(0.3, 0.02);
     let pair = Pair { modulus: 0.5 * rigid.pair.modulus, ..rigid.pair };
     let soft = strengthened(pair, 0.5 * 0.02 * 206e9);
@@ -352,7 +352,7 @@ fn hardening_and_a_higher_poissons_ratio_make_an_impact_harder_and_its_dent_shal
     let mut before: Option<Prediction> = None;
     let materials = [(0.2, 0.0), (0.3, 0.0), (0.4, 0.0), (0.4, 0.01), (0.4, 0.05), (0.4, 0.1)];
     for (ratio, hardening) in materials {
-        // the same effective modulus, so that nothing but the plastic law differs
+        // the same effective modulus: only the plastic law differs
         let pair = Pair { poissons_ratio: ratio, ..mild() };
         let prediction = predict(&strengthened(pair, hardening * 206e9), &impact).expect("an ordinary impact");
         if let Some(before) = before {
@@ -363,9 +363,9 @@ fn hardening_and_a_higher_poissons_ratio_make_an_impact_harder_and_its_dent_shal
     }
 }
 
-/// A unit names its laws, without the enums that the other tests use.
+/// An FMU names its laws, without the enums that the other tests use.
 #[test]
-fn another_unloading_law_goes_with_the_loading_law_too() {
+fn the_loading_law_also_combines_with_another_unloading_law() {
     let pair = Pair { poissons_ratio: 0.4, ..mild() };
     let law = loading::Strengthened { law: loading::Brinell::REFERENCE, hardening_modulus: 5e9 };
     let model = Model { pair, loading: law, unloading: unloading::ContactRadius, surface: Surface::Dented };

@@ -1,9 +1,10 @@
-//! FMUs on Windows, arm64 Linux and macOS, as far as they can be had here: the same history gives the same bits as on this system,
-//! with every law. The results are noted in docs/platforms.md.
+//! FMUs on Windows, arm64 Linux and macOS, as far as they are available: for every law, the same history gives the
+//! same bits as on this system. docs/platforms.md has the results.
 //!
-//! The libraries are the prebuilt ones: those in the folder that BRINELL_PREBUILT names, or else those that `brinell prebuild` makes by
-//! the toolchain of BRINELL_TOOLCHAIN. Wine, QEMU, a C compiler for all systems and an emulator for macOS are unpacked in the target
-//! folder (350 MB to download). What can't be had is skipped, and said to be.
+//! The libraries are the prebuilt ones: those in the folder of BRINELL_PREBUILT, otherwise those that
+//! `brinell prebuild` makes with the toolchain of BRINELL_TOOLCHAIN. Wine, QEMU, a C compiler for all systems and an
+//! emulator for macOS are unpacked in the target folder (350 MB to download). Systems that are not available are
+//! skipped with a message.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
 #[path = "support/command.rs"]
@@ -33,7 +34,7 @@ use std::process::Command;
 use std::{env, fs};
 use systems::System;
 
-/// The folder of the prebuilt libraries for all platforms; none if there is no toolchain to make them.
+/// The folder of the prebuilt libraries for all platforms; `None` without a toolchain to make them.
 fn store() -> Option<PathBuf> {
     if let Some(named) = env::var_os("BRINELL_PREBUILT").filter(|value| !value.is_empty()) {
         return Some(named.into());
@@ -46,7 +47,7 @@ fn store() -> Option<PathBuf> {
     Some(place)
 }
 
-/// An FMU for all platforms, unpacked, and what an ordinary program gets from it here.
+/// An FMU for all platforms, unpacked, and its results in an ordinary program on this system.
 struct Fmu {
     name: String,
     file: PathBuf,
@@ -62,7 +63,7 @@ impl Fmu {
         fs::create_dir_all(&folder).expect("the target folder can be written to");
         fs::write(folder.join("scene.toml"), text).expect("the target folder can be written to");
         let mut export = prebuilt::without_compiler(&folder, store);
-        // for all platforms that there are libraries for
+        // for all platforms with libraries
         export.args(["export", "scene.toml", "-o", "unit.fmu"]);
         command::output(&mut export).with_status(0);
         let file = folder.join("unit.fmu");
@@ -77,14 +78,14 @@ impl Fmu {
     }
 }
 
-/// The one file in the folder of `platform`.
+/// The only file in the folder of `platform`.
 fn library(folder: &Path, platform: &str) -> PathBuf {
     let folder = folder.join("binaries").join(platform);
     let mut files = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     files.next().expect("a library").expect("a readable folder").path()
 }
 
-/// FMUs of every law in `store` and of these kinds.
+/// FMUs of every law in `store`, for these kinds.
 fn fmus(store: &Path, kinds: &[&str]) -> Vec<Fmu> {
     let host = compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap_or_else(|why| panic!("{why}"));
     let host = Host::program(host);
@@ -97,7 +98,7 @@ fn fmus(store: &Path, kinds: &[&str]) -> Vec<Fmu> {
     fmus
 }
 
-/// Runs the FMUs on `system`; what is wrong.
+/// Runs the FMUs on `system`; returns the differences.
 fn run(system: &System, fmus: &[Fmu]) -> Vec<String> {
     let wrong = |fmu: &Fmu| {
         let library = library(&fmu.folder, system.platform);
@@ -111,7 +112,7 @@ fn run(system: &System, fmus: &[Fmu]) -> Vec<String> {
     fmus.iter().filter_map(wrong).collect()
 }
 
-/// FMUs of every law and of these kinds, on each of the systems that can be had.
+/// Runs FMUs of every law and of these kinds on each available system.
 fn assert_same_bits(kinds: &[&str], systems: Vec<(&str, Result<System, String>)>) {
     let Some(store) = store() else { return };
     let fmus = fmus(&store, kinds);
@@ -141,7 +142,7 @@ fn every_law_gives_the_same_bits_on_windows_and_on_arm64() {
     assert_same_bits(&ALL_KINDS, systems);
 }
 
-/// Emulated a thousand times slower than the processor: of each law the library with all outputs.
+/// The emulation is a thousand times slower than the processor: for each law, it runs the library with all outputs.
 #[test]
 #[ignore = "350 MB to download: cargo test --release --test other_systems -- --ignored --nocapture"]
 fn every_law_gives_the_same_bits_in_the_code_for_macos() {
@@ -149,7 +150,7 @@ fn every_law_gives_the_same_bits_in_the_code_for_macos() {
     assert_same_bits(&["everything"], systems);
 }
 
-/// fmpy on Linux starts the library by a program for Windows, and wine runs that.
+/// fmpy on Linux starts the library through a Windows program, which runs in wine.
 #[test]
 #[ignore = "350 MB to download: cargo test --release --test other_systems -- --ignored --nocapture"]
 fn fmpy_gets_the_same_bits_from_windows() {
@@ -163,7 +164,7 @@ fn fmpy_gets_the_same_bits_from_windows() {
     let fmu = Fmu::of("by-fmpy", scene, &store, &Host::program(ordinary));
     let expected = systems::by_fmpy(&fmu.file, &history, None).unwrap_or_else(|why| panic!("{why}"));
     assert!(expected.lines().count() > 400, "{} lines", expected.lines().count());
-    // fmpy takes the way to another system only if there is no library for its own
+    // fmpy uses the other system only if there is no library for its own
     let mut export = prebuilt::without_compiler(&fmu.folder, &store);
     export.args(["export", "scene.toml", "-o", "windows.fmu", "--platforms", "win64"]);
     command::output(&mut export).with_status(0);

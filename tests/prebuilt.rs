@@ -1,4 +1,4 @@
-//! FMUs from prebuilt libraries: the same outputs, bit for bit, as of compiled ones.
+//! FMUs from prebuilt libraries have the same outputs as compiled ones, bit for bit.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 #[path = "support/both_ways.rs"]
@@ -35,7 +35,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Compares scenes of a law in both ways.
+/// Compares compiled and prebuilt FMUs for scenes of a law.
 fn compare(law: &str, scenes: Vec<(&str, String)>, store: &Path) {
     let mut random = Random(14);
     let mut messages = 0;
@@ -50,14 +50,14 @@ fn compare(law: &str, scenes: Vec<(&str, String)>, store: &Path) {
 }
 
 #[test]
-fn a_prebuilt_library_shows_the_same_bits_and_says_the_same_as_a_compiled_one() {
+fn a_prebuilt_library_gives_the_same_bits_and_messages_as_a_compiled_one() {
     LAWS.iter().for_each(|law| compare(law, one_of_each_kind(law), store()));
 }
 
-/// The same for every law, and for more scenes of one law. A folder with libraries may be named by BRINELL_PREBUILT.
+/// The same for every law, with more scenes for each law. BRINELL_PREBUILT may name a folder with libraries.
 #[test]
 #[ignore = "compiles 300 libraries: cargo test --release --test prebuilt -- --ignored"]
-fn every_prebuilt_library_shows_the_same_bits_and_says_the_same_as_a_compiled_one() {
+fn every_prebuilt_library_gives_the_same_bits_and_messages_as_a_compiled_one() {
     let named = std::env::var_os("BRINELL_PREBUILT").map(Into::into);
     let store = named.unwrap_or_else(|| prebuilt::made_once("every", &[]));
     let laws = prebuilt::laws(&store);
@@ -66,10 +66,10 @@ fn every_prebuilt_library_shows_the_same_bits_and_says_the_same_as_a_compiled_on
     laws.iter().for_each(|law| compare(law, one_of_each_kind(law), &store));
 }
 
-/// The most instructions that a prebuilt library may take, compared with a compiled one.
+/// Largest ratio of instructions between a prebuilt library and a compiled one.
 const MOST: f64 = 1.3;
 
-/// Instructions of setting the rate, the step and getting the outputs, over a history with steps of all sizes.
+/// Instructions for setting the rate, making the step and reading the outputs, over a history with steps of all sizes.
 fn instructions(fmu: &Path, program: &Path) -> f64 {
     let library = unit::library(fmu);
     let counts = fmu.with_extension("callgrind");
@@ -101,7 +101,7 @@ fn a_prebuilt_library_takes_hardly_more_instructions_than_a_compiled_one() {
     }
 }
 
-/// Scenes for each kind of library that go far in a plain simulation.
+/// Scenes for each kind of library that a plain simulation can run.
 fn plain_scenes() -> impl Iterator<Item = (&'static str, String)> {
     // a slow constant rate must reach the surface
     let near = |text: String| text.replace("initial_gap = 1e-6", "initial_gap = 0.0");
@@ -119,7 +119,7 @@ fn fmus_of_every_kind_pass_the_check_and_are_the_same_bytes_each_time() {
 }
 
 #[test]
-fn fmpy_takes_fmus_of_every_kind() {
+fn fmpy_accepts_fmus_of_every_kind() {
     let fmu = |(kind, text): (&str, String)| (kind.to_string(), export(&text, Some(store())));
     let fmus = plain_scenes().map(fmu).collect();
     for file in [
@@ -134,9 +134,9 @@ fn fmpy_takes_fmus_of_every_kind() {
     }
 }
 
-/// With a compiler the scene is compiled, unless the user says otherwise; without one it is not.
+/// With a compiler the scene is compiled unless the user requests a prebuilt library; without a compiler it is not.
 #[test]
-fn the_summary_tells_how_the_fmu_was_made_and_what_the_other_way_would_save() {
+fn the_summary_shows_how_the_fmu_was_made_and_what_the_other_way_would_save() {
     let folder = empty_folder();
     let text = scene("big-alabo", &["indentation"], "");
     fs::write(folder.path().join("scene.toml"), text).unwrap();
@@ -156,9 +156,9 @@ fn the_summary_tells_how_the_fmu_was_made_and_what_the_other_way_would_save() {
     }
 }
 
-/// Compiled and prebuilt, of one law and of another, with other numbers: none takes a state of another one.
+/// FMUs of two laws with different numbers, compiled and prebuilt: none accepts a state of another.
 #[test]
-fn states_of_other_scenes_are_refused() {
+fn states_of_other_scenes_are_rejected() {
     let texts = [
         scene("big-alabo", &["work"], ""),
         scene("big-alabo", &["work"], "[fmu]\ninitial_gap = 1e-9\n"),
@@ -187,9 +187,9 @@ fn the_kind_in_the_source_tree_is_that_of_the_default_scene() {
     assert!(kind.out == source, "src/scene/kind.rs is not what the program writes:\n{}", kind.out);
 }
 
-/// The same bytes, whoever makes them and how many at a time.
+/// The same bytes from any run, with any number of threads.
 #[test]
-fn prebuilding_is_reproducible_and_refuses_unknown_laws() {
+fn prebuilding_is_reproducible_and_rejects_unknown_laws() {
     let again = prebuilt::folder().join("again");
     prebuilt::prebuild(&again, &["--laws", "hunt-crossley/flores", "--kinds", "force"]).with_status(0);
     let library = |store: &Path| {

@@ -1,4 +1,4 @@
-//! What prebuilt libraries are refused for, by the exporter and by the FMU itself.
+//! Scenes that the exporter rejects for prebuilt libraries, and data that the FMU rejects.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 #[path = "support/command.rs"]
@@ -22,7 +22,7 @@ use prebuilt::{export, file, store};
 use std::fs;
 use std::path::Path;
 
-/// The one line that an export without compiler ends with.
+/// The error line of an export without a compiler.
 #[track_caller]
 fn refusal(text: &str, store: &Path) -> String {
     let folder = empty_folder();
@@ -33,7 +33,7 @@ fn refusal(text: &str, store: &Path) -> String {
 }
 
 #[test]
-fn a_scene_that_needs_a_compiler_is_refused_by_the_key_that_needs_it() {
+fn a_scene_that_needs_a_compiler_is_rejected_with_the_key_that_needs_it() {
     let law = |more: &str| scene("big-alabo", &[], "").replacen("[law]\n", &format!("[law]\n{more}\n"), 1);
     let long = "n".repeat(100);
     let cases = [
@@ -66,7 +66,7 @@ fn a_scene_that_needs_a_compiler_is_refused_by_the_key_that_needs_it() {
 }
 
 #[test]
-fn libraries_that_are_missing_damaged_or_of_another_version_are_told() {
+fn missing_or_damaged_libraries_and_those_of_another_version_are_reported() {
     let text = scene("big-alabo", &[], "");
     let none = empty_folder();
     let said = refusal(&text, none.path());
@@ -105,9 +105,9 @@ fn libraries_that_are_missing_damaged_or_of_another_version_are_told() {
     }
 }
 
-/// Any bit of the data that isn't as the exporter wrote it.
+/// Changes any bit of the data.
 #[test]
-fn a_library_with_damaged_data_makes_no_instance_and_says_why() {
+fn a_library_with_damaged_data_rejects_instantiation_with_the_reason() {
     let fmu = export(&scene("big-alabo", &["work"], IMPACT), Some(store()));
     let place = unit::library(&fmu);
     let good = fs::read(&place).unwrap();
@@ -134,6 +134,6 @@ fn a_library_with_damaged_data_makes_no_instance_and_says_why() {
         };
         assert!(said.starts_with("fmi2Instantiate: ") && said.contains(expected), "byte {byte}: {said}");
     }
-    // the whole library is as it was
+    // the whole library is unchanged
     assert!(Unit::open(&fmu).try_to_instantiate().is_some());
 }

@@ -1,4 +1,4 @@
-//! `brinell report`, quickly: the page stands alone, and its numbers are those of the theory.
+//! `brinell report` in quick mode: the page is self-contained, and its numbers agree with theory.
 
 #[path = "support/command.rs"]
 mod command;
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
-/// The quick report of a scene: its folder, and its data.
+/// The quick report of a scene: its folder and its data.
 fn report(name: &str) -> (TempDir, Value) {
     let folder = empty_folder();
     let scene = scene(name).display().to_string();
@@ -20,7 +20,7 @@ fn report(name: &str) -> (TempDir, Value) {
     (folder, data)
 }
 
-/// That of the default scene, made once.
+/// The report of the default scene, made once.
 static DEFAULT: LazyLock<(TempDir, Value)> = LazyLock::new(|| report("steel_ball"));
 
 /// The ways of an FMU that knows the mass.
@@ -45,7 +45,7 @@ fn fitted_orders_are_those_of_the_methods() {
 }
 
 #[test]
-fn a_unit_that_knows_the_mass_is_right_to_rounding_at_every_step() {
+fn an_fmu_that_knows_the_mass_is_exact_to_rounding_for_every_step() {
     for way in KNOWN {
         let known = rows(&DEFAULT.1, "precision").iter().filter(|row| row["way"] == way);
         let errors: Vec<f64> = known.map(|row| row["error_of_restitution"].as_f64().expect("an error")).collect();
@@ -59,7 +59,7 @@ static ELASTIC: LazyLock<Value> = LazyLock::new(|| report("elastic").1);
 
 #[test]
 fn the_stable_limits_of_an_elastic_scene_are_those_of_theory() {
-    // the smallest root of the polynomial in (h omega)^2 at which input derivatives have the eigenvalue -1
+    // the smallest root of the polynomial in (h omega)^2 for which input derivatives have the eigenvalue -1
     let polynomial = |z: f64| ((z - 48.0) * z + 432.0) * z - 576.0;
     let (mut low, mut high) = (0.0, 2.0f64);
     for _ in 0..60 {
@@ -85,7 +85,7 @@ fn the_stable_limits_of_an_elastic_scene_are_those_of_theory() {
 }
 
 #[test]
-fn programs_are_told_the_stable_limit_of_every_way() {
+fn the_json_has_the_stable_limit_of_every_way() {
     let used = &ELASTIC["use"];
     let stable = used["stable"].as_array().expect("a list");
     let limits = rows(&ELASTIC, "limits");
@@ -100,7 +100,7 @@ fn programs_are_told_the_stable_limit_of_every_way() {
 }
 
 #[test]
-fn each_kind_of_master_has_one_recommended_way_and_it_is_the_cheapest_that_reaches_one_percent() {
+fn each_co_simulation_algorithm_has_one_recommended_way_the_cheapest_that_reaches_one_percent() {
     let ways = DEFAULT.1["use"]["ways"].as_array().expect("a list");
     let time = |way: &Value| way["one_percent"]["time_per_impact_s"].as_f64().unwrap_or(f64::INFINITY);
     for master in ["serial (Gauss-Seidel)", "parallel (Jacobi)"] {
@@ -144,7 +144,7 @@ fn the_map_has_every_way_at_every_step() {
 }
 
 #[test]
-fn a_unit_that_knows_the_mass_makes_energy_at_no_step() {
+fn an_fmu_that_knows_the_mass_creates_energy_at_no_step() {
     for (data, way) in [&DEFAULT.1, &*ELASTIC].into_iter().flat_map(|data| KNOWN.map(|way| (data, way))) {
         for (step, energy) in energies(data, way) {
             assert!(energy <= 1.0 + 1e-9, "{way}: h sqrt(K/m) = {step}: {energy}");
@@ -153,7 +153,7 @@ fn a_unit_that_knows_the_mass_makes_energy_at_no_step() {
 }
 
 #[test]
-fn a_late_force_makes_energy_at_a_big_step() {
+fn a_delayed_force_creates_energy_at_a_large_step() {
     let (step, energy) = *energies(&DEFAULT.1, "late force").last().expect("steps");
     assert!(energy > 1.0, "h sqrt(K/m) = {step}: {energy}");
 }
@@ -166,7 +166,7 @@ fn restitution_over_speed_has_every_law() {
     }
     let truth = rows(&DEFAULT.1, "restitution").iter().filter(|row| row["law"] == "finite elements");
     let truth: Vec<f64> = truth.map(|row| row["restitution"].as_f64().expect("a number")).collect();
-    // of truth/README.md; the slowest of its impacts is slower than a hundredth of the scene's speed
+    // from truth/README.md; its slowest impact is slower than a hundredth of the scene's speed
     let printed = [0.777, 0.645, 0.536, 0.450];
     assert_eq!(truth.len(), printed.len(), "{truth:?}");
     assert!(truth.iter().zip(printed).all(|(one, other)| (one - other).abs() < 6e-4), "{truth:?}");
@@ -196,7 +196,7 @@ fn the_spread_has_the_extremes_of_the_laws() {
 }
 
 #[test]
-fn all_extreme_cases_are_judged_and_none_has_failed() {
+fn all_extreme_cases_are_judged_and_pass() {
     let cases = rows(&DEFAULT.1, "extremes");
     assert!(cases.len() >= 50, "some dozens of cases, not {}", cases.len());
     for case in cases {
@@ -212,14 +212,14 @@ fn all_extreme_cases_are_judged_and_none_has_failed() {
 }
 
 #[test]
-fn the_page_needs_nothing_else_and_its_data_stand_beside_it() {
+fn the_page_is_self_contained_with_its_data_beside_it() {
     let folder = DEFAULT.0.path().join("report");
     let page = fs::read_to_string(folder.join("index.html")).expect("a page");
     assert!(page.ends_with("</html>\n"), "the page is whole");
     for outside in ["<link", "<img", "@import", "src=", "url(", "fetch(", "import(", "XMLHttpRequest"] {
         assert!(!page.contains(outside), "the page has {outside}");
     }
-    // an address of the web is the name of the vector format, nothing that is loaded
+    // the only web address is the name of the vector format, which is not loaded
     let addresses = page.matches("http").count();
     assert_eq!(addresses, page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
     let expected = [
@@ -271,7 +271,7 @@ fn a_scene_with_several_contacts_or_a_rate_dependent_law_has_a_report_too() {
 }
 
 #[test]
-fn the_unit_alone_adds_nothing_but_rounding() {
+fn the_fmu_alone_adds_only_rounding() {
     let alone: Vec<_> = rows(&DEFAULT.1, "precision").iter().filter(|row| row["way"] == "unit alone").collect();
     assert_eq!(alone.len(), 7, "4 to 256 steps per contact");
     for row in alone {
@@ -296,7 +296,7 @@ fn the_error_of_the_dent_has_the_order_of_the_method_too() {
 }
 
 #[test]
-fn a_unit_is_right_to_refuse_what_its_law_has_no_answer_to_and_the_summary_warns_of_a_wide_impact() {
+fn an_fmu_may_reject_impacts_beyond_its_law_and_the_summary_warns_of_a_wide_impact() {
     let folder = empty_folder();
     let text = fs::read_to_string(scene("steel_ball")).expect("a scene");
     let text = text.replace("loading = \"big-alabo\"", "loading = \"jackson-green\"");
@@ -317,7 +317,7 @@ fn a_unit_is_right_to_refuse_what_its_law_has_no_answer_to_and_the_summary_warns
 }
 
 #[test]
-fn what_a_law_itself_makes_of_energy_is_no_failure_of_its_unit_and_is_told() {
+fn energy_created_by_a_law_is_reported_and_is_no_failure_of_its_fmu() {
     let folder = empty_folder();
     let text = fs::read_to_string(scene("steel_ball")).expect("a scene");
     let text =

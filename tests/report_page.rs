@@ -1,5 +1,5 @@
-//! The page of a report in a browser: nothing overflows on a desktop or a phone, no text of a picture is cut off, and it prints on a
-//! few pages. Needs Chromium; without it the test says that it was skipped.
+//! The page of a report in a browser: nothing overflows on a desktop or a phone, no text of a picture is cut off, and
+//! it prints on a few pages. The test needs Chromium; without it, it prints that it was skipped.
 
 #[path = "support/command.rs"]
 mod command;
@@ -11,7 +11,7 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-/// Measures the page, and writes what it finds into attributes of the body.
+/// Measures the page, and writes the results to attributes of the body.
 const PROBE: &str = r#"<script>
 addEventListener("load", () => {
   const page = document.documentElement;
@@ -24,7 +24,7 @@ addEventListener("load", () => {
 });
 </script>"#;
 
-/// A browser that can be called.
+/// The command of an installed browser.
 fn chromium() -> Option<OsString> {
     let named = env::var_os("BRINELL_CHROMIUM");
     let known = ["chromium", "chromium-browser", "google-chrome"].map(OsString::from);
@@ -33,7 +33,7 @@ fn chromium() -> Option<OsString> {
     named.into_iter().chain(known).find(answers)
 }
 
-/// What the browser prints when it is called with `arguments` for the page at `path`.
+/// The output of the browser for `arguments` and the page at `path`.
 fn browse(browser: &OsString, profile: &Path, arguments: &[&str], path: &Path) -> String {
     let mut command = Command::new(browser);
     command.args(["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking"]);

@@ -1,4 +1,4 @@
-//! `brinell report --peer`: other units in the same picture.
+//! `brinell report --peer`: other FMUs in the same picture.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
 
-/// The model description of the spring in `c/peer.c`; `version` is that of FMI.
+/// The model description of the spring in `c/peer.c`; `version` is the FMI version.
 fn description(version: &str, variables: &[(&str, &str)]) -> String {
     let variable = |(reference, (name, causality)): (usize, &(&str, &str))| {
         format!(
@@ -27,7 +27,7 @@ fn description(version: &str, variables: &[(&str, &str)]) -> String {
     )
 }
 
-/// What the spring has.
+/// The features of the spring.
 const SPRING: [(&str, &str); 2] = [("indentation_rate", "input"), ("force", "output")];
 
 /// Compiles the spring with `option` and packs it with `xml` as `spring.fmu` in `folder`.
@@ -45,7 +45,7 @@ fn pack(folder: &Path, option: &str, xml: &str) -> PathBuf {
     folder.join("spring.fmu")
 }
 
-/// A quick report of `name` with these peers, and its data if there are any.
+/// A quick report of `name` with these peers, and its data, if it succeeds.
 fn report(name: &str, peers: &[&Path]) -> (Run, TempDir, Value) {
     let folder = empty_folder();
     let scene = scene(name).display().to_string();
@@ -58,7 +58,7 @@ fn report(name: &str, peers: &[&Path]) -> (Run, TempDir, Value) {
     (run, folder, serde_json::from_str(&data).expect("JSON"))
 }
 
-/// The rows of `table` for a way to couple a unit.
+/// The rows of `table` for a way to couple an FMU.
 fn rows<'a>(data: &'a Value, table: &str, unit: &str, way: &str) -> Vec<&'a Value> {
     let all = data[table].as_array().unwrap_or_else(|| panic!("no table {table}"));
     all.iter().filter(|row| row["unit"] == unit && row["way"] == way).collect()
@@ -69,7 +69,7 @@ fn numbers(rows: &[&Value], key: &str) -> Vec<f64> {
 }
 
 #[test]
-fn the_same_unit_as_a_peer_gives_the_same_numbers_to_the_last_bit() {
+fn the_same_fmu_as_a_peer_gives_the_same_numbers_bit_for_bit() {
     let own = unit::export(&scene("steel_ball"));
     let named = own.with_file_name("twin.fmu");
     fs::copy(&own, &named).unwrap();
@@ -83,14 +83,14 @@ fn the_same_unit_as_a_peer_gives_the_same_numbers_to_the_last_bit() {
             assert_eq!(numbers(&own, key), numbers(&peer, key), "{key} of {unit} by {way}");
         }
     }
-    // neither has what the other ways need
+    // neither supports the other ways
     assert!(rows(&data, "precision", "twin", "predicted_force").is_empty());
     assert!(rows(&data, "precision", "mass_known", "leap-frog").is_empty());
 }
 
-/// Its mean force belongs to the next step.
+/// Its mean force applies to the next step.
 #[test]
-fn a_peer_for_masters_that_step_all_units_at_once_is_stepped_so() {
+fn a_peer_for_the_jacobi_scheme_is_stepped_accordingly() {
     let text = fs::read_to_string(scene("mass_known")).unwrap().replacen("mass_known", "at_once", 1);
     let text = text.replacen("[coupling]", "[coupling]\nmaster = \"parallel\"", 1);
     let peer = unit::export(&unit::write_scene("at_once", &text));
@@ -104,17 +104,17 @@ fn a_peer_for_masters_that_step_all_units_at_once_is_stepped_so() {
 }
 
 #[test]
-fn a_unit_of_another_maker_is_run_with_what_it_has() {
+fn an_fmu_from_another_exporter_runs_with_its_own_features() {
     let folder = empty_folder();
     let spring = pack(folder.path(), "-DPLAIN", &description("2.0", &SPRING));
     let (run, _folder, data) = report("elastic", &[&spring]);
     run.with_status(0);
-    // a spring gives all back, as the elastic scene does, so that its rebound has the order of the method
+    // a spring returns all energy, as the elastic scene does; its rebound has the order of the method
     for (way, order) in [("late force", 1.0), ("leap-frog", 2.0)] {
         let fitted = rows(&data, "orders", "spring", way)[0]["order"].as_f64().expect("a fitted order");
         assert!((fitted - order).abs() < 0.3, "{way}: order {fitted} instead of {order}");
     }
-    // and its law is another one
+    // its law differs
     let force = numbers(&rows(&data, "precision", "spring", "leap-frog"), "error_of_largest_force");
     assert!(force.iter().all(|error| *error > 0.05), "{force:?}");
     let orders = data["orders"].as_array().unwrap();

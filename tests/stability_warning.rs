@@ -1,4 +1,4 @@
-//! An FMU warns of a master whose steps are unstable, and of no other.
+//! An FMU warns about an importer with unstable steps, and about no other.
 
 #[path = "support/masters.rs"]
 mod masters;
@@ -19,13 +19,13 @@ type One = Chosen<Elastoplastic, 1, Absent>;
 type WithMomentum = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Absent>;
 
-/// The largest stable step where an impact at 1 m/s is deepest [s].
+/// The longest stable step at the largest indentation of an impact at 1 m/s [s].
 fn stable_step(model: &AnyModel, mass: f64) -> f64 {
     let deepest = predict(model, &Impact { mass, speed: 1.0 }).unwrap().max_indentation;
     2.0 * (mass / model.unloading_segment(deepest, deepest).stiffness(deepest)).sqrt()
 }
 
-/// The warning of unstable steps that a mass raises which the contact's force moves, and how fast it has become.
+/// The warning about unstable steps for a mass that the contact force moves, and the speed that the mass has reached.
 fn coupled<S: Scene>(model: &AnyModel, step: f64, count: usize) -> (Option<Warning>, f64) {
     // a touch leaves the branch of a flight
     choose(choice(model, Surface::Dented, 0.3 * step));
@@ -46,7 +46,7 @@ fn coupled<S: Scene>(model: &AnyModel, step: f64, count: usize) -> (Option<Warni
 }
 
 #[test]
-fn a_mass_in_steps_that_are_too_long_is_told_and_one_in_shorter_steps_is_not() {
+fn steps_that_are_too_long_for_a_mass_cause_a_warning_and_shorter_ones_do_not() {
     for (name, model) in all_models(mild()) {
         let stable = stable_step(&model, MASS);
         for factor in [15.0, 40.0, 150.0] {
@@ -68,16 +68,16 @@ fn a_mass_in_steps_that_are_too_long_is_told_and_one_in_shorter_steps_is_not() {
     }
 }
 
-/// The force that a master applies over a step.
+/// The force that an importer applies over a step.
 #[derive(Clone, Copy, Debug)]
 enum Applied {
-    /// That at its end: semi-implicit Euler, or leap-frog where rates lie half a step off.
+    /// The force at the end of the step: semi-implicit Euler, or leap-frog for rates half a step off.
     New,
-    /// That at its start: explicit Euler.
+    /// The force at the start of the step: explicit Euler.
     Old,
     /// Their mean: trapezoidal rule, velocity Verlet.
     Mean,
-    /// The new one, extrapolated by half a step: the two steps of Adams and Bashforth.
+    /// The new force, extrapolated by half a step: the two-step Adams-Bashforth method.
     Extrapolated,
     /// The output `mean_force`.
     MeanForce,
@@ -85,22 +85,22 @@ enum Applied {
 
 const APPLIED: [Applied; 5] = [Applied::New, Applied::Old, Applied::Mean, Applied::Extrapolated, Applied::MeanForce];
 
-/// A mass that a master moves.
+/// A mass that an importer moves.
 #[derive(Clone, Copy, Debug)]
 struct Moved {
     applied: Applied,
     pattern: Pattern,
     mass: f64,
-    /// Of the steps [s].
+    /// Length of the steps [s].
     step: f64,
     gap: f64,
-    /// By all other forces [m/s^2].
+    /// Acceleration by all other forces [m/s^2].
     acceleration: f64,
 }
 
 impl Moved {
-    /// Any master, mass, gap and gravity, with a step from 1.05 to 1000 times the largest stable one where an impact at 1 m/s is
-    /// deepest.
+    /// Any importer, mass, gap and gravity, with a step from 1.05 to 1000 times the longest stable one at the largest
+    /// indentation of an impact at 1 m/s.
     fn any(model: &AnyModel, random: &mut Random) -> Moved {
         let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
         let mass = MASS * decades(-3.0, 3.0);
@@ -113,7 +113,7 @@ impl Moved {
         Moved { applied, pattern: PATTERNS[pattern], mass, step, gap, acceleration }
     }
 
-    /// Moves the mass by `count` steps. The result is which was the first that was too long, and the first with a warning.
+    /// Moves the mass by `count` steps. Returns the first step that was too long, and the first step with a warning.
     fn run<S: Scene>(&self, model: &AnyModel, count: usize) -> (Option<usize>, Option<usize>) {
         let Moved { applied, pattern, mass, step, gap, acceleration } = *self;
         choose(Choice { effective_mass: mass, ..choice(model, Surface::Dented, gap) });
@@ -125,7 +125,7 @@ impl Moved {
             let is_long = force > 0.0 && step * step * stiffness / mass > 4.0;
             long = long.or(is_long.then_some(index));
             set_rate(&mut instance, 0, speed);
-            // a master may add up the time, or multiply
+            // an importer may add up the time, or multiply
             let time = if matches!(pattern, Pattern::Equal) { index as f64 * step } else { instance.time() };
             if instance.do_step(time, step).is_err() {
                 break;
@@ -148,7 +148,7 @@ impl Moved {
 }
 
 #[test]
-fn every_master_whose_steps_are_too_long_is_warned_within_three_steps() {
+fn every_importer_with_steps_that_are_too_long_is_warned_within_three_steps() {
     let mut random = Random(41);
     let (mut cases, mut unstable) = (0, 0);
     for (name, model) in all_models(mild()) {
@@ -162,7 +162,7 @@ fn every_master_whose_steps_are_too_long_is_warned_within_three_steps() {
             match (long, told) {
                 (None, None) => continue,
                 (Some(long), Some(told)) if told >= long && told <= long + 3 => unstable += 1,
-                // the bodies are beyond the range before
+                // the bodies leave the range of the law before
                 (Some(long), None) if long + 3 >= 60 => {}
                 _ => panic!("{name}, {moved:?}: too long from step {long:?}, warned in {told:?}"),
             }
@@ -172,15 +172,15 @@ fn every_master_whose_steps_are_too_long_is_warned_within_three_steps() {
 }
 
 #[test]
-fn a_motion_that_is_prescribed_is_never_warned_of() {
+fn a_prescribed_motion_never_causes_a_warning() {
     let mut random = Random(29);
     for (name, model) in all_models(mild()) {
         let stable = stable_step(&model, MASS);
         for factor in [1.0, 10.0, 1e3, 1e5] {
             let step = factor * stable;
-            // in and out, by some micrometres: held rates, ramps, waves and anything
+            // in and out, by a few micrometres: held rates, ramps, waves and random motion
             let motions: [&mut dyn FnMut(usize) -> f64; 7] = [
-                // one that slows down, by itself or in cycles, and one that turns in each step
+                // one that slows down, by itself or in cycles, and one that reverses in each step
                 &mut |count| 4e-6 * 0.9f64.powi(count as i32),
                 &mut |count| 3e-6 * 0.99f64.powi(count as i32) * f64::cos(1.3 * count as f64),
                 &mut |count| if count % 2 == 0 { 2e-6 } else { -2e-6 },

@@ -1,5 +1,5 @@
-//! `[fmu] standalone = true`: a library that takes nothing from its process, and its memory from the importer. What kinds of hosts it
-//! runs in is tested in tests/platforms_run.rs.
+//! `[fmu] standalone = true`: a library that imports nothing from its process and takes its memory from the importer.
+//! tests/platforms_run.rs tests the kinds of hosts that it runs in.
 #![cfg(target_os = "linux")]
 
 #[path = "support/command.rs"]
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::ptr::null_mut;
 
-/// The library of the standalone form of a scene, and of the scene as it is.
+/// The library of the standalone form of a scene, and that of the unchanged scene.
 fn libraries(scene: &Path) -> [PathBuf; 2] {
     [standalone::scene(scene), scene.into()].map(|scene| unit::library(&unit::export(&scene)))
 }
@@ -40,7 +40,7 @@ fn its_library_has_no_undefined_symbol_and_is_hardly_larger() {
         assert_eq!(undefined(&standalone), "", "{}", scene.display());
         assert!(undefined(&other).contains(" calloc"), "the list is that of another file");
         let [size, before] = [&standalone, &other].map(|library| fs::metadata(library).expect("a library").len());
-        // own functions for memory instead of the way to those of the process
+        // own memory functions instead of calls of those of the process
         assert!(size < before + 400, "{}: {size} against {before} bytes", scene.display());
         count += 1;
     }
@@ -48,7 +48,7 @@ fn its_library_has_no_undefined_symbol_and_is_hardly_larger() {
 }
 
 #[test]
-fn its_model_description_says_so() {
+fn its_model_description_declares_it() {
     let [standalone, other] = libraries(&unit::scene("steel_ball"));
     assert!(standalone::is_standalone(&standalone) && !standalone::is_standalone(&other));
     let page = standalone.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY").join("documentation/index.html");
@@ -65,7 +65,7 @@ fn the_key_is_true_or_false() {
 }
 
 thread_local! {
-    /// Memory that was taken and not given back yet, and what is left to be taken.
+    /// Memory that was allocated and not freed yet, and the number of allocations left.
     static TAKEN: RefCell<Vec<(*mut c_void, usize)>> = const { RefCell::new(Vec::new()) };
     static LEFT: Cell<usize> = const { Cell::new(usize::MAX) };
     static MESSAGE: RefCell<String> = const { RefCell::new(String::new()) };
@@ -82,7 +82,7 @@ unsafe extern "C" fn take(count: usize, size: usize) -> *mut c_void {
         return null_mut();
     }
     LEFT.set(LEFT.get() - 1);
-    // as large words as any object asks for
+    // aligned for the largest type
     let words = (count * size).div_ceil(16);
     let memory = Box::leak(vec![0u128; words].into_boxed_slice()).as_mut_ptr().cast::<c_void>();
     TAKEN.with(|taken| taken.borrow_mut().push((memory, words)));
@@ -111,13 +111,13 @@ struct Callbacks {
     unused: [usize; 2],
 }
 
-/// The default scene's standalone library, and its GUID.
+/// The standalone library of the default scene, and its GUID.
 fn loaded() -> (Library, CString) {
     let [path, _] = libraries(&unit::scene("steel_ball"));
     let root = path.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
     let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
     let guid = description.split_once(" guid=\"").and_then(|(_, rest)| rest.split('"').next()).expect("a GUID");
-    // SAFETY: the unit was made by the program under test, and has no initializers
+    // SAFETY: the FMU was made by the program under test, and has no initializers
     (unsafe { Library::new(&path) }.expect("a library that can be loaded"), CString::new(guid).unwrap())
 }
 
@@ -144,7 +144,7 @@ fn message() -> String {
 }
 
 #[test]
-fn an_importer_without_functions_for_memory_gets_no_instance_and_the_name_of_what_is_missing() {
+fn an_importer_without_memory_functions_gets_no_instance_and_an_error_that_names_the_missing_one() {
     let (library, guid) = loaded();
     for (take, give_back, missing) in [
         (None, Some(give_back as GiveBack), "allocateMemory"),
@@ -158,7 +158,7 @@ fn an_importer_without_functions_for_memory_gets_no_instance_and_the_name_of_wha
 }
 
 #[test]
-fn instances_and_states_are_memory_of_the_importer_which_gets_it_back() {
+fn instances_and_states_use_memory_of_the_importer_and_free_it() {
     type Get = unsafe extern "C" fn(*mut c_void, *mut *mut c_void) -> c_int;
     type Free = unsafe extern "C" fn(*mut c_void);
     let (library, guid) = loaded();
@@ -173,7 +173,7 @@ fn instances_and_states_are_memory_of_the_importer_which_gets_it_back() {
         assert!(!state.is_null() && count() == 2);
         assert_eq!(free_state(instance, &raw mut state), 0);
         assert!(state.is_null() && count() == 1);
-        // there is no more memory
+        // no memory is left
         LEFT.set(0);
         assert_eq!(get(instance, &raw mut state), 3);
         assert!(state.is_null() && message().contains("memory"), "{}", message());

@@ -1,4 +1,4 @@
-//! Scenes whose target is stronger when it is indented fast.
+//! Scenes with a target whose strength depends on the strain rate.
 
 #[path = "support/command.rs"]
 mod command;
@@ -32,7 +32,7 @@ fn number(value: &Value) -> f64 {
 }
 
 #[test]
-fn the_strength_is_that_of_the_mean_strain_rate_of_the_impact_itself() {
+fn the_strength_follows_from_the_mean_strain_rate_of_the_impact() {
     let johnson_cook = |rate: f64| 1.0 + 0.014 * rate.ln();
     let cowper_symonds = |rate: f64| 1.0 + (rate / 40.4).powf(0.2);
     let models: [(&str, &dyn Fn(f64) -> f64); 2] = [(JOHNSON_COOK, &johnson_cook), (COWPER_SYMONDS, &cowper_symonds)];
@@ -62,7 +62,7 @@ fn below_the_reference_rate_nothing_changes() {
 }
 
 #[test]
-fn the_unit_starts_with_the_strength_of_the_impact_and_does_what_is_predicted() {
+fn the_fmu_starts_with_the_strength_of_the_impact_and_agrees_with_the_prediction() {
     let folder = empty_folder();
     let coupled = "[coupling]\neffective_mass = 4.11e-3\n";
     let hardens = format!("{COWPER_SYMONDS}\nhardening_modulus = 2e9");
@@ -75,7 +75,7 @@ fn the_unit_starts_with_the_strength_of_the_impact_and_does_what_is_predicted() 
         let rust = run(folder.path(), ["constants", "scene.toml"]).with_status(0).out;
         for name in ["yield_strength", "hardening_modulus"] {
             let value = number(&strength[name]);
-            // the last digit may be lost where JSON is read
+            // reading the JSON may change the last digit
             let digits: String = format!("{value:e}").chars().take(14).collect();
             assert!(value == 0.0 || rust.contains(&digits), "{name} = {value:e} in {rust}");
         }
@@ -96,7 +96,7 @@ fn contacts_with_other_bodies_have_their_own_factor() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused() {
+fn contradictory_settings_are_rejected() {
     let refused = |target: &str, law: &str, parts: &[&str]| refused_text(&scene(target, law, ""), parts);
     refused("rate = { model = §\"jonson\", c = 1.0 }", "brinell", &["target.rate.model", "`jonson`", "johnson-cook"]);
     refused("rate = §{ model = \"johnson-cook\", c = 0.01 }", "brinell", &["needs reference_rate"]);

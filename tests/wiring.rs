@@ -53,7 +53,7 @@ fn a_master_of_the_other_order_of_execution_is_noticed_in_the_first_contact() {
     }
 }
 
-/// A master with forces that the unit isn't told of: constant ones and any, large and small.
+/// An importer with forces that the FMU does not know: constant and arbitrary, large and small.
 fn with_untold_forces<S: Scene>(parallel: bool) {
     let mut random = Random(17);
     for size in [1e-6, 1e-5, 1e-4, 2e-3] {

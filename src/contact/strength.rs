@@ -1,4 +1,4 @@
-//! What hardening and Poisson's ratio change in the law `brinell`: one effective strength.
+//! One effective strength: how hardening and Poisson's ratio change the law `brinell`.
 //!
 //! Lengths are in units of the yield indentation `d_Y` of the material, forces in units of its yield force `F_Y`:
 //! `k = d/d_Y`, `phi = F/F_Y`. `Phi` and `A` are the force and the area of the law `brinell` itself.
@@ -6,10 +6,10 @@
 use super::material::{Pair, YieldPoint};
 use libm::{exp, pow, sqrt};
 
-/// Poisson's ratio for which the law `brinell` was made.
+/// Poisson's ratio of the fit of the law `brinell`.
 pub const POISSONS_RATIO: f64 = 0.3;
 
-// The constants that `fit/fit_materials.py` finds; a test compares them with the file that it writes.
+// The constants from `fit/fit_materials.py`. A test compares them with the file that it writes.
 const GROWTH: [f64; 2] = [0.741, 0.097];
 const DECAY_SCALE: f64 = 21.26;
 const DECAY_POWER: f64 = 0.5854;
@@ -24,23 +24,24 @@ const DENT_DECAY_POWER: f64 = 0.5016;
 const SLOPE_POWER: f64 = 1.111;
 const LARGEST_SHAPE: f64 = 0.75;
 
-/// Where the loading curve of a material that hardens, or has another Poisson's ratio, takes value and slope of its form \[d_Y\].
+/// Indentations \[d_Y\] at which the loading curve of a hardening material, or of one with another Poisson's ratio,
+/// has value and slope of its form.
 pub const KNOTS: [f64; 11] = [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500.0, 1000.0, 2000.0];
 
 /// The effective strength of a material, relative to its strength at first yield.
 ///
-/// A material that hardens behaves like one of a higher strength, and the more so the deeper it is indented. So does one with
-/// another Poisson's ratio, and the less so the deeper. Both together are a product: `t = t_nu t_H`, with
-/// `phi = t^3 Phi(k/t^2)`:
+/// A hardening material behaves like one of a higher strength. This strength grows with the indentation. Poisson's
+/// ratio has the same effect, but it decays with the indentation. The combined effect is the product `t = t_nu t_H`,
+/// with `phi = t^3 Phi(k/t^2)`:
 ///
-/// - at first yield, relative to `nu = 0.3`: `s0 = exp(0.741 (nu - 0.3) + 0.097 (nu - 0.3)^2)`, so that the contact yields at
-///   `s0^2 d_y` (theory: 0.825, 0.955, 1.110, 1.198 for `nu = 0.2, 0.3, 0.4, 0.45`; K. L. Johnson, *Contact Mechanics*,
-///   Cambridge 1985, section 6.2);
+/// - at first yield, relative to `nu = 0.3`: `s0 = exp(0.741 (nu - 0.3) + 0.097 (nu - 0.3)^2)`. The contact yields at
+///   `s0^2 d_y` (theory: 0.825, 0.955, 1.110, 1.198 for `nu = 0.2, 0.3, 0.4, 0.45`; K. L. Johnson, *Contact
+///   Mechanics*, Cambridge 1985, section 6.2);
 /// - `t_nu = 1 + (1/s0 - 1) w/(1 + w)` with `w = s0^2.944 (k^0.5854 - 1)/21.26`;
 /// - `t_H = 1 + 0.9452 h s0^0.779 (k^0.3895 - 1)` with `h = eta/(1 + 1.318 eta)` and `eta = H/E*`.
 ///
-/// `eta` is that of the pair: `(1 - nu^2) H/E` if the impactor is rigid. That it is the right one for an elastic impactor, and
-/// that the two effects are independent, are assumptions. Fitted for `nu` from 0.2 to 0.45 and `H/E` up to 0.1.
+/// `eta` belongs to the pair: `(1 - nu^2) H/E` for a rigid impactor. Two assumptions: this `eta` is also right for an
+/// elastic impactor, and the two effects are independent. Fitted for `nu` from 0.2 to 0.45 and `H/E` up to 0.1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strength {
     /// `s0`.
@@ -51,13 +52,13 @@ pub struct Strength {
     shift: f64,
     /// `h`.
     hardening: f64,
-    /// What `k^0.3895 - 1` is multiplied with.
+    /// Factor of `k^0.3895 - 1`.
     rise: f64,
 }
 
 impl Strength {
-    /// The strength of the target of `pair` with this `hardening_modulus` \[Pa\]; none if nothing differs from what the law
-    /// `brinell` was made for.
+    /// The strength of the target of `pair` with this `hardening_modulus` \[Pa\]; `None` if the target is one that
+    /// the law `brinell` describes by itself.
     pub fn of(pair: &Pair, hardening_modulus: f64) -> Option<Strength> {
         let differs = pair.poissons_ratio != POISSONS_RATIO || hardening_modulus != 0.0;
         differs.then(|| Strength::new(pair, hardening_modulus))
@@ -68,7 +69,7 @@ impl Strength {
         let [first, second] = GROWTH;
         let more = pair.poissons_ratio - POISSONS_RATIO;
         let logarithm = more * (first + second * more);
-        // a quotient with a soft pair below may overflow, this one doesn't
+        // this quotient does not overflow; one with a soft pair in the denominator may
         let hardening = hardening_modulus / (pair.modulus + SATURATION * hardening_modulus);
         Strength {
             at_yield: exp(logarithm),
@@ -79,13 +80,13 @@ impl Strength {
         }
     }
 
-    /// The yield point of the material, where `standard` is that for `nu = 0.3`.
+    /// The yield point of the material; `standard` is that for `nu = 0.3`.
     pub fn yield_point(&self, pair: &Pair, standard: &YieldPoint) -> YieldPoint {
         let indentation = self.at_yield * self.at_yield * standard.indentation;
         YieldPoint { indentation, force: pair.hertz_stiffness() * (indentation * sqrt(indentation)) }
     }
 
-    /// `1 + (1/s0 - 1) w/(1 + w)`, and its slope by `k`.
+    /// `1 + (1/s0 - 1) w/(1 + w)`, and its derivative with respect to `k`.
     fn fading(&self, k: f64, scale: f64, power: f64) -> (f64, f64) {
         let (raised, unit) = (pow(k, power), self.shift / scale);
         let w = unit * (raised - 1.0);
@@ -101,30 +102,31 @@ impl Strength {
         (one * other, one_slope * other + one * other_slope)
     }
 
-    /// The strength that a dent from `k >= 1` shows; it forgets Poisson's ratio sooner.
+    /// The strength that determines the dent, for `k >= 1`. The effect of Poisson's ratio decays faster.
     pub fn of_dent(&self, k: f64) -> f64 {
         self.fading(k, DENT_DECAY_SCALE, DENT_DECAY_POWER).0
     }
 
-    /// By what the hardening divides the depth of a dent.
+    /// Factor by which hardening reduces the depth of a dent.
     pub fn dent_divisor(&self) -> f64 {
         1.0 + DENT_FALL * self.hardening
     }
 }
 
-/// By what the contact area differs from `A(k)`, where the force is `ratio` times `Phi(k)`: the harder, the smaller.
+/// Factor of the contact area relative to `A(k)`, for a force of `ratio` times `Phi(k)`. It is below 1 for a harder
+/// material.
 pub fn area_factor(ratio: f64) -> f64 {
     pow(ratio, -RADIUS_POWER)
 }
 
-/// By what the square of the radius that the slope of an unloading shows differs, where the force is `ratio` times that of the
-/// law itself.
+/// Factor of the squared contact radius that corresponds to the initial unloading slope, for a force of `ratio` times
+/// that of the law itself.
 pub fn slope_factor(ratio: f64) -> f64 {
     pow(ratio, -SLOPE_POWER)
 }
 
-/// The shape `g` of an unloading, held between 0 and a number that no fitted curve reaches. Without that materials far from
-/// those that were fitted would give back more than they took.
+/// The shape `g` of an unloading path, limited to 0 and a number above all fitted curves. Without the limits,
+/// materials far from the fit would return more energy than they received.
 pub fn held(shape: f64) -> f64 {
     shape.clamp(0.0, LARGEST_SHAPE)
 }

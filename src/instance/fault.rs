@@ -140,7 +140,7 @@ pub enum Warning {
         /// Whether the scene is for an importer that steps all FMUs at once.
         parallel: bool,
     },
-    /// A mass that answers the force is stepped further than is stable.
+    /// A step beyond the stability limit of a mass that responds to the force.
     Unstable {
         /// The step \[s\].
         step: f64,

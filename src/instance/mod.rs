@@ -64,9 +64,9 @@ struct Contacts<S: Scene> {
     accelerations: IfPresent<<S::Coupling as Coupling>::Acceleration, S, f64>,
     /// Effective masses \[kg\], if they are inputs.
     masses: IfPresent<<S::Coupling as Coupling>::Mass, S, f64>,
-    /// The last steps that were looked at, where it is noticed that steps are too long.
+    /// The last examined steps, if the scene detects steps that are too long.
     watched: IfPresent<S::Watch, S, Watched>,
-    /// How many of the next steps are to be looked at.
+    /// Number of next steps to examine.
     looks: <S::Watch as Presence>::Of<u32, [u32; 1]>,
     miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
 }
@@ -82,8 +82,8 @@ struct Settings<S: Scene> {
     values: S::Values,
 }
 
-/// A contact that a step has left deeper than its law is valid for, or had there on the way, until its user hears of it; or a step
-/// that was too long to be [stable](stability).
+/// A contact whose indentation was beyond the validity of its law at some time in a step, kept until the warning is
+/// logged; or a step that was too long to be [stable](stability).
 #[derive(Clone, Copy)]
 struct Deep {
     /// The contact, counted from 1; 0 for none.

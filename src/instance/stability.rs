@@ -1,79 +1,81 @@
-//! Detects an importer whose steps are too long for the force that it applies.
+//! Detects an importer with steps that are too long for the contact force.
 //!
-//! An explicit importer that moves a mass by the contact force is stable up to steps of `2 sqrt(m/K)`. Beyond, the mass gains
-//! energy with every step. A prescribed motion is exact at any step. The difference: the rate of a coupled mass responds to the
-//! force. What its acceleration leaves when the force over the mass is taken off are the other forces, and these are the same
-//! in two steps that follow each other, while the force of the contact is not.
+//! An explicit importer that moves a mass under the contact force is stable for steps of up to `2 sqrt(m/K)`. Beyond
+//! this limit the mass gains energy in every step. A prescribed motion is exact for any step. The rate of a coupled
+//! mass responds to the force; a prescribed rate does not. For a coupled mass, the acceleration minus the contact
+//! force over the mass is that of the other forces. In two consecutive steps the other forces are the same, but the
+//! contact force changes.
 
 use super::*;
 
-/// How closely the other forces must agree, as a part of the force of the contact: room for the rounding of a master's own sums.
+/// Tolerance for equal other forces, relative to the contact force. It covers the rounding in the sums of an importer.
 const ROUNDING: f64 = 1e-8;
 
-/// How much the force of the contact must change for that to be no coincidence, as a part of it.
+/// Smallest change of the contact force that rules out a coincidence, relative to the force.
 const CHANGE: f64 = 1e-3;
 
-/// `h^2 K/m` of the largest stable step.
+/// `h^2 K/m` of the longest stable step.
 const STABLE: f64 = 4.0;
 
-/// `h^2 K/m` from which on the next steps are looked at, too: that of a quarter of the largest stable step.
+/// `h^2 K/m` above which the next steps are also examined: that of a quarter of the longest stable step.
 const NEARLY: f64 = STABLE / 16.0;
 
-/// How many steps are looked at from a touch on, or from a step that is nearly too long.
+/// Number of steps examined after a touch, or after a step close to the limit.
 const LOOKS: u32 = 8;
 
-/// After so many long steps without an answer the motion is taken to be prescribed: only steps that leave a branch are looked at.
+/// After this number of long steps without a response, the motion counts as prescribed. From then on only steps that
+/// leave a branch are examined.
 const PATIENCE: u32 = 200;
 
-/// Forces, stiffnesses, inverse masses and inverse steps beyond this are not looked at: their products may overflow.
+/// Larger forces, stiffnesses, inverse masses and inverse steps are not examined: their products may overflow.
 const LARGEST: f64 = 1e90;
 
-/// What stands for a contact in the place of one that is too deep: none, but a step that was too long.
+/// Stored in place of the contact number for a step that was too long; no contact has this number.
 pub(super) const UNSTABLE: u32 = u32::MAX;
 
-/// The number of forces that an importer may have applied over a step: the new one, the old one, the mean of both, the new one
-/// extrapolated by half a step, and the mean force that the contact shows.
+/// Number of forces that an importer may have applied over a step: the new one, the old one, their mean, the new one
+/// extrapolated by half a step, and the mean force output of the contact.
 const KINDS: usize = 5;
 
-/// The last step of a contact that was looked at.
+/// The last examined step of a contact.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Watched {
-    /// When it ended \[s\].
+    /// Its end \[s\].
     end: f64,
     /// Its length \[s\].
     step: f64,
     /// Its rate \[m/s\].
     rate: f64,
-    /// Force at its start over mass \[m/s^2\].
+    /// Force at its start divided by the mass \[m/s^2\].
     start: f64,
-    /// The forces that may have been applied before it, over the mass \[m/s^2\].
+    /// The forces that the importer may have applied before it, divided by the mass \[m/s^2\].
     applied: [f64; KINDS],
-    /// The acceleration by all other forces that follows from each of them \[m/s^2\].
+    /// For each of them, the remaining acceleration from all other forces \[m/s^2\].
     others: [f64; KINDS],
-    /// The longest unstable step of those that were looked at without a gap \[s\], or 0.
+    /// The longest unstable step among the examined steps without a gap \[s\], or 0.
     long: f64,
-    /// How many long steps there were in which the rate changed, and not by the force.
+    /// Number of long steps in which the rate changed without responding to the force.
     unanswered: u32,
 }
 
-/// A step that a contact is about to make.
+/// The next step of a contact.
 pub(super) struct Ahead<'a, C> {
     pub history: &'a C,
     /// \[m/s\]
     pub rate: f64,
-    /// When it starts, which is where the last one has ended \[s\].
+    /// Its start, which is the end of the last step \[s\].
     pub time: f64,
     /// Its length \[s\].
     pub step: f64,
-    /// When it ends, by the clock of the importer \[s\].
+    /// Its end on the clock of the importer \[s\].
     pub end: f64,
-    /// Mean force of the last step \[N\], where it is known.
+    /// Mean force of the last step \[N\], where known.
     pub mean_force: f64,
 }
 
 impl Watched {
-    /// Whether the rate \[m/s\] of the step `ahead` and the last one have answered the contact's force, which is now `start` times
-    /// the mass \[m/s^2\].
+    /// Whether the rates \[m/s\] of the step `ahead` and of the last step respond to the contact force, which is now
+    /// `start` times the mass \[m/s^2\].
     fn answers<C>(&mut self, ahead: &Ahead<C>, start: f64, mean: f64) -> bool {
         let change = (ahead.rate - self.rate) / self.step;
         let applied = [start, self.start, 0.5 * (start + self.start), 1.5 * start - 0.5 * self.start, mean];
@@ -88,20 +90,20 @@ impl Watched {
         answers
     }
 
-    /// Looks at the step `ahead` of a contact: whether it, or one shortly before, is longer than a stable one and the rate answers
-    /// the force. The result is that step \[s\]. `looks` is how many of the next steps are to be looked at.
+    /// Examines the step `ahead` of a contact: whether this step, or a recent one, is longer than the stable limit
+    /// while the rate responds to the force. Returns that step \[s\]. `looks` is the number of next steps to examine.
     #[cold]
     #[inline(never)]
     fn look<S: Scene>(&mut self, looks: &mut u32, ahead: &Ahead<S::Contact>) -> Option<f64> {
         let &Ahead { history, rate, time, step, end, mean_force } = ahead;
         let mass = S::impact_mass();
-        // a prebuilt library has none where nothing is to be watched
+        // a prebuilt library that examines nothing has no room for it
         let is_known = mass * LARGEST > 1.0;
         if !is_known {
             return None;
         }
         let follows = self.step > 0.0 && time == self.end;
-        // what the importer has seen is the force with the rate before
+        // the importer has seen the force with the rate before
         let force = history.force(if follows { self.rate } else { rate });
         let stiffness = history.stiffness(rate);
         let in_range = step * LARGEST > 1.0 && force < LARGEST && mean_force < LARGEST && stiffness < LARGEST;
@@ -118,14 +120,14 @@ impl Watched {
             answers = self.answers(ahead, start, mean_force / mass);
             self.unanswered = self.unanswered.saturating_add(u32::from(is_long && rate != last && !answers));
         } else {
-            // nothing is known of the step before, and nothing equals it
+            // the step before is unknown, and nothing is equal to it
             (self.others, self.long) = ([f64::INFINITY; KINDS], 0.0);
         }
         if is_long && step > self.long {
             self.long = step;
         }
         (self.end, self.step, self.rate, self.start) = (end, step, rate, start);
-        // a look that is due only because of the last one doesn't make others due: a flight is soon left alone
+        // a look that is only due to the last one causes no further ones: the examination of a flight ends soon
         let touches = force == 0.0 && *looks == 0;
         if (ratio > NEARLY || touches) && self.unanswered < PATIENCE {
             *looks = LOOKS;
@@ -134,7 +136,7 @@ impl Watched {
     }
 }
 
-/// What is to be told of the step `ahead`, if there is anything.
+/// The warning about the step `ahead`, if there is one.
 #[inline]
 pub(super) fn watch<S: Scene>(
     watched: &mut IfPresent<S::Watch, S, Watched>,
@@ -148,13 +150,13 @@ pub(super) fn watch<S: Scene>(
 }
 
 impl<S: Scene> Instance<S> {
-    /// Whether the contacts are looked at that stay on their branch.
+    /// Whether contacts that stay on their branch are examined.
     #[inline]
     pub(super) fn is_watching(&self) -> bool {
         self.contacts.looks.as_ref().iter().any(|looks| *looks > 0)
     }
 
-    /// Has the next step looked at, too, if that is due.
+    /// Requests the examination of the next step, if that is due.
     #[inline]
     pub(super) fn keep_watching(&mut self) {
         for looks in self.contacts.looks.as_mut() {

@@ -1,4 +1,4 @@
-//! `brinell predict` over a range of speeds: tables, pictures and pages, and impacts with too little energy to be any.
+//! `brinell predict` over a range of speeds: tables, pictures and pages, and impacts with too little energy.
 
 use super::command::{self, empty_folder, run, scene};
 use std::fs;
@@ -30,7 +30,7 @@ fn a_sweep_is_a_table_or_a_picture() {
     let page = sweep("sweep.html");
     assert_eq!(page.matches("<svg").count(), 3);
     assert!(page.contains("effective mass of 4.11 g and speed from 10 mm/s to 10 m/s"));
-    // everything is in the page: what it names besides is the namespace of SVG and the table
+    // the page is self-contained: it only names the namespace of SVG and the table
     let outside = page.replace("http://www.w3.org/2000/svg", "");
     assert!(!outside.contains("http") && !outside.contains("<script") && !outside.contains("url("));
     assert!(page.contains(&table.replace('\n', "%0A")), "the whole table is in the page");
@@ -45,9 +45,9 @@ fn sweep_page(text: &str) -> String {
     fs::read_to_string(folder.path().join("x.html")).unwrap()
 }
 
-/// It said "A rigid sphere meets a half-space", and nothing of the numbers.
+/// The page once said "A rigid sphere meets a half-space", without the numbers.
 #[test]
-fn the_page_of_a_sweep_knows_bodies_that_only_the_contact_gives() {
+fn the_page_of_a_sweep_shows_bodies_that_only_the_contact_gives() {
     let contact = "impactor = { radius = 4e-3, youngs_modulus = 7e10, poissons_ratio = 0.22 }\n\
                    target = { material = \"mild steel\", radius = -0.5 }\n";
     let page = sweep_page(&format!(
@@ -63,7 +63,7 @@ fn the_page_of_a_sweep_knows_bodies_that_only_the_contact_gives() {
     assert!(!page.contains("rigid") && !page.contains("half-space"), "{page}");
 }
 
-/// A number that a contact has of its own stands before that of all contacts.
+/// The number of a contact overrides that of all contacts.
 #[test]
 fn the_page_of_a_sweep_shows_the_contacts_number_and_not_the_scenes() {
     let page = sweep_page(
@@ -76,13 +76,13 @@ fn the_page_of_a_sweep_shows_the_contacts_number_and_not_the_scenes() {
 
 /// Such an impact has no energy balance.
 #[test]
-fn the_page_of_a_sweep_says_how_rate_dependent_impacts_were_found() {
+fn the_page_of_a_sweep_states_how_rate_dependent_impacts_were_computed() {
     let text = fs::read_to_string(scene("damped")).unwrap();
     let page = sweep_page(&text);
     assert!(page.contains("by integrating the motion") && !page.contains("energy balance"), "{page}");
 }
 
-/// Half a square of 1e-160 m/s is next to no number at all: no law is to blame.
+/// The energy of 1e-160 m/s underflows; this is not an error of the law.
 #[test]
 fn an_energy_too_small_to_compute_with_is_not_blamed_on_the_law() {
     let folder = empty_folder();
@@ -114,7 +114,7 @@ fn columns(text: &str, name: &str) -> Vec<f64> {
     text.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap()).collect()
 }
 
-/// Each point is the prediction of the scene with that number in it.
+/// Each point equals the prediction for the scene with that number.
 #[test]
 fn a_sweep_over_a_parameter_is_that_of_scenes_with_it() {
     let folder = empty_folder();
@@ -156,7 +156,8 @@ fn a_sweep_over_a_parameter_is_that_of_scenes_with_it() {
     }
 }
 
-/// From 200 to 900 MPa in eight steps of 100: less than a decade is cut evenly, more in even parts of its decades.
+/// From 200 to 900 MPa in eight values 100 MPa apart. A range below a decade has equal differences, a larger one
+/// equal ratios.
 #[test]
 fn the_values_of_a_sweep_are_round_where_they_can_be() {
     let folder = empty_folder();
@@ -186,7 +187,7 @@ fn two_sweeps_are_a_map() {
     let (speeds, strengths) = (columns(&table, "speed_m_per_s"), columns(&table, "target.yield_strength_Pa"));
     let forces = columns(&table, "largest_force_N");
     assert_eq!(forces.len(), 35);
-    // the corner is the impact of that scene
+    // the corner equals the impact of that scene
     let text = fs::read_to_string(&scene)
         .unwrap()
         .replace("material = \"mild steel\"", "material = \"mild steel\"\nyield_strength = 900e6");
@@ -224,7 +225,7 @@ fn a_sweep_in_a_terminal_is_short_and_has_all_digits_in_json() {
 const DEFORMED: &str = "loading = \"big-alabo\"\nunloading = \"deformed-radius\"";
 const GUARDED: &str = "loading = \"big-alabo\"\nunloading = \"deformed-radius\"\npassivity_guard = true";
 
-/// Each point is the prediction of the scene with that constant in it.
+/// Each point equals the prediction for the scene with that constant.
 #[test]
 fn a_sweep_over_a_constant_of_a_law_is_that_of_scenes_with_it() {
     let folder = empty_folder();
@@ -260,7 +261,7 @@ fn a_sweep_over_a_constant_of_a_law_is_that_of_scenes_with_it() {
 }
 
 #[test]
-fn a_constant_that_cannot_be_varied_is_refused_with_what_can() {
+fn a_constant_that_cannot_be_varied_is_rejected_with_those_that_can() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
     let refused = |laws: &str, range: &str, words: &str| {
@@ -277,7 +278,7 @@ fn a_constant_that_cannot_be_varied_is_refused_with_what_can() {
     refused("hertz", "law.unloading_parameters.pressure_factor=1:2", "no unloading law");
     refused("tsuji", "law.unloading_parameters.pressure_factor=1:2", "no unloading law");
     refused("thornton", "law.loading_parameters.peak_pressure_factor=-1:2", "out of range: allowed is");
-    // of several laws those are shown that have it
+    // with several laws, the table shows those that have it
     let sweep =
         ["--laws", "thornton,hertz", "--sweep", "law.loading_parameters.peak_pressure_factor=1.2:2.4:2", "-o", "x.csv"];
     run(folder.path(), ["predict", &scene].into_iter().chain(sweep)).with_status(0);

@@ -3,11 +3,11 @@
 use crate::face::Face;
 use fastrand::Rng;
 
-/// Instances and states that a script uses at the same time.
+/// Number of instances and states that a script uses at the same time.
 pub const INSTANCES: usize = 2;
 pub const STATES: usize = 3;
 
-/// A call as a script has it. Instances and states are places; a call on an empty place is left out.
+/// A call in a script. Instances and states are indices; calls on an empty index are skipped.
 #[derive(Clone, Debug)]
 pub enum Call {
     Instantiate {
@@ -80,7 +80,7 @@ pub enum Call {
         state: usize,
         short_by: usize,
     },
-    /// Of the bytes of the last serialized state; `flip` is a bit of them.
+    /// The bytes of the last serialized state; `flip` is a bit to change.
     Deserialize {
         at: usize,
         state: usize,
@@ -97,7 +97,8 @@ pub enum Call {
         on: bool,
         categories: Vec<&'static str>,
     },
-    /// Not a call of the standard: a step, taken whole and in parts from one state, must end at the same values.
+    /// Not a call of the standard: a step, made whole and in parts from the same state, which must end at the same
+    /// values.
     Split {
         at: usize,
         step: f64,
@@ -105,7 +106,7 @@ pub enum Call {
     },
 }
 
-/// What is wrong with the arguments of fmi2Instantiate.
+/// The errors in the arguments of fmi2Instantiate.
 #[derive(Clone, Copy, Debug)]
 pub enum Wrong {
     NoName,
@@ -133,17 +134,17 @@ pub enum Kind {
     String,
 }
 
-/// One of `items`.
+/// A random one of `items`.
 fn one<T: Copy>(random: &mut Rng, items: &[T]) -> T {
     items[random.usize(..items.len())]
 }
 
-/// A number between `low` and `high`, with the logarithm spread evenly.
+/// A number between `low` and `high` with a uniform logarithm.
 fn logarithmic(random: &mut Rng, low: f64, high: f64) -> f64 {
     low * (high / low).powf(random.f64())
 }
 
-/// A number that nobody should pass.
+/// A number that no importer should pass.
 fn hostile(random: &mut Rng) -> f64 {
     match random.u8(..8) {
         0 => f64::NAN,
@@ -158,7 +159,7 @@ fn hostile(random: &mut Rng) -> f64 {
     }
 }
 
-/// A rate of indentation [m/s] that somebody may well have.
+/// A plausible rate of indentation [m/s].
 fn rate(random: &mut Rng) -> f64 {
     let size = logarithmic(random, 1e-6, 1e2);
     match random.u8(..10) {
@@ -168,12 +169,12 @@ fn rate(random: &mut Rng) -> f64 {
     }
 }
 
-/// A step [s] that somebody may well take.
+/// A plausible step [s].
 fn step(random: &mut Rng) -> f64 {
     logarithmic(random, 1e-12, 1e-2)
 }
 
-/// References: mostly of variables of the kind asked for, sometimes of others or of none; also twice the same.
+/// Value references: mostly of the requested kind, sometimes of others or unknown, and sometimes repeated.
 fn references(random: &mut Rng, face: &Face, known: &[u32], most: usize) -> Vec<u32> {
     let count = random.usize(..=most);
     let any = |random: &mut Rng| match random.u8(..20) {
@@ -185,7 +186,7 @@ fn references(random: &mut Rng, face: &Face, known: &[u32], most: usize) -> Vec<
     (0..count).map(|_| any(random)).collect()
 }
 
-/// A random call; most of them make sense, so that scripts get far.
+/// A random call. Most calls are valid, so scripts get far.
 pub fn random_call(random: &mut Rng, face: &Face) -> Call {
     let at = usize::from(random.u8(..8) == 0);
     let state = random.usize(..STATES);
@@ -250,7 +251,7 @@ pub fn random_call(random: &mut Rng, face: &Face) -> Call {
     }
 }
 
-/// Categories that there are, and some that there aren't.
+/// Valid and unknown log categories.
 const CATEGORIES: &[&str] =
     &["logStatusWarning", "logStatusError", "logStatusDiscard", "logAll", "", "%s%n", "Größe", "# %d #"];
 
@@ -279,7 +280,7 @@ fn set(random: &mut Rng, face: &Face, at: usize, kind: Kind) -> Call {
     Call::Set { at, kind, references, values, null: random.u8(..30) == 0 }
 }
 
-/// The script of this number: it begins with an instance that is ready to step.
+/// The script with this number; it begins with an instance that is ready to step.
 pub fn script(seed: u64, face: &Face, length: usize) -> Vec<Call> {
     let mut random = Rng::with_seed(seed);
     let begin = [

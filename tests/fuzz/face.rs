@@ -1,4 +1,4 @@
-//! What a model description says of the variables.
+//! The variables of an FMU according to its model description.
 
 use crate::functions::Functions;
 use std::collections::HashMap;
@@ -10,7 +10,7 @@ use std::path::Path;
 pub struct Face {
     pub functions: Functions,
     pub guid: CString,
-    /// References of all Real variables, of the other ones, and by causality.
+    /// Value references of all Real variables, of the others, and by causality.
     pub reals: Vec<u32>,
     pub integers: Vec<u32>,
     pub inputs: Vec<u32>,
@@ -22,7 +22,7 @@ pub struct Face {
     pub named: HashMap<String, u32>,
 }
 
-/// The text of an attribute.
+/// The value of an attribute.
 fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
     let (_, rest) = element.split_once(&format!(" {name}=\""))?;
     rest.split('"').next()
@@ -71,7 +71,7 @@ impl Face {
         face
     }
 
-    /// The largest reference.
+    /// The largest value reference.
     pub fn largest_reference(&self) -> u32 {
         self.reals.iter().chain(&self.integers).copied().max().unwrap_or(0)
     }

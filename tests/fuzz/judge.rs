@@ -1,16 +1,16 @@
-//! What must hold for the values of every FMU, whatever was called.
+//! Invariants for the values of every FMU after any calls.
 
 use crate::face::Face;
 use std::collections::HashMap;
 
-/// What was seen of an instance after its last call.
+/// The observations of an instance after its last call.
 #[derive(Clone, Debug, Default)]
 pub struct Seen {
-    /// The heat of each contact [J], by the prefix of its variables.
+    /// The dissipated energy of each contact [J], by the prefix of its variables.
     dissipated: HashMap<String, f64>,
 }
 
-/// Relative error that rounding may leave in a balance of energies, and between a step and its parts.
+/// Relative error from rounding in an energy balance, and between a step and its parts.
 const TOLERANCE: f64 = 1e-12;
 
 /// The prefixes of the contacts' variables.
@@ -21,10 +21,10 @@ fn contacts(face: &Face) -> impl Iterator<Item = &str> {
         .filter(|prefix| prefix.is_empty() || prefix.ends_with('.'))
 }
 
-/// Checks the values of all Real outputs, in the order of `face.outputs`; `before` is what a step began with.
+/// Checks the values of all Real outputs, in the order of `face.outputs`; `before` are the values before the step.
 ///
 /// # Errors
-/// What is wrong.
+/// A description of the violation.
 pub fn check_values(face: &Face, values: &[f64], before: &Seen) -> Result<Seen, String> {
     let by_reference: HashMap<u32, f64> = face.outputs.iter().copied().zip(values.iter().copied()).collect();
     for (name, reference) in &face.named {
@@ -64,10 +64,10 @@ pub fn check_values(face: &Face, values: &[f64], before: &Seen) -> Result<Seen, 
     Ok(seen)
 }
 
-/// Outputs that belong to the last step, and not to its end.
+/// Outputs that belong to the last step and not to its end.
 const OF_THE_STEP: [&str; 3] = ["mean_force", "impulse", "predicted_force"];
 
-/// Checks that a step and its parts have ended at the same values.
+/// Checks that a step and its parts end at the same values.
 ///
 /// # Errors
 /// The first variable that differs.
@@ -78,7 +78,7 @@ pub fn same_values(face: &Face, whole: &[f64], pieces: &[f64]) -> Result<(), Str
         }
         let place = face.outputs.iter().position(|other| other == reference).expect("it is an output");
         let (one, other) = (whole[place], pieces[place]);
-        // stiffness jumps where the branch changes, which rounding moves
+        // stiffness jumps at a change of branch, which rounding can move
         let jumps = name.ends_with("stiffness");
         if !jumps && (one - other).abs() > 1e-9 * one.abs().max(other.abs()) && (one - other).abs() > 1e-15 {
             return Err(format!("{name} is {one:e} after a step, and {other:e} after its parts"));

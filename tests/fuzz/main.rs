@@ -1,11 +1,11 @@
-//! Random calls of the C interface with hostile arguments: no crash, no hang, no NaN, no force while apart, and energies that
-//! balance.
+//! Random calls of the C interface with hostile arguments: no crash, no hang, no NaN, no force without contact, and
+//! balanced energies.
 //!
-//! Each FMU runs its scripts in a process of its own. A script is a number: it is the same on every machine. What a script has
-//! found is shrunk to the calls that matter, and printed.
+//! Each FMU runs its scripts in a separate process. A number determines a script, which is the same on every machine.
+//! A failing script is reduced to the necessary calls and printed.
 //!
-//! `cargo test --release --test fuzz` makes some 100,000 calls. `BRINELL_FUZZ=1e8 cargo test --release --test fuzz` makes as many
-//! as it says; `BRINELL_FUZZ_SEED` begins with another script.
+//! `cargo test --release --test fuzz` makes about 100,000 calls. `BRINELL_FUZZ=1e8 cargo test --release --test fuzz`
+//! makes 1e8 calls. `BRINELL_FUZZ_SEED` sets the first script.
 #![cfg(target_os = "linux")]
 
 #[path = "../support/functions.rs"]
@@ -28,35 +28,35 @@ use std::process::{Command, ExitStatus};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// Calls over all FMUs in a usual run.
+/// Number of calls over all FMUs in a usual run.
 const CALLS: u64 = 100_000;
 
-/// Calls of a script, beside those that begin it.
+/// Number of calls in a script, besides those at its start.
 const LENGTH: usize = 80;
 
-/// The longest time that a process may take for some thousand calls [s].
+/// The longest time for about a thousand calls of a process [s].
 const LIMIT: Duration = Duration::from_secs(120);
 
-/// Scripts that run in one process.
+/// Number of scripts in one process.
 const CHUNK: u64 = 2000;
 
-/// The variables that tell a process what to do.
+/// The environment variables that control a process.
 const LIBRARY: &str = "BRINELL_FUZZ_LIBRARY";
 const FIRST: &str = "BRINELL_FUZZ_FIRST";
 const COUNT: &str = "BRINELL_FUZZ_COUNT";
-/// Which calls of the script to make, by their numbers; all, if it isn't set.
+/// The numbers of the calls to make; all, if it isn't set.
 const KEPT: &str = "BRINELL_FUZZ_KEPT";
-/// The file for the number of the script that runs.
+/// The file for the number of the current script.
 const PROGRESS: &str = "BRINELL_FUZZ_PROGRESS";
 
-/// A number from the environment; `1e8` is one.
+/// A number from an environment variable, such as `1e8`.
 fn number(name: &str) -> Option<u64> {
     let text = env::var(name).ok()?;
     let value: f64 = text.parse().unwrap_or_else(|_| panic!("{name}={text} is no number"));
     Some(value as u64)
 }
 
-/// The part of a process: runs scripts, and ends with the message of the first that fails.
+/// The process: runs scripts, and ends with the message of the first failure.
 #[test]
 #[ignore = "the tests below start it in processes of their own"]
 fn worker() {
@@ -92,7 +92,7 @@ struct Target {
     scratch: TempDir,
 }
 
-/// How a process ended that didn't do its work.
+/// How a process ended before it finished.
 enum Failure {
     Hang,
     Ended { status: ExitStatus, said: String },
@@ -108,7 +108,7 @@ impl fmt::Display for Failure {
 }
 
 impl Target {
-    /// Runs `count` scripts from `first` on; gives the number of calls, or the script that failed.
+    /// Runs `count` scripts starting with `first`; returns the number of calls, or the script that failed.
     fn run(&self, first: u64, count: u64, kept: Option<&[usize]>) -> Result<u64, (u64, Failure)> {
         let progress = self.scratch.path().join("progress");
         let program = env::current_exe().expect("a test program");
@@ -146,7 +146,7 @@ impl Target {
         }
     }
 
-    /// The numbers of the calls without which the script of `seed` doesn't fail.
+    /// The numbers of the calls that the script of `seed` needs to fail.
     fn shrink(&self, seed: u64) -> Vec<Call> {
         let face = Face::load(&self.library);
         let whole = script(seed, &face, LENGTH);
@@ -167,11 +167,11 @@ impl Target {
         kept.into_iter().map(|number| whole[number].clone()).collect()
     }
 
-    /// Some `calls` calls, from the script `first` on.
+    /// Makes about `calls` calls, starting with the script `first`.
     fn fuzz(&self, first: u64, calls: u64) -> u64 {
         let (mut made, mut seed) = (0, first);
         while made < calls {
-            // a script makes at least as many calls as it is long, but for those that have no instance
+            // a script makes at least as many calls as its length, except calls without an instance
             let count = ((calls - made) / LENGTH as u64 + 1).min(CHUNK);
             match self.run(seed, count, None) {
                 Ok(calls) => made += calls,
@@ -190,7 +190,7 @@ impl Target {
     }
 }
 
-/// All FMUs: of the project's own scenes, and of laws and keys that these don't have.
+/// All FMUs: those of the project's own scenes, and of additional laws and keys.
 fn targets() -> Vec<Target> {
     let own = [
         ("fresh", "brinell", "brinell", "surface = \"fresh\"\n", ""),
@@ -205,7 +205,7 @@ fn targets() -> Vec<Target> {
         );
         unit::write_scene(name, &text)
     });
-    // a thousand contacts are as two, and take longer
+    // a thousand contacts show no more than two, and take longer
     let plain = unit::scenes().into_iter().filter(|scene| !scene.ends_with("many_contacts.toml"));
     let scenes = plain.chain(own);
     let target = |scene: PathBuf| Target {
@@ -217,7 +217,7 @@ fn targets() -> Vec<Target> {
 }
 
 #[test]
-fn no_call_crashes_hangs_or_makes_numbers_that_are_none() {
+fn no_call_crashes_hangs_or_returns_nan() {
     let targets = targets();
     let calls = number("BRINELL_FUZZ").unwrap_or(CALLS) / targets.len() as u64 + 1;
     let first = number("BRINELL_FUZZ_SEED").unwrap_or(1);

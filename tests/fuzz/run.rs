@@ -1,4 +1,4 @@
-//! Runs a script: makes the calls, and judges what they answer.
+//! Runs a script: makes the calls and checks the results.
 
 use crate::call::{Call, INSTANCES, Kind, STATES, Simple, Wrong};
 use crate::face::Face;
@@ -12,7 +12,7 @@ const WARNING: c_int = 1;
 const DISCARD: c_int = 2;
 const ERROR: c_int = 3;
 
-/// The states of the standard that an instance of a synchronous unit has.
+/// The states of the standard for a co-simulation FMU.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
     Instantiated,
@@ -22,36 +22,38 @@ enum Phase {
     Error,
 }
 
-/// An instance, and what an importer knows of it.
+/// An instance, with the knowledge of an importer about it.
 struct Instance {
     component: fmi2Component,
     phase: Phase,
     has_experiment: bool,
     time: f64,
-    /// Whether an input has a derivative in the next step: it ends with that step, so that parts of it differ from the whole.
+    /// Whether an input has a derivative in the next step. The derivative ends with that step; parts of the step then
+    /// differ from the whole.
     has_course: bool,
     seen: Seen,
 }
 
-/// A saved state, and what was known of the instance.
+/// A saved state, with the knowledge about its instance.
 struct State {
     pointer: fmi2FMUstate,
     phase: Phase,
     has_experiment: bool,
     time: f64,
-    /// Whether an input has a derivative in the next step: it ends with that step, so that parts of it differ from the whole.
+    /// Whether an input has a derivative in the next step. The derivative ends with that step; parts of the step then
+    /// differ from the whole.
     has_course: bool,
     seen: Seen,
 }
 
-/// A script that runs. Dropping it frees what it has made.
+/// A running script. Dropping it frees its instances and states.
 pub struct Runner<'a> {
     face: &'a Face,
     instances: [Option<Instance>; INSTANCES],
     states: [Option<State>; STATES],
-    /// The last serialized state, and what it was of.
+    /// The last serialized state, and its origin.
     bytes: Option<(Vec<c_char>, State)>,
-    /// Calls of the C interface.
+    /// Number of calls of the C interface.
     pub calls: u64,
 }
 
@@ -65,15 +67,15 @@ unsafe extern "C" fn logger(
     assert!(!name.is_null() && !category.is_null() && !text.is_null() && (0..=4).contains(&status));
     // SAFETY: messages end with 0
     let text = unsafe { std::ffi::CStr::from_ptr(text) }.to_str().expect("messages are UTF-8");
-    // every % of a message is doubled: it is a format
+    // messages are format strings: every % is doubled
     assert!(text.replace("%%", "").find('%').is_none(), "{text:?} has a format of printf");
 }
 
-/// A logger as the standard has it; this one looks at no further arguments.
+/// A logger with the type of the standard; it ignores further arguments.
 fn variadic(
     function: unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
 ) -> fmi2CallbackLogger {
-    // SAFETY: a function without further arguments is called in the same way on the platforms of the tests
+    // SAFETY: on the tested platforms, a function without further arguments has the same calling convention
     unsafe { std::mem::transmute(function) }
 }
 
@@ -92,7 +94,7 @@ impl<'a> Runner<'a> {
         Runner { face, instances: [None, None], states: [None, None, None], bytes: None, calls: 0 }
     }
 
-    /// Runs all calls; the error says which one went wrong, and how.
+    /// Runs all calls; the error names the call and the failure.
     pub fn run(&mut self, script: &[Call]) -> Result<(), String> {
         for (number, call) in script.iter().enumerate() {
             self.make(call).map_err(|wrong| format!("call {number}, {call:?}: {wrong}"))?;
@@ -285,7 +287,7 @@ impl<'a> Runner<'a> {
         self.judge(instance, call, status)
     }
 
-    /// Looks at the values after a call, where they can be read.
+    /// Checks the values after a call, if they can be read.
     fn judge(&mut self, instance: &mut Instance, call: &Call, status: c_int) -> Result<(), String> {
         if instance.phase == Phase::Instantiated {
             instance.seen = Seen::default();
@@ -457,8 +459,8 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// A step from one state, whole and in parts. An FMU that moves the bodies itself takes the rate for that at the start of a
-    /// step: its parts would need other rates.
+    /// A step from one state, whole and in parts. An FMU that moves the bodies itself uses only the rate at the start
+    /// of a step: its parts would need other rates.
     fn split(&mut self, at: usize, step: f64, parts: u32) -> Result<(), String> {
         let Some(mut instance) = self.instances[at].take() else { return Ok(()) };
         let moves_bodies = self.face.named.keys().any(|name| name.ends_with("mean_force"));
@@ -474,7 +476,7 @@ impl<'a> Runner<'a> {
     fn split_of(&mut self, instance: &mut Instance, step: f64, parts: u32) -> Result<(), String> {
         let functions = &self.face.functions;
         let (c, mut start) = (instance.component, null_mut());
-        // times that add up without rounding: parts of a power of two of the step
+        // times without rounding errors: parts of a power of two of the step
         let part = step / f64::from(parts);
         // SAFETY: component and state live
         let (whole, pieces) = unsafe {
@@ -513,7 +515,7 @@ impl State {
     }
 }
 
-/// A call that takes nothing but the component; its status, and whether it is allowed.
+/// A call with the component as its only argument: its status, and whether it is allowed.
 fn simple(face: &Face, instance: &mut Instance, which: Simple) -> (c_int, bool) {
     let functions = &face.functions;
     let (function, allowed, then) = match which {
@@ -525,13 +527,13 @@ fn simple(face: &Face, instance: &mut Instance, which: Simple) -> (c_int, bool) 
         Simple::Exit => (functions.exit_initialization_mode, instance.phase == Phase::Initialization, Phase::Step),
         Simple::Terminate => (
             functions.terminate,
-            // wider than the standard, as importers need it
+            // more than the standard allows, as importers need it
             matches!(instance.phase, Phase::Instantiated | Phase::Step | Phase::Terminated),
-            // an instance that was never initialized has nothing to end
+            // an instance that was never initialized has nothing to terminate
             if instance.phase == Phase::Step { Phase::Terminated } else { instance.phase },
         ),
         Simple::Reset => (functions.reset, true, Phase::Instantiated),
-        // nothing runs that could be cancelled
+        // there is no asynchronous step to cancel
         Simple::Cancel => (functions.cancel_step, false, instance.phase),
     };
     // SAFETY: the component lives
@@ -545,7 +547,7 @@ fn simple(face: &Face, instance: &mut Instance, which: Simple) -> (c_int, bool) 
     (status, allowed)
 }
 
-/// Asks for a status of this kind.
+/// Requests a status of this kind.
 fn ask(face: &Face, c: fmi2Component, which: u8, kind: c_int) -> c_int {
     let functions = &face.functions;
     let (mut integer, mut real, mut text) = (0, 0.0, null());
@@ -566,7 +568,7 @@ fn or_null<T>(values: &mut [T], is_null: bool) -> *mut T {
     if is_null { null_mut() } else { values.as_mut_ptr() }
 }
 
-/// No value of a call that succeeds is infinite or NaN.
+/// Checks that a successful call returns finite values.
 fn finite(status: c_int, values: &[f64]) -> Result<(), String> {
     let _ = DISCARD;
     match values.iter().find(|value| !value.is_finite()) {

@@ -1,4 +1,4 @@
-//! A scene in both ways, compiled and prebuilt: the same calls give the same bits and the same messages.
+//! A compiled and a prebuilt FMU of one scene: the same calls give the same bits and the same messages.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use super::loaded::{Instance, OK, Unit, take_message};
@@ -8,9 +8,9 @@ use super::unit;
 use std::fs;
 use std::path::Path;
 
-/// The same scene in both ways.
+/// The two FMUs of a scene.
 pub struct Both {
-    /// That of the prebuilt library.
+    /// The prebuilt one.
     pub kind: String,
     compiled: Unit,
     prebuilt: Unit,
@@ -78,7 +78,8 @@ impl Both {
         self.variables.iter().filter(|variable| variable.causality == causality).cloned().collect()
     }
 
-    /// Runs both through the same calls, as many as `calls`, and compares all that they say and show; how many messages that were.
+    /// Makes the same calls, `calls` in number, on both, and compares all messages and outputs. Returns the number of
+    /// messages.
     pub fn compare(&self, calls: usize, random: &mut Random) -> usize {
         let outputs = self.of_causality("output");
         let reals: Vec<u32> = outputs.iter().filter(|output| output.is_real).map(|output| output.reference).collect();
@@ -86,7 +87,7 @@ impl Both {
         let parameters = self.of_causality("parameter");
         let inputs = self.of_causality("input");
         let mut pair = Pair::new(&self.compiled, &self.prebuilt);
-        // what a scene doesn't request isn't there, whatever the library could show
+        // outputs that the scene does not request are missing, whatever the library supports
         let beyond = self.variables.len() as u32;
         assert_ne!(pair.both(|unit| unit.set(&[beyond], &[1.0])), OK);
         pair.both(|unit| unit.status_of("fmi2Reset"));
@@ -113,7 +114,7 @@ impl Both {
             if pair.both(|unit| unit.step(time, step)) == OK {
                 time += step;
             } else {
-                // too deep, or too long: all that is left is to begin anew
+                // too deep, or too long: only a reset is possible
                 pair.both(|unit| unit.status_of("fmi2Reset"));
                 pair.begin(&parameters, random);
                 (time, depth_of_state) = (0.0, None);
@@ -138,7 +139,7 @@ impl Both {
                     }
                 }
                 5 => {
-                    // refused, in the same words
+                    // rejected with the same message
                     let any = &parameters.get(below(random, parameters.len().max(1)));
                     let reference = any.map_or(99, |parameter| parameter.reference);
                     let value = positive(random, -9.0, 12.0);
@@ -176,12 +177,12 @@ fn signed(random: &mut Random, from: f64, to: f64) -> f64 {
     if below(random, 2) == 0 { size } else { -size }
 }
 
-/// Two instances that get the same calls.
+/// Two instances that receive the same calls.
 struct Pair<'a> {
     compiled: Instance<'a>,
     prebuilt: Instance<'a>,
     states: Option<[*mut std::ffi::c_void; 2]>,
-    /// How many messages there were.
+    /// Number of messages.
     messages: usize,
 }
 
@@ -193,7 +194,7 @@ impl<'a> Pair<'a> {
         Pair { compiled, prebuilt, states: None, messages: 0 }
     }
 
-    /// The same call for both, with the same result and message.
+    /// Makes the same call on both; result and message must be equal.
     fn both<T: PartialEq + std::fmt::Debug>(&mut self, call: impl Fn(&mut Instance) -> T) -> T {
         take_message();
         let one = (call(&mut self.compiled), take_message());
@@ -203,7 +204,7 @@ impl<'a> Pair<'a> {
         one.0
     }
 
-    /// The same reading of both, with the same bits.
+    /// Reads the same variables of both; the bits must be equal.
     fn read(&mut self, call: impl Fn(&mut Instance, &mut [f64]) -> i32, count: usize) {
         self.both(|unit| {
             let mut values = vec![0.0; count];
@@ -212,7 +213,7 @@ impl<'a> Pair<'a> {
         });
     }
 
-    /// Sets parameters and initializes, until some are taken.
+    /// Sets parameters and initializes, until the parameters are accepted.
     fn begin(&mut self, parameters: &[Variable], random: &mut Random) {
         self.states = None;
         loop {
@@ -227,7 +228,7 @@ impl<'a> Pair<'a> {
                     "restitution" => between(random, 0.2, 1.0),
                     _ => start * positive(random, -0.5, 0.5),
                 };
-                // one in a while is beyond the limits
+                // occasionally beyond the limits
                 let value = if below(random, 40) == 0 { 2.0 * maximum + 1.0 } else { value.clamp(*minimum, *maximum) };
                 taken &= self.both(|unit| unit.set(&[*reference], &[value])) == OK;
             }

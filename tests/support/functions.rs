@@ -5,18 +5,18 @@ use brinell::fmi2::abi::*;
 use libloading::Library;
 use std::path::Path;
 
-/// Declares the table: the functions' names are those of the standard without `fmi2`, in the writing of Rust.
+/// Declares the table: the names of the functions are those of the standard without `fmi2`, in snake case.
 macro_rules! functions {
     ($($field:ident = $name:literal ($($argument:ty),*) $(-> $result:ty)?;)*) => {
         /// All functions of FMI 2.0 co-simulation.
         pub struct Functions {
             $(pub $field: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
-            // the functions live as long as it does
+            // keeps the functions valid
             _library: Library,
         }
 
         impl Functions {
-            /// Those of the library at `path`.
+            /// The functions of the library at `path`.
             pub fn load(path: &Path) -> Functions {
                 // SAFETY: it was made by the program under test, and has no initializers
                 let library = unsafe { Library::new(path) }.expect("a library that can be loaded");

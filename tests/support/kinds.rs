@@ -1,7 +1,7 @@
-//! Scenes of one law that prebuilt libraries of every kind have room for.
+//! Scenes of one law that fit prebuilt libraries of every kind.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
-/// Every output that a scene without known mass can have, and more if it has one.
+/// Every output of a scene without a known mass, and the additional ones with a known mass.
 const STATE: [&str; 11] = [
     "indentation",
     "max_indentation",
@@ -18,7 +18,7 @@ const STATE: [&str; 11] = [
 
 const RATE_DEPENDENT: [&str; 5] = ["hunt-crossley", "kelvin-voigt", "tsuji", "kuwabara-kono", "adams-impact"];
 
-/// Lines of scenes with all that data can differ in.
+/// Lines with all the data in which scenes can differ.
 const BODIES: &str = "[impactor]\nradius = 10e-3\nyoungs_modulus = 210e9\npoissons_ratio = 0.3\n\
                       [target]\nmaterial = \"aluminium 6061-T6\"\nradius = -50e-3\nsurface = \"fresh\"\n";
 const NAMED: &str =
@@ -26,12 +26,12 @@ const NAMED: &str =
 const COUNTED: &str = "[[contact]]\nname = \"bead\"\ncount = 1\n";
 pub const IMPACT: &str = "[impact]\nmass = 4e-3\nspeed = 1.0\n";
 
-/// Whether a law, by its name or both its names, is rate-dependent.
+/// Whether a law, given by its name or both its names, is rate-dependent.
 pub fn is_rate_dependent(law: &str) -> bool {
     RATE_DEPENDENT.contains(&law.split('/').next().unwrap_or(law))
 }
 
-/// A scene of `law` (`LOADING` or `LOADING/PARTNER`) with these outputs and these lines besides.
+/// A scene of `law` (`LOADING` or `LOADING/PARTNER`) with these outputs and these additional lines.
 pub fn scene(law: &str, outputs: &[&str], more: &str) -> String {
     let (loading, partner) = law.split_once('/').map_or((law, None), |(loading, partner)| (loading, Some(partner)));
     let mut table = format!("[law]\nloading = {loading:?}\n");
@@ -41,7 +41,7 @@ pub fn scene(law: &str, outputs: &[&str], more: &str) -> String {
     if ["hunt-crossley", "kelvin-voigt", "tsuji"].contains(&loading) {
         table += "restitution = 0.6\n";
     }
-    // what a test says of its bodies comes first
+    // the bodies of a test come first
     let bodies = match more.contains("[impactor]") {
         true => "",
         false => "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n",
@@ -57,7 +57,7 @@ fn coupled(law: &str, outputs: &[&str], more: &str) -> String {
     scene(law, outputs, &format!("[coupling]\neffective_mass = 4e-3\n{more}"))
 }
 
-/// A scene for each kind of library that goes with `law`, by the name of the kind.
+/// A scene for each kind of library that supports `law`, with the name of the kind.
 pub fn one_of_each_kind(law: &str) -> Vec<(&'static str, String)> {
     let momentum: Vec<_> = STATE.into_iter().chain(["impulse", "mean_force"]).collect();
     let known: Vec<_> = momentum.iter().copied().chain(["closing_speed"]).collect();
@@ -74,7 +74,7 @@ pub fn one_of_each_kind(law: &str) -> Vec<(&'static str, String)> {
     scenes
 }
 
-/// Further scenes of `law`, if it isn't rate-dependent: names, one contact of a group, and the other ways to couple.
+/// Additional scenes of `law`, if it isn't rate-dependent: names, one contact of a group, and the other ways to couple.
 pub fn further(law: &str) -> Vec<(&'static str, String)> {
     vec![
         ("state", scene(law, &["indentation", "regime"], NAMED)),

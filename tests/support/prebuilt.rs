@@ -1,4 +1,4 @@
-//! Prebuilt libraries for tests, and FMUs that are made from them or compiled.
+//! Prebuilt libraries for tests, and FMUs made from them or compiled.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use super::command::{Run, brinell, output};
@@ -10,24 +10,24 @@ use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
 
-/// The folder for everything that this test program makes.
+/// The folder for all files of this test program.
 pub fn folder() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("prebuilt").join(env!("CARGO_CRATE_NAME"));
     fs::create_dir_all(&folder).expect("the target folder can be written to");
     folder
 }
 
-/// The laws that every run of the tests takes; all kinds of libraries are made for them.
+/// The laws in every test run, with libraries of all kinds.
 pub const LAWS: [&str; 2] = ["big-alabo", "hunt-crossley/flores"];
 
-/// A folder with the libraries of [`LAWS`] for this machine, which the test programs share.
+/// A folder with the libraries of [`LAWS`] for this machine, shared by the test programs.
 pub fn store() -> &'static Path {
     static STORE: OnceLock<PathBuf> = OnceLock::new();
     STORE.get_or_init(|| made_once("some", &["--laws", &LAWS.join(",")]))
 }
 
-/// The folder of libraries that `brinell prebuild` with these arguments makes: once for this very program, by the first test program
-/// that needs it.
+/// The folder of libraries made by `brinell prebuild` with these arguments. The first test program that needs it
+/// makes it once for this build of the program.
 pub fn made_once(name: &str, arguments: &[&str]) -> PathBuf {
     let store = Path::new(env!("CARGO_TARGET_TMPDIR")).join("prebuilt").join(name);
     fs::create_dir_all(&store).expect("the target folder can be written to");
@@ -50,7 +50,7 @@ pub fn prebuild(store: &Path, arguments: &[&str]) -> Run {
     output(brinell(&folder()).arg("prebuild").arg("-o").arg(store).args(arguments))
 }
 
-/// The program where no compiler can be found, with the libraries in `store`.
+/// The program without any compiler to find, with the libraries in `store`.
 pub fn without_compiler(in_folder: &Path, store: &Path) -> Command {
     let mut command = brinell(in_folder);
     command.env_remove("CARGO").env("PATH", "/no/path").env("BRINELL_PREBUILT", store);
@@ -70,23 +70,24 @@ pub fn export_by_kind(text: &str, store: &Path) -> (PathBuf, String) {
     (fmu, kind)
 }
 
-/// What the program says of an FMU that was made in this process, by scene and folder of libraries.
+/// The output of the program for each FMU made in this process, by scene and folder of libraries.
 type Made = HashMap<(String, Option<PathBuf>), (PathBuf, Value)>;
 
-/// The FMU of the scene `text`, compiled or with the libraries in `store`, made once per process; and what the program says of it.
+/// The FMU of the scene `text`, compiled or with the libraries in `store`, made once per process, with the output of
+/// the program.
 fn exported(text: &str, store: Option<&Path>) -> (PathBuf, Value) {
     static MADE: LazyLock<Mutex<Made>> = LazyLock::new(Mutex::default);
     let key = (text.to_string(), store.map(Path::to_path_buf));
-    // the lock is held while something is made: a second test that asks for it waits
+    // holding the lock makes a second test wait for the result
     let mut all = MADE.lock().unwrap_or_else(PoisonError::into_inner);
     all.entry(key).or_insert_with(|| export_anew(text, store)).clone()
 }
 
-/// The same, made once more.
+/// The same, made again.
 pub fn export_anew(text: &str, store: Option<&Path>) -> (PathBuf, Value) {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let folder = folder().join(COUNT.fetch_add(1, Ordering::Relaxed).to_string());
-    // whatever an earlier run has left
+    // left over from an earlier run
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("the target folder can be written to");
     fs::write(folder.join("scene.toml"), text).expect("the target folder can be written to");
@@ -100,7 +101,7 @@ pub fn export_anew(text: &str, store: Option<&Path>) -> (PathBuf, Value) {
     (folder.join("unit.fmu"), run.json())
 }
 
-/// The names of the files of `store` for this machine, by their ending.
+/// The names of the files of `store` for this machine with this ending.
 pub fn file(ending: &str) -> String {
     format!("x86_64-unknown-linux-gnu.{ending}")
 }
@@ -111,7 +112,7 @@ pub fn list(store: &Path) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// The names of the libraries in `store`, each the law and the kind.
+/// The names of the libraries in `store`, each with law and kind.
 pub fn libraries(store: &Path) -> BTreeSet<(String, String)> {
     let list = list(store);
     let streams = list["streams"].as_array().expect("a list").iter();

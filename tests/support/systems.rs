@@ -1,5 +1,5 @@
-//! Other systems on this one: wine for Windows, QEMU for arm64, an emulator of processors for macOS; and the C compiler that
-//! makes programs for them.
+//! Other systems on this one: wine for Windows, QEMU for arm64, an emulator of the processors for macOS; and the C
+//! compiler for their programs.
 
 use super::debian::{Packages, packages};
 use super::hosts::{Host, Loading, compile, folder};
@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{fs, io};
 
-/// A system that libraries of one platform run on.
+/// A system that runs the libraries of one platform.
 pub struct System {
     /// Folder of the platform in an FMU.
     pub platform: &'static str,
-    /// What it is, with its version.
+    /// Its name and version.
     pub name: String,
     pub host: Host,
 }
@@ -31,10 +31,10 @@ fn compiled(target: &str, ending: &str) -> Result<PathBuf, String> {
     compile(&format!("host-{target}{ending}"), "host.c", Loading::BySystem, &compiler, &[])
 }
 
-/// Windows, as wine has it.
+/// Windows, through wine.
 ///
 /// # Errors
-/// Why it can't be had.
+/// The reason why it is not available.
 pub fn windows() -> Result<System, String> {
     let Packages { folder, versions } = packages("wine", "bookworm", &["wine64"], true)?;
     let version = version_of(&versions, "wine64")?;
@@ -44,12 +44,13 @@ pub fn windows() -> Result<System, String> {
     Ok(System { platform: "win64", name: format!("wine {version}"), host })
 }
 
-/// What wine's packages do when they are installed, and a program that starts it from where it was unpacked.
+/// Does the work of the installation scripts of wine's packages, and adds a program that starts wine from its
+/// unpacked folder.
 fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
     let programs = folder.join("programs");
     let start = programs.join("wine64");
     fs::create_dir_all(&programs)?;
-    // user32.dll needs a zlib1.dll that says it belongs to wine
+    // user32.dll needs a zlib1.dll that is marked as part of wine
     let mut zlib = fs::read(folder.join("usr/x86_64-w64-mingw32/lib/zlib1.dll"))?;
     let mark = b"Wine builtin DLL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
     zlib[64..96].copy_from_slice(mark);
@@ -60,11 +61,11 @@ fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
         fs::set_permissions(path, fs::Permissions::from_mode(0o755))
     };
     let server = programs_of_wine.join("wineserver64");
-    // it ends with the last program: it holds the pipe that the output is read from
+    // it ends with the last program, because it holds the output pipe
     let text = format!("#!/bin/sh\nexec '{}' -p0 \"$@\"\n", server.display());
     executable(&programs_of_wine.join("wineserver"), text)?;
-    // without a display; what is asked of a user when it starts first is not. fmpy's server for other platforms ends itself
-    // when it can open its lock file, which it always can under wine: so it gets none.
+    // without a display, and without the questions of the first start. fmpy's server for other platforms exits if it
+    // can open its lock file, which is always possible in wine; it therefore gets no lock file.
     let text = format!(
         "#!/bin/sh\nexport LD_LIBRARY_PATH='{libraries}' WINEPREFIX='{prefix}' WINEARCH=win64 WINEDEBUG=-all\n\
          export WINEDLLOVERRIDES='mscoree,mshtml=' DISPLAY=\n\
@@ -77,42 +78,42 @@ fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
     Ok(start)
 }
 
-/// Linux on arm64, as QEMU has it.
+/// Linux on arm64, through QEMU.
 ///
 /// # Errors
-/// Why it can't be had.
+/// The reason why it is not available.
 pub fn arm64_linux() -> Result<System, String> {
     let Packages { folder, versions } = packages("qemu", "bookworm", &["qemu-user", "libc6-arm64-cross"], true)?;
     let name = format!("QEMU {}", version_of(&versions, "qemu-user")?);
     let libraries = folder.join("usr/lib/x86_64-linux-gnu");
     let (program, root) = (compiled("aarch64-linux-gnu.2.28", "")?, folder.join("usr/aarch64-linux-gnu"));
-    // its own libraries are not those of the program
+    // its libraries are not those of the program
     let start: Vec<PathBuf> = vec![folder.join("usr/bin/qemu-aarch64"), "-E".into(), "LD_LIBRARY_PATH=".into()];
     let command = [start, vec!["-L".into(), root, program]].concat();
     let host = Host { command, variables: vec![("LD_LIBRARY_PATH", libraries)] };
     Ok(System { platform: "aarch64-linux", name, host })
 }
 
-/// The code for macOS on a processor, in an emulator; there is no macOS.
+/// The code for macOS in an emulator of the processor; there is no macOS.
 ///
 /// # Errors
-/// Why it can't be had.
+/// The reason why it is not available.
 pub fn macos(processor: &str) -> Result<System, String> {
     let command = vec![tools()?, folder().join("macho.py"), processor.into()];
     let host = Host { command, variables: Vec::new() };
     Ok(System { platform: "darwin64", name: format!("unicorn 2.1.4, {processor}"), host })
 }
 
-/// The version of `package` in the list of what was unpacked.
+/// The version of `package` in the list of unpacked packages.
 fn version_of<'a>(versions: &'a str, package: &str) -> Result<&'a str, String> {
     let mut lines = versions.lines().filter_map(|line| line.split_once(' '));
     lines.find(|(name, _)| *name == package).map(|(_, version)| version).ok_or(format!("no {package} was unpacked"))
 }
 
-/// What fmpy makes of `fmu` on a history, through `remote` if another system is meant.
+/// The results of fmpy for `fmu` on a history, through `remote` for another system.
 ///
 /// # Errors
-/// What it says if it fails or hangs.
+/// The error output if it fails or hangs.
 pub fn by_fmpy(fmu: &Path, history: &Path, remote: Option<(&str, &Host)>) -> Result<String, String> {
     let mut command = Command::new("timeout");
     command.arg("120").arg(python()).arg(folder().join("with_fmpy.py")).arg(fmu).arg(history);
@@ -124,7 +125,7 @@ pub fn by_fmpy(fmu: &Path, history: &Path, remote: Option<(&str, &Host)>) -> Res
     }
     let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;
     let lines = String::from_utf8_lossy(&output.stdout).into_owned();
-    // the server of the other system prints, too
+    // the server of the other system also prints
     let is_row = |line: &&str| line.len() > 16 && line.bytes().all(|byte| byte == b' ' || byte.is_ascii_hexdigit());
     match output.status.success() {
         true => Ok(lines.lines().filter(is_row).collect::<Vec<_>>().join("\n")),

@@ -1,4 +1,4 @@
-//! FMUs for tests: a scene exported by the program like for a user, and the library in it.
+//! FMUs for tests: exports a scene with the program as a user does, and loads the library.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
 use std::collections::HashMap;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 
-/// What has been made in this process, by what it was made from.
+/// Results made in this process, by their sources.
 static MADE: LazyLock<Mutex<HashMap<PathBuf, Arc<OnceLock<PathBuf>>>>> = LazyLock::new(Mutex::default);
 
 /// The folder for everything that tests export; cargo keeps it inside the target folder.
@@ -19,15 +19,15 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("units").join(env!("CARGO_CRATE_NAME"))
 }
 
-/// What `make` makes from `source`, made once per process. Others wait for it, and make other things in the meantime. A failed
-/// export leaves nothing, so that the next test fails with its own message.
+/// The result of `make` for `source`, made once per process. Other threads wait for it, or make other results in the
+/// meantime. After a failed export, the next test fails with its own message.
 fn once(source: PathBuf, make: impl FnOnce(&Path) -> PathBuf) -> PathBuf {
     let made = Arc::clone(MADE.lock().unwrap_or_else(PoisonError::into_inner).entry(source.clone()).or_default());
     made.get_or_init(|| make(&source)).clone()
 }
 
-/// The folder of what this program exports from `scene`: other test programs may have made it before. It doesn't exist unless
-/// all of it does.
+/// The folder for the exports of this program from `scene`, which other test programs may have made. It exists only
+/// when it is complete.
 fn shared_folder(scene: &Path) -> PathBuf {
     static PROGRAM: LazyLock<String> = LazyLock::new(|| {
         let program = fs::read(env!("CARGO_BIN_EXE_brinell")).expect("cargo has built the program");
@@ -38,14 +38,14 @@ fn shared_folder(scene: &Path) -> PathBuf {
     let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join("exported");
     let ours = all.join(&*PROGRAM);
     if !ours.exists() {
-        // what another program has exported is of no use any more
+        // exports of another build of the program are useless now
         let _ = fs::remove_dir_all(&all);
         fs::create_dir_all(&ours).expect("the target folder can be written to");
     }
     ours.join(hash_of(&[name, &text]))
 }
 
-/// 16 digits that tell these bytes from others.
+/// 16 digits that identify these bytes.
 fn hash_of(parts: &[&[u8]]) -> String {
     let mut hash = DefaultHasher::new();
     parts.hash(&mut hash);
@@ -118,7 +118,7 @@ fn build(scene: &Path, unit: &Path) {
         .arg(scene)
         .arg("-o")
         .arg(unit)
-        // the user's own cache stays as it is
+        // do not touch the user's cache
         .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         .output()
         .expect("cargo has built the program");

@@ -13,7 +13,7 @@ const DENTS: &str = include_str!("../../../experiment/leeb_dents.csv");
 /// The hardnesses at which laws are compared with the device D [HV].
 pub const HARDNESSES: [f64; 3] = [300.0, 600.0, 800.0];
 
-/// Ball of the device D: radius [m], and its impact.
+/// Impactor of the device D: radius of the ball [m], and its impact.
 const BALL: f64 = 1.5e-3;
 const IMPACT: Impact = Impact { mass: 5.45e-3, speed: 2.05 };
 
@@ -29,17 +29,17 @@ const KILOGRAM_FORCE_PER_SQUARE_MILLIMETRE: f64 = 9.80665e6;
 /// The hardness of a fully plastic dent over the yield strength, by Tabor.
 const HARDNESS_OVER_STRENGTH: f64 = 3.0;
 
-/// A yield strength of a third of the Vickers hardness [Pa].
+/// The yield strength for a Vickers hardness: a third of it [Pa].
 pub fn strength_of(vickers: f64) -> f64 {
     vickers * KILOGRAM_FORCE_PER_SQUARE_MILLIMETRE / HARDNESS_OVER_STRENGTH
 }
 
-/// The rows of a table as numbers; a name is NaN.
+/// The rows of a table as numbers; names are NaN.
 fn rows(table: &str) -> impl Iterator<Item = Vec<f64>> {
     table.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect())
 }
 
-/// The measured restitution of the device D at a Vickers hardness; none outside of its range.
+/// The measured restitution of the device D at a Vickers hardness; `None` outside of its range.
 pub fn restitution(vickers: f64) -> Option<f64> {
     let points: Vec<(f64, f64)> = rows(RESTITUTION).map(|row| (row[1], row[0])).collect();
     let pair = points.windows(2).find(|pair| (pair[0].0..=pair[1].0).contains(&vickers))?;
@@ -47,19 +47,19 @@ pub fn restitution(vickers: f64) -> Option<f64> {
     Some(low + (high - low) * (vickers - from) / (to - from))
 }
 
-/// A dent that a device leaves.
+/// A dent from a device.
 pub struct Dent {
     pub device: &'static str,
     pub vickers: f64,
     radius: f64,
     impact: Impact,
-    /// Printed diameter [m].
+    /// Published diameter [m].
     pub diameter: f64,
-    /// Printed depth, that of a cap of this diameter [m].
+    /// Published depth, that of a spherical cap with this diameter [m].
     pub depth: f64,
 }
 
-/// The printed dents.
+/// The published dents.
 pub fn dents() -> Vec<Dent> {
     let names = DENTS.lines().skip(1).map(|line| line.split(',').next().unwrap_or_default());
     let dent = |(device, row): (&'static str, Vec<f64>)| Dent {
@@ -73,7 +73,7 @@ pub fn dents() -> Vec<Dent> {
     names.zip(rows(DENTS)).map(dent).collect()
 }
 
-/// A carbide ball of this radius [m] on steel of this strength [Pa], by the two laws.
+/// A carbide ball with this radius [m] on steel with this strength [Pa], for the two laws.
 fn model(loading: AnyLoading, unloading: AnyUnloading, radius: f64, yield_strength: f64) -> AnyModel {
     let body = |radius, (youngs_modulus, poissons_ratio)| Body { radius, youngs_modulus, poissons_ratio };
     let pair = Pair::new(&body(radius, CARBIDE), &body(f64::INFINITY, STEEL), yield_strength);
@@ -81,18 +81,18 @@ fn model(loading: AnyLoading, unloading: AnyUnloading, radius: f64, yield_streng
     AnyModel::Elastoplastic(strengthened(&Model { pair, loading, unloading, surface: Surface::Dented }, 0.0))
 }
 
-/// What two laws say of the impact of the device D on steel of this strength [Pa].
+/// Result of two laws for the impact of the device D on steel with this strength [Pa].
 pub fn restitution_by(loading: AnyLoading, unloading: AnyUnloading, yield_strength: f64) -> Option<f64> {
     model(loading, unloading, BALL, yield_strength).restitution(&IMPACT)
 }
 
-/// What two laws say of a dent in steel of this strength [Pa].
+/// Result of two laws for a dent in steel with this strength [Pa].
 pub fn dent_by(loading: AnyLoading, unloading: AnyUnloading, dent: &Dent, yield_strength: f64) -> Option<Prediction> {
     model(loading, unloading, dent.radius, yield_strength).predict(&dent.impact)
 }
 
-/// Restitution of the device D and factor on the strength HV/3 by two laws, where the strength grows with the strain rate: a fixed
-/// point as in a scene.
+/// Restitution of the device D, and factor of the strength HV/3, for two laws with a strength that depends on the
+/// strain rate: a fixed point as in a scene.
 pub fn with_rate(loading: AnyLoading, unloading: AnyUnloading, rate: &Rate, vickers: f64) -> Option<(f64, f64)> {
     let mut factor = 1.0;
     for _ in 0..STEPS {
@@ -107,7 +107,8 @@ pub fn with_rate(loading: AnyLoading, unloading: AnyUnloading, rate: &Rate, vick
     None
 }
 
-/// The factor on HV/3 with which two laws give the measured rebound at this hardness; none if none between a half and four does.
+/// The factor of HV/3 with which two laws give the measured rebound at this hardness; `None` if no factor between a half
+/// and four does.
 pub fn factor_by(loading: AnyLoading, unloading: AnyUnloading, vickers: f64) -> Option<f64> {
     let goal = restitution(vickers)?;
     let excess = |factor: f64| Some(restitution_by(loading, unloading, factor * strength_of(vickers))? - goal);

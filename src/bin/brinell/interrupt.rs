@@ -1,7 +1,7 @@
-//! Cleaning up when somebody interrupts the program: SIGINT, SIGTERM or SIGHUP, Ctrl-C or Ctrl-Break on Windows.
+//! Cleans up when the program is interrupted: SIGINT, SIGTERM or SIGHUP, Ctrl-C or Ctrl-Break on Windows.
 //!
-//! Temporary files and child processes are registered here as long as they exist. The handler stops the children and removes the
-//! files. It keeps the register locked, so that nothing new can appear while the process ends.
+//! Temporary files and child processes are registered here while they exist. The handler stops the children and
+//! removes the files. It keeps the register locked, so nothing new can appear while the process ends.
 
 use crate::files::FileError;
 use shared_child::SharedChild;
@@ -14,13 +14,13 @@ use std::time::{Duration, Instant};
 use std::{fs, thread};
 use tempfile::{Builder, NamedTempFile, TempDir};
 
-/// The exit status after an interruption: 128 and the number of SIGINT, as shells have it.
+/// The exit status after an interruption: 128 plus the number of SIGINT, as in shells.
 pub const INTERRUPTED: i32 = 130;
 
-/// How often a folder is removed in which a stopped child's own children may still write.
+/// Number of attempts to remove a folder; grandchildren may still write to it.
 const REMOVALS: u32 = 20;
 
-/// What must not survive the process.
+/// Files and processes that must not outlive the process.
 struct Register {
     paths: Vec<PathBuf>,
     children: Vec<Arc<SharedChild>>,
@@ -29,11 +29,11 @@ struct Register {
 static REGISTER: Mutex<Register> = Mutex::new(Register { paths: Vec::new(), children: Vec::new() });
 
 fn register() -> MutexGuard<'static, Register> {
-    // a panic in another thread leaves both lists usable
+    // a panic in another thread leaves both lists valid
     REGISTER.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Installs the handler. Without it an interruption leaves temporary files, and nothing else goes wrong.
+/// Installs the handler. Without it, an interruption leaves temporary files, but does no other harm.
 pub fn clean_up_when_interrupted() {
     let _ = ctrlc::set_handler(|| {
         let register = register();
@@ -48,7 +48,7 @@ pub fn clean_up_when_interrupted() {
     });
 }
 
-/// Removes a file or a folder, as far as possible.
+/// Removes a file or a folder, if possible.
 fn remove(path: &Path) {
     for _ in 0..REMOVALS {
         if fs::remove_file(path).is_ok() || fs::remove_dir_all(path).is_ok() || fs::symlink_metadata(path).is_err() {
@@ -58,14 +58,14 @@ fn remove(path: &Path) {
     }
 }
 
-/// A temporary folder. Dropping it removes it, and so does an interruption.
+/// A temporary folder. It is removed on drop and on interruption.
 pub struct Folder {
     folder: Option<TempDir>,
     path: PathBuf,
 }
 
 impl Folder {
-    /// Makes a folder in `parent` as `builder` says.
+    /// Creates a folder in `parent` with the settings of `builder`.
     ///
     /// # Errors
     /// [`FileError`]
@@ -90,10 +90,10 @@ impl Drop for Folder {
     }
 }
 
-/// Writes `bytes` to a temporary file in `parent` that `builder` names, and renames it to `goal`.
+/// Writes `bytes` to a temporary file in `parent` that `builder` names, then renames it to `goal`.
 ///
 /// # Errors
-/// That of the file system; the temporary file is then gone.
+/// The error of the file system; the temporary file is then removed.
 pub fn write_and_rename(builder: &Builder<'_, '_>, parent: &Path, goal: &Path, bytes: &[u8]) -> io::Result<()> {
     let file = {
         let mut register = register();
@@ -109,7 +109,7 @@ pub fn write_and_rename(builder: &Builder<'_, '_>, parent: &Path, goal: &Path, b
 
 fn fill_and_rename(mut file: NamedTempFile, goal: &Path, bytes: &[u8]) -> io::Result<()> {
     io::Write::write_all(&mut file, bytes)?;
-    // a file that is replaced keeps its permissions
+    // a replaced file keeps its permissions
     if let Ok(before) = fs::metadata(goal) {
         fs::set_permissions(file.path(), before.permissions())?;
     }
@@ -147,7 +147,7 @@ impl Drop for Child {
     }
 }
 
-/// Runs `command` without input and gives what it prints; an interruption stops it.
+/// Runs `command` without input and returns its output; an interruption stops it.
 ///
 /// # Errors
 /// [`io::Error`] if it can't be started.
@@ -155,7 +155,7 @@ pub fn output(command: &mut Command) -> io::Result<Output> {
     Ok(output_within(command, None)?.expect("without a limit it ends by itself"))
 }
 
-/// The same; `None` if it was stopped because it took longer than `limit`.
+/// The same; `None` if it took longer than `limit` and was stopped.
 ///
 /// # Errors
 /// [`io::Error`] if it can't be started.
@@ -180,7 +180,7 @@ pub fn output_within(command: &mut Command, limit: Option<Duration>) -> io::Resu
     })
 }
 
-/// All that comes through a pipe; what was read before an error counts.
+/// All bytes from a pipe; an error keeps the bytes before it.
 fn read(pipe: Option<impl Read>) -> Vec<u8> {
     let mut bytes = Vec::new();
     if let Some(mut pipe) = pipe {

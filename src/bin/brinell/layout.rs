@@ -20,7 +20,7 @@ pub fn paragraph(heading: &str, text: &str) -> String {
 /// `--json`.
 pub fn tell(message: &str) {
     let for_program = std::env::args_os().any(|argument| argument == "--json");
-    // a reader that has gone is no reason to stop the work
+    // a closed standard error must not stop the work
     let _ = writeln!(io::stderr(), "{}", if for_program { message.into() } else { wrapped(message) });
 }
 

@@ -14,7 +14,7 @@ const INSTALLED: &str = "share/brinell/prebuilt";
 /// programs of a single user are in `Python311\Scripts`. `share` is beside `bin`, `Scripts` or `Python311`.
 const LEVELS: usize = 3;
 
-/// For each target there is a list of its libraries with this ending.
+/// Ending of the list of libraries of a target.
 pub const LIST: &str = "json";
 
 /// A folder with prebuilt libraries.
@@ -46,7 +46,7 @@ impl PrebuiltFolder {
         self.path.join(target.triple).with_extension(ending)
     }
 
-    /// The platforms that there are libraries for.
+    /// The platforms with libraries.
     pub fn platforms(&self) -> Vec<Platform> {
         let is_there = |target: &Target| self.file(target, LIST).is_file();
         Platform::ALL.into_iter().filter(|platform| platform.targets.iter().all(is_there)).collect()

@@ -1,5 +1,5 @@
-//! The signature of a library for macOS that is signed ad hoc: it has a hash of each page of the file, and nobody's name. macOS doesn't
-//! load a page whose hash is another.
+//! The signature of a library for macOS that is signed ad hoc: it has a hash of each page of the file, but no name.
+//! macOS does not load a page with another hash.
 //!
 //! Reference: `cs_blobs.h` of the kernel.
 
@@ -12,7 +12,7 @@ use std::ops::Range;
 /// Length of a hash [bytes].
 const HASH: usize = 32;
 
-/// A signature that isn't right.
+/// An invalid signature.
 #[derive(Debug, thiserror::Error)]
 pub enum SignatureError {
     #[error("it can't be read: {0}")]
@@ -25,14 +25,14 @@ pub enum SignatureError {
     Wrong(usize),
 }
 
-/// A page of a library, and where its hash is; both as places in the file.
+/// A page of a library, and the location of its hash, both as ranges of the file.
 struct Page {
     bytes: Range<usize>,
     hash: Range<usize>,
 }
 
 impl Page {
-    /// The hash that its bytes have.
+    /// The hash of its bytes.
     fn found(&self, library: &[u8]) -> [u8; HASH] {
         Sha256::digest(&library[self.bytes.clone()]).into()
     }
@@ -81,7 +81,7 @@ fn pages(library: &[u8]) -> Result<Vec<Page>, SignatureError> {
     Ok((0..count).map(page).collect())
 }
 
-/// Looks whether every page of a `library` has the hash of its signature.
+/// Checks that every page of a `library` has the hash of its signature.
 ///
 /// # Errors
 /// [`SignatureError`]
@@ -92,7 +92,7 @@ pub fn check(library: &[u8]) -> Result<(), SignatureError> {
     }
 }
 
-/// Writes the hashes of the pages in which bytes have `changed`.
+/// Updates the hashes of all pages with `changed` bytes.
 ///
 /// # Errors
 /// [`SignatureError`]

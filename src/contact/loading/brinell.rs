@@ -6,38 +6,39 @@ use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::segment::Segment;
 use libm::sqrt;
 
-/// Pieces of the curve above yield.
+/// Number of pieces of the curve above yield.
 const PIECES: usize = 8;
 
 /// Force and contact area fitted to finite-element indentation (`truth/`, fitted by `fit/fit_brinell.py`), with
 /// `x = d/d_y`, `f = F/F_y`, `A = a^2/(R d_y)`:
 ///
 /// - `x < 1`: Hertz, `f = x^1.5`, `A = x`;
-/// - above: `f` and `A` are each a chain of pieces `c0 + c1 x + c2 x^1.5` on the same knots, value and slope continuous, the
-///   slope linear in `sqrt(x)` between knots;
+/// - above: `f` and `A` are each a chain of pieces `c0 + c1 x + c2 x^1.5` on the same knots, with continuous value
+///   and slope; the slope is linear in `sqrt(x)` between knots;
 /// - beyond the last knot both are linear: constant mean pressure, fully plastic.
 ///
-/// Value and slope are continuous everywhere, force, area and mean pressure monotone. Each piece has its origin at `x = 0`:
-/// with the origin at its knot the curvature would be infinite behind it, and the force would rise above Hertz's just
-/// after yield.
+/// Value and slope are continuous everywhere; force, area and mean pressure are monotone. Each piece has its origin
+/// at `x = 0`. With the origin at its knot, the curvature would be infinite just after the knot, and the force would
+/// rise above Hertz's just after yield.
 ///
-/// Within 0.5 % of the truth from first contact to `x = 1000` (0.1 % rms), which is the truth's own error; contact radius
-/// within 0.6 %. Small strain, nu = 0.3, no hardening ([`Strengthened`](super::Strengthened) has both); large deformation differs by 0.5 % up to `x = 200` at `E*/S = 1000`,
+/// Within 0.5 % of the finite-element results from first contact to `x = 1000` (0.1 % rms), which is also their own
+/// error; contact radius within 0.6 %. Small strain, nu = 0.3, no hardening; [`Strengthened`](super::Strengthened)
+/// covers hardening and other Poisson's ratios. Large deformation differs by 0.5 % up to `x = 200` at `E*/S = 1000`,
 /// by 1 % at `x = 82.5` and 7 % at `x = 200` at `E*/S = 100`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Brinell {
     /// Mean pressure at yield over the yield strength.
     pub yield_pressure_factor: f64,
-    /// Where the pieces begin \[d_y\]; the first knot is the yield point.
+    /// Start of each piece \[d_y\]; the first knot is the yield point.
     pub knots: [f64; PIECES],
     /// Slope of the force at each knot \[F_y/d_y\].
     pub force_slopes: [f64; PIECES],
     /// Slope of `a^2` at each knot `[R]`.
     pub area_slopes: [f64; PIECES],
-    /// Where the second elastoplastic region begins \[d_y\]: mean pressure 2.19 S.
+    /// Start of the second elastoplastic region \[d_y\]: mean pressure 2.19 S.
     pub second_region: f64,
-    /// Where the contact counts as fully plastic \[d_y\]: the mean pressure is within 3 % of its limit.
+    /// Start of the fully plastic regime \[d_y\]: the mean pressure is within 3 % of its limit.
     pub fully_plastic: f64,
 }
 
@@ -61,9 +62,9 @@ impl Piece {
 }
 
 impl Brinell {
-    /// The constants that `fit/fit_brinell.py` finds. The last slopes are those of a mean pressure of 3.0 S, to which the
-    /// truth settles, on an area `2.86 R d`, that of a rigid, perfectly plastic solid (B. Storåkers, S. Biwa,
-    /// P.-L. Larsson, *Int. J. Solids Struct.* 34 (1997) 3061-3083): `7.8 = 3.0 * 2.86 / 1.1`.
+    /// The constants from `fit/fit_brinell.py`. The last slopes correspond to a mean pressure of 3.0 S, the limit of
+    /// the finite-element results, on an area of `2.86 R d`, that of a rigid, perfectly plastic solid (B. Storåkers,
+    /// S. Biwa, P.-L. Larsson, *Int. J. Solids Struct.* 34 (1997) 3061-3083): `7.8 = 3.0 * 2.86 / 1.1`.
     pub const REFERENCE: Brinell = Brinell {
         yield_pressure_factor: 1.1,
         knots: [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 2000.0],
@@ -73,7 +74,7 @@ impl Brinell {
         fully_plastic: 250.0,
     };
 
-    /// The piece that holds at `x >= 1` of the chain with these slopes, which begins with the value 1.
+    /// The piece for `x >= 1` of the chain with these slopes, which begins at the value 1.
     fn piece(&self, slopes: &[f64; PIECES], x: f64) -> Piece {
         let begins = self.knots.iter().zip(slopes);
         let ends = begins.clone().skip(1).map(|(&knot, &slope)| (knot, Some(slope)));
@@ -129,7 +130,7 @@ impl Loading for Brinell {
         if indentation < d_y {
             return hertz::segment(pair, d_y);
         }
-        // the knots in metres decide, so that a segment begins exactly where the one before it ends
+        // the comparison uses the knots in metres: a segment then begins exactly at the end of the one before it
         let knot_below = self.knots.iter().copied().filter(|knot| knot * d_y <= indentation).fold(1.0, f64::max);
         let Piece { from, to, c0, c1, c2 } = self.piece(&self.force_slopes, knot_below);
         let upper = if to < f64::INFINITY { to * d_y } else { LARGEST_INDENTATION };

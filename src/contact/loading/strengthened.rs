@@ -1,4 +1,4 @@
-//! The law `brinell` for a target that hardens, or whose Poisson's ratio isn't 0.3.
+//! The law `brinell` for a target that hardens, or with a Poisson's ratio other than 0.3.
 
 use super::{Brinell, Loading, first_above, hertz};
 use crate::contact::history::{LARGEST_INDENTATION, Regime};
@@ -9,13 +9,13 @@ use libm::sqrt;
 
 /// [`Brinell`] with the effective [`Strength`] of the material: `phi = t^3 Phi(k/t^2)`.
 ///
-/// The curve has value and slope of this form at the [knots](KNOTS) and is `c0 + c1 d + c2 d^1.5 + c3 d^2` between them, which
-/// is within 0.2 % of the form. Beyond the last knot it is a straight line. Value and slope are continuous everywhere, and
-/// below yield it is Hertz's law. The contact area is `A(k) (phi/Phi(k))^-0.8647`: at a given indentation a harder material has a
-/// smaller contact.
+/// The curve has value and slope of this form at the [knots](KNOTS), and is `c0 + c1 d + c2 d^1.5 + c3 d^2` between
+/// them, within 0.2 % of the form. Beyond the last knot it is a straight line. Value and slope are continuous
+/// everywhere. Below yield it is Hertz's law. The contact area is `A(k) (phi/Phi(k))^-0.8647`: at a given indentation
+/// a harder material has a smaller contact.
 ///
-/// Against the finite-element curves in `truth/materials`: force within 0.5 % for `x` from 1.2 to 500, contact radius within
-/// 2.1 %. Where Poisson's ratio is 0.3 and nothing hardens it is the law `brinell`, bit for bit.
+/// Against the finite-element curves in `truth/materials`: force within 0.5 % for `x` from 1.2 to 500, contact radius
+/// within 2.1 %. Without hardening and with a Poisson's ratio of 0.3 it equals the law `brinell` bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Strengthened {
@@ -49,7 +49,7 @@ impl Strengthened {
         }
     }
 
-    /// The piece of the curve that holds at `indentation` \[m\], and just above it.
+    /// The piece of the curve that holds at and just above `indentation` \[m\].
     #[inline(never)]
     fn piece(&self, strength: &Strength, point: &YieldPoint, indentation: f64) -> Segment {
         let below = KNOTS.iter().copied().filter(|knot| knot * point.indentation <= indentation).fold(1.0, f64::max);
@@ -61,7 +61,7 @@ impl Strengthened {
     }
 }
 
-/// The straight line from the last knot on.
+/// The straight line beyond the last knot.
 fn beyond(last: &Knot) -> Segment {
     Segment {
         lower: last.indentation,
@@ -73,10 +73,10 @@ fn beyond(last: &Knot) -> Segment {
     }
 }
 
-/// The segment with its origin at zero that has value and slope of the form at both ends.
+/// The segment with its origin at zero, and with value and slope of the form at both ends.
 ///
-/// Its slope is a quadratic in `u = sqrt(d)`: the straight line between the slopes of the ends, and a multiple of
-/// `(u - p)(u - q)` that makes its integral the difference of the forces.
+/// Its slope is a quadratic in `u = sqrt(d)`: the straight line between the slopes at the ends, plus a multiple of
+/// `(u - p)(u - q)` that makes the integral equal to the difference of the forces.
 fn between(begin: &Knot, end: &Knot) -> Segment {
     let (p, q) = (sqrt(begin.indentation), sqrt(end.indentation));
     let length = q - p;
@@ -124,7 +124,7 @@ impl Loading for Strengthened {
         first_above(indentation, KNOTS.map(|knot| knot * d_y))
     }
 
-    /// The sum over the pieces, each with its lower knot from the one before.
+    /// The sum over the pieces; the lower knot of each comes from the one before.
     fn work(&self, pair: &Pair, indentation: f64) -> f64 {
         let Some(strength) = self.strength(pair) else { return self.law.work(pair, indentation) };
         let point = strength.yield_point(pair, &self.law.yield_point(pair));

@@ -14,8 +14,8 @@ use core::borrow::Borrow;
 
 /// An elastoplastic contact with friction, whose springs form a list of `N` segments.
 ///
-/// The tangential rate is an input that holds until it is set again. All steps follow both rates, and none is a
-/// [short](Contact::short_step) one.
+/// The tangential rate is an input that holds until it is set again. Every step follows both rates. There is no
+/// [short step](Contact::short_step).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoughContact<const N: usize> {
     normal: History,
@@ -41,7 +41,7 @@ impl<const N: usize> RoughContact<N> {
         self.tangential_rate
     }
 
-    /// Sets the tangential rate \[m/s\] for the steps to come; a finite number.
+    /// Sets the tangential rate \[m/s\] for the next steps; a finite number.
     pub fn set_tangential_rate(&mut self, rate: f64) {
         self.tangential_rate = rate;
     }
@@ -61,8 +61,8 @@ impl<const N: usize> RoughContact<N> {
         self.impulse.total()
     }
 
-    /// Tangential force at the end of a step that has not been made yet, with this `rate` of the indentation \[m/s\] and the
-    /// tangential rate held \[N\].
+    /// Tangential force \[N\] at the end of a step that is yet to come, with this `rate` of the indentation \[m/s\]
+    /// and the current tangential rate.
     ///
     /// # Errors
     /// As for [`Contact::step`].
@@ -87,7 +87,7 @@ impl<const N: usize> RoughContact<N> {
         self.work.total() - self.tangential_energy(model)
     }
 
-    /// Radius of the area that doesn't slip \[m\].
+    /// Radius of the stick area \[m\].
     pub fn stick_radius<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
         self.springs.stick_radius(model.normal.pair.modulus, self.normal.indentation())
     }
@@ -98,14 +98,14 @@ impl<const N: usize> RoughContact<N> {
     }
 }
 
-/// The ends of the parts of a step \[s\] in which the contact either slips in one direction or sticks, as far as the rates tell, not in
-/// order: where the rate of the indentation is zero, or as large as the `scaled` tangential one \[m/s\]. The last one is the end of
-/// the step.
+/// End times \[s\] of the parts of a step in which the contact either slips in one direction or sticks, as far as the
+/// rates alone show it; unsorted. They are the times at which the rate of the indentation is zero or as large as the
+/// `scaled` tangential rate \[m/s\]. The last one is the end of the step.
 fn ends_of_parts(course: &Course, scaled: f64, step: f64) -> [[f64; 3]; 3] {
     [0.0, scaled, -scaled].map(|rate| Course { rate: course.rate - rate, ..*course }.monotone_ends(step))
 }
 
-/// The next of `ends` behind `time` \[s\].
+/// The earliest of `ends` after `time` \[s\].
 fn next_of(ends: &[[f64; 3]; 3], time: f64) -> Option<f64> {
     let behind = ends.as_flattened().iter().copied().filter(|&end| end > time);
     behind.reduce(|one, other| if other < one { other } else { one })
@@ -130,7 +130,7 @@ impl<L: Loading, U: Unloading, const N: usize> Contact<RoughModel<L, U>> for Rou
         Ok(RoughContact { normal, springs, tangential_rate: 0.0, mean_force: 0.0, impulse: none, work: none })
     }
 
-    /// Never: the springs follow each step.
+    /// Always false: the springs follow each step.
     #[inline(always)]
     fn short_step(&mut self, _increment: f64) -> bool {
         false
@@ -140,8 +140,8 @@ impl<L: Loading, U: Unloading, const N: usize> Contact<RoughModel<L, U>> for Rou
         Contact::<Model<L, U>>::mean_force_of_short_step(&self.normal, from)
     }
 
-    /// A course whose rate changes is divided where springs may begin to stick or to slip, and each part counts as straight: slip is
-    /// exact at the end of a part, and stick of second order in its length.
+    /// A course with a changing rate is divided where springs may begin to stick or to slip. Each part counts as
+    /// straight. Slip is then exact at the end of a part; stick is of second order in the length of the part.
     fn step<B: Borrow<RoughModel<L, U>>>(
         &mut self,
         course: &Course,
@@ -156,7 +156,7 @@ impl<L: Loading, U: Unloading, const N: usize> Contact<RoughModel<L, U>> for Rou
         for _ in 0..ends.as_flattened().len() {
             let Some(end) = next_of(&ends, start) else { break };
             let (increment, slip) = (course.way(end) - course.way(start), self.tangential_rate * (end - start));
-            // in the parts of a divided step the ratio of held rates is the same to the last bit
+            // within a divided step the ratio of the held rates is the same to the last bit
             let rates = if course.is_held() { (course.rate, self.tangential_rate) } else { (increment, slip) };
             let mean = moved.springs.advance(&mut moved.normal, model, (increment, slip), rates, true)?;
             impulse += mean * (end - start);

@@ -1,13 +1,13 @@
-//! The springs of a dent that grows.
+//! The springs of a growing dent.
 //!
-//! Springs keep their distance from the middle of the contact and their offsets. What changes is how far each may be strained:
-//! its limit is the compression that it has on the unloading path of the present dent. A spring is therefore found on a new path
-//! by its distance `x = F'(h)/(2 E*)`, and area that the contact gains is free of stress at first.
+//! Springs keep their distance from the centre of the contact and their offsets. Their limits change: the limit of a
+//! spring is its compression on the unloading path of the current dent. The distance `x = F'(h)/(2 E*)` identifies a
+//! spring on a new path. New contact area is free of stress.
 //!
-//! A model of parallel springs whose limits change in any way is passive, and Coulomb's bound holds as long as the limits add
-//! up to the normal force. How exact a growth step is depends on the paths: to rounding if they are Hertz's curve with `x^2`
-//! linear in the largest indentation (`thornton`), and less where the line in the old heights is none in the new ones.
-//! There is no measured reference for friction on a contact that has yielded.
+//! A model of parallel springs is passive for any change of the limits. Coulomb's bound holds if the limits add up to
+//! the normal force. The accuracy of a growth step depends on the paths. It is exact to rounding for Hertz's curve
+//! with `x^2` linear in the largest indentation (`thornton`). It is lower if a straight line over the old heights is
+//! curved over the new ones. There is no measured reference for friction on a contact that has yielded.
 
 use super::list::{Draft, Vertex};
 use super::{List, SAME, Stuck, Way};
@@ -16,21 +16,22 @@ use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
 use libm::{ceil, fabs};
 
-/// The longest part of a path that isn't Hertz's whose image on a new path counts as a line, in lengths of the path.
+/// Longest part of a path other than Hertz's curve whose image on a new path counts as straight, relative to the
+/// length of the path.
 const LONGEST: f64 = 0.25;
 
 /// Height and offset of a point of the polyline \[m\].
 type Point = (f64, f64);
 
-/// Whether `path` is Hertz's curve from its origin on. Such paths have images of each other that are proportional.
+/// Whether `path` is Hertz's curve from its origin. The images of such paths are proportional to each other.
 fn is_hertzian(path: &Segment) -> bool {
     path.square == 0.0 && path.linear == 0.0
 }
 
-/// The height on `path` \[m\] where its stiffness is `stiffness` \[N/m\], but not below the surface.
+/// Height \[m\] on `path` where its stiffness is `stiffness` \[N/m\], but not below the surface.
 fn height_with(path: &Segment, stiffness: f64) -> f64 {
     let excess = stiffness - path.linear;
-    // the root of 2 c3 q^2 + 1.5 c2 q = excess, q = sqrt(z), in the form that doesn't cancel
+    // root of 2 c3 q^2 + 1.5 c2 q = excess, q = sqrt(z), in a form without cancellation
     let half = 1.5 * path.power;
     let divisor = half + root(half * half + 8.0 * path.square * excess);
     let q = quotient(2.0 * excess, divisor, excess > 0.0 && divisor > 0.0, 0.0);
@@ -38,8 +39,8 @@ fn height_with(path: &Segment, stiffness: f64) -> f64 {
 }
 
 impl<const N: usize> Stuck<N> {
-    /// Moves the contact on its `way` along the loading curve, on which its dent grows: from where the `old` path ends to where the
-    /// `new` one does.
+    /// Moves the contact on its `way` along the loading curve, while its dent grows: from the end of the `old` path
+    /// to the end of the `new` one.
     pub fn grow(&mut self, old: &Segment, new: &Segment, way: &Way) {
         if self.list.is_empty() {
             self.touch(old);
@@ -75,8 +76,8 @@ impl<const N: usize> Stuck<N> {
         self.take(cut, new, way.to);
     }
 
-    /// The same for a straight path, on which all springs touch together. They are then one, of the mean `tension` \[m\] `before` \[m\]
-    /// the step.
+    /// The same for a straight path. All springs touch at once, and act as one with the mean `tension` \[m\] from
+    /// `before` \[m\] the step.
     fn grow_core(&mut self, path: &Segment, tension: f64, before: f64, way: &Way) {
         let offset = before - tension;
         let mut cut = Cut::new(path, way.to, self.displacement.total());
@@ -84,13 +85,13 @@ impl<const N: usize> Stuck<N> {
         self.take(cut, path, way.to);
     }
 
-    /// Whether no part of the polyline is steeper than a cone.
+    /// Whether no segment of the polyline is steeper than a cone.
     pub fn is_within_cones(&self) -> bool {
         self.list.is_within_cones()
     }
 
-    /// Moves the contact on its `way` along `curve`, the path of its dent. It does what [`Stuck::advance`] does, for a polyline that
-    /// may be steeper than the cones: every segment is cut.
+    /// Moves the contact on its `way` along `curve`, the path of its dent. Like [`Stuck::advance`], but for a
+    /// polyline that may be steeper than the cones: it cuts every segment.
     pub fn settle(&mut self, curve: &Segment, way: &Way) {
         if self.is_within_cones() || way.to <= curve.lower || !way.moves() {
             return self.advance(curve, way);
@@ -105,20 +106,20 @@ impl<const N: usize> Stuck<N> {
         self.take(cut, curve, way.to);
     }
 
-    /// The segments with their ends; the last one ends in `top`.
+    /// The segments with their ends; the last one ends at `top`.
     fn segments_up_to(&self, top: Point) -> impl Iterator<Item = (&Vertex, Point)> {
         let vertices = self.list.vertices();
         let ends = vertices.iter().skip(1).map(|next| (next.height, next.offset));
         vertices.iter().zip(ends.chain(core::iter::once(top)))
     }
 
-    /// Takes what `cut` has left on `curve`, up to `indentation` \[m\].
+    /// Takes over the segments that `cut` has kept on `curve`, up to `indentation` \[m\].
     fn take(&mut self, cut: Cut<N>, curve: &Segment, indentation: f64) {
         self.list = cut.left.into_list(curve);
         if let [only] = self.list.vertices()
             && fabs(only.slope) == 1.0
         {
-            // only the direction of sliding matters from here on
+            // from here on only the direction of sliding matters
             let only = Vertex { offset: -only.slope * (indentation - only.height), ..*only };
             self.displacement = Sum::new(0.0);
             self.list = List::EMPTY;
@@ -127,7 +128,7 @@ impl<const N: usize> Stuck<N> {
     }
 }
 
-/// What the cone of a point leaves of a polyline, segment by segment from the lowest on.
+/// The part of a polyline that the cone of a point keeps, segment by segment from the lowest one.
 struct Cut<'a, const N: usize> {
     curve: &'a Segment,
     indentation: f64,
@@ -148,7 +149,7 @@ impl<const N: usize> Cut<'_, N> {
         }
     }
 
-    /// Adds the segment of this `slope` between two points: what of it is below the present indentation.
+    /// Adds the part below the present indentation of a segment of this `slope` between two points.
     fn segment(&mut self, from: Point, to: Point, slope: f64) {
         let to =
             if to.0 > self.indentation { (self.indentation, from.1 + slope * (self.indentation - from.0)) } else { to };
@@ -163,7 +164,7 @@ impl<const N: usize> Cut<'_, N> {
         }
     }
 
-    /// Adds one part of a segment, which is either inside of the cone or outside.
+    /// Adds one part of a segment; the part is entirely inside or entirely outside the cone.
     fn part(&mut self, from: Point, to: Point, slope: f64, (start, end): (f64, f64)) {
         let rise = to.0 - from.0;
         let height = from.0 + start * rise;
@@ -177,7 +178,7 @@ impl<const N: usize> Cut<'_, N> {
         self.left.extend(self.curve, Vertex::new(self.curve, height, offset, kept));
     }
 
-    /// How far a point is inside of one side of the cone \[m\].
+    /// Distance of a point from one side of the cone \[m\]; positive inside.
     fn distance(&self, sign: f64, (height, offset): Point) -> f64 {
         sign * (offset - self.displacement) + self.indentation - height
     }
@@ -186,7 +187,7 @@ impl<const N: usize> Cut<'_, N> {
         distance < -SAME * self.indentation
     }
 
-    /// Where a segment crosses one side of the cone, as a part of it; 1 if it doesn't.
+    /// Where a segment crosses one side of the cone, as a fraction of its length; 1 without a crossing.
     fn crossing(&self, sign: f64, from: Point, to: Point) -> f64 {
         let (start, end) = (self.distance(sign, from), self.distance(sign, to));
         let crosses = self.is_outside(start) != self.is_outside(end);

@@ -1,20 +1,20 @@
-//! The depths at which the growth of a dent is stepped.
+//! The depths at which the growth of a dent is divided.
 
-/// The bits of the mantissa below its first two.
+/// Bits of the mantissa below the first two.
 const BELOW: u64 = (1 << 50) - 1;
 
-/// The next number above `indentation` \[m\] in the lattice of the yield indentation `unit` \[m\]: `(4 + k) 2^n` times a quarter of it,
-/// with `k` from 0 to 3. Infinite without a yield indentation.
+/// The next point above `indentation` \[m\] of the lattice of the yield indentation `unit` \[m\]: a quarter of it
+/// times `(4 + k) 2^n`, with `k` from 0 to 3. Infinite without a yield indentation.
 ///
-/// A step that grows the dent over several of these depths is divided there. The error of a growth step is one of second
-/// order in its length, and so depends little on how the growth is divided into time steps.
+/// A step that grows the dent over several of these depths is divided there. The error of a growth step is of second
+/// order in its length. The result therefore depends little on the time steps.
 pub(super) fn next_of_lattice(indentation: f64, unit: f64) -> f64 {
     if !(unit > 0.0 && unit < f64::INFINITY) {
         return f64::INFINITY;
     }
     let reached = (indentation / unit).to_bits() & !BELOW;
     let next = |steps: u64| f64::from_bits(reached.wrapping_add(steps * (BELOW + 1))) * unit;
-    // the product may be rounded down to where the quotient came from
+    // rounding down of the product may lead back to where the quotient came from
     if next(1) > indentation { next(1) } else { next(2) }
 }
 

@@ -6,25 +6,25 @@ use libm::fabs;
 use super::SAME;
 use super::merge::merge;
 
-/// A vertex of the polyline, and the segment that begins there and ends in the next vertex. The last segment ends in the
-/// present indentation and displacement.
+/// A vertex of the polyline with the segment above it, which ends at the next vertex. The last segment ends at the
+/// current indentation and displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
     /// Height of the springs at the vertex: the indentation at which they touch \[m\].
     pub height: f64,
-    /// Stuck offset there: scaled tangential displacement at which these springs are relaxed \[m\].
+    /// Stuck offset of the vertex \[m\]: the scaled tangential displacement at which these springs are relaxed.
     pub offset: f64,
-    /// d(offset)/d(height) of the segment; 1 and -1 where its springs slip.
+    /// d(offset)/d(height) of the segment; 1 or -1 where its springs slip.
     pub slope: f64,
     /// Normal force of the curve at `height` \[N\].
     pub force: f64,
-    /// Tangential force of all segments below, over the coefficient of friction \[N\].
+    /// Tangential force of all segments below, divided by the coefficient of friction \[N\].
     pub below: f64,
 }
 
 /// A polyline of at most `N` segments, from the lowest height to the highest.
 ///
-/// One segment more than that merges two of those below it: see [`merge`].
+/// Adding a segment to a full list merges two of those below it: see `merge`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct List<const N: usize> {
     count: usize,
@@ -34,13 +34,13 @@ pub struct List<const N: usize> {
 impl Vertex {
     const NONE: Vertex = Vertex { height: 0.0, offset: 0.0, slope: 0.0, force: 0.0, below: 0.0 };
 
-    /// A vertex at `height` and `offset` \[m\] of springs whose normal force is that of `curve`.
+    /// A vertex at `height` and `offset` \[m\] whose normal force is that of `curve`.
     pub fn new(curve: &Segment, height: f64, offset: f64, slope: f64) -> Vertex {
         Vertex { height, offset, slope, force: curve.force(height), below: 0.0 }
     }
 
-    /// Tangential force of all segments up to a point of this one where the normal force is `force` \[N\], over the coefficient of
-    /// friction \[N\].
+    /// Tangential force of all segments up to a point of this one with the normal force `force` \[N\], divided by the
+    /// coefficient of friction \[N\].
     pub fn pull_up_to(&self, force: f64) -> f64 {
         self.below + self.slope * (force - self.force)
     }
@@ -54,12 +54,12 @@ impl Vertex {
 impl<const N: usize> List<N> {
     /// No contact.
     pub const EMPTY: List<N> = {
-        // the shortest list in which two segments take the place of three, below a last one
+        // the shortest list in which two segments can replace three below the last one
         assert!(N >= 4);
         List { count: 0, vertices: [Vertex::NONE; N] }
     };
 
-    /// The vertices from the lowest height up.
+    /// The vertices in ascending order of height.
     #[inline(always)]
     pub fn vertices(&self) -> &[Vertex] {
         self.vertices.get(..self.count).unwrap_or(&[])
@@ -77,7 +77,7 @@ impl<const N: usize> List<N> {
         self.vertices().last()
     }
 
-    /// Gives the highest segment another slope.
+    /// Replaces the slope of the highest segment.
     pub fn set_slope(&mut self, slope: f64) {
         if let Some(last) = self.vertices.get_mut(..self.count).and_then(<[Vertex]>::last_mut) {
             last.slope = slope;
@@ -90,20 +90,20 @@ impl<const N: usize> List<N> {
         self.count = if count < self.count { count } else { self.count };
     }
 
-    /// Adds a segment above the others. Of a full list two segments are merged before, along the `curve` of the normal force.
+    /// Adds a segment on top. In a full list it first merges two segments, along the `curve` of the normal force.
     #[inline]
     pub fn push(&mut self, curve: &Segment, vertex: Vertex) {
         push(&mut self.vertices, &mut self.count, curve, vertex);
     }
 
-    /// Whether no slope is steeper than that of slipping springs. Then the cone of a point cuts a top off the polyline, and leaves
-    /// the rest as it is.
+    /// Whether no slope is steeper than that of slipping springs. The cone of a point then cuts the top off the
+    /// polyline and leaves the rest unchanged.
     pub fn is_within_cones(&self) -> bool {
         self.vertices().iter().all(|vertex| fabs(vertex.slope) <= 1.0 + SAME)
     }
 }
 
-/// Adds a segment above the `count` others in `room`; if that is full, two of them are merged before.
+/// Adds a segment above the `count` others in `room`; if `room` is full, it first merges two of them.
 #[inline(always)]
 fn push(room: &mut [Vertex], count: &mut usize, curve: &Segment, mut vertex: Vertex) {
     if *count >= room.len() {
@@ -117,17 +117,17 @@ fn push(room: &mut [Vertex], count: &mut usize, curve: &Segment, mut vertex: Ver
     }
 }
 
-/// A polyline while it is put together, with room for more segments than a [`List`] keeps.
+/// A polyline under construction, with room for more segments than a [`List`] keeps.
 pub(super) struct Draft<const N: usize> {
     count: usize,
     vertices: [[Vertex; N]; 4],
 }
 
 impl<const N: usize> Draft<N> {
-    /// Without segments.
+    /// An empty polyline.
     pub(super) const EMPTY: Draft<N> = Draft { count: 0, vertices: [[Vertex::NONE; N]; 4] };
 
-    /// Adds a segment above the others, unless it continues the last one in a straight line.
+    /// Adds a segment on top, unless it continues the last one in a straight line.
     pub(super) fn extend(&mut self, curve: &Segment, vertex: Vertex) {
         let room = self.vertices.as_flattened_mut();
         let last = self.count.checked_sub(1).and_then(|last| room.get(last));
@@ -136,7 +136,7 @@ impl<const N: usize> Draft<N> {
         }
     }
 
-    /// The list of these segments, of which as many are merged as there are too many.
+    /// The list of these segments; excess segments are merged.
     pub(super) fn into_list(mut self, curve: &Segment) -> List<N> {
         let room = self.vertices.as_flattened_mut();
         while self.count > N

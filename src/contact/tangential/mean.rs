@@ -1,4 +1,4 @@
-//! The mean tangential force over a step, and its derivative.
+//! The mean tangential force over a step, and its time derivative.
 
 use super::stuck::{distance, front};
 use super::{SAME, Stuck, Vertex, Way};
@@ -7,7 +7,8 @@ use crate::contact::segment::Segment;
 use libm::fabs;
 
 impl<const N: usize> Stuck<N> {
-    /// Mean tangential force of a step on this `way` that has not been made yet, over the coefficient of friction \[N\]; exact.
+    /// Mean tangential force of a step on this `way` that is yet to come, divided by the coefficient of friction
+    /// \[N\]; exact.
     pub fn mean_pull(&self, curve: &Segment, way: &Way) -> f64 {
         let surface = curve.lower;
         if way.from <= surface && way.to <= surface || !way.moves() {
@@ -17,7 +18,7 @@ impl<const N: usize> Stuck<N> {
             return Stuck::<N>::pressed(curve, way.from).mean_pull(curve, way);
         }
         if self.list.is_empty() {
-            // all springs are new, and either stick or slip
+            // all springs are new and either stick or slip
             let slope = if way.sticks() { way.slope() } else { way.slip().unwrap_or(0.0) };
             let above = way.above(surface);
             return way.part_above(surface) * slope * curve.mean_force(above.from, above.to);
@@ -29,7 +30,7 @@ impl<const N: usize> Stuck<N> {
         self.mean_pull_of_slip(curve, way)
     }
 
-    /// The same for a step in which springs slip: the slip front moves linearly in time from event to event. At an event the front
+    /// The same for a step with slip. The slip front moves linearly in time between events. At an event the front
     /// passes a vertex, or the annulus of slip closes and opens in the other direction.
     fn mean_pull_of_slip(&self, curve: &Segment, way: &Way) -> f64 {
         let (start, rise) = (self.displacement.total(), way.rise());
@@ -39,7 +40,7 @@ impl<const N: usize> Stuck<N> {
         let mut left = self.list.vertices();
         let mut sign = self.direction(way);
         let (mut time, mut sum) = (0.0, 0.0);
-        // each vertex is passed once, and between two of them the direction changes once
+        // the front passes each vertex once, and changes direction once between two of them
         for _ in 0..2 * N + 3 {
             let here = indentation(time);
             let Some((last, below)) = left.split_last() else { break };
@@ -76,7 +77,7 @@ impl<const N: usize> Stuck<N> {
         sum + (end - time) * sign * curve.mean_force(indentation(time), indentation(end))
     }
 
-    /// The direction in which springs begin to slip on a `way` that doesn't stick.
+    /// The direction in which springs begin to slip on a `way` without stick.
     fn direction(&self, way: &Way) -> f64 {
         way.slip().unwrap_or_else(|| {
             let slope = self.list.last().map_or(0.0, |last: &Vertex| last.slope);
@@ -84,8 +85,8 @@ impl<const N: usize> Stuck<N> {
         })
     }
 
-    /// Derivative of the tangential force by time with the rates of `way`, which begins where the contact is, over the coefficient of
-    /// friction: in the direction of the motion \[N/s\].
+    /// Time derivative of the tangential force in the direction of the motion, for the rates of a `way` that begins
+    /// at the current position, divided by the coefficient of friction \[N/s\].
     pub fn pull_rate(&self, curve: &Segment, way: &Way) -> f64 {
         let (indentation, displacement) = (way.from, self.displacement.total());
         if self.list.is_empty() || !way.moves() {

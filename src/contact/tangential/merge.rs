@@ -1,14 +1,14 @@
-//! Two segments instead of three, where a list is full.
+//! Merges three segments of a full list into two.
 
 use super::list::Vertex;
 use crate::contact::numbers::{largest, quotient};
 use crate::contact::segment::Segment;
 use libm::fabs;
 
-/// What the tangential force would change by if the vertex between two segments were dropped, over the coefficient of friction
-/// \[N\].
+/// Change of the tangential force if the vertex between two segments is dropped, divided by the coefficient of
+/// friction \[N\].
 ///
-/// The segments are those from `first` to `second` and on to `end`: `|(r2 - r1)(dh2 dF1 - dh1 dF2)/(dh1 + dh2)|`.
+/// The segments run from `first` to `second` and on to `end`: `|(r2 - r1)(dh2 dF1 - dh1 dF2)/(dh1 + dh2)|`.
 fn area(first: &Vertex, second: &Vertex, end: &Vertex) -> f64 {
     let (height, force) = (second.height - first.height, second.force - first.force);
     let (next_height, next_force) = (end.height - second.height, end.force - second.force);
@@ -17,13 +17,15 @@ fn area(first: &Vertex, second: &Vertex, end: &Vertex) -> f64 {
     fabs(quotient(moment, whole, whole > 0.0, 0.0))
 }
 
-/// Where the three segments begin that change least, and whether of the two vertices in between the upper one matters less.
+/// Start of the three segments with the smallest change, and whether the upper one of the two inner vertices matters
+/// less.
 struct Choice {
     first: usize,
     upper_matters_less: bool,
 }
 
-/// The three neighbouring segments of `list`, the last of which ends in `end`, whose two inner vertices matter least.
+/// The three neighbouring segments of `list` whose two inner vertices matter least. The last segment of the list ends
+/// at `end`.
 fn choose(list: &[Vertex], end: &Vertex) -> Choice {
     let ends = list.iter().skip(2).chain(core::iter::once(end));
     let mut best = Choice { first: 0, upper_matters_less: false };
@@ -41,11 +43,12 @@ fn choose(list: &[Vertex], end: &Vertex) -> Choice {
     best
 }
 
-/// Removes one segment of a full `list`, whose last segment ends in `end`, and gives the number of those that are left.
+/// Removes one segment of a full `list` whose last segment ends at `end`. Returns the number of remaining segments.
 ///
-/// Three neighbours become two that meet halfway between the inner vertices. Their slopes follow from two conditions: the ends
-/// stay, and so does the tangential force. If a slope would be steeper than any of the three, and than that of slipping springs, the
-/// inner vertex that matters less is dropped instead, and the force changes by its [`area`].
+/// Three neighbours become two that meet halfway between the inner vertices. Their slopes follow from two conditions:
+/// the ends and the tangential force stay the same. A slope must not be steeper than any of the three and than that
+/// of slipping springs. Otherwise the inner vertex that matters less is dropped, and the force changes by its
+/// [`area`].
 #[cold]
 #[inline(never)]
 pub fn merge(list: &mut [Vertex], end: &Vertex, curve: &Segment) -> usize {
@@ -53,7 +56,7 @@ pub fn merge(list: &mut [Vertex], end: &Vertex, curve: &Segment) -> usize {
     let next = list.get(first + 3).unwrap_or(end);
     let (next_height, next_force) = (next.height, next.force);
     let Some([low, one, two]) = list.get_mut(first..).and_then(<[Vertex]>::first_chunk_mut::<3>) else {
-        // no list is as short
+        // no list is that short
         return list.len().saturating_sub(1);
     };
     let steps = [(*low, *one), (*one, *two)].map(|(from, to)| (to.height - from.height, to.force - from.force));
@@ -89,13 +92,13 @@ pub fn merge(list: &mut [Vertex], end: &Vertex, curve: &Segment) -> usize {
     left
 }
 
-/// Slope of the chord over two segments of these slopes and heights.
+/// Slope of the chord over two segments with these slopes and heights.
 fn chord((slope, height): (f64, f64), (other_slope, other_height): (f64, f64)) -> f64 {
     let whole = height + other_height;
     quotient(slope * height + other_slope * other_height, whole, whole > 0.0, slope)
 }
 
-/// Moves all vertices above the one with this `index` down by one place.
+/// Moves all vertices above that of this `index` down by one place.
 fn remove(list: &mut [Vertex], index: usize) {
     let mut above = None;
     for vertex in list.iter_mut().skip(index).rev() {
@@ -103,7 +106,7 @@ fn remove(list: &mut [Vertex], index: usize) {
     }
 }
 
-/// Writes the tangential force below each vertex.
+/// Sets the tangential force below each vertex.
 pub fn sum_up(list: &mut [Vertex]) {
     let mut before: Option<Vertex> = None;
     for vertex in list {

@@ -1,24 +1,25 @@
 //! Friction: the tangential force of a contact, for any history of normal and tangential motion.
 //!
 //! # Theory
-//! By Cattaneo, Mindlin, Jaeger and Ciavarella, the tangential problem of a contact with partial slip is that of many
-//! independent springs. Each touches at its own indentation, its *height* `h`, and carries at most the coefficient of
-//! friction times its own normal force. In lengths scaled by `kappa = 4 G*/(mu E*)`, `sigma = kappa s`, a spring of height
-//! `h` is relaxed at its *stuck offset* `o(h)`, and slip keeps `|sigma - o(h)| <= delta - h`: the point `(sigma, delta)` stays in
-//! the upward cone of 45 degrees with its apex in `(o(h), h)`.
+//! According to Cattaneo, Mindlin, Jaeger and Ciavarella, a contact with partial slip is equivalent to many
+//! independent springs. Each spring touches at its own indentation, its *height* `h`. Its tangential force is at most
+//! the coefficient of friction times its normal force. Lengths are scaled by `kappa = 4 G*/(mu E*)`,
+//! `sigma = kappa s`. A spring of height `h` is relaxed at its *stuck offset* `o(h)`. Slip keeps
+//! `|sigma - o(h)| <= delta - h`: the point `(sigma, delta)` stays in the upward cone of 45 degrees with its apex at
+//! `(o(h), h)`.
 //!
-//! `o(h)` is a polyline if the rates are held over each step. Its slope is `r = +-1` where springs have slipped, and between
-//! where the contact has grown without slip. With the normal force `F(h)` the tangential force is
-//! `T = mu sum r [F(h_next) - F(h)]` over the segments, and the stored energy
+//! If the rates are held over each step, `o(h)` is a polyline. Its slope is `r = +-1` where springs have slipped, and
+//! between these values where the contact has grown without slip. With the normal force `F(h)`, the tangential force
+//! is `T = mu sum r [F(h_next) - F(h)]` over the segments. The stored energy is
 //! `E = (mu/kappa) sum r { [w F] + r [int F dh] }` with `w = sigma - o`. `|T| <= mu F` follows from `|r| <= 1`.
 //!
-//! The result is exact for any history on one elastic curve `F`, however a motion is divided into steps, as long as the
-//! [`List`] of segments is not full.
+//! On one elastic curve `F` the result is exact for any history and any division into steps, as long as the [`List`]
+//! of segments is not full.
 //!
 //! # Limits
-//! Quasi-static; no coupling of normal and tangential displacements (exact for equal bodies, an approximation otherwise); one
-//! coefficient of friction; a circular contact area with springs that belong to the area: steady rolling has no creep. The
-//! normal force does not depend on the tangential one.
+//! Quasi-static. No coupling of normal and tangential displacements: exact for equal bodies, an approximation
+//! otherwise. One coefficient of friction. A circular contact area whose springs belong to the area: steady rolling
+//! has no creep. The normal force does not depend on the tangential force.
 //!
 //! # References
 //! - R. D. Mindlin, H. Deresiewicz, *J. Appl. Mech.* 20 (1953) 327-344.
@@ -47,11 +48,11 @@ pub use way::Way;
 
 use super::material::Body;
 
-/// Slopes that differ by less are equal, and distances that are a smaller part of the indentation are none: rounding must not
-/// leave one vertex beside another at each turn of a vibration.
+/// Slopes whose difference is smaller are equal. Distances smaller than this part of the indentation are zero.
+/// Otherwise rounding would leave an extra vertex at each reversal of a vibration.
 const SAME: f64 = 1e-13;
 
-/// What friction adds to a pair of bodies.
+/// The friction parameters of a pair of bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
     /// Coefficient of friction `mu` > 0.
@@ -63,8 +64,8 @@ pub struct Friction {
 impl Friction {
     /// Friction between two bodies with a contact of effective modulus `modulus` = `E*` \[Pa\].
     ///
-    /// `1/G* = (2 - nu1)/G1 + (2 - nu2)/G2` with `G = E/(2 (1 + nu))`; a rigid body adds nothing. For one material, also against a
-    /// rigid body, `4 G*/E* = 2 (1 - nu)/(2 - nu)`.
+    /// `1/G* = (2 - nu1)/G1 + (2 - nu2)/G2` with `G = E/(2 (1 + nu))`; a rigid body contributes nothing. For one
+    /// material, also against a rigid body, `4 G*/E* = 2 (1 - nu)/(2 - nu)`.
     ///
     /// Reference: R. D. Mindlin, *J. Appl. Mech.* 16 (1949) 259-268.
     pub fn between(impactor: &Body, target: &Body, modulus: f64, coefficient: f64) -> Friction {
@@ -73,7 +74,7 @@ impl Friction {
         Friction { coefficient, stiffness_ratio: 4.0 / ((compliance(impactor) + compliance(target)) * modulus) }
     }
 
-    /// `kappa = 4 G*/(mu E*)`, by which tangential displacements are scaled.
+    /// Scale of the tangential displacements: `kappa = 4 G*/(mu E*)`.
     pub fn scale(&self) -> f64 {
         self.stiffness_ratio / self.coefficient
     }

@@ -1,10 +1,10 @@
-//! What the springs of a contact show.
+//! Output quantities of the springs.
 
 use super::{SAME, Stuck};
 use crate::contact::segment::Segment;
 use libm::fabs;
 
-/// How much of a contact slips. The numbers are those of the variable `sliding`.
+/// Slip state of a contact. The numbers are those of the variable `sliding`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sliding {
     /// No contact.
@@ -18,12 +18,12 @@ pub enum Sliding {
 }
 
 impl Sliding {
-    /// Every state, in the order of its number.
+    /// All states, in the order of their numbers.
     pub const ALL: [Sliding; 4] = [Sliding::Apart, Sliding::Stick, Sliding::PartialSlip, Sliding::Sliding];
 }
 
 impl<const N: usize> Stuck<N> {
-    /// Tangential force at `indentation` \[m\], where the contact is, over the coefficient of friction \[N\].
+    /// Tangential force at the current `indentation` \[m\], divided by the coefficient of friction \[N\].
     #[inline]
     pub fn pull(&self, curve: &Segment, indentation: f64) -> f64 {
         self.list.last().map_or(0.0, |last| last.pull_up_to(curve.force(indentation)))
@@ -37,7 +37,7 @@ impl<const N: usize> Stuck<N> {
         let segments = vertices.iter().zip(ends.chain(core::iter::once((indentation, top))));
         segments
             .map(|(vertex, (height, force))| {
-                // r {[w F] + r [int F dh]}, in a form that doesn't cancel on a short segment
+                // r {[w F] + r [int F dh]}, in a form without cancellation on a short segment
                 let rise = height - vertex.height;
                 let tension = displacement - vertex.offset;
                 let shortfall = force - curve.mean_force(vertex.height, height);
@@ -46,7 +46,7 @@ impl<const N: usize> Stuck<N> {
             .sum()
     }
 
-    /// How much of the contact slips.
+    /// Slip state of the contact.
     pub fn sliding(&self) -> Sliding {
         match self.list.vertices() {
             [] => Sliding::Apart,
@@ -56,7 +56,8 @@ impl<const N: usize> Stuck<N> {
         }
     }
 
-    /// Height of the highest spring that doesn't slip \[m\], of a contact at `indentation` \[m\]; the surface if all slide.
+    /// Height \[m\] of the highest spring that sticks, for a contact at `indentation` \[m\]; the surface if all
+    /// springs slide.
     pub fn stick_height(&self, indentation: f64) -> f64 {
         match self.sliding() {
             Sliding::PartialSlip | Sliding::Sliding => self.list.last().map_or(indentation, |last| last.height),
@@ -64,7 +65,7 @@ impl<const N: usize> Stuck<N> {
         }
     }
 
-    /// How many segments the polyline has.
+    /// Number of segments of the polyline.
     pub fn segments(&self) -> usize {
         self.list.vertices().len()
     }

@@ -9,11 +9,11 @@ use crate::contact::segment::Segment;
 use crate::contact::unloading::Unloading;
 use crate::contact::{Model, Surface};
 
-/// More pieces than a step can have: a law has a dozen corners, and the [lattice](next_of_lattice) fewer points than this between
-/// the smallest indentation and the largest.
+/// More pieces than a step can have. A law has a dozen corners. The [lattice](next_of_lattice) has fewer points than
+/// this between the smallest and the largest indentation.
 const MOST_PIECES: u32 = 10_000;
 
-/// What is in contact, with friction.
+/// The parameters of a contact with friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoughModel<L, U> {
     /// The bodies and the laws of the normal force.
@@ -22,19 +22,20 @@ pub struct RoughModel<L, U> {
     pub friction: Friction,
 }
 
-/// The tangential part of a contact with friction: its springs, of which the list has `N` segments, and the curve that they are
-/// strained along. The normal contact is another value, which doesn't know of friction.
+/// The tangential part of a contact with friction: its springs, in a list of `N` segments, and their
+/// force-indentation curve. The normal contact is a separate value that does not know about friction.
 ///
-/// With `LATTICE` a growing dent is stepped over fixed depths, so that the result hardly depends on how its growth is divided.
+/// With `LATTICE`, a growing dent is divided at fixed depths. The result then hardly depends on the time steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Springs<const N: usize, const LATTICE: bool = true> {
     stuck: Stuck<N>,
-    /// The unloading path of the present dent, which ends at its largest indentation; before yield Hertz's curve up to yield.
+    /// The unloading path of the current dent, up to its largest indentation. Before yield: Hertz's curve up to the
+    /// yield point.
     curve: Segment,
 }
 
 impl<L: Loading, U: Unloading> RoughModel<L, U> {
-    /// The curve on which the load of a contact comes off that was never deeper than `largest` \[m\].
+    /// The unloading curve of a contact whose largest indentation was `largest` \[m\].
     fn curve_below(&self, largest: f64) -> Segment {
         let yields_at = self.normal.yield_point().indentation;
         if !self.normal.loading.can_yield() || largest <= yields_at {
@@ -45,17 +46,18 @@ impl<L: Loading, U: Unloading> RoughModel<L, U> {
 }
 
 impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
-    /// The springs of a `contact` that has just been started: without tangential displacement.
+    /// The springs of a `contact` that has just started: no tangential displacement.
     pub fn start<L: Loading, U: Unloading>(model: &RoughModel<L, U>, contact: &History) -> Self {
         let curve = model.curve_below(contact.max_indentation());
         Springs { stuck: Stuck::pressed(&curve, contact.indentation()), curve }
     }
 
-    /// Moves a `contact` and its springs by `increment` along the normal and by `slip` in the tangential direction \[m\]; `rates` are
-    /// the two rates \[m/s\]. The result is the mean tangential force \[N\] if it `is_asked` for, and otherwise 0.
+    /// Moves a `contact` and its springs by `increment` along the normal and by `slip` in the tangential direction
+    /// \[m\]; `rates` are the two rates \[m/s\]. Returns the mean tangential force \[N\] if it `is_asked` for,
+    /// otherwise 0.
     ///
     /// # Errors
-    /// [`TooDeep`] as for [`History::advance`]; both are then as they were.
+    /// [`TooDeep`] as for [`History::advance`]; the contact and the springs are then unchanged.
     #[inline]
     pub fn advance<L: Loading, U: Unloading>(
         &mut self,
@@ -71,15 +73,15 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         let scale = model.friction.scale();
         let way = Way { from, to, shift: scale * slip, normal: rates.0, tangential: scale * rates.1 };
         let pull = self.follow(model, &way, is_asked);
-        // a fresh surface forgets the dent where the bodies part beyond the original surface
+        // a fresh surface forgets the dent once the bodies separate beyond the original surface
         if model.normal.surface == Surface::Fresh && from >= 0.0 && to < 0.0 {
             self.curve = model.curve_below(0.0);
         }
         Ok(model.friction.coefficient * pull)
     }
 
-    /// Moves the springs on a `way` that the contact has gone: up to where its dent grows, and from there over the pieces of the
-    /// growth. The result is their mean pull \[N\].
+    /// Moves the springs along a `way` that the contact has completed: up to the growth of its dent, then over the
+    /// pieces of the growth. Returns their mean force \[N\].
     fn follow<L: Loading, U: Unloading>(&mut self, model: &RoughModel<L, U>, way: &Way, is_asked: bool) -> f64 {
         if way.to <= self.curve.upper {
             return self.move_on_curve(way, is_asked);
@@ -100,7 +102,7 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         sum
     }
 
-    /// The next corner of the loading law or point of the lattice above `indentation` \[m\].
+    /// The next corner of the loading law or lattice point above `indentation` \[m\].
     fn next_border<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>, indentation: f64) -> f64 {
         let corner = model.normal.loading.next_corner(&model.normal.pair, indentation);
         if LATTICE {
@@ -110,7 +112,7 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         }
     }
 
-    /// Moves the springs on a `way` along the present curve, and gives their mean pull \[N\].
+    /// Moves the springs on a `way` along the current curve. Returns their mean force \[N\].
     #[inline]
     fn move_on_curve(&mut self, way: &Way, is_asked: bool) -> f64 {
         let curve = self.curve;
@@ -130,7 +132,7 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         part * mean
     }
 
-    /// Moves the springs on a `way` on which the dent grows, and gives their mean pull \[N\].
+    /// Moves the springs on a `way` with a growing dent. Returns their mean force \[N\].
     fn grow<L: Loading, U: Unloading>(&mut self, model: &RoughModel<L, U>, way: &Way, is_asked: bool) -> f64 {
         let step = |springs: &mut Self, way: &Way| {
             let new = model.curve_below(way.to);
@@ -142,7 +144,8 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         mean
     }
 
-    /// Mean pull \[N\] over a `way` that is gone by `step`, by Simpson's rule: its middle is where a step over half of it leads.
+    /// Mean force \[N\] over a `way` taken by `step`, by Simpson's rule. The middle point results from a step over
+    /// half of the way.
     fn by_simpson(&self, way: &Way, step: impl Fn(&mut Self, &Way)) -> f64 {
         let (mut middle, mut end) = (*self, *self);
         let half = way.first_part(0.5);
@@ -151,18 +154,19 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         (self.pull(way.from) + 4.0 * middle.pull(half.to) + end.pull(way.to)) / 6.0
     }
 
-    /// Tangential force over the coefficient of friction \[N\].
+    /// Tangential force divided by the coefficient of friction \[N\].
     fn pull(&self, indentation: f64) -> f64 {
         self.stuck.pull(&self.curve, indentation)
     }
 
-    /// Tangential force \[N\] at `indentation` \[m\], where the contact is.
+    /// Tangential force \[N\] at the current `indentation` \[m\].
     pub fn force(&self, friction: &Friction, indentation: f64) -> f64 {
         friction.coefficient * self.pull(indentation)
     }
 
-    /// Derivative of the tangential force by time \[N/s\] with these `rates` along the normal and in the tangential direction \[m/s\],
-    /// on the present curve: on the loading curve of a contact that yields only in stick.
+    /// Time derivative of the tangential force \[N/s\] for these `rates` along the normal and in the tangential
+    /// direction \[m/s\], on the current curve. On the loading curve of a yielding contact it is valid only for
+    /// stick.
     pub fn force_rate(&self, friction: &Friction, indentation: f64, rates: (f64, f64)) -> f64 {
         let (normal, tangential) = (rates.0, friction.scale() * rates.1);
         let way = Way { from: indentation, to: indentation, shift: 0.0, normal, tangential };
@@ -174,7 +178,7 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         friction.coefficient / friction.scale() * self.stuck.energy(&self.curve, indentation)
     }
 
-    /// Radius of the area that doesn't slip \[m\] at `indentation` \[m\], of bodies with the effective modulus `modulus` \[Pa\].
+    /// Radius of the stick area \[m\] at `indentation` \[m\], for the effective modulus `modulus` \[Pa\].
     pub fn stick_radius(&self, modulus: f64, indentation: f64) -> f64 {
         match self.sliding() {
             Sliding::Apart => 0.0,
@@ -182,20 +186,20 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         }
     }
 
-    /// How much of the contact slips.
+    /// Slip state of the contact.
     pub fn sliding(&self) -> Sliding {
         self.stuck.sliding()
     }
 
-    /// How many segments the list has.
+    /// Number of segments in the list.
     pub fn segments(&self) -> usize {
         self.stuck.segments()
     }
 
-    /// How many words the springs have.
+    /// Number of words in the saved springs.
     pub const WORDS: usize = Stuck::<N>::WORDS;
 
-    /// Hands [`Springs::WORDS`] words to `store`.
+    /// Passes [`Springs::WORDS`] words to `store`.
     pub fn save(&self, store: &mut impl FnMut(u64)) {
         self.stuck.save(store);
     }

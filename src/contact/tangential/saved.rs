@@ -1,4 +1,4 @@
-//! The springs of a contact as words to be stored.
+//! The springs of a contact as words for storage.
 
 use super::{List, Stuck, Vertex};
 use crate::contact::path::Sum;
@@ -6,10 +6,10 @@ use crate::contact::segment::Segment;
 use crate::contact::words::{load_numbers, store_numbers};
 
 impl<const N: usize> Stuck<N> {
-    /// How many words the springs of a contact have.
+    /// Number of words in the saved springs of a contact.
     pub const WORDS: usize = 3 + 3 * N;
 
-    /// Hands [`Stuck::WORDS`] words to `store`. Forces are not among them: they follow from the curve.
+    /// Passes [`Stuck::WORDS`] words to `store`. Forces are not saved: they follow from the curve.
     pub fn save(&self, store: &mut impl FnMut(u64)) {
         store_numbers(&[self.displacement.value, self.displacement.rest], store);
         let vertices = self.list.vertices();
@@ -20,8 +20,8 @@ impl<const N: usize> Stuck<N> {
         }
     }
 
-    /// The springs that [`Stuck::save`] has stored, on the same `curve`. `None` if a word is not a finite number, or if there are more
-    /// segments than the list has room for.
+    /// The springs that [`Stuck::save`] has stored, on the same `curve`. `None` if a word is not a finite number, or
+    /// if there are more segments than fit into the list.
     pub fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Stuck<N>> {
         let [value, rest] = load_numbers(words)?;
         let count = words.next().and_then(|count| usize::try_from(count).ok()).filter(|&count| count <= N)?;

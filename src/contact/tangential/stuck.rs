@@ -5,13 +5,13 @@ use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
 use libm::fabs;
 
-/// The springs of a contact: the tangential displacement, and the polyline of the offsets at which they are stuck.
+/// The springs of a contact: the tangential displacement, and the polyline of their stuck offsets.
 ///
-/// The `curve` in the methods is the elastic normal force over the indentation, from the surface (its lower end) on: Hertz's law,
-/// or the unloading path of a dent. It has to be the same one in all calls until the contact has parted.
+/// The methods take the elastic normal force over the indentation as `curve`, from the surface (its lower end):
+/// Hertz's law, or the unloading path of a dent. It has to be the same in all calls until the contact separates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stuck<const N: usize> {
-    /// Scaled tangential displacement \[m\] since the touch or since the whole contact slid.
+    /// Scaled tangential displacement \[m\] since the first touch or since the last slide of the whole contact.
     pub(super) displacement: Sum,
     pub(super) list: List<N>,
 }
@@ -37,8 +37,8 @@ impl<const N: usize> Stuck<N> {
 
     /// Moves the contact on its way along `curve`.
     ///
-    /// The end point alone decides: on a straight way, what its cone cuts off the polyline is what the cones of all points on the
-    /// way do.
+    /// Only the end point matters: on a straight way its cone cuts off as much of the polyline as the cones of all
+    /// points on the way together.
     #[inline]
     pub fn advance(&mut self, curve: &Segment, way: &Way) {
         if way.to <= curve.lower {
@@ -52,7 +52,7 @@ impl<const N: usize> Stuck<N> {
         if is_new {
             self.touch(curve);
         }
-        // one that begins pressed in has springs already
+        // a contact that starts with an indentation already has springs
         let is_fresh = is_new && way.from <= curve.lower;
         let way = if is_fresh { way.above(curve.lower) } else { *way };
         let before = self.displacement.total();
@@ -66,12 +66,12 @@ impl<const N: usize> Stuck<N> {
         }
     }
 
-    /// Whether the last segment doesn't go on with this `slope`.
+    /// Whether the last segment has another slope than `slope`.
     fn turns(&self, slope: f64) -> bool {
         self.list.last().is_none_or(|last| fabs(last.slope - slope) > SAME)
     }
 
-    /// Cuts the polyline with the cone of the point at which the contact has arrived.
+    /// Cuts the polyline with the cone of the current point.
     fn slip(&mut self, curve: &Segment, way: &Way, is_fresh: bool) {
         let (displacement, indentation) = (self.displacement.total(), way.to);
         let mut left = self.list.vertices();
@@ -93,7 +93,7 @@ impl<const N: usize> Stuck<N> {
         let count = if is_fresh { 0 } else { left.len() };
         self.list.truncate(count);
         let Some(last) = self.list.last() else {
-            // only the direction of sliding matters from here on
+            // from here on only the direction of sliding matters
             self.displacement = Sum::new(0.0);
             let offset = -sign * (indentation - curve.lower);
             self.list.push(curve, Vertex::new(curve, curve.lower, offset, sign));
@@ -109,15 +109,15 @@ impl<const N: usize> Stuck<N> {
     }
 }
 
-/// How far `vertex` is inside of the side of the cone of `displacement` and `indentation` \[m\] that slips in the direction `sign`
-/// \[m\].
+/// Distance \[m\] of `vertex` from the side of the cone of `displacement` and `indentation` \[m\] that slips in the
+/// direction `sign`; positive inside the cone.
 #[inline(always)]
 pub(super) fn distance(vertex: &Vertex, sign: f64, displacement: f64, indentation: f64) -> f64 {
     sign * (vertex.offset - displacement) + indentation - vertex.height
 }
 
-/// Height \[m\] of the front of slip in the direction `sign` on the segment of `vertex`, which is at this `distance` \[m\] from the
-/// side of the cone. The slope of the segment isn't `sign`.
+/// Height \[m\] of the slip front in the direction `sign` on the segment of `vertex`, at this `distance` \[m\] from
+/// the side of the cone. The slope of the segment differs from `sign`.
 #[inline(always)]
 pub(super) fn front(vertex: &Vertex, sign: f64, distance: f64) -> f64 {
     vertex.height + distance / (1.0 - sign * vertex.slope)

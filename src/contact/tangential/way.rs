@@ -3,17 +3,17 @@
 use crate::contact::numbers::quotient;
 use libm::fabs;
 
-/// A piece of a motion with both rates held. Tangential lengths and rates are [scaled](super::Friction::scale).
+/// A part of a motion with both rates held. Tangential lengths and rates are [scaled](super::Friction::scale).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Way {
     /// Indentation at the start \[m\].
     pub from: f64,
     /// Indentation at the end \[m\].
     pub to: f64,
-    /// Scaled tangential displacement on the way \[m\].
+    /// Scaled tangential displacement over the way \[m\].
     pub shift: f64,
-    /// Rate of the indentation; only its ratio to `tangential` matters. It is the same in all parts of a divided step, where
-    /// the ratio of the displacements has rounding errors.
+    /// Rate of the indentation; only its ratio to `tangential` matters. It is the same in all parts of a divided
+    /// step. The ratio of the displacements would have rounding errors.
     pub normal: f64,
     /// Rate of the scaled tangential displacement.
     pub tangential: f64,
@@ -40,18 +40,18 @@ impl Way {
         self.normal != 0.0 || self.tangential != 0.0
     }
 
-    /// Whether no spring slips, and the contact area grows.
+    /// Whether the contact area grows without slip.
     pub fn sticks(&self) -> bool {
         self.normal > 0.0 && fabs(self.tangential) <= self.normal
     }
 
-    /// d(offset)/d(height) of the springs that touch on a way that [sticks](Way::sticks).
+    /// d(offset)/d(height) of the springs that touch on a [sticking](Way::sticks) way.
     pub fn slope(&self) -> f64 {
         quotient(self.tangential, self.normal, self.normal > 0.0, 0.0)
     }
 
-    /// The direction of slip, if the ratio of the rates alone determines it; otherwise the contact opens so fast that it depends on
-    /// the springs.
+    /// The direction of slip, if it follows from the ratio of the rates alone. Otherwise the contact opens so fast
+    /// that the direction depends on the springs.
     pub fn slip(&self) -> Option<f64> {
         (fabs(self.tangential) >= fabs(self.normal)).then_some(if self.tangential > 0.0 { 1.0 } else { -1.0 })
     }
@@ -64,7 +64,7 @@ impl Way {
         Way { from: surface, shift: self.shift * self.part_above(surface), ..*self }
     }
 
-    /// How much of the way is above the `surface` \[m\], if one of its ends is.
+    /// Length of the way above the `surface` \[m\], if one of its ends is above it.
     pub fn part_above(&self, surface: f64) -> f64 {
         let (low, high) = if self.from < self.to { (self.from, self.to) } else { (self.to, self.from) };
         quotient(high - surface, high - low, low < surface && low < high, 1.0)

@@ -1,4 +1,4 @@
-//! The unloading of the law `brinell` for a target that hardens, or whose Poisson's ratio isn't 0.3.
+//! The unloading of the law `brinell` for a target that hardens, or with a Poisson's ratio other than 0.3.
 
 use super::brinell::path_to;
 use super::{Brinell, Peak, Unloading, residual_after};
@@ -10,15 +10,15 @@ use libm::{cbrt, sqrt};
 
 /// [`Brinell`] with the effective [`Strength`] of the material, in units of its yield point, `k = d/d_Y` and `phi = F/F_Y`:
 ///
-/// - dent `k_f = (k - u^2 r(k/u^2))/(1 + 1.584 h)` with the recovery `r` of the law itself and the strength `u` that a dent
-///   shows;
+/// - dent `k_f = (k - u^2 r(k/u^2))/(1 + 1.584 h)`, with the recovery `r` of the law itself and the strength `u` of
+///   the dent;
 /// - shape `g = 3 (1 - (k - k_f) sqrt(beta)/phi)`, between 0 and 0.75: a slope `2 E* b` at the peak with
 ///   `b^2 = R d_Y beta`, `beta = u^2 A(k/u^2) (phi/(u^3 Phi(k/u^2)))^-1.111`. `b` is the contact radius to some percent.
 ///
-/// The contact radius on the way is in proportion to the stiffness. Within 0.9 % of `F_m` of the finite-element curves in
-/// `truth/materials`, restitution within 0.6 %. Made for the loading law
-/// [`Strengthened`](crate::contact::loading::Strengthened). Where Poisson's ratio is 0.3 and nothing hardens it is the law
-/// `brinell`, bit for bit.
+/// The contact radius on the path is proportional to the stiffness. Within 0.9 % of `F_m` of the finite-element
+/// curves in `truth/materials`, restitution within 0.6 %. Made for the loading law
+/// [`Strengthened`](crate::contact::loading::Strengthened). Without hardening and with a Poisson's ratio of 0.3 it
+/// equals the law `brinell` bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Strengthened {
@@ -28,11 +28,11 @@ pub struct Strengthened {
     pub hardening_modulus: f64,
 }
 
-/// The constants of the loading law that it goes with, in units of the yield point: a scene can't change them.
+/// Constants of the matching loading law, in units of the yield point. A scene cannot change them.
 const LOADING: loading::Brinell = loading::Brinell::REFERENCE;
 
 impl Strengthened {
-    /// The elastic recovery of the law itself from `x >= 1` \[d_y\], with the force there.
+    /// The elastic recovery of the law itself for `x >= 1` \[d_y\], with the force there.
     fn recovery(&self, x: f64, force: f64, area: f64) -> f64 {
         let lag = 1.0 - force / (x * sqrt(x));
         let shape = self.law.shape_of(if lag > 0.0 { lag } else { 0.0 });

@@ -1,4 +1,4 @@
-//! The process in which the library of an FMU is loaded: one that crashes, hangs or ends the process is a failed check.
+//! The process that loads the library of an FMU. If it crashes, hangs or exits, the check fails.
 
 use super::CheckError;
 use crate::files::{private_folder, write_whole};
@@ -10,24 +10,24 @@ use std::process::{Command, Output};
 use std::time::Duration;
 use std::{env, fs};
 
-/// What the process has found.
+/// The findings of the process.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Found {
-    /// The outcome as it is printed.
+    /// The printed outcome.
     Outcome { text: String, passed: bool },
-    /// Why the FMU couldn't be checked.
+    /// The reason why the FMU couldn't be checked.
     Error(String),
 }
 
-/// The file that it is written to.
+/// The file with the findings.
 const FOUND: &str = "found.json";
 
-/// Checks the FMU at `path` in a process of its own, which may take `limit`.
+/// Checks the FMU at `path` in a separate process with the time `limit`.
 ///
 /// # Errors
 /// [`CheckError`]
 pub fn check(path: &Path, as_json: bool, limit: Duration) -> Result<Found, CheckError> {
-    // the temporary files of a process that crashes stay in here
+    // keeps the temporary files of a process that crashes
     let folder = private_folder("brinell-check-", &env::temp_dir())?;
     let file = folder.path().join(FOUND);
     let mut command = Command::new(env::current_exe().map_err(CheckError::NoProcess)?);
@@ -45,7 +45,7 @@ pub fn check(path: &Path, as_json: bool, limit: Duration) -> Result<Found, Check
     found.map_err(|_| ended(path, &output))
 }
 
-/// The process has ended before it found anything.
+/// The process ended without findings.
 fn ended(path: &Path, output: &Output) -> CheckError {
     let said = String::from_utf8_lossy(&output.stderr);
     let last = said.lines().rev().find(|line| !line.trim().is_empty());
@@ -54,7 +54,7 @@ fn ended(path: &Path, output: &Output) -> CheckError {
 }
 
 impl Found {
-    /// Writes it to `file`.
+    /// Writes the findings to `file`.
     ///
     /// # Errors
     /// [`CheckError::File`]

@@ -1,4 +1,4 @@
-//! Reading archives of strangers: what comes out of one is bounded.
+//! Unpacks untrusted archives with a bound on their size.
 
 use super::ImportError;
 use std::fs::{self, File};
@@ -6,16 +6,16 @@ use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 use zip::ZipArchive;
 
-/// The largest size of an unpacked archive [bytes]. An FMU of 100,000 contacts with all outputs takes a fourth of it.
+/// The largest size of an unpacked archive [bytes]. An FMU of 100,000 contacts with all outputs takes a quarter of it.
 pub const LARGEST: u64 = 1 << 30;
 
-/// What is left of the bound.
+/// The remaining number of bytes.
 pub struct Bound {
     left: u64,
 }
 
 impl Bound {
-    /// The whole bound, for an archive that doesn't announce more.
+    /// The full bound, for an archive that does not declare more.
     ///
     /// # Errors
     /// [`ImportError::TooLarge`]
@@ -26,7 +26,7 @@ impl Bound {
         }
     }
 
-    /// Copies all of `from`, whatever size it has announced.
+    /// Copies all of `from`, whatever size it declares.
     ///
     /// # Errors
     /// [`ImportError::TooLarge`], [`ImportError::Unpack`]
@@ -37,7 +37,7 @@ impl Bound {
     }
 }
 
-/// Unpacks `archive` into `folder`: files only, and only such as stay in the folder.
+/// Unpacks `archive` into `folder`: only files, and only those with paths inside the folder.
 ///
 /// # Errors
 /// [`ImportError::TooLarge`], [`ImportError::Unpack`], [`ImportError::Zip`]

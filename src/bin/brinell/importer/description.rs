@@ -131,7 +131,7 @@ impl Causality {
     }
 }
 
-/// Rejects characters that XML can't have, with their place.
+/// Rejects characters that are invalid in XML, with their position.
 fn check_lines(mut from: impl BufRead) -> Result<(), ImportError> {
     let mut line = Vec::new();
     for number in 1_usize.. {

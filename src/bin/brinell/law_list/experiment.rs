@@ -1,4 +1,4 @@
-//! `brinell laws --experiment`: every law beside what was measured.
+//! `brinell laws --experiment`: every law compared with measurements.
 
 use crate::experiment::{self, HARDNESSES};
 use crate::laws::{self, unloading_of};
@@ -10,20 +10,20 @@ use brinell::contact::loading::AnyLoading;
 use serde::Serialize;
 use std::error::Error;
 
-/// What was measured, and what the laws say of it.
+/// The measurements, and the results of the laws.
 #[derive(Debug, Serialize)]
 pub struct Experiment {
     /// Vickers hardnesses at which the laws are compared [HV].
     pub hardness: [f64; 3],
-    /// Measured restitutions there.
+    /// Measured restitutions at these hardnesses.
     pub restitution: [f64; 3],
     pub dents: Vec<Printed>,
     pub laws: Vec<Compared>,
-    /// The law brinell with a strength that grows with the strain rate.
+    /// The law brinell with a strength that depends on the strain rate.
     pub rates: Vec<Rated>,
 }
 
-/// What a rate model makes of the law brinell, on a quasi-static strength of HV/3.
+/// Results of the law brinell with a rate model, for a quasi-static strength of HV/3.
 #[derive(Debug, Serialize)]
 pub struct Rated {
     pub model: String,
@@ -34,21 +34,21 @@ pub struct Rated {
     pub worst_restitution: f64,
 }
 
-/// Constants that the literature has for steels: Johnson and Cook's for 4340, Cowper and Symonds' for mild steel.
+/// Constants for steels from the literature: Johnson and Cook's for 4340, Cowper and Symonds' for mild steel.
 const LITERATURE: [(&str, Rate); 2] = [
     ("johnson-cook, c = 0.014", Rate::JohnsonCook { c: 0.014, reference_rate: 1.0 }),
     ("cowper-symonds, d = 40.4, q = 5", Rate::CowperSymonds { d: 40.4, q: 5.0 }),
 ];
 
-/// The law that is asked with the strain rate.
+/// The law that is combined with the strain rate.
 const WITH_RATE: &str = "brinell";
 
-/// What is compared with the whole measured curve [HV].
+/// The range of the comparison with the measured curve [HV].
 fn grid() -> impl Iterator<Item = f64> {
     (0..=22).map(|step| 250.0 + 25.0 * f64::from(step))
 }
 
-/// Errors of the restitution over the grid, relative.
+/// Relative errors of the restitution over the grid.
 fn rate_errors(rate: &Rate) -> Vec<f64> {
     let (loading, unloading) = (laws::published(WITH_RATE), unloading_of(WITH_RATE).1);
     let error = |hardness: f64| {
@@ -58,7 +58,8 @@ fn rate_errors(rate: &Rate) -> Vec<f64> {
     grid().filter_map(error).collect()
 }
 
-/// Johnson and Cook's constant that fits all hardnesses best, by least squares of the relative errors: golden section.
+/// Johnson and Cook's constant with the best fit for all hardnesses, by least squares of the relative errors and
+/// golden-section search.
 fn fitted() -> f64 {
     let squares = |c: f64| {
         rate_errors(&Rate::JohnsonCook { c, reference_rate: 1.0 }).iter().map(|error| error * error).sum::<f64>()
@@ -72,7 +73,7 @@ fn fitted() -> f64 {
     0.5 * (low + high)
 }
 
-/// The law brinell with constants from the literature, and with one that is fitted.
+/// The law brinell with constants from the literature, and with a fitted one.
 fn rated() -> Vec<Rated> {
     let c = fitted();
     let own = (format!("johnson-cook, fitted c = {c:.3}"), Rate::JohnsonCook { c, reference_rate: 1.0 });
@@ -91,7 +92,7 @@ fn rated() -> Vec<Rated> {
     all.map(rated).collect()
 }
 
-/// A printed dent.
+/// A published dent.
 #[derive(Debug, Serialize)]
 pub struct Printed {
     pub device: &'static str,
@@ -103,24 +104,24 @@ pub struct Printed {
     pub depth: f64,
 }
 
-/// What a law says, with a yield strength of HV/3.
+/// Results of a law for a yield strength of HV/3.
 #[derive(Debug, Serialize)]
 pub struct Compared {
     pub name: &'static str,
     pub unloading: &'static str,
     pub restitution: [Option<f64>; 3],
-    /// Largest error of these restitutions, relative.
+    /// Largest relative error of these restitutions.
     pub worst_restitution: f64,
-    /// By what HV/3 must be multiplied, so that the law gives the measured restitution.
+    /// Factor of HV/3 for which the law gives the measured restitution.
     pub strength_factor: [Option<f64>; 3],
-    /// Diameter under the load and depth after it, of each printed dent [m].
+    /// For each published dent: diameter under load and depth after unloading [m].
     pub dents: Vec<Option<[f64; 2]>>,
 }
 
-/// Shows every law that yields beside the measurements, or the one called `name`.
+/// Compares every law that yields, or the one called `name`, with the measurements.
 ///
 /// # Errors
-/// No such law.
+/// The law is unknown.
 pub fn run(name: Option<&str>, as_json: bool) -> Result<(), Box<dyn Error>> {
     let yielding = || AnyLoading::ALL.into_iter().filter(|(known, _)| *known != "hertz");
     let chosen: Vec<_> = yielding().filter(|(known, _)| name.is_none_or(|name| name == *known)).collect();
@@ -136,7 +137,7 @@ pub fn run(name: Option<&str>, as_json: bool) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// These loading laws, each with the unloading law that it has alone.
+/// These loading laws, each with its own unloading law.
 fn compare(laws: &[(&'static str, AnyLoading)]) -> Experiment {
     let measured = HARDNESSES.map(|hardness| experiment::restitution(hardness).expect("it was measured there"));
     let dents = experiment::dents();
@@ -170,7 +171,7 @@ fn compare(laws: &[(&'static str, AnyLoading)]) -> Experiment {
 }
 
 impl Experiment {
-    /// Two tables, with words about what they are worth.
+    /// Two tables, with notes on their reliability.
     fn text(&self) -> String {
         let mut text = paragraph(
             "",

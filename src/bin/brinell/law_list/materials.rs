@@ -1,4 +1,4 @@
-//! How far the law `brinell` is from finite elements of other materials.
+//! Errors of the law `brinell` relative to finite elements of other materials.
 
 use crate::layout::{paragraph, table};
 use crate::model::strengthened;
@@ -9,31 +9,31 @@ use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model, Pair};
 use serde::Serialize;
 
-/// The depths between which the force is compared [yield indentations].
+/// The range of indentations for the comparison of forces [yield indentations].
 const COMPARED: std::ops::RangeInclusive<f64> = 1.2..=500.0;
 
-/// Errors against the curves of one material.
+/// Errors relative to the curves of one material.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Errors {
     pub poissons_ratio: f64,
     /// Hardening modulus over Young's modulus.
     pub hardening: f64,
-    /// Largest error of the loading force, relative.
+    /// Largest relative error of the loading force.
     pub worst_force: f64,
-    /// Where, in yield indentations.
+    /// Its position [yield indentations].
     pub worst_at: f64,
     /// Root mean square of that error.
     pub rms_force: f64,
-    /// Largest error of an unloading, as a part of its largest force.
+    /// Largest error of an unloading, relative to its largest force.
     pub worst_unloading: f64,
-    /// Largest error of a restitution, relative.
+    /// Largest relative error of a restitution.
     pub worst_restitution: f64,
-    /// Largest error of a dent, relative.
+    /// Largest relative error of a dent.
     pub worst_dent: f64,
 }
 
-/// The errors of `model`, a law that has a form for other materials, against each of them. The bodies are those of the model but for the
-/// material.
+/// The errors of `model`, a law with a form for other materials, for each of them. The bodies are those of the model,
+/// except for the material.
 pub fn errors(model: &Model<AnyLoading, AnyUnloading>) -> Vec<Errors> {
     MATERIALS.iter().map(|material| compare(model, material)).collect()
 }

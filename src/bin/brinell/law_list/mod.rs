@@ -102,7 +102,7 @@ pub struct Measured {
     pub worst_at: f64,
     /// Root mean square of that error.
     pub rms_error: f64,
-    /// Against the truth of other materials, of a law that has a form for them.
+    /// Errors relative to finite elements of other materials, for a law that has a form for them.
     pub materials: Vec<Errors>,
     pub formulas: Vec<String>,
     pub parameters: Vec<Constant>,
@@ -147,7 +147,7 @@ pub fn all(scene: &Scene) -> List {
     those(scene, |_| true)
 }
 
-/// The laws whose names are `wanted`: to measure a law takes a while.
+/// The laws whose names are `wanted`; measuring a law takes a while.
 pub fn those(scene: &Scene, wanted: impl Fn(&str) -> bool) -> List {
     let loading = AnyLoading::ALL.into_iter().filter(|(name, _)| wanted(name));
     let loading = loading.map(|(name, loading)| measure(scene, name, loading)).collect();

@@ -5,7 +5,7 @@ use std::io::{self, Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-/// An archive that is being written.
+/// An archive under construction.
 pub struct Archive(ZipWriter<Cursor<Vec<u8>>>);
 
 impl Archive {
@@ -21,7 +21,7 @@ impl Archive {
         self.add_written(name, |to| to.write_all(bytes))
     }
 
-    /// Adds a file that `write` writes piece by piece.
+    /// Adds a file with contents that `write` writes in pieces.
     ///
     /// # Errors
     /// [`ExportError::Zip`]
@@ -41,7 +41,7 @@ impl Archive {
         Ok(())
     }
 
-    /// Its bytes.
+    /// The bytes of the archive.
     ///
     /// # Errors
     /// [`ExportError::Zip`]
@@ -50,10 +50,10 @@ impl Archive {
     }
 }
 
-/// Length of the pieces that are compressed at once [bytes].
+/// Length of the pieces passed to the compressor [bytes].
 const PIECE: usize = 1 << 16;
 
-/// Hands a file to the compressor in pieces of one length: what it makes of them depends on where they end.
+/// Passes a file to the compressor in pieces of one length: the compressed bytes depend on the borders of the pieces.
 struct Pieces<'a, W> {
     to: &'a mut W,
     piece: Vec<u8>,
@@ -70,7 +70,7 @@ impl<W: Write> Write for Pieces<'_, W> {
         Ok(count)
     }
 
-    /// Ends the file: only the last piece is shorter.
+    /// Completes the file with the last, shorter piece.
     fn flush(&mut self) -> io::Result<()> {
         self.to.write_all(&self.piece)?;
         self.piece.clear();

@@ -1,4 +1,4 @@
-//! Which compiler and which linker make the library for a target: the user's own, or those of the cross toolchain.
+//! The compiler and the linker for a target: the user's own, or those of the cross toolchain.
 
 use super::error::ExportError;
 use super::link::Linker;
@@ -8,14 +8,14 @@ use crate::platform::{System, Target};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// The compilers that are there.
+/// The available compilers.
 pub struct Compilers {
-    /// The cache, as [`Rustc::find`] takes it.
+    /// The cache, as for [`Rustc::find`].
     cache: PathBuf,
-    /// The user's, or why there is none.
+    /// The user's compiler, or the reason why there is none.
     own: Result<Rustc, ExportError>,
     toolchain: Toolchain,
-    /// That of the toolchain, asked for only when it is needed; or why it doesn't work.
+    /// The compiler of the toolchain, started only when needed; or the reason why it fails.
     fetched: OnceLock<Result<Rustc, ExportError>>,
 }
 
@@ -26,10 +26,10 @@ impl Compilers {
         Compilers { cache: cache.into(), own, toolchain: Toolchain::of(cache), fetched: OnceLock::new() }
     }
 
-    /// The compiler and the linker for `target`: the user's, if they can compile for it.
+    /// The compiler and the linker for `target`: the user's, if they support it.
     ///
     /// # Errors
-    /// [`ExportError`] that says what is missing and how to get it.
+    /// [`ExportError`] with the missing part and how to get it.
     pub fn for_target(&self, target: &Target) -> Result<(&Rustc, Linker), ExportError> {
         if let Ok(own) = &self.own {
             if target.is_here() && target.system == System::Linux {
@@ -56,7 +56,7 @@ impl Compilers {
         self.toolchain.is_whole().then(|| self.fetched.get_or_init(find))
     }
 
-    /// What is missing for `target`.
+    /// The missing part for `target`.
     fn missing(&self, target: &Target) -> ExportError {
         let triple = target.triple;
         let reason = match (&self.own, self.fetched()) {
@@ -68,7 +68,7 @@ impl Compilers {
             (Ok(_), _) => format!("the Rust toolchain has no target {triple}"),
         };
         match (&self.own, target.is_here()) {
-            // for this machine the user's compiler is all that is needed
+            // for the host the user's compiler is sufficient
             (Err(_), true) => ExportError::Unusable { reason },
             _ => ExportError::NoTarget { triple, reason, help: help(target) },
         }

@@ -1,4 +1,4 @@
-//! What the compiler says when it fails, down to the cause.
+//! Error messages of the compiler, reduced to their cause.
 
 use super::error::{ExportError, how_to_install};
 use serde::Deserialize;
@@ -16,11 +16,11 @@ struct Message {
     children: Vec<Message>,
 }
 
-/// How operating systems say that nothing more can be written.
+/// Messages of operating systems for a full disk.
 const NO_SPACE: [&str; 5] =
     ["No space left on device", "Disk quota exceeded", "File too large", "not enough space on the disk", "SIGXFSZ"];
 
-/// Why the compiler that ended with this `output` has failed, building in `folder`.
+/// The reason why the compiler failed in `folder` with this `output`.
 pub fn cause(output: &Output, folder: &Path) -> ExportError {
     let said = String::from_utf8_lossy(&output.stderr);
     let (mut errors, mut plain) = (Vec::new(), Vec::new());
@@ -28,14 +28,14 @@ pub fn cause(output: &Output, folder: &Path) -> ExportError {
         match serde_json::from_str::<Message>(line) {
             Ok(message) if message.level.starts_with("error") => errors.push(message),
             Ok(_) => {}
-            // the compiler before it has read its arguments, or while it breaks
+            // an error before the compiler has read its arguments, or while it crashes
             Err(_) => plain.push(line.trim()),
         }
     }
     let status = output.status.to_string();
     let is_said = |words: &&&str| said.contains(**words) || status.contains(**words);
     if let Some(words) = NO_SPACE.iter().find(is_said) {
-        // the place to make room in is not the one unit's, which is gone by now
+        // the place to free space; the build folder of this FMU no longer exists
         let folder = folder.ancestors().nth(2).unwrap_or(folder).into();
         return ExportError::NoSpace { folder, said: (*words).into() };
     }
@@ -50,7 +50,7 @@ pub fn cause(output: &Output, folder: &Path) -> ExportError {
     })
 }
 
-/// What is wrong with the linker, if the message is about it.
+/// The linker error, if the message is about the linker.
 fn linker_fault(error: &Message) -> Option<ExportError> {
     let linker = error.message.split('`').nth(1)?.to_string();
     if error.message == format!("linker `{linker}` not found") {
@@ -61,7 +61,7 @@ fn linker_fault(error: &Message) -> Option<ExportError> {
         None if error.message == format!("could not exec the linker `{linker}`") => "it can't be started",
         None => return None,
     };
-    // beside its words there is the whole command, and that some of it was left out
+    // besides the message there is the whole command, and a note that some of it was left out
     let words = error.children.iter().map(|child| child.message.as_str());
     let words =
         words.filter(|words| !words.trim_start().starts_with('"') && !words.starts_with("some arguments are omitted"));

@@ -1,4 +1,4 @@
-//! Why a unit couldn't be made, in one line, and what helps.
+//! Errors of the export: the reason in one line, and a remedy.
 
 use crate::files::FileError;
 use crate::platform::NoPlatform;
@@ -7,7 +7,7 @@ use crate::symbols::SymbolError;
 use std::io;
 use std::path::PathBuf;
 
-/// A unit that couldn't be made.
+/// An error of making an FMU.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     #[error("{0}")]
@@ -44,7 +44,7 @@ pub enum ExportError {
     Zip(#[from] zip::result::ZipError),
 }
 
-/// A folder that units can't be built in.
+/// A folder that can't serve as a build folder.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     #[error("there is no folder to build units in: {0} is no absolute path; BRINELL_CACHE names one")]
@@ -53,7 +53,7 @@ pub enum FolderError {
     NotOurs { folder: PathBuf, reason: &'static str },
 }
 
-/// What gives an operating system a C linker.
+/// How to install a C linker on an operating system.
 pub fn how_to_install(os: &str) -> &'static str {
     match os {
         "macos" => "`xcode-select --install` installs it",

@@ -1,5 +1,5 @@
-//! Where units are built: below a folder that nobody but the user can write to. A compiler and a linker run there, and whoever
-//! could write to it would decide what they make.
+//! The build folder. Compiler and linker run there. Whoever can write to it controls their results; it is therefore
+//! below a folder that only the user can write to.
 
 use super::error::{ExportError, FolderError};
 use crate::files::{FileError, private_folder};
@@ -9,22 +9,22 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use std::{env, fs, io};
 
-/// The user's folder for what can be made again.
+/// The user's cache folder.
 pub struct Cache {
     pub folder: PathBuf,
 }
 
-/// Begins the name of a folder that one unit is built in.
+/// Prefix of the name of a build folder.
 const BUILD: &str = "build-";
 
-/// After this time a folder that a unit was built in belongs to an export that was stopped.
+/// A build folder older than this belongs to an interrupted export.
 const ABANDONED: Duration = Duration::from_secs(24 * 3600);
 
 impl Cache {
-    /// The folder, made if it isn't there, for its owner alone.
+    /// The folder, created for its owner alone if it is missing.
     ///
     /// # Errors
-    /// [`FolderError`] if others could write to it, [`FileError`] if it can't be made.
+    /// [`FolderError`] if others can write to it, [`FileError`] if it can't be created.
     pub fn open() -> Result<Cache, ExportError> {
         let folder = cache_folder(|name| env::var_os(name), env::consts::OS)?;
         make(&folder).map_err(FileError::at(&folder))?;
@@ -34,7 +34,7 @@ impl Cache {
         Ok(Cache { folder })
     }
 
-    /// A new folder to build in, which goes when it is dropped.
+    /// A new build folder, removed on drop.
     ///
     /// # Errors
     /// [`FileError`]
@@ -43,14 +43,14 @@ impl Cache {
         private_folder(BUILD, &self.folder)
     }
 
-    /// Removes what exports have left that were stopped.
+    /// Removes the build folders of interrupted exports.
     fn sweep(&self) {
         let Ok(entries) = fs::read_dir(&self.folder) else { return };
         for entry in entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with(BUILD)) {
             let modified = entry.metadata().and_then(|metadata| metadata.modified());
             let age = modified.ok().and_then(|modified| SystemTime::now().duration_since(modified).ok());
             if age.is_some_and(|age| age > ABANDONED) {
-                // what can't be removed is only in the way
+                // a folder that can't be removed only takes space
                 let _ = fs::remove_dir_all(entry.path());
             }
         }
@@ -61,10 +61,10 @@ impl Cache {
 fn cache_folder(variable: impl Fn(&str) -> Option<OsString>, os: &str) -> Result<PathBuf, FolderError> {
     let path = |name: &str| variable(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     if let Some(chosen) = path("BRINELL_CACHE") {
-        // the compiler runs in another folder than the user
+        // the compiler runs in another folder than the program
         return Ok(std::path::absolute(&chosen).unwrap_or(chosen));
     }
-    // by the XDG Base Directory Specification a relative path counts as none
+    // the XDG Base Directory Specification ignores relative paths
     let absolute = |name: &str| path(name).filter(|path| path.is_absolute());
     let base = match os {
         "windows" => absolute("LOCALAPPDATA").ok_or(FolderError::None("LOCALAPPDATA"))?,
@@ -77,7 +77,7 @@ fn cache_folder(variable: impl Fn(&str) -> Option<OsString>, os: &str) -> Result
     Ok(base.join("brinell"))
 }
 
-/// Makes `folder` and those above it, for their owner alone.
+/// Creates `folder` and its parents, for their owner alone.
 fn make(folder: &Path) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     #[cfg(unix)]
@@ -85,14 +85,14 @@ fn make(folder: &Path) -> io::Result<()> {
     builder.recursive(true).create(folder)
 }
 
-/// Why others could write to `folder`, if they could.
+/// The reason why others can write to `folder`, if they can.
 #[cfg(unix)]
 fn not_ours(folder: &Path) -> io::Result<Option<&'static str>> {
     use std::os::unix::fs::{MetadataExt, PermissionsExt};
-    // what is made now belongs to whom the program runs as
+    // a new folder belongs to the user of the process
     let probe = tempfile::tempfile_in(folder)?.metadata()?;
     let owner = |metadata: fs::Metadata| metadata.uid() == probe.uid();
-    // a link in a stranger's folder could lead to any of our own
+    // a link in another user's folder could lead to any of the user's folders
     if !owner(fs::symlink_metadata(folder)?) || !owner(fs::metadata(folder)?) {
         return Ok(Some("belongs to somebody else"));
     }
@@ -100,7 +100,7 @@ fn not_ours(folder: &Path) -> io::Result<Option<&'static str>> {
     Ok(others_write.then_some("others can write to (`chmod go-w` ends that)"))
 }
 
-/// The user's local application data are the user's own.
+/// The folder of local application data belongs to the user alone.
 #[cfg(not(unix))]
 fn not_ours(_folder: &Path) -> io::Result<Option<&'static str>> {
     Ok(None)

@@ -1,9 +1,9 @@
-//! The hash of what an FMU is made of, from which its GUID comes.
+//! The hash of the contents of an FMU, which determines its GUID.
 
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 
-/// The hash of some texts.
+/// The hash of several texts.
 pub struct Hash(Sha256);
 
 impl Hash {
@@ -25,17 +25,17 @@ impl Hash {
         texts.into_iter().fold(self, Hash::with)
     }
 
-    /// Adds a text that `write` writes piece by piece.
+    /// Adds a text that `write` writes in pieces.
     ///
     /// # Errors
-    /// Those of `write`.
+    /// The errors of `write`.
     pub fn with_written(mut self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<Hash> {
         write(&mut Pieces(&mut self.0))?;
         self.end_text();
         Ok(self)
     }
 
-    /// Different lists of texts must not look the same.
+    /// Different lists of texts must have different hashes.
     fn end_text(&mut self) {
         self.0.update([0]);
     }

@@ -1,4 +1,4 @@
-//! The library of a unit: what the compiler is given, and how it is called.
+//! The library of an FMU: input and arguments of the compiler.
 
 use super::compiler::Compilers;
 use super::error::ExportError;
@@ -15,10 +15,10 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fs, io};
 
-/// How everything is compiled. There is nothing to unwind, and one piece of code is optimized as one.
+/// Options of every compilation: no unwinding, and optimization of all code as one unit.
 const SETTINGS: [&str; 4] = ["-Cpanic=abort", "-Ccodegen-units=1", "-Cdebuginfo=0", "--cap-lints=allow"];
 
-/// How `libm` is: what the build script of `libm` says for these features. What is made of it is bitcode alone, since it is
+/// Options of `libm`: the output of its build script for these features. It is compiled to bitcode only, since it is
 /// optimized together with the library.
 const LIBM: [&str; 7] = [
     "--crate-name=libm",
@@ -30,7 +30,7 @@ const LIBM: [&str; 7] = [
     "-Clinker-plugin-lto",
 ];
 
-/// How the library is.
+/// Options of the library.
 const LIBRARY: [&str; 6] = [
     "--crate-name=unit",
     "--crate-type=cdylib",
@@ -40,11 +40,11 @@ const LIBRARY: [&str; 6] = [
     "-Clto=fat",
 ];
 
-/// Contacts from which on their loops are worth being fast instead of small.
+/// Number of contacts from which the loops are optimized for speed instead of size.
 const MANY_CONTACTS: usize = 16;
 
-/// As small as it can be, since the few lines of a plain step are the same in any case; or, for many contacts, with loops that
-/// work on several at once.
+/// Optimized for size: the few lines of a plain step are the same at any level. With many contacts: loops that
+/// process several contacts at once.
 fn optimization(source: &Source) -> &'static str {
     match source {
         Source::Scene { plan, .. } if plan.scene.contact_count() >= MANY_CONTACTS => "-Copt-level=3",
@@ -52,7 +52,7 @@ fn optimization(source: &Source) -> &'static str {
     }
 }
 
-/// The source file that a library has of its own.
+/// The source file that differs between libraries.
 pub enum Source<'a> {
     /// The constants of a scene.
     Scene { plan: &'a Plan<'a>, constants: &'a str },
@@ -61,7 +61,7 @@ pub enum Source<'a> {
 }
 
 impl Source<'_> {
-    /// Its path and its text.
+    /// Path and text of the file.
     fn file(&self) -> (&'static str, &str) {
         match self {
             Source::Scene { constants, .. } => ("src/scene/exported.rs", constants),
@@ -69,7 +69,7 @@ impl Source<'_> {
         }
     }
 
-    /// What the library is called while it is made.
+    /// Name of the library during the build.
     fn name(&self) -> &str {
         match self {
             Source::Scene { plan, .. } => &plan.scene.name,
@@ -77,12 +77,12 @@ impl Source<'_> {
         }
     }
 
-    /// Whether it takes nothing from its process.
+    /// Whether it imports nothing from its process.
     fn is_standalone(&self) -> bool {
         matches!(self, Source::Scene { plan, .. } if plan.scene.standalone)
     }
 
-    /// What else the compiler is told.
+    /// Additional arguments of the compiler.
     fn arguments(&self) -> &'static [&'static str] {
         match self {
             Source::Scene { .. } => &[],
@@ -91,31 +91,33 @@ impl Source<'_> {
     }
 }
 
-/// The functions that copy and compare bytes, for a system whose C library can't be relied on: one object file for the linker.
+/// The functions that copy and compare bytes, for a system without a reliable C library, as one object file for the
+/// linker.
 const BYTES: [&str; 6] =
     ["--crate-name=bytes", "--crate-type=lib", "--edition=2024", "--emit=obj", "-Copt-level=s", "-o"];
 
-/// What a library that takes nothing from its process is compiled with, beside [`BYTES`].
+/// Arguments for a library that imports nothing from its process, besides [`BYTES`].
 const STANDALONE: &str = "--cfg=feature=\"standalone\"";
 
-/// The root of the crate of [`BYTES`]. Without `no_builtins` the functions would be made into calls of themselves.
+/// The root of the crate of [`BYTES`]. Without `no_builtins` the compiler would replace the functions with calls of
+/// themselves.
 const BYTES_ROOT: (&str, &str) =
     ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\nmod bytes;\n");
 
 /// The module of that crate.
 const BYTES_SOURCE: (&str, &str) = ("src/fmi2/bytes.rs", include_str!("../../../fmi2/bytes.rs"));
 
-/// Compiles libraries. What they share is compiled once.
+/// Compiles libraries. Shared parts are compiled once.
 pub struct Builder {
     cache: Cache,
     compilers: Compilers,
     folder: Folder,
-    /// How many libraries have been begun.
+    /// Number of libraries started so far.
     count: AtomicUsize,
 }
 
 impl Builder {
-    /// Looks for compilers, and makes a folder to build in.
+    /// Finds the compilers, and creates a build folder.
     ///
     /// # Errors
     /// [`ExportError`]
@@ -126,10 +128,10 @@ impl Builder {
         Ok(Builder { cache, compilers, folder, count: AtomicUsize::new(0) })
     }
 
-    /// Looks whether there is a compiler for each of the targets.
+    /// Checks that there is a compiler for each target.
     ///
     /// # Errors
-    /// [`ExportError`] of the first target that there is none for.
+    /// [`ExportError`] of the first target without a compiler.
     pub fn check(&self, targets: &[&Target]) -> Result<(), ExportError> {
         targets.iter().try_for_each(|target| self.compilers.for_target(target).map(drop))
     }
@@ -144,21 +146,21 @@ impl Builder {
         let folder = self.folder.path().join(format!("{}-{count}", target.triple));
         let build = Build { cache: &self.cache, folder: &folder, rustc, linker, target };
         let library = build.run(source);
-        // with many libraries it would be much; all goes in the end
+        // removed here, since many libraries would take much space
         let _ = fs::remove_dir_all(&folder);
         library
     }
 }
 
-/// Compiles the libraries of `platforms` with `source` and gives their bytes. What two platforms share is compiled once, and
-/// several targets at the same time.
+/// Compiles the libraries of `platforms` with `source` and returns their bytes. Parts shared by two platforms are
+/// compiled once; several targets are compiled in parallel.
 ///
 /// # Errors
 /// [`ExportError`]
 pub fn build(source: &Source, platforms: &[Platform]) -> Result<Vec<Vec<u8>>, ExportError> {
     let targets = platform::targets(platforms);
     let builder = Builder::new()?;
-    // what is missing is told before anything is compiled
+    // report a missing compiler before anything is compiled
     builder.check(&targets)?;
     let slices = parallel::each(&targets, |target| builder.build(source, target))?;
     let slice = |target: &Target| {
@@ -217,8 +219,8 @@ impl Build<'_> {
         Ok(fs::read(&library).map_err(FileError::at(&library))?)
     }
 
-    /// Puts `file` into the folder: out of the cache, or else compiled from `sources` with these `arguments` and then put into the
-    /// cache.
+    /// Puts `file` into the folder: from the cache, otherwise compiled from `sources` with these `arguments` and
+    /// added to the cache.
     fn make(&self, file: &str, arguments: &[&str], sources: &[(&str, &str)]) -> Result<(), ExportError> {
         let Build { cache, folder, rustc, .. } = self;
         let made_from = [rustc.identity.as_str()].into_iter().chain(arguments.iter().copied());
@@ -232,12 +234,12 @@ impl Build<'_> {
         }
         self.write(sources.iter().copied())?;
         rustc.run(folder, arguments, &[])?;
-        // whole, or not at all; a file system without links, and another export that was as far, do no harm
+        // atomic; harmless on a file system without links, and if another export was faster
         let _ = fs::hard_link(&here, &known);
         Ok(())
     }
 
-    /// Writes files into the folder.
+    /// Writes files to the folder.
     fn write<'b, T: AsRef<[u8]>>(&self, files: impl Iterator<Item = (&'b str, T)>) -> Result<(), ExportError> {
         for (name, text) in files {
             let path = self.folder.join(name);
@@ -249,7 +251,7 @@ impl Build<'_> {
     }
 }
 
-/// The error of a file in the cache, with the folder to make room in if that is what is missing.
+/// The error of a file in the cache; for a full disk it names the folder.
 fn no_space(cache: &Cache, error: FileError) -> ExportError {
     match error.source.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
@@ -267,19 +269,19 @@ mod tests {
     use std::path::Path;
     use std::process::Command;
 
-    /// What `command` prints.
+    /// The output of `command`.
     fn printed(command: &mut Command) -> String {
         let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).expect("UTF-8")
     }
 
-    /// A new version of `libm` may be configured otherwise.
+    /// A new version of `libm` may need other options.
     #[test]
     fn libm_is_compiled_as_its_own_build_script_says() {
         let mut cargo = Command::new(env!("CARGO"));
         cargo.current_dir(env!("CARGO_MANIFEST_DIR")).args(["metadata", "--format-version=1", "--locked", "--offline"]);
-        // what other systems need has not been downloaded
+        // the dependencies of other systems are not downloaded
         cargo.args(["--filter-platform", crate::platform::here().expect("a known system").targets[0].triple]);
         let metadata: Value = serde_json::from_str(&printed(&mut cargo)).expect("JSON");
         let libm = metadata["packages"].as_array().unwrap().iter().find(|package| package["name"] == "libm").unwrap();

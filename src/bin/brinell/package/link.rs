@@ -1,23 +1,23 @@
-//! How a library is linked: for every system by LLVM's linker, or on the own Linux by the C compiler that is there.
+//! Linking a library: with LLVM's linker for every system, or with the installed C compiler for the host on Linux.
 
 use crate::platform::{System, Target};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// What links a library.
+/// The linker of a library.
 pub enum Linker {
-    /// The C compiler `cc`, which knows the system's own linker.
+    /// The C compiler `cc`, which calls the system's own linker.
     Driver,
-    /// A program that takes the arguments of a C compiler, and gives those for the linker to LLVM's.
+    /// A program that takes the arguments of a C compiler and passes those of the linker to LLVM's linker.
     DriverOf(PathBuf),
-    /// LLVM's linker, in a form that knows all systems and is told by `-flavor` which one is meant.
+    /// LLVM's linker for all systems; `-flavor` selects the system.
     Lld(PathBuf),
 }
 
-/// Leaves out what unwinding would need, and the compiler's name. Nothing unwinds through a library that cannot panic.
+/// Omits unwinding tables and the name of the compiler. Nothing unwinds through a library that cannot panic.
 const SCRIPT: (&str, &str) = ("unit.ld", "SECTIONS { /DISCARD/ : { *(.eh_frame) *(.comment) } } INSERT AFTER .text;\n");
 
-/// The functions of macOS's C library that an FMU may use. This takes the place of Apple's development kit.
+/// The functions of macOS's C library that an FMU may use. This replaces Apple's development kit.
 const LIB_SYSTEM: (&str, &str) = (
     "sdk/usr/lib/libSystem.tbd",
     "--- !tapi-tbd
@@ -31,18 +31,18 @@ exports:
 ",
 );
 
-/// Symbols are bound inside the library first and at once.
+/// Symbols are bound at load time, first within the library.
 const ELF: [&str; 8] =
     ["-z", "now", "-Bsymbolic", "--build-id=none", "--hash-style=gnu", "--no-eh-frame-hdr", "-T", "unit.ld"];
 
-/// No start code and no C library. `_fltused` is only a mark that floating point is used.
+/// No start code and no C library. `_fltused` only marks the use of floating point.
 const WINDOWS: [&str; 6] =
     ["/NOENTRY", "/NODEFAULTLIB", "/ALTERNATENAME:_fltused=__ImageBase", "/DEBUG:NONE", "/Brepro", "/OPT:REF,ICF"];
 
-/// Local symbols are left out by the linker: nothing may change the file once it is signed.
+/// The linker omits local symbols, because the file must not change after it is signed.
 const MACOS: [&str; 4] = ["-adhoc_codesign", "-lSystem", "-x", "-install_name"];
 
-/// The files that the linker reads.
+/// The input files of the linker.
 pub fn files() -> [(&'static str, &'static str); 2] {
     [SCRIPT, LIB_SYSTEM]
 }
@@ -53,7 +53,7 @@ pub fn variables(target: &Target, folder: &Path) -> Vec<(&'static str, OsString)
     match target.system {
         System::MacOs => {
             vec![
-                // rustc takes no relative path
+                // rustc rejects relative paths
                 ("SDKROOT", folder.join("sdk").into()),
                 ("MACOSX_DEPLOYMENT_TARGET", format!("{major}.{minor}").into()),
             ]
@@ -84,7 +84,7 @@ pub fn arguments(target: &Target, linker: &Linker, name: &str, objects: &[&str])
     } else {
         arguments.extend(plain.iter().map(|argument| format!("-Clink-arg={argument}")));
     }
-    // rustc would call a program of its own to strip a Mach-O file, which breaks the signature
+    // rustc would call an external program to strip a Mach-O file, which invalidates the signature
     arguments.push(if target.system == System::MacOs { "-Cstrip=none" } else { "-Cstrip=symbols" }.into());
     arguments
 }

@@ -1,4 +1,4 @@
-//! From a plan to an `.fmu`: rustc builds the library, its symbols are checked, everything is zipped.
+//! From a plan to an `.fmu`: rustc compiles the library, its symbols are checked, and everything is zipped.
 
 mod archive;
 mod compiler;
@@ -39,7 +39,7 @@ const LICENSE: &str = include_str!("../../../../LICENSE");
 const THIRD_PARTY: &str = include_str!("../../../../modelDescription/licenses.txt");
 const ICON: &[u8] = include_bytes!("../../../../modelDescription/model.png");
 
-/// What was exported.
+/// The result of an export.
 #[derive(Default)]
 pub struct Exported {
     pub path: PathBuf,
@@ -48,7 +48,7 @@ pub struct Exported {
     pub size: usize,
     /// One library for each platform.
     pub libraries: Vec<Packed>,
-    /// How the libraries were made; unknown before there are any.
+    /// How the libraries were made; unknown before that.
     pub how: Option<How>,
 }
 
@@ -58,34 +58,35 @@ impl Exported {
         self.libraries.iter().map(|library| library.size).sum()
     }
 
-    /// What any of the libraries takes from the process.
+    /// The symbols that any of the libraries imports from the process.
     pub fn imports(&self) -> BTreeSet<&str> {
         self.libraries.iter().flat_map(|library| &library.imports).map(String::as_str).collect()
     }
 }
 
-/// A library that was packed.
+/// A packed library.
 pub struct Packed {
     /// Folder of its platform.
     pub platform: &'static str,
     /// Size [bytes].
     pub size: usize,
-    /// What it takes from the process.
+    /// The symbols that it imports from the process.
     pub imports: Vec<String>,
 }
 
-/// Makes the planned FMU in this `way` for `platforms` and writes it to `path`, which is replaced only when everything has gone
-/// well.
+/// Makes the planned FMU in this `way` for `platforms` and writes it to `path`. An existing file is replaced only
+/// after success.
 ///
 /// # Errors
-/// [`ExportError`]; nothing is then written.
+/// [`ExportError`]; nothing is written then.
 pub fn export(plan: &Plan, way: Way, platforms: &[Platform], path: &Path) -> Result<Exported, ExportError> {
     let (archive, exported) = build(plan, way, platforms)?;
     write_whole(path, &archive)?;
     Ok(Exported { path: path.into(), ..exported })
 }
 
-/// Makes the planned FMU in this `way` for `platforms`: the bytes of its archive, and what is in it. It has no path yet.
+/// Makes the planned FMU in this `way` for `platforms`. Returns the bytes of its archive and a description without a
+/// path.
 ///
 /// # Errors
 /// [`ExportError`]
@@ -114,22 +115,22 @@ pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, 
     Ok((archive, Exported { path: PathBuf::new(), guid, size, libraries, how: Some(how) }))
 }
 
-/// What stands for the GUID until it is known, as long as one. In quotes it can't be in any other place: those of a scene's texts
-/// are written as `&quot;` and `\"`.
+/// Placeholder of the same length for the GUID. In quotes it can't occur anywhere else: in the texts of a scene,
+/// quotes are written as `&quot;` and `\"`.
 pub const GUID_TO_COME: &str = "GUID of 32 digits that will come";
 
-/// `text` with the GUID in its place.
+/// `text` with the GUID instead of the placeholder.
 pub fn identified(text: &str, guid: &str) -> String {
     let quoted = |text: &str| format!("\"{text}\"");
     text.replacen(&quoted(GUID_TO_COME), &quoted(guid), 1)
 }
 
-/// What every library is made of: names and texts of the files.
+/// The common input of all libraries: names and texts of the files.
 pub fn sources<'a>() -> impl Iterator<Item = &'a str> {
     LIBRARY_SOURCE.iter().chain(LIBM_SOURCE).flat_map(|&(name, text)| [name, text])
 }
 
-/// What the library is recognised by: 16 digits of a hash of its source and that of `libm`.
+/// Identifier of the library: 16 digits of a hash of its source and that of `libm`.
 pub fn library_identity() -> String {
     let mut identity = Hash::new().with_all(sources()).digits();
     identity.truncate(16);

@@ -1,9 +1,9 @@
-//! The version resource of a Windows library: what the properties of the file show.
+//! The version resource of a Windows library, shown in the properties of the file.
 //!
-//! Reference: *Resource File Formats*, *VS_VERSIONINFO* and *VS_FIXEDFILEINFO* of the Windows documentation. The linker makes
-//! the section `.rsrc` of it.
+//! Reference: *Resource File Formats*, *VS_VERSIONINFO* and *VS_FIXEDFILEINFO* of the Windows documentation. The
+//! linker turns it into the section `.rsrc`.
 
-/// Type and name of a version resource: number 16, called 1.
+/// Type and name of a version resource: type 16, name 1.
 const RT_VERSION: u16 = 16;
 const NAME: u16 = 1;
 
@@ -17,7 +17,7 @@ const MASK_OF_FLAGS: u32 = 0x3F;
 const VOS_NT_WINDOWS32: u32 = 0x0004_0004;
 const VFT_DLL: u32 = 2;
 
-/// What a block holds.
+/// Contents of a block.
 enum Value<'a> {
     Nothing,
     Text(&'a str),
@@ -42,7 +42,7 @@ pub fn version(name: &str) -> Vec<u8> {
     let children =
         [block("StringFileInfo", &Value::Nothing, &[table]), block("VarFileInfo", &Value::Nothing, &[translation])];
     let data = block("VS_VERSION_INFO", &Value::Bytes(&fixed(version)), &children);
-    // an empty resource comes first in every resource file
+    // every resource file begins with an empty resource
     [resource(0, 0, 0, &[]), resource(RT_VERSION, NAME, LANGUAGE, &data)].concat()
 }
 
@@ -58,7 +58,7 @@ fn resource(kind: u16, name: u16, language: u16, data: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// The numbers of a version: that of the file and that of the product are the same.
+/// The numbers of a version; file and product have the same.
 fn fixed(version: &str) -> Vec<u8> {
     let mut parts = version.split(['.', '-', '+']).map(|part| part.parse::<u32>().unwrap_or(0));
     let mut next = || parts.next().unwrap_or(0);
@@ -104,7 +104,7 @@ fn block(key: &str, value: &Value, children: &[Vec<u8>]) -> Vec<u8> {
     bytes
 }
 
-/// Everything begins at a multiple of four bytes.
+/// Everything is aligned to four bytes.
 fn align(bytes: &mut Vec<u8>) {
     bytes.resize(bytes.len().next_multiple_of(4), 0);
 }
@@ -117,7 +117,7 @@ mod tests {
         usize::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]))
     }
 
-    /// All texts of a block and those in it, read back as Windows does.
+    /// All texts of a block and its children, read as Windows does.
     fn texts(block: &[u8]) -> Vec<(String, String)> {
         let length = |text: &[u8]| text.chunks(2).position(|pair| pair == [0, 0]).expect("an end");
         let text = |bytes: &[u8]| {

@@ -1,4 +1,4 @@
-//! The compiler. It is called itself, not by cargo: nothing but its arguments decides what it makes.
+//! The compiler. It is called directly and not through cargo: only its arguments determine the result.
 
 use super::diagnostics;
 use super::error::ExportError;
@@ -10,22 +10,22 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::{env, fs};
 
-/// A compiler that can be called.
+/// An available compiler.
 pub struct Rustc {
     program: PathBuf,
-    /// Where its libraries are, in `lib/rustlib/TARGET`.
+    /// The folder with its libraries in `lib/rustlib/TARGET`.
     sysroot: PathBuf,
-    /// The target that it runs on.
+    /// Its host target.
     host: String,
-    /// What it says of itself, and how old its file is: no other compiler is the same.
+    /// Its version output and the time of its file, which identify it.
     pub identity: String,
 }
 
 /// The oldest version that the library compiles with.
 const NEEDED: &str = env!("CARGO_PKG_RUST_VERSION");
 
-/// What the compiler and the linker may know of the user's surroundings: where programs are, and on some systems where the
-/// operating system's own libraries are. Everything else could change what they make, like `LD_RUN_PATH` or `LINK`.
+/// Environment variables that compiler and linker may see: the paths of programs, and on some systems those of the
+/// operating system's libraries. Any other variable, such as `LD_RUN_PATH` or `LINK`, could change the result.
 const KEPT: &[&str] = match cfg!(windows) {
     false => &["PATH", "HOME", "DEVELOPER_DIR", "SDKROOT"],
     true => &[
@@ -56,8 +56,8 @@ const KEPT: &[&str] = match cfg!(windows) {
 };
 
 impl Rustc {
-    /// The compiler that belongs to the cargo that runs this program, or else the one on PATH. Only the root of the file
-    /// system, the last of the folders above `cache`, is looked in for a `rust-toolchain.toml`.
+    /// The compiler that belongs to the cargo that runs this program, otherwise the one on PATH. Only the root of the
+    /// file system, the last of the folders above `cache`, is searched for a `rust-toolchain.toml`.
     ///
     /// # Errors
     /// [`ExportError::NoRustc`], [`ExportError::BrokenRustc`], [`ExportError::OldRustc`]
@@ -70,13 +70,13 @@ impl Rustc {
     /// The compiler `found`.
     ///
     /// # Errors
-    /// As of [`Rustc::find`].
+    /// As for [`Rustc::find`].
     pub fn at(found: PathBuf, cache: &Path) -> Result<Rustc, ExportError> {
         let root = cache.ancestors().last().unwrap_or(cache);
-        // with the user's own environment, in which rustup finds its toolchains
+        // with the user's environment, in which rustup finds its toolchains
         let asked = interrupt::output(Command::new(&found).args(["--print", "sysroot"]).current_dir(root));
         let sysroot = PathBuf::from(answer(&asked.map_err(ExportError::NoRustc)?)?);
-        // the compiler itself, where rustup has answered
+        // the compiler itself, if rustup has answered
         let itself = sysroot.join("bin").join(name());
         let program = if itself.is_file() { itself } else { found };
         let asked = interrupt::output(command(&program).arg("-vV").current_dir(root));
@@ -86,12 +86,12 @@ impl Rustc {
         if number(version) < number(NEEDED) {
             return Err(ExportError::OldRustc { found: version.into(), needed: NEEDED });
         }
-        // none, if it is found on PATH only
+        // none for a compiler on PATH
         let modified = fs::metadata(&program).and_then(|metadata| metadata.modified()).ok();
         Ok(Rustc { identity: format!("{} {modified:?} {says}", program.display()), program, sysroot, host })
     }
 
-    /// The folder of what it has for the target of this name.
+    /// The folder of the compiler's files for this target.
     fn target_folder(&self, triple: &str) -> PathBuf {
         self.sysroot.join("lib").join("rustlib").join(triple)
     }
@@ -102,7 +102,7 @@ impl Rustc {
         files.flatten().any(|file| file.file_name().to_string_lossy().starts_with("libcore"))
     }
 
-    /// LLVM's linker, if it brings one.
+    /// LLVM's linker, if it is included.
     pub fn lld(&self) -> Option<PathBuf> {
         let name = format!("rust-lld{}", env::consts::EXE_SUFFIX);
         Some(self.target_folder(&self.host).join("bin").join(name)).filter(|lld| lld.is_file())
@@ -111,7 +111,7 @@ impl Rustc {
     /// Compiles in `folder`, with these arguments and environment variables.
     ///
     /// # Errors
-    /// [`ExportError`] with the cause.
+    /// [`ExportError`] with the reason.
     pub fn run<A: AsRef<OsStr>>(
         &self,
         folder: &Path,
@@ -135,7 +135,7 @@ fn name() -> String {
     format!("rustc{}", env::consts::EXE_SUFFIX)
 }
 
-/// A call of `program` that knows nothing of the user's settings and speaks English.
+/// A call of `program` without the user's settings and in English.
 fn command(program: &Path) -> Command {
     let mut command = Command::new(program);
     let kept = |name: &&'static str| Some((*name, env::var_os(name)?));
@@ -144,7 +144,7 @@ fn command(program: &Path) -> Command {
     command
 }
 
-/// What a compiler that was asked something has said.
+/// The output of a query to the compiler.
 fn answer(output: &Output) -> Result<String, ExportError> {
     if output.status.success() {
         return Ok(String::from_utf8_lossy(&output.stdout).trim_end().into());

@@ -1,49 +1,49 @@
-//! Where the cross toolchain is, which `brinell toolchain` fetches.
+//! The location of the cross toolchain, which `brinell toolchain` downloads.
 //!
 //! # Layout
-//! The folder is `toolchain` in the cache, or the one that `BRINELL_TOOLCHAIN` names. It can be moved.
+//! The folder is `toolchain` in the cache, or that of `BRINELL_TOOLCHAIN`. It can be moved.
 //!
 //! | path | what |
 //! |---|---|
-//! | `packages.json` | the packages that it was made of; written last: without this file the toolchain is not whole |
-//! | `usr/bin/rustc` | the compiler: a script that tells `rustc-web`, beside it, where its libraries are |
+//! | `packages.json` | the packages of the toolchain; written last: without this file the toolchain is incomplete |
+//! | `usr/bin/rustc` | the compiler: a script that passes the location of the libraries to `rustc-web` beside it |
 //! | `usr/bin/cc-lld` | a script that takes the arguments of a C compiler and links ELF files |
 //! | `usr/lib/rustlib/HOST/bin/rust-lld` | LLVM's linker for all systems, a script; the first argument is `-flavor` |
 //! | `usr/lib/rustlib/TARGET/lib` | `core` and `compiler_builtins` for each target |
 //! | `usr/src/rustc-VERSION/library` | with `--std`: the source of Rust's libraries, also as `usr/lib/rustlib/src/rust/library` |
-//! | `packages/` | what has been downloaded, as long as the toolchain is not whole |
+//! | `packages/` | downloads, until the toolchain is complete |
 //!
-//! `usr` is what the compiler calls its sysroot. With `--std` it also has `std` for the machine itself, so that cargo with
-//! `RUSTC=usr/bin/rustc`, `RUSTC_BOOTSTRAP=1` and `-Zbuild-std` builds whole programs for other systems.
+//! The compiler calls `usr` its sysroot. With `--std` it also has `std` for the host. Cargo then builds whole
+//! programs for other systems with `RUSTC=usr/bin/rustc`, `RUSTC_BOOTSTRAP=1` and `-Zbuild-std`.
 
 use crate::platform::Target;
 use std::env;
 use std::path::{Path, PathBuf};
 
-/// A toolchain, which may still have to be fetched.
+/// A toolchain, possibly not downloaded yet.
 pub struct Toolchain {
     pub folder: PathBuf,
 }
 
 impl Toolchain {
-    /// The toolchain in the folder that `BRINELL_TOOLCHAIN` names, or else in the `cache`.
+    /// The toolchain in the folder of `BRINELL_TOOLCHAIN`, otherwise the one in the `cache`.
     pub fn of(cache: &Path) -> Toolchain {
         let chosen = env::var_os("BRINELL_TOOLCHAIN").filter(|value| !value.is_empty());
         let chosen = chosen.map(|chosen| std::path::absolute(&chosen).unwrap_or(chosen.into()));
         Toolchain { folder: chosen.unwrap_or_else(|| cache.join("toolchain")) }
     }
 
-    /// Whether all of it is there.
+    /// Whether it is complete.
     pub fn is_whole(&self) -> bool {
         self.list().is_file()
     }
 
-    /// The packages that it was made of.
+    /// The packages of the toolchain.
     pub fn list(&self) -> PathBuf {
         self.folder.join("packages.json")
     }
 
-    /// What the compiler calls its sysroot.
+    /// The sysroot of the compiler.
     pub fn usr(&self) -> PathBuf {
         self.folder.join("usr")
     }
@@ -53,12 +53,12 @@ impl Toolchain {
         self.usr().join("bin/rustc")
     }
 
-    /// What links ELF files: it takes the arguments of a C compiler.
+    /// The linker for ELF files: it takes the arguments of a C compiler.
     pub fn driver(&self) -> PathBuf {
         self.usr().join("bin/cc-lld")
     }
 
-    /// The folder of what the compiler has for the target of this name.
+    /// The folder of the compiler's files for this target.
     pub fn target(&self, triple: &str) -> PathBuf {
         self.usr().join("lib/rustlib").join(triple)
     }

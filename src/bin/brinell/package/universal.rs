@@ -1,18 +1,18 @@
 //! Universal libraries of macOS: one file with a library for each processor.
 //!
-//! Reference: `mach-o/fat.h`. The libraries are not changed, so that their signatures stay valid.
+//! Reference: `mach-o/fat.h`. The libraries stay unchanged, which keeps their signatures valid.
 
 use object::macho::FAT_MAGIC;
 
-/// Each library begins at a multiple of the largest page that macOS has: 2 to the power of this.
+/// Alignment of each library, as a power of 2: the largest page size of macOS.
 const ALIGNMENT: u32 = 14;
 
-/// Where the next library can begin.
+/// The next possible start of a library.
 fn align(offset: usize) -> usize {
     offset.next_multiple_of(1 << ALIGNMENT)
 }
 
-/// Size of the library that [`join`] makes of libraries of these sizes [bytes].
+/// Size of the result of [`join`] for libraries of these sizes [bytes].
 pub fn size(slices: &[usize]) -> usize {
     match slices {
         [only] => *only,
@@ -20,7 +20,7 @@ pub fn size(slices: &[usize]) -> usize {
     }
 }
 
-/// One library of several: itself if it is one, otherwise a universal one.
+/// One library from several: a single library stays as it is, several become a universal one.
 pub fn join(slices: &[&[u8]]) -> Vec<u8> {
     if let [only] = slices {
         return only.to_vec();

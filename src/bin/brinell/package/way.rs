@@ -1,4 +1,4 @@
-//! The two ways to a library: compiling it, or filling in a prebuilt one.
+//! The two ways to get a library: compile it, or fill in a prebuilt one.
 
 use super::folder::Cache;
 use super::library::{self, Source};
@@ -11,16 +11,16 @@ use crate::{constants, model_description};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// How the library of an FMU is made.
+/// The way to make the library of an FMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
-    /// By the compiler if there is one, or else from a prebuilt library.
+    /// Compile if there is a compiler, otherwise use a prebuilt library.
     Any,
     Compiled,
     Prebuilt,
 }
 
-/// What an FMU has that depends on how it was made.
+/// The parts of an FMU that depend on the way.
 pub struct Made {
     pub guid: String,
     /// One for each platform.
@@ -28,7 +28,7 @@ pub struct Made {
     pub how: How,
 }
 
-/// How a library was made, and what the other way would have meant.
+/// How a library was made, and the result of the other way.
 #[derive(Debug)]
 pub struct How {
     /// How long it took.
@@ -38,13 +38,13 @@ pub struct How {
 
 #[derive(Debug)]
 enum By {
-    /// The prebuilt library that the scene fits into, and by how much it is larger [bytes]; or why there is none.
+    /// The prebuilt library that fits the scene and its additional size [bytes], or the reason why there is none.
     Compiler(Result<(String, i64), String>),
-    /// The prebuilt library, and by how much a compiled one is smaller [bytes].
+    /// The prebuilt library, and the saving of a compiled one [bytes].
     Prebuilt(String, Option<i64>),
 }
 
-/// Makes the libraries of the planned FMU for `platforms`, and what belongs to them.
+/// Makes the libraries of the planned FMU for `platforms`, and the files that belong to them.
 ///
 /// # Errors
 /// [`ExportError`]
@@ -64,13 +64,13 @@ pub fn make(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<Made, Expor
 }
 
 impl Way {
-    /// Whether libraries that are made in this way are compiled.
+    /// Whether this way compiles the libraries.
     pub fn compiles(self) -> bool {
         self == Way::Compiled || self == Way::Any && no_compiler().is_none()
     }
 }
 
-/// Why no compiler can be started, be it good or not: there is none, or no folder to build in.
+/// The reason why no compiler can be started: there is none, or there is no build folder.
 fn no_compiler() -> Option<ExportError> {
     match Cache::open().and_then(|cache| Rustc::find(&cache.folder)) {
         Err(error @ (ExportError::NoRustc(_) | ExportError::Folder(_))) => Some(error),
@@ -78,8 +78,7 @@ fn no_compiler() -> Option<ExportError> {
     }
 }
 
-/// By the compiler. The GUID is a hash of all that the unit is made of: description, constants, source of the library and of
-/// `libm`.
+/// Compiles. The GUID is a hash of everything in the FMU: description, constants, source of the library and of `libm`.
 fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
     let begin = Instant::now();
     let constants = constants::write(plan, GUID_TO_COME);
@@ -106,7 +105,7 @@ fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
     Ok(Made { guid, libraries, how: How { time, by: By::Compiler(other) } })
 }
 
-/// From a prebuilt library.
+/// Uses a prebuilt library.
 fn fill_in(plan: &Plan, platforms: &[Platform]) -> Result<Made, PrebuiltError> {
     let begin = Instant::now();
     let unit = Unit::of(plan)?;

@@ -1,13 +1,13 @@
-//! Lines that leave the range of their picture end at its edge.
+//! Clips lines at the edge of the range of their picture.
 
 use super::Picture;
 use std::ops::Range;
 
-/// A point of a line as it is drawn, and the point that it stands for.
+/// A point of a line in the drawing, and its values.
 pub type Shown = ((f64, f64), (f64, f64));
 
-/// The pieces of a line with these `points` inside the `range` of values. A line that is below it altogether runs along its
-/// lower edge, and so does one point of it.
+/// The pieces of a line with these `points` inside the `range` of values. A line entirely below it runs along its
+/// lower edge, and so does a single point.
 pub fn inside(picture: &Picture, points: &[(f64, f64)], range: &Range<f64>) -> Vec<Vec<Shown>> {
     if is_below(points, range) {
         return vec![points.iter().map(|&point| ((point.0, range.start), point)).collect()];
@@ -38,7 +38,7 @@ pub fn is_below(points: &[(f64, f64)], range: &Range<f64>) -> bool {
     points.iter().all(|point| point.1 < range.start)
 }
 
-/// Where the line between two points, straight in the picture, has the value `edge`.
+/// The intersection of the line between two points, straight in the picture, with the value `edge`.
 fn crossing(picture: &Picture, from: (f64, f64), to: (f64, f64), edge: f64) -> (f64, f64) {
     let (x_log, y_log) = picture.logarithmic;
     let scaled = |value: f64| if y_log { value.ln() } else { value };

@@ -1,10 +1,10 @@
-//! How lines look. A law has the same colour in every picture.
+//! Colours and strokes of lines. A law has the same colour in every picture.
 
 use super::SCALE;
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
 
-/// Colours that can be told apart, also by most of the colour-blind (P. Green-Armytage; M. Okabe, K. Ito).
+/// Colours that most colour-blind readers can also distinguish (P. Green-Armytage; M. Okabe, K. Ito).
 const COLOURS: [(u8, u8, u8); 12] = [
     (0, 90, 160),
     (213, 94, 0),
@@ -27,7 +27,7 @@ pub struct Stroke {
     pub rgb: (u8, u8, u8),
     /// [1/8 pixel]
     pub width: u32,
-    /// The second dozen of colours is dashed.
+    /// Dashed, for the second dozen of colours.
     pub dashed: bool,
 }
 
@@ -39,7 +39,7 @@ impl Stroke {
     }
 }
 
-/// The strokes of series with these names, in their order.
+/// The strokes of series with these names, in the same order.
 pub fn strokes<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Stroke> {
     let mut taken: Vec<usize> = Vec::new();
     for name in names {
@@ -50,8 +50,8 @@ pub fn strokes<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Stroke> {
     taken.into_iter().map(stroke).collect()
 }
 
-/// The place of a law in the list of all; `LOADING/UNLOADING` has that of its loading law. The first and the second law of the
-/// list are the most used ones and have the colours that differ most.
+/// The position of a law in the list of all laws; `LOADING/UNLOADING` has that of its loading law. The first two laws
+/// of the list are used most and have the most different colours.
 fn place(name: &str) -> Option<usize> {
     let law = name.split('/').next().unwrap_or(name);
     let laws = AnyLoading::ALL.iter().map(|(name, _)| *name).chain(AnyDamped::ALL.iter().map(|(name, _)| *name));
@@ -62,17 +62,17 @@ fn stroke(place: usize) -> Stroke {
     Stroke { rgb: COLOURS[place % COLOURS.len()], width: 2 * SCALE, dashed: place >= COLOURS.len() }
 }
 
-/// What stands back behind the lines that matter.
+/// The colour of lines in the background.
 pub fn grey() -> Stroke {
     Stroke { rgb: (181, 181, 181), width: SCALE, dashed: false }
 }
 
-/// What data are drawn in.
+/// The colour of data.
 pub fn black() -> Stroke {
     Stroke { rgb: (0, 0, 0), width: SCALE, dashed: false }
 }
 
-/// Lines of these names, as CSS has them.
+/// The strokes of lines with these names, for CSS.
 pub fn css_lines<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let css = |stroke: Stroke| {
         let kind = if stroke.dashed { "dashed" } else { "solid" };
@@ -81,7 +81,8 @@ pub fn css_lines<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     strokes(names).into_iter().map(css).collect()
 }
 
-/// The colours of the map `viridis`, evenly spaced: they rise in lightness, and the colour-blind see the order too.
+/// The colours of the map `viridis`, evenly spaced. Their lightness increases, which shows the order to colour-blind
+/// readers too.
 ///
 /// Reference: S. van der Walt, N. Smith, the colour maps of matplotlib 2.0 (CC0).
 const VIRIDIS: [(u8, u8, u8); 9] = [

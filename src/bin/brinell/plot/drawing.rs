@@ -1,4 +1,4 @@
-//! A picture's axes, and its lines as they lie over them.
+//! The axes of a picture, and its lines in the coordinates of the drawing.
 
 use super::colours::{self, black, grey};
 use super::lines::{self, Frame, Line, Place};
@@ -12,14 +12,14 @@ use std::ops::Range;
 pub struct Drawing<'a> {
     pub picture: &'a Picture,
     pub view: &'a View,
-    /// Of the values.
+    /// Range of the values.
     pub range: Range<f64>,
-    /// Of the drawing [1/8 pixel].
+    /// Range in the drawing [1/8 pixel].
     pub width: i32,
 }
 
 impl Drawing<'_> {
-    /// Draws the axes; gives the lines.
+    /// Draws the axes; returns the lines.
     pub fn draw<'a, X, Y>(
         &self,
         chart: Result<ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>, DrawingAreaErrorKind<std::io::Error>>,
@@ -52,7 +52,7 @@ impl Drawing<'_> {
         lines::write(&lines, &marks.collect::<Vec<_>>(), frame, self.view.name_at)
     }
 
-    /// The series as lines, which `place` puts where they belong.
+    /// The series as lines; `place` maps values to the drawing.
     fn lines(&self, place: &dyn Fn(&Point) -> (i32, i32)) -> Vec<Line> {
         let Drawing { picture, view, range, .. } = self;
         let placed = |(at, value): clip::Shown| {

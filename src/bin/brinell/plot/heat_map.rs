@@ -1,11 +1,11 @@
-//! Maps of one number over two quantities, as SVG. Each cell shows its numbers to whoever points at it, which plotters can't do.
+//! Maps of one number over two quantities, as SVG. Each cell shows its numbers on hover, which plotters does not support.
 
 use super::colours::viridis;
 use crate::html::escape;
 use crate::numbers::significant;
 use std::fmt::Write;
 
-/// What a map is over.
+/// An axis of a map.
 pub struct Quantity<'a> {
     pub name: &'a str,
     /// The name with its unit.
@@ -33,7 +33,7 @@ const BAR: f64 = 14.0;
 /// Numbers along an axis.
 const TICKS: usize = 5;
 
-/// The scale of the colours.
+/// The range of the colours.
 struct Scale {
     low: f64,
     high: f64,
@@ -44,7 +44,7 @@ impl Scale {
     fn of(values: &[Vec<f64>]) -> Scale {
         let all = || values.iter().flatten().copied().filter(|value| value.is_finite());
         let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
-        // a number of several decades that is zero in places has none there
+        // zeros have no place on a logarithmic scale
         let logarithmic = low > 0.0 && high > 100.0 * low;
         Scale { low, high, logarithmic }
     }
@@ -100,7 +100,7 @@ impl HeatMap<'_> {
         for (row, values) in self.values.iter().enumerate() {
             for (column, value) in values.iter().enumerate() {
                 let (x, y) = (LEFT + wide * column as f64, TOP + MAP - high * (row + 1) as f64);
-                // a little larger, so that nothing shines through between neighbours
+                // slightly larger, to avoid gaps between neighbours
                 let (width, height) = (wide + 0.5, high + 0.5);
                 let fill = if value.is_finite() { viridis(scale.part(*value)) } else { "#ccc".into() };
                 writeln!(

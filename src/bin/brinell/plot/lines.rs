@@ -1,11 +1,11 @@
-//! The lines of a picture as SVG: each a group of its own, named after its series, with its values to be read by a pointer.
+//! The lines of a picture as SVG: one group for each series, with its name and with values to hover over.
 
 use super::colours::Stroke;
 use super::{NameAt, SCALE, label};
 use crate::html::escape;
 use std::fmt::Write;
 
-/// A point of a line: where it is drawn [1/8 pixel], and what it means.
+/// A point of a line: its place in the drawing [1/8 pixel], and its values.
 #[derive(Clone, Copy)]
 pub struct Place {
     pub x: i32,
@@ -13,39 +13,39 @@ pub struct Place {
     pub value: (f64, f64),
 }
 
-/// A series as it is drawn.
+/// A series in the drawing.
 pub struct Line {
     pub name: String,
     pub stroke: Stroke,
-    /// Its pieces between points that can't be shown.
+    /// Its pieces between points that the picture can't show.
     pub pieces: Vec<Vec<Place>>,
     /// Points of data instead of a line.
     pub dots: bool,
     /// Whether it stands out; the others are grey.
     pub strong: bool,
-    /// Whether all of it is below the picture, and drawn along its lower edge.
+    /// Whether it is entirely below the picture, and drawn along the lower edge.
     pub below: bool,
 }
 
-/// The part of a picture that the axes enclose [1/8 pixel].
+/// The plotting area between the axes [1/8 pixel].
 #[derive(Clone, Copy)]
 pub struct Frame {
     pub left: i32,
     pub right: i32,
     pub bottom: i32,
-    /// Of the whole picture.
+    /// Size of the whole picture.
     pub width: i32,
 }
 
-/// Height of a line of text, and width of a letter, on average [1/8 pixel].
+/// Height of a line of text, and average width of a letter [1/8 pixel].
 const TEXT: i32 = 15 * SCALE as i32;
 const LETTER: i32 = 62;
 
-/// Most points of a line that show their values; of longer lines some do.
+/// Largest number of points of a line that show their values; longer lines show a selection.
 const POINTERS: usize = 40;
 
-/// All lines, the grey ones first, with the names of the strong ones where `name_at` says; below them the `marks`: the height
-/// and the name of each.
+/// All lines, the grey ones first, with the names of the strong ones at `name_at`; below them the `marks`, each with
+/// height and name.
 pub fn write(lines: &[Line], marks: &[(i32, &str)], frame: Frame, name_at: NameAt) -> String {
     let mut text = String::new();
     for (y, name) in marks {
@@ -92,7 +92,7 @@ fn write_line(text: &mut String, line: &Line) -> std::fmt::Result {
     }
     let every = shown.div_ceil(if line.strong { POINTERS } else { POINTERS / 4 }).max(1);
     for place in line.pieces.iter().flatten().step_by(if line.dots { 1 } else { every }) {
-        // a point without a marker can be pointed at all the same
+        // points without a marker also show their values
         let (radius, seen) = if has_markers { (22, "") } else { (48, " fill-opacity=\"0\"") };
         let (x, y) = (label(&place.value.0), label(&place.value.1));
         write!(
@@ -104,8 +104,8 @@ fn write_line(text: &mut String, line: &Line) -> std::fmt::Result {
     writeln!(text, "</g>")
 }
 
-/// The points of a line without those that nobody would miss: closer than a pixel and a half to the one before, and neither an end
-/// nor a turning point.
+/// The points of a line without redundant ones: those closer than a pixel and a half to the one before, except ends
+/// and extrema.
 fn thinned(piece: &[Place]) -> impl Iterator<Item = &Place> {
     const NEAR: i32 = 12;
     let mut last: Option<&Place> = None;
@@ -124,7 +124,7 @@ fn thinned(piece: &[Place]) -> impl Iterator<Item = &Place> {
     })
 }
 
-/// Whether a line has so few points that each is drawn.
+/// Whether a line has few enough points for markers.
 fn is_short(line: &Line) -> bool {
     line.strong && line.pieces.iter().map(Vec::len).sum::<usize>() <= 16
 }
@@ -144,7 +144,7 @@ impl Rectangle {
     }
 }
 
-/// The names of the strong lines, each beside its place on its line, where no other name is.
+/// The names of the strong lines, each beside its place on the line, without overlap.
 fn write_names(text: &mut String, lines: &[Line], frame: Frame, name_at: NameAt) -> std::fmt::Result {
     let mut taken: Vec<Rectangle> = Vec::new();
     let (below, others): (Vec<_>, Vec<_>) = lines.iter().filter(|line| line.strong).partition(|line| line.below);
@@ -152,7 +152,7 @@ fn write_names(text: &mut String, lines: &[Line], frame: Frame, name_at: NameAt)
         let places = || line.pieces.iter().flatten();
         let end = match name_at {
             NameAt::Top => places().min_by_key(|place| place.y),
-            // where other lines rarely end
+            // at the left, where other lines rarely end
             _ if line.below => places().min_by_key(|place| place.x),
             _ => places().last(),
         };
@@ -181,8 +181,8 @@ fn write_names(text: &mut String, lines: &[Line], frame: Frame, name_at: NameAt)
     Ok(())
 }
 
-/// Where a name of this `width` goes that belongs to a line with this `end`: its anchor, and the rectangle that it takes. To the
-/// right of the end if there is room, and else to the left, or as little above or below as it must be.
+/// Position of a name of this `width` for a line with this `end`: its anchor and its rectangle. It is to the right of
+/// the end if it fits, otherwise to the left, and moved up or down as little as possible.
 fn free_place(end: &Place, width: i32, frame: Frame, taken: &[Rectangle]) -> ((i32, &'static str), Rectangle) {
     let gap = 7 * SCALE as i32;
     let candidate = |side: usize, shift: i32| {
@@ -200,7 +200,7 @@ fn free_place(end: &Place, width: i32, frame: Frame, taken: &[Rectangle]) -> ((i
             && rectangle.bottom <= frame.bottom - SCALE as i32
             && !taken.iter().any(|other| other.overlaps(rectangle))
     };
-    // to the left of its end a name would lie on its own line: there it goes above or below
+    // to the left of its end the name would cover its own line: move it above or below
     let tries = (0..40).flat_map(|step: i32| {
         let shift = TEXT / 2 * step;
         [(0, shift), (0, -shift), (1, shift + TEXT), (1, -shift - TEXT)]
@@ -209,7 +209,7 @@ fn free_place(end: &Place, width: i32, frame: Frame, taken: &[Rectangle]) -> ((i
     places.find(|(_, rectangle)| fits(rectangle)).unwrap_or_else(|| candidate(0, 0))
 }
 
-/// The room that the names of the `lines` need behind them [1/8 pixel].
+/// The width that the names of the `lines` take behind them [1/8 pixel].
 pub fn room<'a>(names: impl Iterator<Item = &'a str>) -> u32 {
     let longest = names.map(|name| name.chars().count()).max().unwrap_or(0) as u32;
     LETTER as u32 * longest + 4 * SCALE

@@ -1,4 +1,4 @@
-//! Maps: rows of cells, each coloured by the class that its number falls into.
+//! Maps: rows of cells, coloured by the class of their numbers.
 
 use super::{Area, IN_MEMORY, SCALE, label, svg};
 use plotters::prelude::*;
@@ -7,34 +7,34 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 /// A map.
 pub struct Map {
     pub x_title: String,
-    /// What the columns stand for, evenly spread over their decades.
+    /// Title of the columns, which are spaced logarithmically.
     pub columns: Vec<f64>,
     pub rows: Vec<Row>,
-    /// What the numbers of the cells are.
+    /// Title of the numbers in the cells.
     pub legend: String,
-    /// From the smallest numbers to the largest.
+    /// The classes in ascending order.
     pub classes: Vec<Class>,
-    /// What the bars in the rows are.
+    /// Meaning of the bars in the rows.
     pub bar_legend: String,
 }
 
 /// A row of cells.
 pub struct Row {
     pub name: String,
-    /// One for each column.
+    /// One number for each column.
     pub values: Vec<f64>,
-    /// Where a bar stands, in the numbers of the columns.
+    /// Place of the bar, in the numbers of the columns.
     pub bar: Option<f64>,
 }
 
-/// Numbers of one colour.
+/// A class of numbers with one colour.
 pub struct Class {
-    /// Largest of them.
+    /// The largest number of the class.
     pub upto: f64,
     pub colour: (u8, u8, u8),
-    /// Neighbours of the same meaning have it in common.
+    /// Its meaning; neighbouring classes may share it.
     pub meaning: &'static str,
-    /// Its cells have a cross: whom the colour says nothing sees that.
+    /// Whether its cells have a cross, for readers who can't distinguish the colour.
     pub crossed: bool,
 }
 
@@ -45,7 +45,7 @@ const MARGIN: i32 = 14;
 const ROW: i32 = 30;
 const CLASS: i32 = 54;
 const STRIP: i32 = 18;
-/// Below the cells: numbers and title of the columns, the bar, and the classes.
+/// Height below the cells: numbers and title of the columns, the bar, and the classes.
 const BELOW: i32 = 172;
 
 impl Map {
@@ -63,14 +63,14 @@ impl Map {
         picture.replacen("<svg ", "<svg class=\"map\" ", 1)
     }
 
-    /// The place of a column's number [pixels].
+    /// The position of a column's number [pixels].
     fn place(&self, number: f64) -> i32 {
         let last = self.columns.len() - 1;
         let (first, range) = (self.columns[0].ln(), self.columns[last].ln() - self.columns[0].ln());
         self.edge((number.ln() - first) / range * last as f64 + 0.5)
     }
 
-    /// Where so many columns end [pixels].
+    /// The right edge of this number of columns [pixels].
     fn edge(&self, columns: f64) -> i32 {
         LEFT + (f64::from(WIDTH - LEFT - MARGIN) * columns / self.columns.len() as f64).round() as i32
     }
@@ -86,7 +86,7 @@ impl Map {
             write(root, &row.name, (LEFT - 8, top + ROW / 2), HPos::Right);
             let classes = || row.values.iter().map(|value| self.class(*value)).enumerate();
             for (column, class) in classes() {
-                // to the end of the row, so that the page never shines through between neighbours
+                // up to the end of the row, without gaps between neighbours
                 let (left, right) = (self.edge(column as f64), self.edge(self.columns.len() as f64));
                 fill(root, (left, top), (right, top + ROW), class.map_or(WHITE, Class::fill));
             }
@@ -100,12 +100,12 @@ impl Map {
         }
     }
 
-    /// Round numbers of the columns, and their title.
+    /// Round numbers for the columns, and their title.
     fn draw_columns(&self, root: &Area, bottom: i32) {
         let (first, last) = (self.columns[0], self.columns[self.columns.len() - 1]);
         let decades = first.log10().floor() as i32..=last.log10().floor() as i32;
         let round = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(decade)));
-        // what rounding makes of an end is still that end
+        // an end with rounding errors still counts
         for number in round.filter(|number| (first * (1.0 - 1e-9)..last * (1.0 + 1e-9)).contains(number)) {
             let x = self.place(number);
             line(root, (x, bottom), (x, bottom + 5), BLACK, 1);
@@ -114,7 +114,7 @@ impl Map {
         write(root, &self.x_title, ((LEFT + WIDTH - MARGIN) / 2, bottom + 38), HPos::Center);
     }
 
-    /// The classes with the numbers between them, and what they mean.
+    /// The classes with the limits between them, and their meanings.
     fn draw_classes(&self, root: &Area, top: i32) {
         let left = (WIDTH - CLASS * self.classes.len() as i32) / 2;
         write(root, &self.legend, (WIDTH / 2, top), HPos::Center);
@@ -157,24 +157,24 @@ fn fill(root: &Area, from: (i32, i32), to: (i32, i32), colour: RGBColor) {
     root.draw(&Rectangle::new([from, to].map(scaled), colour.filled())).expect(IN_MEMORY);
 }
 
-/// The rim of a rectangle between two corners [pixels].
+/// The border of a rectangle between two corners [pixels].
 fn frame(root: &Area, from: (i32, i32), to: (i32, i32)) {
     root.draw(&Rectangle::new([from, to].map(scaled), BLACK.stroke_width(SCALE))).expect(IN_MEMORY);
 }
 
-/// A white cross about a point [pixels].
+/// A white cross around a point [pixels].
 fn cross(root: &Area, x: i32, y: i32) {
     line(root, (x - 3, y), (x + 3, y), WHITE, 2);
     line(root, (x, y - 3), (x, y + 3), WHITE, 2);
 }
 
-/// A bar of a row, from its top to its bottom [pixels]: with a rim, so that it stands out from every colour.
+/// The bar of a row, from top to bottom [pixels], with a border that makes it visible on every colour.
 fn draw_bar(root: &Area, x: i32, (top, bottom): (i32, i32)) {
     line(root, (x, top), (x, bottom), WHITE, 6);
     line(root, (x, top), (x, bottom), BLACK, 3);
 }
 
-/// As plotters counts.
+/// Coordinates for plotters.
 fn scaled((x, y): (i32, i32)) -> (i32, i32) {
     (SCALE as i32 * x, SCALE as i32 * y)
 }
@@ -183,7 +183,7 @@ fn line(root: &Area, from: (i32, i32), to: (i32, i32), colour: RGBColor, width: 
     root.draw(&PathElement::new([from, to].map(scaled), colour.stroke_width(SCALE * width))).expect(IN_MEMORY);
 }
 
-/// Words at a point [pixels], in the middle of their height.
+/// Words at a point [pixels], vertically centred.
 fn write(root: &Area, words: &str, at: (i32, i32), side: HPos) {
     let style = TextStyle::from(("sans-serif", SCALE * 13).into_font()).pos(Pos::new(side, VPos::Center));
     root.draw(&Text::new(words.to_string(), scaled(at), style)).expect(IN_MEMORY);

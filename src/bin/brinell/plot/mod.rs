@@ -24,7 +24,7 @@ use std::ops::Range;
 pub struct Series {
     pub label: String,
     pub points: Vec<(f64, f64)>,
-    /// Dots instead of a line: data, not a law.
+    /// Dots instead of a line: data instead of a law.
     pub dots: bool,
 }
 
@@ -32,52 +32,54 @@ pub struct Series {
 pub struct Picture {
     pub x_title: String,
     pub y_title: String,
-    /// Logarithmic axes; points at or below zero are then left out.
+    /// Logarithmic axes; they omit points at or below zero.
     pub logarithmic: (bool, bool),
     pub series: Vec<Series>,
 }
 
-/// How a picture of a report is drawn: the names of the lines at their ends, and what matters strong.
+/// Style of the pictures in a report: the names at the ends of the lines, and strong colours for what matters.
 #[derive(Default)]
 pub struct View {
-    /// The range of the values. A line that leaves it ends at its edge; one that is below it altogether runs along its lower edge.
+    /// The range of the values. A line that leaves it ends at its edge. A line entirely below it runs along its lower
+    /// edge.
     pub values: Option<Range<f64>>,
-    /// Values with a line across the picture, and what they are called.
+    /// Values marked by a line across the picture, with their names.
     pub marks: Vec<(f64, &'static str)>,
-    /// The names of the series that stand out, where the others are grey. None: all do.
+    /// The names of the series that stand out; the others are grey. `None`: all stand out.
     pub strong: Option<Vec<String>>,
     pub name_at: NameAt,
 }
 
-/// Where a line has its name.
+/// Where the name of a line is placed.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub enum NameAt {
     #[default]
     End,
-    /// At its highest point.
+    /// At the highest point.
     Top,
     Nowhere,
 }
 
 impl View {
-    /// All lines, and no names.
+    /// All lines, without names.
     fn unnamed() -> View {
         View { name_at: NameAt::Nowhere, ..View::default() }
     }
 
-    /// Whether the series of this name stands out.
+    /// Whether the series with this name stands out.
     fn shows(&self, name: &str) -> bool {
         self.strong.as_ref().is_none_or(|strong| strong.iter().any(|other| other == name))
     }
 }
 
-/// plotters puts everything on whole pixels: pictures are drawn large and shown small, so that curves are smooth.
+/// plotters rounds everything to whole pixels. Pictures are therefore drawn large and scaled down; curves are then
+/// smooth.
 const SCALE: u32 = 8;
 
 impl Picture {
     /// The picture as SVG of `width` by `height` pixels, with a legend.
     pub fn svg(&self, width: u32, height: u32) -> String {
-        // beside the curves, where no legend hides any
+        // beside the curves, where the legend hides none of them
         let beside = self.series.len() > 2;
         svg(width, height, |root| {
             let curves = self.draw_into(root, SCALE * if beside { LEGEND } else { 0 }, &View::unnamed());
@@ -98,7 +100,7 @@ impl Picture {
         svg(width, height, |root| self.draw_into(root, room, view))
     }
 
-    /// Axes, with `room` [1/8 pixel] to the right of them; gives the lines.
+    /// Axes, with `room` [1/8 pixel] to the right; returns the lines.
     fn draw_into(&self, root: &Area, room: u32, view: &View) -> String {
         let mut builder = ChartBuilder::on(root);
         builder
@@ -118,34 +120,34 @@ impl Picture {
         }
     }
 
-    /// Whether a point can be shown.
+    /// Whether the picture can show a point.
     fn fits(&self, &(x, y): &(f64, f64)) -> bool {
         let (x_log, y_log) = self.logarithmic;
         (x > 0.0 || !x_log) && (y > 0.0 || !y_log) && x.is_finite() && y.is_finite()
     }
 
-    /// The pieces of a series between points that can't be shown.
+    /// The pieces of a series between points that the picture can't show.
     fn pieces<'a>(&'a self, series: &'a Series) -> impl Iterator<Item = &'a [(f64, f64)]> {
         series.points.split(|point| !self.fits(point)).filter(|piece| !piece.is_empty())
     }
 
-    /// The range of one coordinate of the points, with a little room; from zero where nothing is below it. Pictures over the
-    /// same arguments have the same range of them, whatever of their values can be shown.
+    /// The range of one coordinate of the points, with a margin; from zero if nothing is below it. Pictures over the
+    /// same arguments have the same range, whichever values they can show.
     fn range(&self, value: impl Fn(&(f64, f64)) -> f64, logarithmic: bool) -> Range<f64> {
         let points = || self.series.iter().flat_map(|series| &series.points);
         let values = || points().map(&value).filter(|&value| value.is_finite() && (value > 0.0 || !logarithmic));
         let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         match logarithmic {
-            // nothing to show, or nothing but zeros
+            // no points, or only zeros
             true if high <= 0.0 => 0.1..1.0,
             false if high <= low.min(0.0) => 0.0..1.0,
-            // a little room, so that no line hides under an axis, and a power of ten at the end has its label
+            // a margin: no line is hidden by an axis, and a power of ten at the end has its label
             true => low / 1.3..high * 1.1,
             false => low.min(0.0)..high + 0.06 * (high - low.min(0.0)),
         }
     }
 
-    /// How the lines look.
+    /// The strokes of the lines.
     fn strokes(&self) -> Vec<colours::Stroke> {
         let mut strokes = strokes(self.series.iter().map(|series| series.label.as_str()));
         for (index, stroke) in strokes.iter_mut().enumerate() {
@@ -154,7 +156,7 @@ impl Picture {
         strokes
     }
 
-    /// How much wider than others the line at `index` is: twice where another one will cover it, so that both can be seen.
+    /// Width factor of the line at `index`: two if another line covers it, so both are visible.
     fn width(&self, index: usize) -> u32 {
         let points = &self.series[index].points;
         let covers =
@@ -162,14 +164,14 @@ impl Picture {
         if self.series[index + 1..].iter().any(covers) { 2 } else { 1 }
     }
 
-    /// The names of the series, each behind a piece of its line: beside the curves, or above them if there are few.
+    /// The names of the series, each after a sample of its line: beside the curves, or above them if there are few.
     fn draw_legend(&self, root: &Area, left: u32) {
         for index in 0..self.series.len() {
             self.draw_name(root, index, (left, 24 + LINE * index as u32));
         }
     }
 
-    /// The name of the series at `index` behind a piece of its line, from the point `left`, `middle` [pixels] on.
+    /// The name of the series at `index` after a sample of its line, from the point `left`, `middle` [pixels].
     fn draw_name(&self, root: &Area, index: usize, (left, middle): (u32, u32)) {
         let style = TextStyle::from(("sans-serif", SCALE * 13).into_font()).pos(Pos::new(HPos::Left, VPos::Center));
         let (x, y) = ((SCALE * left) as i32, (SCALE * middle) as i32);
@@ -193,13 +195,13 @@ impl Picture {
 /// An argument and a value.
 type Point = (f64, f64);
 
-/// Pictures of the same series beside each other, as one SVG of `width` pixels, each `height` pixels high, with one legend
-/// below them in as many columns as there is room for.
+/// Pictures of the same series beside each other as one SVG of `width` pixels, each `height` pixels high, with one
+/// legend below them in as many columns as fit.
 pub fn side_by_side(pictures: &[Picture], width: u32, height: u32) -> String {
     const MARGIN: u32 = 24;
     let Some(first) = pictures.first() else { return String::new() };
     let longest = first.series.iter().map(|series| series.label.chars().count() as u32).max().unwrap_or(0);
-    // a letter is some seven pixels wide; the line and the space between columns stand beside it
+    // a letter is about seven pixels wide; add the sample and the space between columns
     let column = 7 * longest + 52;
     let columns = ((width - 2 * MARGIN) / column).max(1);
     let rows = (first.series.len() as u32).div_ceil(columns);
@@ -216,13 +218,13 @@ pub fn side_by_side(pictures: &[Picture], width: u32, height: u32) -> String {
     })
 }
 
-/// Whether two lines can't be told apart.
+/// Whether two lines look the same.
 fn coincide(one: &[(f64, f64)], other: &[(f64, f64)]) -> bool {
     let near = |one: f64, other: f64| (one - other).abs() <= 0.01 * one.abs().max(other.abs());
     one.iter().zip(other).all(|(one, other)| near(one.0, other.0) && near(one.1, other.1))
 }
 
-/// What `draw` draws, and above it the elements that it gives, as SVG of `width` by `height` pixels.
+/// The drawing of `draw` with the returned elements on top, as SVG of `width` by `height` pixels.
 fn svg(width: u32, height: u32, draw: impl FnOnce(&Area) -> String) -> String {
     let mut svg = String::new();
     let lines = {
@@ -236,23 +238,23 @@ fn svg(width: u32, height: u32, draw: impl FnOnce(&Area) -> String) -> String {
     svg.replacen("</svg>", &format!("{lines}</svg>"), 1)
 }
 
-/// Room for a legend beside the curves.
+/// Width of a legend beside the curves.
 const LEGEND: u32 = 170;
 
 /// Height of a line of a legend.
 const LINE: u32 = 19;
 
-/// Where pictures are drawn.
+/// The drawing area.
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
-/// Drawing writes to a String, which takes everything.
+/// Drawing to a String cannot fail.
 const IN_MEMORY: &str = "a drawing in memory";
 
 fn linear(range: Range<f64>) -> RangedCoordf64 {
     range.into()
 }
 
-/// A tick label: plain where that is short.
+/// A tick label; without an exponent if that is short.
 fn label(value: &f64) -> String {
     let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
     match rounded.abs() {

@@ -14,10 +14,10 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::fs;
 
-/// The command: builds the libraries that are asked for, for each target, and writes them into a folder.
+/// The command: builds the requested libraries for each target and writes them to a folder.
 ///
 /// # Errors
-/// A law or kind that there isn't, or that of the first library that can't be built or written.
+/// Unknown laws and kinds; the first library that can't be built or written.
 pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let libraries = chosen(arguments)?;
     let targets = platform::targets(&arguments.platforms.chosen(Way::Compiled)?);
@@ -39,7 +39,7 @@ pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn E
     Ok(())
 }
 
-/// The libraries that are asked for.
+/// The requested libraries.
 fn chosen(arguments: &PrebuildArguments) -> Result<Vec<Library>, String> {
     let known: Vec<_> = Laws::all().iter().flat_map(|laws| [laws.loading.to_string(), laws.name()]).collect();
     refuse_unknown("law", &arguments.laws, &known)?;
@@ -78,7 +78,8 @@ fn build_all(builder: &Builder, libraries: &[Library], target: &'static Target) 
     built
 }
 
-/// By how much the compiled library of a scene with the same laws and outputs is smaller, for the first laws of each kind.
+/// For each kind: the size difference between the prebuilt library and the compiled library of a scene with the same
+/// outputs, for the first laws.
 fn compiling_saves(
     builder: &Builder,
     libraries: &[Library],

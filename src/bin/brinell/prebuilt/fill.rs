@@ -5,10 +5,10 @@ use brinell::scene::prebuilt::block::{Block, Data, MAGIC, VERSION};
 use object::{BinaryFormat, Object, ObjectSection};
 use std::ops::Range;
 
-/// What the section of the block is called, in Mach-O and elsewhere.
+/// Name of the section with the block, in Mach-O and in other formats.
 const SECTIONS: [&str; 2] = ["__brinell", ".brinell"];
 
-/// A library that can't be filled in.
+/// An error of filling in a library.
 #[derive(Debug, thiserror::Error)]
 pub enum FillError {
     #[error("it can't be read as a library: {0}")]
@@ -25,10 +25,10 @@ pub enum FillError {
     Signature(#[from] SignatureError),
 }
 
-/// Writes `data` into `library`, which is told from all others by the number `identity`.
+/// Writes `data` to `library`. The number `identity` identifies the library.
 ///
 /// # Errors
-/// [`FillError`]; some of it may then be written.
+/// [`FillError`]; part of the data may then be written.
 pub fn fill(library: &mut [u8], identity: u64, data: Data) -> Result<(), FillError> {
     let block: Vec<u8> = Block::filled(identity, data).words().flat_map(u64::to_le_bytes).collect();
     let empty: Vec<u8> = Block::unfilled(identity).words().flat_map(u64::to_le_bytes).collect();
@@ -38,7 +38,7 @@ pub fn fill(library: &mut [u8], identity: u64, data: Data) -> Result<(), FillErr
     if room.len() != block.len() {
         return Err(FillError::Size { found: room.len(), expected: block.len() });
     }
-    // numbers that say what it is; the rest of an empty block says nothing
+    // numbers that identify it; the rest of an empty block is not defined
     if room[..HEAD] != empty[..HEAD] {
         return Err(FillError::NotEmpty);
     }
@@ -56,13 +56,13 @@ pub fn fill(library: &mut [u8], identity: u64, data: Data) -> Result<(), FillErr
 const HEAD: usize = 8 * 4;
 const _: () = assert!(MAGIC != 0 && VERSION != 0);
 
-/// The format of a library, and where its block is.
+/// The format of a library, and the position of its block.
 fn section(library: &[u8]) -> Result<(BinaryFormat, Range<usize>), FillError> {
     let file = object::File::parse(library)?;
     let section = SECTIONS.iter().find_map(|name| file.section_by_name(name)).ok_or(FillError::NoSection)?;
     let (offset, size) = section.file_range().ok_or(FillError::NoSection)?;
     let offset = offset as usize;
-    // the sections of a DLL are padded to whole blocks of the file
+    // the sections of a DLL are padded to the file alignment
     let size = if file.format() == BinaryFormat::Pe { section.size() } else { size } as usize;
     if library.len() < offset + size {
         return Err(FillError::NoSection);

@@ -1,4 +1,4 @@
-//! Whether a scene fits into a prebuilt library, and the data that it becomes there.
+//! Fits a scene to a prebuilt library, and turns it into the data of that library.
 
 use super::kinds::{Laws, Library};
 use crate::constants::{parameters, start_value};
@@ -11,11 +11,11 @@ use brinell::contact::damped::AnyDamped;
 use brinell::scene::identity_of;
 use brinell::scene::prebuilt::block::{Data, FIRST_PARAMETER, Flag, GUID, TEXTS, VARIABLES as PLACES};
 
-/// A scene that no prebuilt library has room for.
+/// A scene that fits no prebuilt library.
 #[derive(Debug, thiserror::Error)]
 #[error("{key}: {reason}")]
 pub struct NeedsCompiler {
-    /// What in the scene is the reason.
+    /// The part of the scene that is the reason.
     pub key: String,
     pub reason: String,
 }
@@ -25,10 +25,10 @@ fn needs(key: impl Into<String>, reason: impl Into<String>) -> NeedsCompiler {
 }
 
 impl Library {
-    /// The smallest library that `scene` fits into.
+    /// The smallest library that fits `scene`.
     ///
     /// # Errors
-    /// [`NeedsCompiler`] with the first key that no prebuilt library has.
+    /// [`NeedsCompiler`] with the first key that no prebuilt library supports.
     pub fn of(scene: &Scene) -> Result<Library, NeedsCompiler> {
         library_for(scene)
     }
@@ -55,12 +55,12 @@ fn library_for(scene: &Scene) -> Result<Library, NeedsCompiler> {
     Ok(library)
 }
 
-/// The laws of `scene` as they are prebuilt, whatever their constants.
+/// The prebuilt laws of `scene`, regardless of their constants.
 fn laws_of(scene: &Scene) -> Result<Laws, NeedsCompiler> {
     let all = Laws::all();
     if let Some((name, law)) = scene.damped {
         let of_name: Vec<_> = all.into_iter().filter(|laws| laws.loading == name).collect();
-        // the damping says which; constants are compared later
+        // the damping selects the variant; constants are compared later
         let same = of_name.iter().find(|laws| damped_of(laws) == Some(law)).or(of_name.first());
         return Ok(*same.expect("every rate-dependent law is prebuilt"));
     }
@@ -74,17 +74,17 @@ fn laws_of(scene: &Scene) -> Result<Laws, NeedsCompiler> {
     Err(needs(format!("law.unloading = {:?}", partner.unwrap_or_default()), reason))
 }
 
-/// The rate-dependent law of these names, with its reference constants.
+/// The rate-dependent law with these names and its reference constants.
 fn damped_of(laws: &Laws) -> Option<AnyDamped> {
     use crate::model::Dampings;
     let (_, law) = AnyDamped::ALL.into_iter().find(|(name, _)| *name == laws.loading)?;
     laws.partner.map_or(Some(law), |damping| law.with_damping(damping))
 }
 
-/// The data of the planned unit, under the identification `guid`.
+/// The data of the planned FMU with the identification `guid`.
 ///
 /// # Errors
-/// [`NeedsCompiler`] if the names of its variables are too long.
+/// [`NeedsCompiler`] if the names of the variables are too long.
 pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
     let scene = plan.scene;
     let group = &scene.contacts[0];
@@ -135,5 +135,5 @@ fn as_bytes(guid: &str) -> [u8; GUID] {
     guid.as_bytes().try_into().expect("a GUID has 32 digits")
 }
 
-/// A value reference and a place in the table need a byte each.
+/// A value reference and an index into the table take one byte each.
 const _: () = assert!(PLACES <= FIRST_PARAMETER as usize);

@@ -1,4 +1,4 @@
-//! Which libraries are prebuilt: the kinds, and the laws. This is the one place that lists them.
+//! The prebuilt libraries: kinds and laws. This is the only list of them.
 
 use crate::constants;
 use crate::model::Dampings;
@@ -10,11 +10,11 @@ use brinell::contact::damped::{AnyDamped, Damped};
 use brinell::contact::loading::AnyLoading;
 use std::path::Path;
 
-/// What a library can show, and which masters it is for.
+/// Outputs of a library, and its co-simulation algorithm.
 pub struct Kind {
     pub name: &'static str,
     outputs: Outputs,
-    /// None if the library doesn't know the mass.
+    /// `None` if the library doesn't know the mass.
     master: Option<Master>,
 }
 
@@ -24,14 +24,14 @@ enum Master {
     Parallel,
 }
 
-/// The outputs of a kind beside the force.
+/// The outputs of a kind besides the force.
 enum Outputs {
     These(&'static [&'static str]),
     AllBut(&'static [&'static str]),
 }
 
-/// The kinds, those before that cost less. `impulse` and `mean_force` are computed in every step, all other outputs only
-/// when they are read.
+/// The kinds, in ascending order of cost. `impulse` and `mean_force` are computed in every step; all other outputs
+/// only when they are read.
 pub const KINDS: [Kind; 5] = [
     Kind {
         name: "force",
@@ -45,7 +45,7 @@ pub const KINDS: [Kind; 5] = [
 ];
 
 impl Kind {
-    /// Whether there is a library of this kind with rate-dependent laws: they don't go with a known mass.
+    /// Whether this kind has libraries with rate-dependent laws. These laws don't support a known mass.
     fn goes_with_damped(&self) -> bool {
         self.master.is_none()
     }
@@ -57,7 +57,7 @@ impl Kind {
         }
     }
 
-    /// The outputs beside the force, in the order of the table.
+    /// The outputs besides the force, in the order of the table.
     fn outputs(&self) -> impl Iterator<Item = &'static str> {
         let outputs = VARIABLES.iter().filter(|variable| variable.causality == Causality::Output);
         let names = outputs.map(|variable| variable.name.as_str());
@@ -83,8 +83,7 @@ pub struct Laws {
 }
 
 impl Laws {
-    /// Every loading law with the unloading law that a scene gets which names none, and every rate-dependent law in each of its
-    /// dampings.
+    /// Every loading law with its default unloading law, and every rate-dependent law with each of its dampings.
     pub fn all() -> Vec<Laws> {
         let loading = AnyLoading::ALL.into_iter().map(|(loading, _)| {
             let partner = (loading != "hertz").then(|| pairing::default_unloading(loading));
@@ -98,12 +97,12 @@ impl Laws {
         loading.chain(damped).collect()
     }
 
-    /// The rate-dependent law, if it is one.
+    /// The rate-dependent law, if there is one.
     fn damped(&self) -> Option<AnyDamped> {
         AnyDamped::ALL.into_iter().find(|(name, _)| *name == self.loading).map(|(_, law)| law)
     }
 
-    /// Both names in one.
+    /// Both names in one string.
     pub fn name(&self) -> String {
         self.partner.map_or(self.loading.into(), |partner| format!("{}/{partner}", self.loading))
     }
@@ -122,11 +121,11 @@ impl Laws {
     }
 }
 
-/// One library that is prebuilt.
+/// One prebuilt library.
 pub struct Library {
     pub laws: Laws,
     pub kind: &'static Kind,
-    /// A scene that has all that the library has.
+    /// A scene with everything that the library has.
     pub scene: Scene,
 }
 
@@ -149,7 +148,7 @@ impl Library {
         Library { laws, kind, scene: scene.expect("the scenes of the kinds are right with every law") }
     }
 
-    /// Every library, those of the same kind one after the other.
+    /// All libraries, grouped by kind.
     pub fn all() -> Vec<Library> {
         let laws = Laws::all();
         let of_kind = |kind: &'static Kind| {
@@ -159,7 +158,7 @@ impl Library {
         KINDS.iter().flat_map(of_kind).collect()
     }
 
-    /// The smallest library that has what `scene` has, if it is one with these laws.
+    /// The smallest prebuilt library with these laws that has everything the scene needs; `None` for other laws.
     pub fn for_scene(laws: Laws, scene: &Scene) -> Option<Library> {
         KINDS.iter().find(|kind| kind.takes(scene)).map(|kind| Library::new(laws, kind))
     }
@@ -168,7 +167,7 @@ impl Library {
         format!("{} {}", self.laws.name(), self.kind.name)
     }
 
-    /// The source file of its own, and what it is made from: a hash of that file and all others.
+    /// The library's own source file, and the hash of all its sources.
     pub fn source(&self) -> (String, String) {
         let file = constants::kind::write(&self.scene, "");
         let made_from = Hash::new().with(&file).with_all(package::sources()).digits();
@@ -190,7 +189,7 @@ mod tests {
         assert_eq!(all.len(), (Laws::all().len() - damped) * KINDS.len() + damped * 3);
     }
 
-    /// Otherwise the library of a later kind would never be taken.
+    /// Otherwise the library of a later kind would never be used.
     #[test]
     fn the_scene_of_each_library_is_one_that_this_library_is_taken_for() {
         for library in Library::all() {

@@ -1,4 +1,4 @@
-//! Filling in libraries for macOS: files built by hand, as small as they can be.
+//! Filling in libraries for macOS: minimal files built by hand.
 
 use super::fill::{FillError, fill};
 use crate::signature::{SignatureError, check};
@@ -8,10 +8,10 @@ use sha2::{Digest, Sha256};
 const LIBRARY: u64 = 42;
 const PAGE: usize = 4096;
 
-/// Where the block lies: across a border of pages.
+/// Start of the block, which crosses a page border.
 const BLOCK_AT: usize = 2 * PAGE - 100;
 
-/// The end of what is signed: within the fifth page.
+/// End of the signed part: within the fifth page.
 const END: usize = 4 * PAGE + 16;
 
 fn data() -> Data {
@@ -23,7 +23,7 @@ fn bytes_of(block: Block) -> Vec<u8> {
     block.words().flat_map(u64::to_le_bytes).collect()
 }
 
-/// A library with an empty block, and a signature if it is `signed`.
+/// A library with an empty block; with a signature if it is `signed`.
 fn library(signed: bool) -> Vec<u8> {
     let mut file = Vec::new();
     let name = |text: &str| {
@@ -76,7 +76,7 @@ fn a_filled_library_has_the_data_and_the_hashes_of_its_pages() {
     check(&filled).expect("every page has its hash");
     let block = bytes_of(Block::filled(LIBRARY, data()));
     assert!(filled[BLOCK_AT..].starts_with(&block));
-    // nothing else but the hashes of the two pages is touched
+    // nothing changes except the hashes of the two pages
     let hashes = END + 20 + 88 + 32..END + 20 + 88 + 3 * 32;
     let others = |place: &usize| !(BLOCK_AT..BLOCK_AT + block.len()).contains(place) && !hashes.contains(place);
     assert_eq!(filled.len(), empty.len());
@@ -88,7 +88,7 @@ fn a_filled_library_has_the_data_and_the_hashes_of_its_pages() {
 fn a_library_that_macos_would_not_load_is_refused() {
     let refused = |mut library: Vec<u8>| fill(&mut library, LIBRARY, data()).unwrap_err();
     assert!(matches!(refused(library(false)), FillError::Signature(SignatureError::None)));
-    // a byte that is not that of the linker, in each page
+    // one wrong byte in each page
     for page in 0..5 {
         let mut damaged = library(true);
         let at = if page == 0 { 300 } else { page * PAGE + 8 };

@@ -1,8 +1,8 @@
 //! Prebuilt libraries: FMUs without a compiler.
 //!
-//! Nearly all that differs between two scenes of the same laws is data. A prebuilt library has a block of memory for them
-//! (`brinell::scene::prebuilt`); `brinell prebuild` makes such libraries once, and an export writes the data of its scene into
-//! a copy of the one that fits.
+//! Scenes with the same laws differ almost only in data. A prebuilt library has a block of memory for these data
+//! (`brinell::scene::prebuilt`). `brinell prebuild` compiles such libraries once. An export copies the library that
+//! fits and writes the data of its scene to the copy.
 
 pub mod command;
 mod fill;
@@ -39,15 +39,15 @@ pub enum PrebuiltError {
     Description(io::Error),
 }
 
-/// The platforms that there are prebuilt libraries for.
+/// The platforms with prebuilt libraries.
 pub fn platforms() -> Vec<Platform> {
     Store::find().map(|store| store.platforms().to_vec()).unwrap_or_default()
 }
 
-/// A unit that is made from a prebuilt library.
+/// An FMU from a prebuilt library.
 pub struct Unit {
     pub guid: String,
-    /// The library for it.
+    /// Its library.
     pub library: Library,
     made_from: String,
     data: Data,
@@ -55,15 +55,15 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// The planned unit.
+    /// The planned FMU.
     ///
     /// # Errors
-    /// [`PrebuiltError`] if there are no prebuilt libraries, or none that the scene fits into.
+    /// [`PrebuiltError`] if there are no prebuilt libraries, or none that fits the scene.
     pub fn of(plan: &Plan) -> Result<Unit, PrebuiltError> {
         let library = Library::of(plan.scene)?;
         let store = Store::find()?;
         let (source, made_from) = library.source();
-        // the data are as long as the GUID is, too
+        // the size of the data does not depend on the value of the GUID
         let block = Block::filled(0, fit::data_of(plan, GUID_TO_COME)?);
         let words: String = block.words().map(|word| format!("{word:016x}")).collect();
         let description = Hash::new().with_written(|to| model_description::write(plan, GUID_TO_COME, to));
@@ -73,10 +73,10 @@ impl Unit {
         Ok(Unit { guid, library, made_from, data, store })
     }
 
-    /// The library of the unit for `platform`.
+    /// The library of the FMU for `platform`.
     ///
     /// # Errors
-    /// [`PrebuiltError`] if it isn't there, or damaged.
+    /// [`PrebuiltError`] if it is missing or damaged.
     pub fn library(&self, platform: &Platform) -> Result<Vec<u8>, PrebuiltError> {
         let slices = platform.targets.iter().map(|target| self.slice(target)).collect::<Result<Vec<_>, _>>()?;
         Ok(package::join(&slices.iter().map(Vec::as_slice).collect::<Vec<_>>()))
@@ -92,7 +92,7 @@ impl Unit {
         Ok(library)
     }
 
-    /// Size of the library of the unit for `platform` [bytes], and by how much a compiled one is smaller, as far as it is known.
+    /// Size of the library of the FMU for `platform` [bytes], and the saving of a compiled one, if known.
     pub fn sizes(&self, platform: &Platform) -> Option<(usize, Option<i64>)> {
         let sizes = platform.targets.iter().map(|target| self.store.sizes(&self.library, target).ok());
         let (sizes, saved): (Vec<_>, Vec<_>) = sizes.collect::<Option<Vec<_>>>()?.into_iter().unzip();

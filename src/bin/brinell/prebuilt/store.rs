@@ -1,7 +1,7 @@
-//! A folder of prebuilt libraries: for each target an archive, and a list of what is in it with hashes.
+//! A folder of prebuilt libraries: for each target an archive, and a list of its contents with hashes.
 //!
-//! The libraries of a kind are compressed as one stream: most of their code is the same. One library is then found by unpacking
-//! a fraction of the archive.
+//! The libraries of a kind are compressed as one stream, because most of their code is the same. Reading one library
+//! takes unpacking a fraction of the archive.
 
 use super::kinds::Library;
 use crate::files::{FileError, write_whole};
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Why a prebuilt library can't be had.
+/// An error of reading a prebuilt library.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     #[error("there are no prebuilt libraries installed with this program: BRINELL_PREBUILT names a folder with them")]
@@ -39,16 +39,16 @@ pub enum StoreError {
 struct List {
     /// Version of the program.
     brinell: String,
-    /// A hash of the sources that all libraries have in common.
+    /// A hash of the sources that all libraries share.
     sources: String,
     /// The archive: its name, size and hash.
     archive: Listed,
-    /// By kind how much smaller the compiled library of a scene with the same outputs is [bytes].
+    /// For each kind: the saving of a compiled library of a scene with the same outputs [bytes].
     compiling_saves: BTreeMap<String, i64>,
     streams: Vec<Stream>,
 }
 
-/// A piece of data with its hash.
+/// Data with their hash.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Listed {
@@ -81,7 +81,7 @@ fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// A hash of the sources that all libraries have in common.
+/// A hash of the sources that all libraries share.
 fn sources() -> String {
     Hash::new().with_all(package::sources()).digits()
 }
@@ -96,7 +96,7 @@ pub struct Store {
 }
 
 impl Store {
-    /// The folder that the user names, or the installed one.
+    /// The folder named by the user, otherwise the installed one.
     ///
     /// # Errors
     /// [`StoreError::NoFolder`]
@@ -109,17 +109,17 @@ impl Store {
         Ok(Store { folder: found, platforms })
     }
 
-    /// The platforms that there are libraries for.
+    /// The platforms with libraries.
     pub fn platforms(&self) -> &[Platform] {
         &self.platforms
     }
 
-    /// Where it is.
+    /// Its path.
     fn folder(&self) -> PathBuf {
         self.folder.path.clone()
     }
 
-    /// The list for `target`, of this version.
+    /// The list for `target`, for this version.
     fn list(&self, target: &Target) -> Result<List, StoreError> {
         let path = self.folder.file(target, LIST);
         if !path.is_file() {
@@ -135,7 +135,7 @@ impl Store {
         Ok(list)
     }
 
-    /// The prebuilt `library` for `target`, as it was made.
+    /// The prebuilt `library` for `target`, not filled in.
     ///
     /// # Errors
     /// [`StoreError`]
@@ -170,7 +170,7 @@ impl Store {
         Err(StoreError::NoLibrary { folder: self.folder(), name })
     }
 
-    /// Size of the prebuilt `library` for `target` [bytes], and by how much a compiled one is smaller.
+    /// Size of the prebuilt `library` for `target` [bytes], and the saving of a compiled one.
     ///
     /// # Errors
     /// [`StoreError`]
@@ -184,7 +184,7 @@ impl Store {
     }
 }
 
-/// What was written for a target.
+/// The result for one target.
 pub struct Written {
     pub libraries: usize,
     /// All libraries [bytes].
@@ -193,7 +193,7 @@ pub struct Written {
     pub packed: usize,
 }
 
-/// Writes the `libraries` for `target` into the folder at `path`, those of a kind in one stream.
+/// Writes the `libraries` for `target` to the folder at `path`, one stream for each kind.
 ///
 /// # Errors
 /// [`FileError`]
@@ -231,10 +231,10 @@ pub fn write(
     Ok(Written { libraries: libraries.len(), unpacked, packed: archive.len() })
 }
 
-/// Room for the libraries of a kind [bits of bytes].
+/// Window for the libraries of a kind [log2 of bytes].
 const WINDOW: i32 = 24;
 
-/// `bytes`, compressed as far as it goes.
+/// `bytes` at the highest compression.
 fn pack(bytes: &[u8]) -> Vec<u8> {
     let parameters = brotli::enc::BrotliEncoderParams { quality: 11, lgwin: WINDOW, ..Default::default() };
     let mut packed = Vec::new();
@@ -243,7 +243,7 @@ fn pack(bytes: &[u8]) -> Vec<u8> {
     packed
 }
 
-/// What [`pack`] has made of this many bytes; none if it hasn't.
+/// Unpacks this many bytes from the output of [`pack`]; `None` for other input.
 fn unpack(packed: &[u8], size: usize) -> Option<Vec<u8>> {
     let mut unpacked = Vec::with_capacity(size);
     let mut packed = packed;

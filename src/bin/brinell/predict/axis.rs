@@ -1,4 +1,4 @@
-//! What a sweep varies: a quantity of the impact, or a parameter of the scene.
+//! The varied quantity of a sweep: a quantity of the impact, or a parameter of the scene.
 
 use super::constants;
 use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_height};
@@ -9,36 +9,36 @@ use crate::scene::Scene;
 use crate::table::{self, Causality, VARIABLES};
 use brinell::contact::impact::Impact;
 
-/// Something that a sweep varies, from one value to another.
+/// A quantity with its range.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// As the user names it: `speed`, `target.yield_strength`, `law.loading_parameters.exponent`.
+    /// Its name for the user: `speed`, `target.yield_strength`, `law.loading_parameters.exponent`.
     pub name: &'static str,
-    /// [SI]
+    /// Its unit in SI.
     pub unit: &'static str,
     pub from: f64,
     pub to: f64,
-    /// How many values there are, if the user says it.
+    /// Number of values, if the user gives it.
     count: Option<usize>,
 }
 
 /// The quantities of an impact, with their units.
 const OF_IMPACT: [(&str, &str); 4] = [("speed", "m/s"), ("mass", "kg"), ("energy", "J"), ("drop_height", "m")];
 
-/// A parameter that only some laws have, in a scene or not.
+/// Parameters that only some laws have, whether or not a scene contains them.
 const HARDENING: &str = "target.hardening_modulus";
 
-/// Parameters that an impact doesn't depend on.
+/// Parameters that do not affect an impact.
 const WITHOUT_EFFECT: [&str; 1] = ["initial_gap"];
 
-/// Most values of a sweep.
+/// Largest number of values of a sweep.
 const MOST: usize = 10_000;
 
 impl Axis {
-    /// The axis that `words` name: NAME=FROM:TO or NAME=FROM:TO:COUNT.
+    /// The axis described by `words`: NAME=FROM:TO or NAME=FROM:TO:COUNT.
     ///
     /// # Errors
-    /// [`PredictError::Sweep`]: what is wrong, and what is expected.
+    /// [`PredictError::Sweep`] with the mistake and the expected form.
     pub fn parse(words: &str) -> Result<Axis, PredictError> {
         let wrong = |why: &str| {
             PredictError::Sweep(format!(
@@ -69,17 +69,17 @@ impl Axis {
         Ok(Axis { name, unit, from, to, count: count.transpose()? })
     }
 
-    /// Closing speeds, in a range [m/s].
+    /// A range of closing speeds [m/s].
     pub fn speeds((from, to): (f64, f64)) -> Axis {
         Axis { name: "speed", unit: "m/s", from, to, count: None }
     }
 
-    /// The values are evenly spread over their decades: the range has a decade or more.
+    /// Whether the values are spaced logarithmically: the range has a decade or more.
     pub fn is_logarithmic(&self) -> bool {
         self.from > 0.0 && self.to >= 10.0 * self.from
     }
 
-    /// The values, as many as the user wants or else `usual`; both ends are among them as they are.
+    /// The values: the user's number of them, otherwise `usual`. They include both ends unchanged.
     pub fn values(&self, usual: usize) -> Vec<f64> {
         let count = self.count.unwrap_or(usual);
         let part = |index: usize| index as f64 / (count - 1) as f64;
@@ -92,7 +92,7 @@ impl Axis {
         (0..count).map(value).collect()
     }
 
-    /// The name with its unit, for an axis of a picture.
+    /// The name with its unit, for the axis of a picture.
     pub fn title(&self) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
         format!("{}{unit}", self.name.replace('_', " "))
@@ -122,10 +122,10 @@ fn find(name: &str) -> Result<(&'static str, &'static str), String> {
     }
 }
 
-/// Law and impact where the quantities have these values, on the bodies of the first contact of `scene`.
+/// Law and impact for these values of the quantities, on the bodies of the first contact of `scene`.
 ///
 /// # Errors
-/// The value that can't be, with what is allowed.
+/// The impossible value, with the allowed ones.
 pub fn varied(
     scene: &Scene,
     choice: &Choice,
@@ -157,7 +157,7 @@ pub fn varied(
             }
         }
     }
-    // an energy belongs to the mass, in whatever order the two are given
+    // an energy refers to the mass, whichever comes first
     if let Some((_, energy)) = values.iter().find(|(axis, _)| axis.name == "energy") {
         impact.speed = speed_of_energy(impact.mass, *energy);
     }
@@ -168,11 +168,11 @@ pub fn varied(
     Ok((choice, impact))
 }
 
-/// The law on bodies with these parameters.
+/// The law with bodies of these parameters.
 fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result<AnyModel, PredictError> {
     let missing = |name: &str| PredictError::Sweep(format!("{name}: {}", why_absent(name)));
     for (name, _) in bodies {
-        // a rigid impactor has no modulus, a flat target no radius; a strength is no parameter of an elastic law
+        // a rigid impactor has no modulus, a flat target no radius, and an elastic law no strength
         let is_there = scene.group_value(0, name).is_some() || ["target.radius", HARDENING].contains(name);
         let strength = *name == "target.yield_strength";
         let yields = choice.model.elastoplastic().is_some() && choice.laws != "hertz";

@@ -1,4 +1,4 @@
-//! The command `predict`: what is asked, and in which form the answer goes out.
+//! The command `predict`: its arguments and the format of its output.
 
 use super::axis::Axis;
 use super::map::Map;
@@ -19,7 +19,7 @@ use serde_json::json;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// What `brinell predict` is asked.
+/// The arguments of `brinell predict`.
 #[derive(clap::Args)]
 #[command(next_line_help = true)]
 pub struct Arguments {
@@ -57,7 +57,7 @@ pub struct Arguments {
     pub restitution: Option<f64>,
 }
 
-/// Answers what the arguments ask.
+/// Runs the command.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let formats = ["csv", "svg", "html"];
     let output = arguments.output.as_deref();
@@ -104,7 +104,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The scene's impact, with what the arguments say instead.
+/// The scene's impact, with the changes from the arguments.
 fn impact(scene: &Scene, arguments: &Arguments) -> Result<Impact, PredictError> {
     let mass = super::positive("mass", arguments.mass.unwrap_or(scene.impact_of(0).mass))?;
     let speed = match (arguments.speed, arguments.energy, arguments.drop_height) {
@@ -118,7 +118,7 @@ fn impact(scene: &Scene, arguments: &Arguments) -> Result<Impact, PredictError> 
     Ok(impact)
 }
 
-/// An impact on a scene by some laws, and how the answer is wanted.
+/// An impact on a scene with several laws, and the format of the output.
 struct Question<'a> {
     scene: &'a Scene,
     choices: &'a [Choice],
@@ -127,14 +127,14 @@ struct Question<'a> {
 }
 
 impl Question<'_> {
-    /// Impacts over one quantity or two, as a table, a picture or a page.
+    /// Impacts over one or two quantities, as a table, a picture or a page.
     fn sweep(&self, axes: Vec<Axis>, output: Option<&Path>, format: &str) -> Result<(), Box<dyn Error>> {
         let Question { scene, choices, impact, .. } = *self;
-        // of several laws those without a yield strength have nothing to vary
+        // with several laws, those without a yield strength don't depend on it
         let strength = axes.iter().any(|axis| axis.name == "target.yield_strength") && choices.len() > 1;
         let yields = |choice: &&Choice| choice.model.elastoplastic().is_some() && choice.laws != "hertz";
         let mut choices: Vec<Choice> = choices.iter().filter(|choice| !strength || yields(choice)).cloned().collect();
-        // and of several laws those without a constant
+        // with several laws, those without the constant don't depend on it
         let constant = |axis: &&Axis| super::constants::is_one(axis.name);
         let has_all =
             |choice: &Choice| axes.iter().filter(constant).all(|axis| super::constants::has(choice, axis.name));
@@ -142,7 +142,7 @@ impl Question<'_> {
             choices.retain(has_all);
         }
         let choices = choices.as_slice();
-        // what can't be varied, or not so far, is a mistake in the call; what a law can't do isn't
+        // an impossible quantity or range is a wrong call; a law that can't be evaluated is not
         let failed = |error: PredictError| -> Box<dyn Error> {
             match error {
                 PredictError::Beyond { .. } => error.into(),
@@ -166,7 +166,7 @@ impl Question<'_> {
         Ok(deliver(&text, output)?)
     }
 
-    /// A result in the form that is wanted.
+    /// A result in the requested format.
     fn written(
         &self,
         (output, format): (Option<&Path>, &str),
@@ -198,7 +198,7 @@ impl Question<'_> {
         Ok(deliver(&text, Some(path))?)
     }
 
-    /// Which speed makes `dent` [m], and which yield strength explains it after the impact.
+    /// The speed that causes `dent` [m], and the yield strength that explains it after the impact.
     fn invert(&self, dent: f64) -> Result<(), PredictError> {
         let Question { choices, impact, as_json, .. } = *self;
         let mut answers = Vec::new();

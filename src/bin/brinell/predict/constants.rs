@@ -1,4 +1,4 @@
-//! Constants of laws as quantities of a sweep, under the names that a scene has for them.
+//! Constants of laws as quantities of a sweep, with the names that they have in a scene.
 
 use super::PredictError;
 use crate::law_check;
@@ -12,11 +12,11 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 use toml::Spanned;
 
-/// What comes before the names of the constants of a loading law, and of an unloading law.
+/// Prefixes of the constants of a loading law and of an unloading law.
 pub const LOADING: &str = "law.loading_parameters.";
 const UNLOADING: &str = "law.unloading_parameters.";
 
-/// Every constant that a law has, with its unit; none for a depth in units of the law, such as its yield indentation.
+/// All constants of a law, with their units; `None` for a depth in units of the law, such as its yield indentation.
 static ALL: LazyLock<Vec<(String, &str)>> = LazyLock::new(|| {
     let mut all = Vec::new();
     for (laws, prefix) in [(table::loading_laws(), LOADING), (table::unloading_laws(), UNLOADING)] {
@@ -41,7 +41,7 @@ pub fn is_one(name: &str) -> bool {
     name.starts_with(LOADING) || name.starts_with(UNLOADING)
 }
 
-/// The laws of `choice` by their names; an elastic one has no unloading law, a rate-dependent one a damping in its place.
+/// The names of the laws of `choice`. An elastic law has no unloading law; a rate-dependent law has a damping instead.
 fn laws_of(choice: &Choice) -> (&str, Option<&str>, bool) {
     let (laws, guarded) =
         choice.laws.strip_suffix(" guarded").map_or((choice.laws.as_str(), false), |laws| (laws, true));
@@ -49,7 +49,7 @@ fn laws_of(choice: &Choice) -> (&str, Option<&str>, bool) {
     (loading, other, guarded)
 }
 
-/// The entry of the law of `choice` that a constant called `name` would belong to, if it has one.
+/// The table entry of the law of `choice` that could have a constant called `name`.
 fn law_with(choice: &Choice, name: &str) -> Option<&'static table::Law> {
     let (loading, other, _) = laws_of(choice);
     match (&choice.model, name.starts_with(LOADING)) {
@@ -66,10 +66,10 @@ pub fn has(choice: &Choice, name: &str) -> bool {
     law_with(choice, name).is_some_and(|law| law.parameters.iter().any(|parameter| parameter.name == constant))
 }
 
-/// Gives the constant `name` of the laws of `choice` this `value`, with the checks that a scene goes through.
+/// Sets the constant `name` of the laws of `choice` to `value`, with the checks of a scene.
 ///
 /// # Errors
-/// What the constant may be, or that the laws have none of this name.
+/// The allowed values of the constant, or that no law has it.
 pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result<(), PredictError> {
     let wrong = |Mistake(_, message): Mistake| PredictError::Sweep(message);
     let Some(law) = law_with(choice, name) else {
@@ -90,7 +90,7 @@ pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result
     if name.starts_with(LOADING) {
         model.loading = apply(model.loading, "law.loading", Some(&given), law).map_err(wrong)?;
     } else {
-        // the guard is around the law that has the constants
+        // the guard wraps the law that has the constants
         let own = scene.unloading.filter(|_| guarded).map_or(model.unloading, |(_, own)| own);
         let changed = apply(own, "law.unloading", Some(&given), law).map_err(wrong)?;
         model.unloading = if guarded { changed.guarded().unwrap_or(changed) } else { changed };

@@ -10,26 +10,26 @@ use crate::plot::{HeatMap, Quantity, heat_maps};
 use crate::scene::Scene;
 use brinell::contact::impact::{Impact, Prediction};
 
-/// Values of each quantity.
+/// Number of values of each quantity.
 const VALUES: usize = 41;
 
-/// Rows of a map in a terminal.
+/// Number of rows of a map in a terminal.
 const ROWS: usize = 8;
 
 /// Predictions over two quantities.
 pub struct Map {
-    /// Over the columns, and over the rows.
+    /// The quantities of the columns and of the rows.
     pub axes: [Axis; 2],
     values: [Vec<f64>; 2],
-    /// Each law with its impacts: rows of columns.
+    /// Each law with its impacts, as rows of columns.
     pub laws: Vec<(String, Vec<Vec<Prediction>>)>,
 }
 
 impl Map {
-    /// `impact` with each pair of values of `axes`, by the laws of `choices`.
+    /// `impact` with each pair of values of `axes`, for the laws of `choices`.
     ///
     /// # Errors
-    /// [`PredictError`] for the first pair that can't be, or that a law can't be evaluated for.
+    /// [`PredictError`] for the first pair that is impossible, or beyond the range of a law.
     pub fn of(scene: &Scene, choices: &[Choice], impact: Impact, axes: [Axis; 2]) -> Result<Map, PredictError> {
         if axes[0].name == axes[1].name {
             return Err(PredictError::Sweep(format!("{}: a map needs two different quantities", axes[0].name)));
@@ -48,7 +48,7 @@ impl Map {
         Ok(Map { axes, values, laws })
     }
 
-    /// How many impacts there are by one law.
+    /// Number of impacts for each law.
     pub fn count(&self) -> usize {
         self.values[0].len() * self.values[1].len()
     }
@@ -122,7 +122,7 @@ impl Map {
         })
     }
 
-    /// The maps of all laws, three beside each other for each, as one picture.
+    /// The maps of all laws as one picture, three beside each other for each law.
     pub fn svg(&self) -> String {
         let rows: Vec<_> = self.laws.iter().map(|(law, predictions)| (law.as_str(), self.maps(predictions))).collect();
         heat_maps(&rows)

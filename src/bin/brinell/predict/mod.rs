@@ -1,4 +1,4 @@
-//! `brinell predict`: what an impact will do, by energy balance, and the same turned round.
+//! `brinell predict`: predicts an impact by energy balance, and explains a measured one.
 
 mod axis;
 pub mod command;
@@ -21,7 +21,7 @@ use brinell::contact::impact::{Impact, Prediction};
 /// Standard gravity [m/s^2].
 const GRAVITY: f64 = 9.80665;
 
-/// An impact that can't be predicted.
+/// An impact without a prediction.
 #[derive(Debug, thiserror::Error)]
 pub enum PredictError {
     #[error("{name} = {value} must be positive and finite")]
@@ -53,12 +53,12 @@ pub enum PredictError {
     Sweep(String),
 }
 
-/// Refuses what isn't positive and finite.
+/// Rejects numbers that are not positive and finite.
 pub fn positive(name: &'static str, value: f64) -> Result<f64, PredictError> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(PredictError::NotPositive { name, value }) }
 }
 
-/// A kinetic energy so small that it has lost digits already.
+/// A kinetic energy that is too small for its full precision.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "the kinetic energy of mass = {} kg at speed = {} m/s is {} J: below {} J it can't be computed with",
@@ -71,7 +71,7 @@ fn energy(impact: &Impact) -> f64 {
     0.5 * impact.mass * impact.speed * impact.speed
 }
 
-/// Refuses an impact that fails with any law: its energy is too small a number.
+/// Rejects an impact that fails with every law: its energy is too small a number.
 ///
 /// # Errors
 /// [`NoEnergy`]
@@ -79,7 +79,7 @@ pub fn check_energy(impact: &Impact) -> Result<(), NoEnergy> {
     if energy(impact) < f64::MIN_POSITIVE { Err(NoEnergy(*impact)) } else { Ok(()) }
 }
 
-/// The speed [m/s] of `mass` [kg] with a kinetic energy [J].
+/// The speed [m/s] of a `mass` [kg] with this kinetic energy [J].
 pub fn speed_of_energy(mass: f64, energy: f64) -> f64 {
     (2.0 * energy / mass).sqrt()
 }
@@ -110,14 +110,14 @@ fn quantities(prediction: &Prediction) -> [(&'static str, f64, &'static str); 9]
     ]
 }
 
-/// Energy that doesn't come back [J].
+/// Dissipated energy [J].
 fn energy_lost(prediction: &Prediction) -> f64 {
     let lost = prediction.energy - prediction.rebound_energy;
-    // energies that agree to rounding
+    // energies that differ only by rounding
     if lost.abs() <= 8.0 * f64::EPSILON * prediction.energy { 0.0 } else { lost }
 }
 
-/// The speeds [m/s] from which on an impact reaches each further regime of `choice`.
+/// The speeds [m/s] at which an impact enters each further regime of `choice`.
 fn onsets(choice: &Choice, mass: f64) -> Vec<(Regime, f64)> {
     let mut onsets = Vec::new();
     let Some(model) = choice.model.elastoplastic() else { return onsets };
@@ -135,7 +135,7 @@ fn onsets(choice: &Choice, mass: f64) -> Vec<(Regime, f64)> {
     onsets
 }
 
-/// How the predictions by these laws are made, in words.
+/// The method of the predictions for these laws, in words.
 fn methods(choices: &[Choice]) -> &'static str {
     let mut methods: Vec<_> = choices.iter().map(|choice| choice.model.method()).collect();
     methods.dedup();

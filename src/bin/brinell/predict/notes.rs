@@ -1,4 +1,4 @@
-//! What a user should know beside the numbers of a prediction.
+//! Notes that accompany the numbers of a prediction.
 
 use crate::laws::Choice;
 use crate::numbers::{cell, quantity};
@@ -6,12 +6,12 @@ use crate::scene::Scene;
 use brinell::contact::Surface;
 use brinell::contact::impact::{Impact, Prediction};
 
-/// On a surface that keeps its dents a second impact at the same place is elastic.
+/// On a surface that keeps its dents, a second impact at the same place is elastic.
 const ENDLESS: &str = "The surface keeps its dent (surface = \"dented\", the default). A ball that falls into its own dent again \
                        meets it elastically, and bounces to the same height for ever. With surface = \"fresh\" under [target] \
                        every impact meets an untouched spot.";
 
-/// Notes on these predictions of `impact` for the first contact of `scene`.
+/// Notes on these predictions of `impact` on the first contact of `scene`.
 pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Prediction]) -> Vec<String> {
     let dents = choices
         .iter()
@@ -22,7 +22,7 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
     endless.into_iter().chain(strength(scene, impact)).collect()
 }
 
-/// What the strength of the target is in an impact, if it depends on that, and what that is worth.
+/// The strength of the target in an impact, if it depends on the impact, and its reliability.
 fn strength(scene: &Scene, impact: &Impact) -> Vec<String> {
     let depends = scene.depends_on_impact();
     let Some(found) = depends.then(|| scene.in_impact(0, impact)).flatten() else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! Impacts as a page that needs nothing else: the scene in words, the pictures, the numbers.
+//! Impacts as a self-contained page: the scene in words, the pictures, the numbers.
 
 use super::map::Map;
 use super::methods;
@@ -16,20 +16,20 @@ use brinell::contact::Regime;
 use brinell::contact::impact::Impact;
 use std::fmt::Write;
 
-/// Rows of a table; the others are in the CSV.
+/// Rows of a table; the CSV file has the others.
 const ROWS: usize = 21;
 
 /// A page about impacts on the bodies of the first contact of a scene.
 struct Page<'a> {
     scene: &'a Scene,
     choices: &'a [Choice],
-    /// What the page shows: "impacts over speed".
+    /// Title of the page, such as "impacts over speed".
     subject: String,
-    /// The impact in words, from "with" on.
+    /// The impact in words, starting with "with".
     with: String,
     /// The heading of the pictures.
     heading: &'static str,
-    /// The names of the lines, if the pictures have some.
+    /// The names of the lines, if there are any.
     lines: Vec<&'a str>,
     pictures: Vec<String>,
     columns: Columns,
@@ -86,7 +86,7 @@ pub fn of_time_history(scene: &Scene, choices: &[Choice], impact: Impact, histor
     .write()
 }
 
-/// The numbers of the impact that aren't varied, in words.
+/// The fixed quantities of the impact, in words.
 fn impact_but(impact: Impact, varied: &[&str]) -> String {
     let is_varied = |names: &[&str]| varied.iter().any(|name| names.contains(name));
     let mass = format!("an effective mass of {}", quantity(impact.mass, "kg"));
@@ -125,7 +125,7 @@ impl Page<'_> {
         }
         writeln!(page, "</div>")?;
         let csv = self.columns.csv();
-        // commas, letters, digits and signs stand for themselves in an address; line ends don't
+        // an address may contain commas, letters, digits and signs as they are, but no line ends
         let (address, lines) = (csv.replace('\n', "%0A"), csv.lines().count() - 1);
         writeln!(
             page,
@@ -138,7 +138,7 @@ impl Page<'_> {
         writeln!(page, "<p>Brinell {}</p>\n</body>\n</html>", env!("CARGO_PKG_VERSION"))
     }
 
-    /// What meets what, and how the impacts were found.
+    /// The two bodies, and how the impacts were computed.
     fn words(&self, page: &mut String) -> std::fmt::Result {
         let (impactor, target) = bodies::words(self.scene, 0);
         let begin = match bodies::first_contact(self.scene) {
@@ -189,7 +189,7 @@ impl Page<'_> {
     }
 }
 
-/// `words` as the beginning of a sentence.
+/// `words` with a capital letter.
 fn capitalized(words: &str) -> String {
     words[..1].to_uppercase() + &words[1..]
 }

@@ -1,5 +1,5 @@
-//! A measured rebound turned round. Restitution falls and rises again with speed and strength, so that a rebound may have
-//! several explanations, or none: all within a range are found.
+//! Inverse prediction from a measured rebound. Restitution is not monotone in speed and strength: a rebound may have
+//! several explanations or none. The search finds all of them within a range.
 
 use super::PredictError;
 use crate::laws::Choice;
@@ -8,32 +8,33 @@ use crate::numbers::{quantity, significant};
 use brinell::contact::impact::Impact;
 use serde_json::{Value, json};
 
-/// Speeds among which solutions are looked for [m/s].
+/// Range of the search over speeds [m/s].
 const SPEEDS: (f64, f64) = (1e-9, 1e6);
 
-/// Yield strengths among which solutions are looked for, in effective moduli.
+/// Range of the search over yield strengths [effective moduli].
 const STRENGTHS: (f64, f64) = (1e-7, 1.0);
 
-/// Points of the grid in a decade; finer turns of the curve are found too, if one of its points is nearest to the goal.
+/// Grid points in each decade. The search also finds narrower extrema of the curve if the nearest value is at a grid
+/// point.
 const POINTS_PER_DECADE: f64 = 60.0;
 
-/// Restitutions that differ by less are the same: the elastic impact's is 1 to rounding.
+/// Restitutions with a smaller difference are equal: an elastic impact has 1 to rounding.
 const SAME: f64 = 1e-13;
 
-/// The restitution at a solution is the goal to this; farther off the curve has jumped past it.
+/// Tolerance of the restitution at a solution; with a larger difference the curve has jumped past the goal.
 const REACHED: f64 = 1e-10;
 
-/// Where a function has the value that was asked for.
+/// Places where a function has the requested value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Solution {
     At(f64),
-    /// Everywhere in between.
+    /// At all places in between.
     Between(f64, f64),
-    /// Nowhere, but it jumps past it here.
+    /// At no place, but the function jumps past the value here.
     Jump(f64),
 }
 
-/// What was found in a range.
+/// The result for a range.
 struct Search {
     range: (f64, f64),
     /// Smallest and largest restitution on the grid.
@@ -41,14 +42,14 @@ struct Search {
     solutions: Vec<Solution>,
 }
 
-/// Both explanations of a rebound by one law.
+/// Both explanations of a rebound with one law.
 pub struct Rebound {
     law: String,
     speeds: Search,
     strengths: Search,
 }
 
-/// A restitution that can have been measured.
+/// Checks that a restitution is possible.
 ///
 /// # Errors
 /// [`PredictError::Restitution`] for any other number.
@@ -56,10 +57,10 @@ pub fn measured(value: f64) -> Result<f64, PredictError> {
     if value > 0.0 && value <= 1.0 { Ok(value) } else { Err(PredictError::Restitution(value)) }
 }
 
-/// At which speeds, and with which yield strengths at the speed of `impact`, each law rebounds with the restitution `goal`.
+/// For each law: the speeds, and the yield strengths at the speed of `impact`, for which the restitution is `goal`.
 ///
 /// # Errors
-/// [`PredictError::NoRebound`] if no law explains it in either way.
+/// [`PredictError::NoRebound`] if no law has an explanation.
 pub fn explain(choices: &[Choice], impact: &Impact, goal: f64) -> Result<Vec<Rebound>, PredictError> {
     if let Some(damped) = choices.iter().find(|choice| choice.model.elastoplastic().is_none()) {
         return Err(PredictError::NoDent(damped.laws.clone()));
@@ -88,12 +89,12 @@ fn explain_by(choice: &Choice, impact: &Impact, goal: f64) -> Rebound {
     Rebound { law: choice.laws.clone(), speeds, strengths }
 }
 
-/// Every place in `range` where the function `of`, which may be undefined in places, has the value `goal`.
+/// All places in `range` where the function `of` has the value `goal`. The function may be undefined in places.
 fn search(range: (f64, f64), goal: f64, of: impl Fn(f64) -> Option<f64>) -> Search {
     let (low, high) = range;
     let steps = (POINTS_PER_DECADE * libm::log10(high / low)).ceil() as u32;
     let argument = |step| low * libm::pow(high / low, f64::from(step) / f64::from(steps));
-    // zero where it is the goal to rounding
+    // zero for a difference of rounding
     let over = |argument: f64| {
         let over = of(argument)? - goal;
         Some((argument, if over.abs() <= SAME { 0.0 } else { over }))
@@ -105,7 +106,7 @@ fn search(range: (f64, f64), goal: f64, of: impl Fn(f64) -> Option<f64>) -> Sear
     let mut points: Vec<_> = grid.iter().copied().flatten().collect();
     for three in grid.windows(3) {
         let &[Some(before), Some(point), Some(after)] = three else { continue };
-        // the curve may turn towards the goal between two points, and pass it twice
+        // the curve may have an extremum between two points, and cross the goal twice
         let nearest = |other: f64| point.1 * other > 0.0 && point.1.abs() <= other.abs();
         if nearest(before.1) && nearest(after.1) {
             points.push(turn((before.0, after.0), point.1.signum(), value));
@@ -115,7 +116,8 @@ fn search(range: (f64, f64), goal: f64, of: impl Fn(f64) -> Option<f64>) -> Sear
     Search { range, reached, solutions: solutions(&points, value) }
 }
 
-/// Where the function of one sign in `from..to` is smallest, by the golden section, with its value there.
+/// The place where the function, of one sign in `from..to`, has its smallest absolute value, by golden-section
+/// search; with its value there.
 fn turn((mut from, mut to): (f64, f64), sign: f64, value: impl Fn(f64) -> f64) -> (f64, f64) {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     for _ in 0..80 {
@@ -130,7 +132,7 @@ fn turn((mut from, mut to): (f64, f64), sign: f64, value: impl Fn(f64) -> f64) -
     (found, value(found))
 }
 
-/// The solutions between `points`: arguments in order, and how far the function is above the goal there.
+/// The solutions between `points`, which are sorted arguments with the distance of the function from the goal.
 fn solutions(points: &[(f64, f64)], value: impl Fn(f64) -> f64) -> Vec<Solution> {
     let mut found = Vec::new();
     let mut zeros: Option<(f64, f64)> = None;
@@ -153,12 +155,13 @@ fn solutions(points: &[(f64, f64)], value: impl Fn(f64) -> f64) -> Vec<Solution>
     found
 }
 
-/// From `begin` to `end` the function has the value; a few units in the last place apart they are one solution.
+/// The function has the value from `begin` to `end`. If these differ by a few units in the last place, they are one
+/// solution.
 fn plateau(begin: f64, end: f64) -> Solution {
     if end - begin <= 1e-9 * end { Solution::At(0.5 * (begin + end)) } else { Solution::Between(begin, end) }
 }
 
-/// The first number from `outside` to `inside` that `holds`, by halving to rounding.
+/// The first number from `outside` to `inside` that satisfies `holds`, by bisection to rounding.
 fn border((mut outside, mut inside): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = 0.5 * (outside + inside);
@@ -212,7 +215,7 @@ impl Search {
     }
 }
 
-/// The explanations for people.
+/// The explanations as text.
 pub fn text(rebounds: &[Rebound], impact: &Impact, goal: f64) -> String {
     let mut text = String::new();
     let (mass, speed) = (quantity(impact.mass, "kg"), quantity(impact.speed, "m/s"));
@@ -228,7 +231,7 @@ pub fn text(rebounds: &[Rebound], impact: &Impact, goal: f64) -> String {
     text
 }
 
-/// The explanations for a program.
+/// The explanations as JSON.
 pub fn as_json(rebounds: &[Rebound], impact: &Impact, goal: f64) -> Value {
     let law = |Rebound { law, speeds, strengths }: &Rebound| json!({ "law": law, "speed": speeds.json(), "yield_strength": strengths.json() });
     let laws: Vec<_> = rebounds.iter().map(law).collect();

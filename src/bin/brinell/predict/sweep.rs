@@ -10,35 +10,35 @@ use crate::plot::{Picture, Series, side_by_side};
 use crate::scene::Scene;
 use brinell::contact::impact::{Impact, Prediction};
 
-/// Values of a sweep that goes into a file.
+/// Number of values in a sweep that goes to a file.
 pub const VALUES: usize = 201;
 
-/// Rows of the table in a terminal.
+/// Number of rows of the table in a terminal.
 const ROWS: usize = 9;
 
-/// Values of the quantity in a table with a row for each law.
+/// Number of values in a table with a row for each law.
 pub const GRID_COLUMNS: usize = 6;
 
 /// The name of a quantity, its unit and its value.
 pub type Shown = (&'static str, &'static str, fn(&Prediction) -> f64);
 
-/// What such tables and the maps show.
+/// The columns of such tables and of the maps.
 pub const SHOWN: [Shown; 3] = [
     ("restitution", "", |prediction| prediction.restitution),
     ("largest force", "N", |prediction| prediction.max_force),
     ("dent", "m", |prediction| prediction.residual_indentation),
 ];
 
-/// Decades of dents that the picture shows: just beyond yield a dent is as small as one likes.
+/// Decades of dents in the picture: just beyond yield, dents are arbitrarily small.
 const DENT_DECADES: i32 = 6;
 
 /// Predictions over a range of a quantity.
 pub struct Sweep {
-    /// What is varied.
+    /// The varied quantity.
     pub axis: Axis,
-    /// What isn't.
+    /// The fixed quantities.
     pub impact: Impact,
-    /// Each law with its impacts, from the first value to the last.
+    /// Each law with its impacts, in the order of the values.
     pub laws: Vec<(String, Vec<Point>)>,
 }
 
@@ -46,10 +46,10 @@ pub struct Sweep {
 pub type Point = (f64, Prediction);
 
 impl Sweep {
-    /// `impact` with each value of `axis`, by the laws of `choices`.
+    /// `impact` with each value of `axis`, for the laws of `choices`.
     ///
     /// # Errors
-    /// [`PredictError`] for the first value that can't be, or that a law can't be evaluated for.
+    /// [`PredictError`] for the first value that is impossible, or beyond the range of a law.
     pub fn of(scene: &Scene, choices: &[Choice], impact: Impact, axis: Axis) -> Result<Sweep, PredictError> {
         let values = axis.values(VALUES);
         let point = |choice: &Choice, value: f64| -> Result<Point, PredictError> {
@@ -64,7 +64,7 @@ impl Sweep {
         Ok(Sweep { axis, impact, laws })
     }
 
-    /// Impacts of `mass` [kg] over a range of speeds [m/s], without those that a law can't be evaluated for.
+    /// Impacts of `mass` [kg] over a range of speeds [m/s], without those beyond the range of a law.
     pub fn where_possible(choices: &[Choice], mass: f64, range: (f64, f64)) -> Sweep {
         let axis = Axis::speeds(range);
         let values = axis.values(VALUES);
@@ -93,7 +93,7 @@ impl Sweep {
         Columns { columns, laws: laws.collect() }
     }
 
-    /// A short table for a terminal: of one law a row for each value, of several a row for each law.
+    /// A short table for a terminal. One law: a row for each value. Several laws: a row for each law.
     pub fn text(&self) -> String {
         let [(_, points)] = self.laws.as_slice() else { return self.grids() };
         let names = [self.axis.name, "restitution", "largest force", "largest indentation", "dent", "loading time"];
@@ -133,13 +133,13 @@ impl Sweep {
         let shallowest = deepest * 10f64.powi(-DENT_DECADES);
         let dent = |prediction: &Prediction| {
             let dent = prediction.residual_indentation;
-            // NaN is left out of a picture
+            // pictures omit NaN
             if dent >= shallowest { dent } else { f64::NAN }
         };
         [
             panel("coefficient of restitution", false, &|prediction| prediction.restitution),
             panel("largest force [N]", self.axis.is_logarithmic(), &|prediction| prediction.max_force),
-            // without any dent the zeros are what there is to show
+            // if there is no dent at all, show the zeros
             panel("depth of the dent [m]", deepest > 0.0 && self.axis.is_logarithmic(), &dent),
         ]
     }
@@ -159,7 +159,7 @@ impl Sweep {
     }
 }
 
-/// One quantity over the values `heads` of `axis`, in rows that have names; `corner` is what the rows are.
+/// One quantity over the values `heads` of `axis`, in rows with names; `corner` describes the rows.
 pub fn grid(
     (name, unit): (&str, &'static str),
     corner: &str,

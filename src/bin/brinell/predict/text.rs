@@ -1,4 +1,4 @@
-//! A prediction in words and numbers: for people, and for programs.
+//! A prediction as text for people and as JSON for programs.
 
 use super::{PredictError, energy_lost, methods, notes, one, onsets, quantities};
 use crate::laws::Choice;
@@ -12,18 +12,18 @@ use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::validity::LARGEST_RADIUS_RATIO;
 use serde_json::{Value, json};
 
-/// Predictions of one impact by several laws.
+/// Predictions of one impact with several laws.
 pub struct Answer<'a> {
     scene: &'a Scene,
     choices: &'a [Choice],
     impact: Impact,
-    /// Height of fall [m], if the speed comes from one.
+    /// Height of fall [m], if it determines the speed.
     fall: Option<f64>,
     predictions: Vec<Prediction>,
 }
 
 impl Answer<'_> {
-    /// The predictions for `impact`, which is that of a `fall` from a height [m] if there is one.
+    /// The predictions for `impact`. `fall` is the height [m] that it results from, if there is one.
     ///
     /// # Errors
     /// [`PredictError::Beyond`]
@@ -41,12 +41,12 @@ impl Answer<'_> {
         self.choices.iter().zip(&self.predictions)
     }
 
-    /// Where the law isn't valid, in words.
+    /// The quantities outside the validity of the law, in words.
     fn warnings(&self, choice: &Choice, prediction: &Prediction) -> Vec<String> {
         validity::warnings(&choice.model.pair(), self.scene.contacts[0].density, prediction, self.impact.speed)
     }
 
-    /// The warnings for people: one for several laws.
+    /// The warnings for people: one warning for several laws.
     fn all_warnings(&self) -> Vec<String> {
         if let ([choice], [prediction]) = (self.choices, self.predictions.as_slice()) {
             return self.warnings(choice, prediction);
@@ -66,7 +66,7 @@ impl Answer<'_> {
                 wide.join(", ")
             ));
         }
-        // the speed is the same with every law
+        // the speed is the same for every law
         let fast = self.laws().find_map(|(choice, prediction)| {
             let limits = beyond(choice, prediction);
             let is_fast = |limit: &validity::Beyond| matches!(limit, validity::Beyond::Speed { .. });
@@ -76,7 +76,7 @@ impl Answer<'_> {
         warnings
     }
 
-    /// Strength of the target in this impact, if it depends on that.
+    /// Strength of the target in this impact, if it depends on the impact.
     fn strength(&self) -> Option<InImpact> {
         self.scene.depends_on_impact().then(|| self.scene.in_impact(0, &self.impact)).flatten()
     }
@@ -86,7 +86,7 @@ impl Answer<'_> {
         Some(self.fall? * prediction.restitution * prediction.restitution)
     }
 
-    /// For people.
+    /// Text for people.
     pub fn text(&self) -> String {
         let Impact { mass, speed } = self.impact;
         let fall = self.fall.map_or(String::new(), |height| format!(" (a fall of {})", quantity(height, "m")));
@@ -180,7 +180,7 @@ impl Answer<'_> {
         table(&rows, 1, 0)
     }
 
-    /// For programs: all digits, SI units.
+    /// JSON for programs: all digits, SI units.
     pub fn json(&self) -> Value {
         let law = |(choice, prediction): (&Choice, &Prediction)| {
             let mut law = json!({

@@ -9,13 +9,13 @@ use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::motion::{Drive, follow};
 use brinell::contact::{History, Model, damped};
 
-/// Moments of the way in, and as many of the way out.
+/// Number of moments during the loading; there are as many during the unloading.
 const MOMENTS: u32 = 200;
 
 /// A moment of an impact.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
-    /// Since first contact [s].
+    /// Time since first contact [s].
     pub time: f64,
     /// [m]
     pub indentation: f64,
@@ -25,12 +25,12 @@ pub struct Moment {
     pub speed: f64,
 }
 
-/// Impacts by several laws over time.
+/// Impacts over time with several laws.
 pub struct TimeHistory {
     laws: Vec<(String, Vec<Moment>)>,
 }
 
-/// The course of `impact` from first contact to separation; `None` beyond what the law can be evaluated for.
+/// The time history of `impact` from first contact to separation; `None` beyond the range of the law.
 pub fn moments(model: &AnyModel, impact: &Impact) -> Option<Vec<Moment>> {
     let prediction = model.predict(impact)?;
     match model {
@@ -41,7 +41,7 @@ pub fn moments(model: &AnyModel, impact: &Impact) -> Option<Vec<Moment>> {
                 let damped::impact::State { time, indentation, speed } = *state;
                 all.push(Moment { time, indentation, force, speed });
             })?;
-            // the method makes some thousand steps
+            // the method takes about a thousand steps
             let last = all.len() - 1;
             let count = 2 * MOMENTS as usize;
             Some((0..=count).map(|moment| all[last * moment / count]).collect())
@@ -49,7 +49,7 @@ pub fn moments(model: &AnyModel, impact: &Impact) -> Option<Vec<Moment>> {
     }
 }
 
-/// The motion through the law, in even steps of the way in and of the way out: each is exact, however long it is.
+/// The motion with the law, in equal steps of the loading and of the unloading. Each step is exact, whatever its length.
 fn followed<L: brinell::contact::Loading, U: brinell::contact::Unloading>(
     model: &Model<L, U>,
     impact: &Impact,
@@ -73,7 +73,7 @@ fn followed<L: brinell::contact::Loading, U: brinell::contact::Unloading>(
 }
 
 impl TimeHistory {
-    /// `impact` by the laws of `choices`.
+    /// `impact` with the laws of `choices`.
     ///
     /// # Errors
     /// [`PredictError::Beyond`]
@@ -86,7 +86,7 @@ impl TimeHistory {
         Ok(TimeHistory { laws: choices.iter().map(law).collect::<Result<_, PredictError>>()? })
     }
 
-    /// As columns.
+    /// The data as columns.
     pub fn columns(&self) -> Columns {
         let names = [("time", "s"), ("indentation", "m"), ("force", "N"), ("speed", "m/s")];
         let row = |moment: &Moment| vec![moment.time, moment.indentation, moment.force, moment.speed];

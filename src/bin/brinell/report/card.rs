@@ -1,4 +1,4 @@
-//! The card at the top of a report: the scene, what happens in its impact, and how far the law can be trusted.
+//! The card at the top of a report: the scene, the outcome of its impact, and the reliability of the law.
 
 use super::spread::Laws;
 use super::unit::Contact;
@@ -17,27 +17,27 @@ use brinell::contact::impact::Prediction;
 use brinell::contact::validity::LARGEST_RADIUS_RATIO;
 use serde_json::{Value, json};
 
-/// Steps of the course of the force over time.
+/// Number of steps in the time history of the force.
 const STEPS: u32 = 400;
 
 /// The card.
 pub struct Card {
-    /// Name and value, for each of the three columns.
+    /// Names and values of the three columns.
     pub scene: Vec<(&'static str, String)>,
     pub outcome: Vec<(&'static str, String)>,
-    /// Sentences on the law.
+    /// Sentences about the law.
     pub trust: Vec<String>,
-    /// What leaves the validity of the law.
+    /// The exceeded limits of the law's validity.
     pub warnings: Vec<String>,
     pub figures: [Figure; 2],
     /// The outcome for programs.
     pub json: Value,
 }
 
-/// The card of `scene`, which has one contact: its `contact` is stepped through the impact.
+/// The card of `scene`, which has one contact. Its `contact` is stepped through the impact.
 ///
 /// # Errors
-/// [`ReportError::Import`] if the FMU refuses a step.
+/// [`ReportError::Import`] if the FMU rejects a step.
 pub fn of(scene: &Scene, contact: &mut Contact, laws: &Laws) -> Result<Card, ReportError> {
     let prediction = &scene.predictions[0];
     let model = scene.any_model();
@@ -71,7 +71,7 @@ pub fn of(scene: &Scene, contact: &mut Contact, laws: &Laws) -> Result<Card, Rep
     })
 }
 
-/// What meets what.
+/// The bodies.
 fn facts(scene: &Scene) -> Vec<(&'static str, String)> {
     let (impactor, target) = bodies::words(scene, 0);
     let law = match (scene.damped, scene.unloading) {
@@ -92,7 +92,7 @@ fn facts(scene: &Scene) -> Vec<(&'static str, String)> {
     facts
 }
 
-/// What happens.
+/// The outcome of the impact.
 fn outcome(scene: &Scene, prediction: &Prediction) -> Vec<(&'static str, String)> {
     let mut outcome = vec![
         ("Coefficient of restitution", significant(prediction.restitution, 4)),
@@ -119,14 +119,14 @@ fn indentation(scene: &Scene) -> Figure {
     Figure { name: "force-over-indentation", caption: "Force over indentation".into(), svg, folded: false }
 }
 
-/// Force over time, as a master finds it that makes small steps.
+/// Force over time, as an importer with small steps computes it.
 fn time(scene: &Scene, contact: &mut Contact) -> Result<Figure, ReportError> {
     let prediction = &scene.predictions[0];
     let step = prediction.contact_time() / f64::from(STEPS);
     contact.start_apart(0.0, step)?;
     let mut body = Body::flying(scene.impact.mass, scene.impact.speed);
     let mut points = vec![(0.0, 0.0)];
-    // a force that follows the rate may end later than the surface is left
+    // a force that follows the rate may end after the bodies have separated
     for index in 1..=2 * STEPS {
         (LEAP_FROG.advance)(contact, &mut body, step)?;
         points.push((1e6 * step * f64::from(index), body.force));

@@ -1,4 +1,4 @@
-//! Which coupling: for each way, when it can be used, and which step it needs for an error of 1 % and of 0.1 %.
+//! The choice of a coupling: for each way, its conditions and the steps for errors of 1 % and 0.1 %.
 
 use super::precision::{Line, Point};
 use super::stability::Stability;
@@ -7,10 +7,10 @@ use crate::numbers::{quantity, significant};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Errors of restitution that steps are given for. A way is recommended for what it costs at the first of them.
+/// Errors of restitution for which steps are given. The recommendation depends on the cost at the first one.
 const GOALS: [f64; 2] = [0.01, 0.001];
 
-/// Error of a way that is called exact.
+/// Largest error of a way that is called exact.
 const EXACT: f64 = 1e-9;
 
 /// A way to couple.
@@ -18,7 +18,7 @@ struct Row<'a> {
     way: &'static Way,
     /// The largest step for each of the goals.
     steps: [Option<&'a Point>; 2],
-    /// Right to rounding at every step that was tried.
+    /// Exact to rounding for every step.
     exact: bool,
     /// The largest stable step, in words.
     stable: String,
@@ -29,7 +29,7 @@ struct Row<'a> {
 pub struct Choice<'a>(Vec<Row<'a>>);
 
 impl Choice<'_> {
-    /// The choice among the ways that were measured.
+    /// The choice among the measured ways.
     pub fn of<'a>(lines: &'a [Line], stability: &Stability) -> Choice<'a> {
         let own = lines.iter().filter(|line| line.peer.is_none());
         let row = |line: &'a Line| {
@@ -53,7 +53,7 @@ impl Choice<'_> {
         self.0.iter().filter(|row| row.recommended).filter_map(|row| Some((row, row.steps[0]?)))
     }
 
-    /// The recommendations as sentences, and what to use where each call is slow.
+    /// The recommendations as sentences, including one for slow calls.
     pub fn sentences(&self) -> Vec<String> {
         let mut recommended: Vec<_> = self.recommended().collect();
         recommended.sort_by_key(|(row, _)| row.way.master == Master::Parallel);
@@ -75,7 +75,7 @@ impl Choice<'_> {
         sentences
     }
 
-    /// From which cost of a call on the exact ways, which need few of them, are the cheapest.
+    /// Cost of a call above which the exact ways are the cheapest, because they need few calls.
     fn slow_calls(&self) -> Option<String> {
         let mut least = f64::INFINITY;
         let saved = self.recommended().filter(|(row, _)| !row.exact).filter_map(|(row, point)| {
@@ -98,7 +98,7 @@ impl Choice<'_> {
         ))
     }
 
-    /// For programs.
+    /// JSON.
     pub fn json(&self) -> Value {
         let step = |point: &Option<&Point>| {
             point.map(|point| {

@@ -1,4 +1,4 @@
-//! Tables with a unit for every column: the page, the CSV files and the JSON say the same.
+//! Tables with a unit for every column: the source of the page, the CSV files and the JSON.
 
 use crate::html::escape;
 use crate::numbers::digits;
@@ -7,29 +7,29 @@ use serde_json::{Map, Value, json};
 /// A column.
 pub struct Column {
     pub name: &'static str,
-    /// "" for a ratio, a count or words.
+    /// "" for ratios, counts and words.
     pub unit: &'static str,
 }
 
-/// What stands in a row.
+/// A cell of a row.
 pub enum Cell {
     Text(String),
     Number(f64),
-    /// There is nothing to say.
+    /// No value.
     Empty,
 }
 
 /// A table.
 pub struct Table {
-    /// Of its file.
+    /// Name of its file.
     pub name: &'static str,
     pub columns: Vec<Column>,
     pub rows: Vec<Vec<Cell>>,
-    /// Whether the page shows the rows; if not, it only names the file.
+    /// Whether the page shows the rows; otherwise it only names the file.
     pub on_page: bool,
 }
 
-/// A number, or nothing if it is none.
+/// A number, or an empty cell for NaN and infinity.
 pub fn number(value: f64) -> Cell {
     if value.is_finite() { Cell::Number(value) } else { Cell::Empty }
 }
@@ -48,13 +48,13 @@ impl Column {
 }
 
 impl Table {
-    /// An empty table; columns as name and unit.
+    /// An empty table; each column has a name and a unit.
     pub fn new<const N: usize>(name: &'static str, columns: [(&'static str, &'static str); N]) -> Table {
         let columns = columns.into_iter().map(|(name, unit)| Column { name, unit }).collect();
         Table { name, columns, rows: Vec::new(), on_page: true }
     }
 
-    /// All digits, words in quotes.
+    /// CSV with all digits; words are quoted.
     pub fn csv(&self) -> String {
         let keys: Vec<_> = self.columns.iter().map(Column::key).collect();
         let cell = |cell: &Cell| match cell {
@@ -66,7 +66,7 @@ impl Table {
         format!("{}\n{}", keys.join(","), rows.collect::<String>())
     }
 
-    /// The rows as objects.
+    /// JSON: the rows as objects.
     pub fn json(&self) -> Value {
         let cell = |cell: &Cell| match cell {
             Cell::Text(text) => json!(text),
@@ -80,7 +80,7 @@ impl Table {
         self.rows.iter().map(object).collect()
     }
 
-    /// For people; sorting and copying take the number with all its digits.
+    /// HTML for people; sorting and copying use the number with all its digits.
     pub fn html(&self) -> String {
         let head = |(index, column): (usize, &Column)| {
             let has_words = self.rows.iter().any(|row| matches!(row[index], Cell::Text(_)));

@@ -1,4 +1,4 @@
-//! `brinell report`: what step and what coupling a scene needs, measured by stepping its exported unit through the C interface.
+//! `brinell report`: the step and the coupling for a scene, measured by stepping its FMU through the C interface.
 
 mod card;
 mod choice;
@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use units::Units;
 use ways::Needs;
 
-/// A report that couldn't be made.
+/// An error of making a report.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     #[error("the unit of the report: {0}")]
@@ -44,7 +44,8 @@ pub enum ReportError {
     File(#[from] FileError),
 }
 
-/// The command: measures the unit of `scene` beside those at `peers` and writes the page into `folder`; whether no case has failed.
+/// The command: measures the FMU of `scene` and those at `peers`, and writes the page to `folder`. Returns whether
+/// all cases passed.
 pub fn run(
     scene: &Scene,
     peers: &[PathBuf],
@@ -64,41 +65,41 @@ pub fn run(
     Ok(report.all_right)
 }
 
-/// All that was measured.
+/// All measurements.
 pub struct Report {
     /// The name of the scene.
     pub name: String,
     pub card: Card,
-    /// Which coupling to use, in sentences.
+    /// The recommended coupling, in sentences.
     pub advice: Vec<String>,
-    /// The same as a table.
+    /// The recommended coupling, as a table.
     pub choice: String,
     recommendations: Value,
     parts: Vec<Part>,
-    /// No case has failed.
+    /// Whether all cases passed.
     all_right: bool,
 }
 
-/// A heading with what belongs to it.
+/// A section with a heading.
 pub struct Part {
     pub title: &'static str,
-    /// What one sees.
+    /// Its findings.
     pub words: String,
     pub figures: Vec<Figure>,
-    /// Series of the figures that can be switched on, with their lines as CSS has them.
+    /// Series of the figures that can be switched on, with their strokes for CSS.
     pub switches: Vec<(String, String)>,
-    /// How it was measured.
+    /// The method of measurement.
     pub method: String,
     pub tables: Vec<Table>,
 }
 
 /// A picture.
 pub struct Figure {
-    /// Of its file.
+    /// Name of its file.
     pub name: &'static str,
     pub caption: String,
     pub svg: String,
-    /// Whether it is shown only when asked for.
+    /// Whether it is initially hidden.
     pub folded: bool,
 }
 
@@ -113,10 +114,10 @@ impl Figure {
 }
 
 impl Report {
-    /// Measures the first contact of `scene`, with the other FMUs at `peers` beside it.
+    /// Measures the first contact of `scene`, and the other FMUs at `peers`.
     ///
     /// # Errors
-    /// [`ReportError`] if an FMU can't be built or loaded, or refuses an ordinary impact.
+    /// [`ReportError`] if an FMU can't be built or loaded, or rejects an ordinary impact.
     pub fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<Report, ReportError> {
         let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
         let alone = unit::first_contact(scene, Needs::Force);
@@ -159,7 +160,7 @@ impl Report {
         Ok(Report { name: scene.name.clone(), choice: choice.html(), card, advice, recommendations, parts, all_right })
     }
 
-    /// What happens and what to use, for a terminal.
+    /// The outcome and the recommendation, for a terminal.
     fn lines(&self) -> Vec<String> {
         let outcome = self.card.outcome.iter().map(|(name, value)| format!("{name:<26} {value}"));
         let warnings = self.card.warnings.iter().map(|warning| format!("Outside the law's validity: {warning}."));
@@ -178,7 +179,7 @@ impl Report {
         document
     }
 
-    /// Writes the page and its data into `folder`; gives the path of the page.
+    /// Writes the page and its data to `folder`; returns the path of the page.
     ///
     /// # Errors
     /// [`ReportError`] if the folder can't be written to.
@@ -198,7 +199,7 @@ impl Report {
     }
 }
 
-/// What doesn't hold for a scene with several contacts.
+/// Limitations for a scene with several contacts.
 fn not_for_several(scene: &Scene) -> Option<String> {
     (scene.contact_count() > 1).then(|| {
         "The scene has several contacts: this page measures the first contact. If contacts share a body, an FMU that knows the \
@@ -207,7 +208,7 @@ fn not_for_several(scene: &Scene) -> Option<String> {
     })
 }
 
-/// All that a report has to do.
+/// The total work of a report.
 fn work(scene: &Scene, plan: &Plan, peers: &[Peer], quick: bool) -> Vec<Work> {
     let (building, ways) = Units::work(scene);
     let lines = ways + usize::from(!plan.follows_rate) + peers.iter().map(|peer| peer.ways().len()).sum::<usize>();

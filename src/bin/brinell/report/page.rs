@@ -1,10 +1,10 @@
-//! The report as a page that needs nothing else.
+//! The report as a self-contained page.
 
 use super::{Figure, Part, Report};
 use crate::html::{PICTURE_STYLE, begin, escape};
 use std::fmt::Write;
 
-/// What the page has beside the style of every page with pictures.
+/// Additions to the common style of all pages with pictures.
 const STYLE: &str = include_str!("report.css");
 
 /// The page of `report`.

@@ -1,4 +1,4 @@
-//! Other units with the same variables, run in the same picture.
+//! Other FMUs with the same variables, measured together with the scene's.
 
 use super::precision::{Line, Plan};
 use super::ways::{Needs, WAYS, Way};
@@ -7,25 +7,25 @@ use crate::importer::{Archive, ImportError, Unit};
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 
-/// What a unit must have to be run beside the scene's.
+/// The variables that an FMU needs for this.
 const NEEDED: [&str; 2] = ["indentation_rate", "force"];
 
-/// Another unit.
+/// Another FMU.
 pub struct Peer {
     path: PathBuf,
-    /// The name of its file, without the ending.
+    /// Its file name without extension.
     name: String,
     archive: Archive,
     unit: Unit,
-    /// It is made for masters that step all units at once.
+    /// Whether it is made for the Jacobi scheme, which steps all FMUs at once.
     parallel: bool,
 }
 
 impl Peer {
-    /// Loads the unit at `path`.
+    /// Loads the FMU at `path`.
     ///
     /// # Errors
-    /// [`ReportError::Peer`] if it can't be loaded or can't be run in place of the scene's.
+    /// [`ReportError::Peer`] if it can't be loaded, or can't replace the scene's FMU.
     pub fn open(path: &Path) -> Result<Peer, ReportError> {
         let wrong = |reason: String| ReportError::Peer { path: path.into(), reason };
         let archive = Archive::open(path).map_err(|error| wrong(error.to_string()))?;
@@ -48,10 +48,10 @@ impl Peer {
         Ok(Peer { path: path.into(), name, archive, unit, parallel })
     }
 
-    /// Runs it by every way that it offers, with the bodies of `scene`.
+    /// Runs every way that it supports, with the bodies of `scene`.
     ///
     /// # Errors
-    /// [`ReportError::Peer`] if it refuses a call.
+    /// [`ReportError::Peer`] if it rejects a call.
     pub fn measure(&self, scene: &Scene, plan: &Plan) -> Result<Vec<Line>, ReportError> {
         let mut contact = self.contact(scene)?;
         let line = |way: &'static Way| {
@@ -61,7 +61,7 @@ impl Peer {
         self.ways().into_iter().map(line).collect()
     }
 
-    /// Its contact, with those bodies.
+    /// Its contact with these bodies.
     fn contact(&self, scene: &Scene) -> Result<Contact<'_>, ReportError> {
         let mut parameters: Vec<(&str, f64)> = scene.parameters.iter().map(|known| (known.name, known.value)).collect();
         parameters.push(("effective_mass", scene.impact.mass));
@@ -72,17 +72,17 @@ impl Peer {
         started.map_err(|error| self.fault(&error))
     }
 
-    /// An error of this unit.
+    /// An error of this FMU.
     fn fault(&self, error: &ImportError) -> ReportError {
         ReportError::Peer { path: self.path.clone(), reason: error.to_string() }
     }
 
-    /// The ways to couple that it offers.
+    /// The ways to couple that it supports.
     pub fn ways(&self) -> Vec<&'static Way> {
         let description = &self.archive.description;
         let has = |name| description.real(name).is_ok();
         let derivatives = description.interpolates_inputs && description.output_derivatives > 0;
-        // a unit that moves the mass itself does nothing else
+        // an FMU that moves the mass itself supports nothing else
         let knows_mass = has("effective_mass");
         let offered = |way: &&Way| match way.needs {
             Needs::Mass => knows_mass && has("mean_force") && !self.parallel,

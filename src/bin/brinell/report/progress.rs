@@ -1,14 +1,14 @@
-//! How far a report has come, for those who wait for it: a bar with the time left on a terminal, lines elsewhere.
+//! Progress of a report: a bar with the remaining time on a terminal, lines elsewhere.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::{Duration, Instant};
 
-/// What other work is about as long as, in steps.
+/// The duration of other work, in steps.
 const BUILDING: u64 = 2_000_000;
 const WAY: u64 = 300_000;
 const CASE: u64 = 50_000;
 
-/// What a report has to do, and how much of it is done.
+/// The work of a report, and the finished part.
 pub struct Progress {
     bar: ProgressBar,
     began: Instant,
@@ -17,13 +17,13 @@ pub struct Progress {
 /// A kind of work.
 #[derive(Clone, Copy)]
 pub enum Work {
-    /// A unit to be built.
+    /// An FMU to build.
     Building,
-    /// Steps to be made.
+    /// Steps to make.
     Steps(u64),
-    /// A way to couple, tried for stability.
+    /// A stability limit to find.
     Way,
-    /// A case to be run.
+    /// A case to run.
     Case,
 }
 
@@ -39,7 +39,7 @@ impl Work {
 }
 
 impl Progress {
-    /// Nothing done yet, and nothing known.
+    /// No work yet.
     pub fn new() -> Progress {
         let style = ProgressStyle::with_template("{elapsed:>4} {bar:30} {percent:>3} %, {eta:>3} left  {wide_msg}");
         let bar = ProgressBar::new(0).with_style(style.expect("a good template"));
@@ -47,12 +47,12 @@ impl Progress {
         Progress { bar, began: Instant::now() }
     }
 
-    /// There will be so much `work`.
+    /// Adds `work` to the total.
     pub fn expect(&self, work: impl IntoIterator<Item = Work>) {
         self.bar.inc_length(work.into_iter().map(Work::steps).sum());
     }
 
-    /// Says what is being done from now on.
+    /// Shows the current activity.
     pub fn say(&self, what: &str) {
         self.bar.set_message(what.to_string());
         if self.bar.is_hidden() {
@@ -60,12 +60,12 @@ impl Progress {
         }
     }
 
-    /// Says a part of that, to those who watch.
+    /// Shows a part of the current activity on a terminal.
     pub fn detail(&self, what: &str) {
         self.bar.set_message(what.to_string());
     }
 
-    /// So much is done.
+    /// Adds finished `work`.
     pub fn done(&self, work: Work) {
         self.bar.inc(work.steps());
     }

@@ -1,14 +1,14 @@
-//! The unit that a report steps: the scene's first contact, with the outputs that the ways to couple need.
+//! The FMU that a report steps: the scene's first contact, with the outputs for one kind of coupling.
 
 use super::ways::Needs;
 use crate::importer::{Archive, Description, ImportError, Instance, Unit};
 use crate::scene::{Coupling, Group, Parameter, Scene};
 use crate::table::VARIABLES;
 
-/// Outputs that a report asks for, whatever the scene shows and whatever the coupling needs.
+/// Outputs that a report reads, whatever the scene and the coupling.
 const OUTPUTS: [&str; 3] = ["indentation", "residual_indentation", "dissipated_energy"];
 
-/// The first contact of `scene` alone, with every parameter settable, for a kind of coupling.
+/// The first contact of `scene` alone, for a kind of coupling; all its parameters can be set.
 pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
     let mass = matches!(needs, Needs::Mass | Needs::LateMass).then_some(scene.impact_of(0).mass);
     let more: &[&str] = match needs {
@@ -18,14 +18,14 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         Needs::LateMass => &["mean_force", "closing_speed"],
     };
     let mut parameters: Vec<Parameter> = Vec::new();
-    // in the order of the table, as the parameters of every scene
+    // in the order of the table, like the parameters of every scene
     for name in VARIABLES.iter().map(|variable| variable.name.as_str()) {
         let shared = scene.parameters.iter().find(|parameter| parameter.name == name);
         let Some(found) = scene.contacts[0].own.iter().find(|own| own.name == name).or(shared) else { continue };
         parameters.push(Parameter::shared(found.name, found.value, true));
     }
     if let (Some(value), None) = (mass, scene.group_value(0, "effective_mass")) {
-        // it stands before the gap, which every contact has
+        // it precedes the gap, which every contact has
         let gap = parameters.iter().position(|parameter| parameter.name == "initial_gap").unwrap_or(parameters.len());
         parameters.insert(gap, Parameter::shared("effective_mass", value, true));
     }
@@ -54,28 +54,28 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
     }
 }
 
-/// A contact that a master steps, with its calls counted.
+/// A contact in the hands of a co-simulation algorithm; it counts the calls.
 pub struct Contact<'a> {
     instance: Instance<'a>,
     description: &'a Description,
-    /// Parameters that differ from the start values of the unit.
+    /// Parameters that differ from the start values of the FMU.
     parameters: Vec<(u32, f64)>,
     rate: u32,
     force: u32,
-    // what another unit may lack
+    // outputs that another FMU may not have
     mean_force: Option<u32>,
     predicted_force: Option<u32>,
-    /// Time of the co-simulation, and that of the start [s].
+    /// Time of the co-simulation, and its start time [s].
     time: f64,
     start_time: f64,
-    /// Calls since the start.
+    /// Number of calls since the start.
     pub calls: u64,
-    /// The largest closing speed since the start [m/s].
+    /// Largest closing speed since the start [m/s].
     pub fastest: f64,
 }
 
 impl<'a> Contact<'a> {
-    /// A contact of the unit; of these `parameters` those that it has are set at every start.
+    /// A contact of the FMU. Every start sets those of these `parameters` that the FMU has.
     pub fn new(archive: &'a Archive, unit: &'a Unit, parameters: &[(&str, f64)]) -> Result<Contact<'a>, ImportError> {
         let description = &archive.description;
         let known = |(name, value): &(&str, f64)| Some((description.real(name).ok()?, *value));
@@ -94,7 +94,7 @@ impl<'a> Contact<'a> {
         })
     }
 
-    /// Back to the start, with these parameters; the others have the values of the scene.
+    /// Restarts with these parameters; the others have the values of the scene.
     pub fn start(&mut self, parameters: &[(&str, f64)]) -> Result<(), ImportError> {
         self.instance.call("fmi2Reset")?;
         self.instance.setup_experiment(0.0)?;
@@ -110,8 +110,7 @@ impl<'a> Contact<'a> {
         Ok(())
     }
 
-    /// Back to the start, with the bodies `gap` [m] apart. Those of a unit that has no such parameter are drawn apart in one
-    /// `step` [s].
+    /// Restarts with the bodies `gap` [m] apart. If the FMU has no such parameter, one `step` [s] moves the bodies apart.
     pub fn start_apart(&mut self, gap: f64, step: f64) -> Result<(), ImportError> {
         if self.description.real("initial_gap").is_ok() {
             return self.start(&[("initial_gap", gap)]);
@@ -123,13 +122,13 @@ impl<'a> Contact<'a> {
         Ok(())
     }
 
-    /// Asks for warnings, also for those that were told before.
+    /// Enables warnings, including those already logged.
     pub fn ask_for_warnings(&mut self) -> Result<(), ImportError> {
         self.instance.take_warnings();
         self.instance.ask_for_warnings()
     }
 
-    /// The warnings since they were asked for.
+    /// The warnings since they were enabled.
     pub fn warnings(&mut self) -> Vec<String> {
         self.instance.take_warnings()
     }
@@ -146,7 +145,7 @@ impl<'a> Contact<'a> {
         self.instance.set_real(self.rate, rate)
     }
 
-    /// Sets how the closing speed changes within the next step: [m/s^2], [m/s^3].
+    /// Sets the derivatives of the closing speed for the next step: [m/s^2], [m/s^3].
     pub fn set_derivatives(&mut self, derivatives: &[f64]) -> Result<(), ImportError> {
         self.calls += 1;
         self.instance.set_input_derivatives(self.rate, derivatives)
@@ -166,7 +165,7 @@ impl<'a> Contact<'a> {
         self.instance.real(self.force)
     }
 
-    /// How fast the force changes at the end of the step [N/s].
+    /// The time derivative of the force at the end of the step [N/s].
     pub fn force_slope(&mut self) -> Result<f64, ImportError> {
         self.calls += 1;
         self.instance.output_derivative(self.force)
@@ -178,13 +177,13 @@ impl<'a> Contact<'a> {
         self.instance.real(self.mean_force.ok_or_else(|| ImportError::Variable("mean_force".into()))?)
     }
 
-    /// The force that the unit expects at the end of the next step [N].
+    /// The force that the FMU predicts for the end of the next step [N].
     pub fn predicted_force(&mut self) -> Result<f64, ImportError> {
         self.calls += 1;
         self.instance.real(self.predicted_force.ok_or_else(|| ImportError::Variable("predicted_force".into()))?)
     }
 
-    /// Another output of the unit.
+    /// Another output of the FMU.
     pub fn output(&mut self, name: &str) -> Result<f64, ImportError> {
         self.instance.real(self.description.real(name)?)
     }

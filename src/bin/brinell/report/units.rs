@@ -1,4 +1,4 @@
-//! The units that a report builds of its scene, one for each kind of coupling: none pays for what its ways don't need.
+//! The FMUs of a report, one for each kind of coupling: each has only the features that its ways need.
 
 use super::ReportError;
 use super::progress::{Progress, Work};
@@ -11,17 +11,17 @@ use crate::plan::Plan;
 use crate::platform;
 use crate::scene::Scene;
 
-/// The units, loaded.
+/// The loaded FMUs.
 pub struct Units(Vec<Loaded>);
 
 struct Loaded {
     needs: Needs,
     unit: Unit,
-    // what the unit was unpacked to stays as long as it
+    // the unpacked files must exist as long as the FMU
     archive: Archive,
 }
 
-/// What there is to build for `scene`: a unit whose force follows the rate has no input derivatives and can't know the mass.
+/// The FMUs for `scene`. An FMU whose force follows the rate has no input derivatives and can't know the mass.
 fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
     let all = [
         (Needs::Force, "the FMU"),
@@ -35,17 +35,17 @@ fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
 }
 
 impl Units {
-    /// The work of [`Units::build`], and the ways that can then be run.
+    /// The work of [`Units::build`], and the available ways.
     pub fn work(scene: &Scene) -> (impl Iterator<Item = Work>, usize) {
         let kinds: Vec<_> = kinds(scene).map(|(needs, _)| needs).collect();
         let ways = WAYS.iter().filter(|way| kinds.contains(&way.needs)).count();
         (kinds.into_iter().map(|_| Work::Building), ways)
     }
 
-    /// Builds and loads the units of `scene`.
+    /// Builds and loads the FMUs of `scene`.
     ///
     /// # Errors
-    /// [`ReportError`] if one can't be built or loaded.
+    /// [`ReportError`] if an FMU can't be built or loaded.
     pub fn build(scene: &Scene, progress: &Progress) -> Result<Units, ReportError> {
         let folder = private_folder("brinell-report-", &std::env::temp_dir())?;
         let mut loaded = Vec::new();
@@ -61,10 +61,10 @@ impl Units {
         Ok(Units(loaded))
     }
 
-    /// A contact of each.
+    /// A contact of each FMU.
     ///
     /// # Errors
-    /// [`ImportError`] if a unit can't be instantiated.
+    /// [`ImportError`] if an FMU can't be instantiated.
     pub fn contacts(&self) -> Result<Contacts<'_>, ImportError> {
         let mut contacts = Vec::new();
         for Loaded { needs, unit, archive } in &self.0 {
@@ -74,23 +74,23 @@ impl Units {
     }
 }
 
-/// A contact for each kind of coupling that there is a unit for.
+/// A contact for each kind of coupling with an FMU.
 pub struct Contacts<'a>(Vec<(Needs, Contact<'a>)>);
 
 impl<'a> Contacts<'a> {
-    /// The ways to couple that can be run.
+    /// The available ways to couple.
     pub fn ways(&self) -> impl Iterator<Item = &'static Way> + use<> {
         let kinds: Vec<_> = self.0.iter().map(|(needs, _)| *needs).collect();
         WAYS.iter().filter(move |way| kinds.contains(&way.needs))
     }
 
-    /// The contact for a way that [can be run](Contacts::ways).
+    /// The contact for an [available](Contacts::ways) way.
     pub fn of(&mut self, way: &Way) -> &mut Contact<'a> {
         let contact = self.0.iter_mut().find(|(needs, _)| *needs == way.needs);
         &mut contact.expect("a way that can be run has a contact").1
     }
 
-    /// The contact that has no more than every unit.
+    /// The contact with the features that all FMUs have.
     pub fn plain(&mut self) -> &mut Contact<'a> {
         &mut self.0[0].1
     }

@@ -1,62 +1,62 @@
-//! The ways to couple a contact with a mass that the master moves.
+//! The ways to couple a contact with a mass that the importer moves.
 
 use super::unit::Contact;
 use crate::importer::ImportError;
 
-/// What a master found of one impact.
+/// The result of an impact for the importer.
 pub struct Rebound {
-    /// Away from the surface [m/s]; NaN if the impact wasn't over after so many steps that something must be wrong.
+    /// Rebound speed away from the surface [m/s]; NaN if the impact was not over after an excessive number of steps.
     pub speed: f64,
     /// At the ends of steps [N].
     pub max_force: f64,
 }
 
-/// The mass that a master moves.
+/// The mass that the importer moves.
 #[derive(Clone, Copy)]
 pub struct Body {
     /// [kg]
     pub mass: f64,
-    /// A constant force that presses it on [N].
+    /// A constant force towards the surface [N].
     pub load: f64,
     /// Towards the surface [m/s].
     pub speed: f64,
-    /// Of the contact at the end of the last step [N].
+    /// Contact force at the end of the last step [N].
     pub force: f64,
-    /// How fast that changes [N/s]; known to the way that needs it.
+    /// Its time derivative [N/s], for the way that needs it.
     slope: f64,
-    /// What the contact asks for over the next step [N]; known to the way that applies it a step late.
+    /// The force for the next step [N], for the way that applies it one step late.
     pub owed: f64,
 }
 
-/// Makes one step [s] of contact and body.
+/// Makes one step [s] of contact and mass.
 pub type Advance = fn(&mut Contact, &mut Body, f64) -> Result<(), ImportError>;
 
-/// What a way to couple needs of the unit.
+/// The features of the FMU that a way to couple needs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Needs {
     /// The force.
     Force,
-    /// The force that it expects at the end of the next step.
+    /// The predicted force at the end of the next step.
     PredictedForce,
     /// Input derivatives, and the mean force over the step.
     MeanForce,
-    /// To know the mass.
+    /// The mass as a parameter.
     Mass,
-    /// To know the mass, and that its force is applied a step late.
+    /// The mass as a parameter, with the force applied one step late.
     LateMass,
 }
 
-/// Kinds of master.
+/// Co-simulation algorithms.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Master {
-    /// Steps the contact first and applies its force over the same step: a loop of one's own, Gauss-Seidel.
+    /// Steps the contact first and applies its force over the same step: the user's own loop, Gauss-Seidel.
     Serial,
     /// Steps all FMUs at once and exchanges values between steps: Jacobi.
     Parallel,
 }
 
 impl Master {
-    /// What it is called.
+    /// The name of the algorithm.
     pub fn name(self) -> &'static str {
         match self {
             Master::Serial => "serial (Gauss-Seidel)",
@@ -68,13 +68,13 @@ impl Master {
 /// A way to couple.
 pub struct Way {
     pub name: &'static str,
-    /// What is done, in words.
+    /// Description in words.
     pub what: &'static str,
     pub advance: Advance,
     pub needs: Needs,
     pub master: Master,
-    /// The largest stable step for a linear spring, as `h sqrt(K/m)`: 0 for a way that is stable at no step, infinity for
-    /// one that is at every step. Below, `z = h^2 K/m`, `x` is the indentation and `u = h v`.
+    /// The largest stable step for a linear spring, as `h sqrt(K/m)`: 0 for a way that is never stable, infinity for
+    /// one that is always stable. Below, `z = h^2 K/m`, `x` is the indentation and `u = h v`.
     pub stable: f64,
 }
 
@@ -88,7 +88,7 @@ pub const LATE: Way = Way {
     stable: 0.0,
 };
 
-/// For a spring the same as leap-frog.
+/// The same as leap-frog for a spring.
 pub const PREDICTED: Way = Way {
     name: "predicted_force",
     what: "apply predicted_force, read before the step",
@@ -98,7 +98,7 @@ pub const PREDICTED: Way = Way {
     stable: 2.0,
 };
 
-/// `x' = x + u`, `u' = u - z x'`: stable to `z = 4`.
+/// `x' = x + u`, `u' = u - z x'`: stable up to `z = 4`.
 ///
 /// Reference: E. Hairer, C. Lubich, G. Wanner, *Acta Numerica* 12 (2003) 399-450, section 1.
 pub const LEAP_FROG: Way = Way {
@@ -110,11 +110,11 @@ pub const LEAP_FROG: Way = Way {
     stable: 2.0,
 };
 
-/// The step also carries the jerk `j` [times `h^3`], which the unit's slope of the force at the end of a step gives, with
-/// the unit's own rate there. With `a = -z x`:
-/// `x' = x + u + a/2 + j/6`, `u' = u - z (x + u/2 + a/6 + j/24)` by the mean force, and `j' = -z (u + a + j/2)`. The
-/// eigenvalue that leaves the unit circle first does so at -1, where the determinant of the step's matrix plus one is
-/// `(576 - 432 z + 48 z^2 - z^3) / 144`: at the square root of the smallest root of `z^3 - 48 z^2 + 432 z - 576`.
+/// The step also uses the jerk `j` [times `h^3`]. The FMU returns the slope of the force at the end of a step, which
+/// includes its own rate. With `a = -z x`: `x' = x + u + a/2 + j/6`, `u' = u - z (x + u/2 + a/6 + j/24)` with the
+/// mean force, and `j' = -z (u + a + j/2)`. The first eigenvalue to leave the unit circle does so at -1, where the
+/// determinant of the step's matrix plus one is zero. The determinant is `(576 - 432 z + 48 z^2 - z^3) / 144`: the
+/// limit is the square root of the smallest root of `z^3 - 48 z^2 + 432 z - 576`.
 pub const DERIVATIVES: Way = Way {
     name: "input derivatives",
     what: "set acceleration and jerk with the rate, apply mean_force",
@@ -134,7 +134,7 @@ pub const MASS_KNOWN: Way = Way {
     stable: f64::INFINITY,
 };
 
-/// Exact: the FMU keeps an account of the momentum that is on its way.
+/// Exact: the FMU tracks the momentum that has not reached the mass yet.
 pub const MASS_KNOWN_PARALLEL: Way = Way {
     name: "mass known, parallel",
     what: "the FMU moves the mass; apply the mean_force of the previous step",
@@ -144,14 +144,14 @@ pub const MASS_KNOWN_PARALLEL: Way = Way {
     stable: f64::INFINITY,
 };
 
-/// All ways that a report runs.
+/// All ways in a report.
 pub static WAYS: [Way; 6] = [LATE, PREDICTED, LEAP_FROG, DERIVATIVES, MASS_KNOWN, MASS_KNOWN_PARALLEL];
 
-/// Steps after which an impact is given up: the longest that a report asks for has sixteen million.
+/// Number of steps after which an impact is given up. The longest impact of a report has sixteen million.
 const LONGEST: u64 = 20_000_000;
 
-/// Gaps [m] of which bodies close at `speed` [m/s] to meet at so many places within a `step` [s], evenly spread: within the
-/// second, since a prediction needs a step before.
+/// Gaps [m] for which bodies that close at `speed` [m/s] touch at this number of evenly spaced places within a `step`
+/// [s]. It is the second step, since a prediction needs a step before.
 pub fn gaps(speed: f64, step: f64, places: u32) -> impl Iterator<Item = f64> {
     (0..places).map(move |place| (1.0 + (f64::from(place) + 0.5) / f64::from(places)) * speed * step)
 }
@@ -162,24 +162,24 @@ impl Body {
         Body { mass, load: 0.0, speed, force: 0.0, slope: 0.0, owed: 0.0 }
     }
 
-    /// A body at rest, pressed into the surface by as much as that resists [N].
+    /// A body at rest, pressed into the surface to a contact force of this load [N].
     pub fn pressed(mass: f64, load: f64) -> Body {
         Body { mass, load, speed: 0.0, force: load, slope: 0.0, owed: 0.0 }
     }
 
-    /// Acceleration towards the surface while the contact resists with `force` [N].
+    /// Acceleration towards the surface [m/s^2] for the contact `force` [N].
     fn acceleration(&self, force: f64) -> f64 {
         (self.load - force) / self.mass
     }
 
-    /// Feels `force` [N] over `step` [s].
+    /// Applies `force` [N] over `step` [s].
     fn feel(&mut self, force: f64, step: f64) {
         self.speed += step * self.acceleration(force);
     }
 }
 
 impl Way {
-    /// An impact of `mass` [kg] at `speed` [m/s] with steps of `step` [s], until the bodies part.
+    /// An impact of `mass` [kg] at `speed` [m/s] with steps of `step` [s], until the bodies separate.
     pub fn impact(&self, contact: &mut Contact, mass: f64, speed: f64, step: f64) -> Result<Rebound, ImportError> {
         let mut body = Body::flying(mass, speed);
         let mut max_force = 0.0;
@@ -194,7 +194,7 @@ impl Way {
     }
 }
 
-/// All units step at once: the bodies feel the force of the beginning of the step. First order.
+/// All FMUs step at once: the bodies get the force at the beginning of the step. First order.
 fn late(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
     contact.set_rate(body.speed)?;
     contact.step(step)?;
@@ -203,7 +203,7 @@ fn late(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportE
     Ok(())
 }
 
-/// All units step at once, with the force that the contact expects at the end of the step. Second order.
+/// All FMUs step at once, with the force that the contact predicts for the end of the step. Second order.
 fn predicted(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
     contact.set_rate(body.speed)?;
     let expected = contact.predicted_force()?;
@@ -222,7 +222,7 @@ fn leap_frog(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), Im
     Ok(())
 }
 
-/// Acceleration and jerk as input derivatives, the mean force over the step out. Third order.
+/// Acceleration and jerk as input derivatives; the mean force over the step as output. Third order.
 fn derivatives(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
     contact.set_rate(body.speed)?;
     contact.set_derivatives(&[body.acceleration(body.force), -body.slope / body.mass])?;
@@ -232,7 +232,7 @@ fn derivatives(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), 
     Ok(())
 }
 
-/// The unit moves the mass itself within the step: exact but for rounding.
+/// The FMU moves the mass itself within the step: exact to rounding.
 fn mass_known(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
     contact.set_rate(body.speed)?;
     if body.load != 0.0 {
@@ -244,7 +244,7 @@ fn mass_known(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), I
     Ok(())
 }
 
-/// The same with the mean force of each step applied over the next one.
+/// The same, with the mean force of each step applied over the next one.
 fn late_mass(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
     contact.set_rate(body.speed)?;
     if body.load != 0.0 {

@@ -28,7 +28,7 @@ struct Given {
     count: Option<usize>,
     surface: Surface,
     own: Numbers,
-    /// The properties that each contact of the group has for itself.
+    /// The properties with separate values for each contact of the group.
     per_contact: Vec<Spanned<String>>,
     /// The place for an error message, if no more precise place is known.
     span: Range<usize>,
@@ -39,7 +39,7 @@ pub struct Contacts {
     shared: Numbers,
     /// The hardening of all targets by a power law.
     pub power_law: Option<PowerLaw>,
-    /// How the strength of all targets grows with the strain rate.
+    /// The strain-rate dependence of the strength of all targets.
     pub rate: Option<Rate>,
     rate_span: Range<usize>,
     given: Vec<Given>,
@@ -73,12 +73,12 @@ impl Contacts {
         Ok(contacts)
     }
 
-    /// The number `name` of a contact: its own, or that of all contacts.
+    /// The number `name` of a contact: its own, otherwise that of all contacts.
     pub fn number(&self, index: usize, name: &str) -> Option<&Spanned<f64>> {
         self.given[index].own.get(name).or_else(|| self.shared.get(name))
     }
 
-    /// `text` with the name of the contact before it, if there is one.
+    /// `text` after the name of the contact, if it has one.
     pub fn said(&self, index: usize, text: &str) -> String {
         self.given[index].name.as_ref().map_or(text.into(), |name| format!("contact `{name}`: {text}"))
     }
@@ -96,7 +96,7 @@ impl Contacts {
         Err(Mistake(self.given[index].span.clone(), self.said(index, &message)))
     }
 
-    /// Refuses a strain rate for a law without strength.
+    /// Rejects a strain rate for a law without strength.
     pub fn check_rate(&self, has_no_strength: bool) -> Result<(), Mistake> {
         if self.rate.is_none() || !has_no_strength {
             return Ok(());
@@ -105,7 +105,7 @@ impl Contacts {
         Err(Mistake(self.rate_span.clone(), message.into()))
     }
 
-    /// Refuses a target that hardens for the law `name`, if that has no such form.
+    /// Rejects a hardening target for the law `name`, if the law has no form for it.
     pub fn check_hardening(&self, name: &str, hardens: bool) -> Result<(), Mistake> {
         let given = (0..self.given.len()).find_map(|index| Some((index, self.number(index, HARDENING)?)));
         let Some((index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
@@ -124,7 +124,7 @@ impl Contacts {
         }
     }
 
-    /// Rejects a mass that a contact has for itself if the FMU does not know the mass.
+    /// Rejects the mass of a single contact if the FMU does not know the mass.
     pub fn check_masses(&self, known: bool) -> Result<(), Mistake> {
         let given = self.given.iter().enumerate().find_map(|(index, given)| Some((index, given.own.get(MASS)?)));
         match given {
@@ -228,7 +228,7 @@ fn target_needs() -> String {
     format!("the target needs `youngs_modulus` and `poissons_ratio`, or a `material`: there are `{names}`")
 }
 
-/// What each contact gives, where the others have `surface`.
+/// The values of each contact; contacts without their own surface have `surface`.
 fn given(file: &File, surface: Option<SurfaceName>, shared: &Numbers) -> Result<Vec<Given>, Mistake> {
     let surface_of = |own: Option<SurfaceName>| own.or(surface).map_or(Surface::Dented, Surface::from);
     let Some(contacts) = &file.contact else {

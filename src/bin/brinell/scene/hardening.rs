@@ -1,19 +1,19 @@
-//! Yield strength and hardening of a target, in whatever words the scene says them.
+//! Yield strength and hardening of a target, from any of the ways to specify them.
 
 use super::Mistake;
 use super::file::Target;
 use super::power_law;
 use toml::Spanned;
 
-/// Yield strength and hardening modulus [Pa], each with its place in the file.
+/// Yield strength and hardening modulus [Pa], each with its position in the file.
 #[derive(Default)]
 pub struct Flow {
     pub yield_strength: Option<Spanned<f64>>,
     pub hardening_modulus: Option<Spanned<f64>>,
 }
 
-/// The flow stress that `target` gives itself, with this Young's modulus: two numbers, a tangent modulus `E_t = H/(1 + H/E)`, or a
-/// power law, for which two numbers stand until the impact is known.
+/// The flow stress of `target` for this Young's modulus. It is given by two numbers, by a tangent modulus
+/// `E_t = H/(1 + H/E)`, or by a power law; placeholders represent the power law until the impact is known.
 pub fn of(target: &Target, youngs_modulus: Option<&Spanned<f64>>) -> Result<Flow, Mistake> {
     if let Some(table) = &target.power_law {
         check_alone(target)?;
@@ -28,7 +28,7 @@ pub fn of(target: &Target, youngs_modulus: Option<&Spanned<f64>>) -> Result<Flow
     Ok(Flow { yield_strength: target.yield_strength.clone(), hardening_modulus })
 }
 
-/// Refuses numbers beside a power law.
+/// Rejects numbers in addition to a power law.
 fn check_alone(target: &Target) -> Result<(), Mistake> {
     let others = [
         ("yield_strength", &target.yield_strength),
@@ -44,7 +44,7 @@ fn check_alone(target: &Target) -> Result<(), Mistake> {
     Err(Mistake(value.span(), message))
 }
 
-/// The hardening modulus of a `tangent` modulus.
+/// The hardening modulus for a `tangent` modulus.
 fn of_tangent(
     target: &Target,
     tangent: &Spanned<f64>,
@@ -58,7 +58,7 @@ fn of_tangent(
         return wrong("target.tangent_modulus needs target.youngs_modulus, or a material".into());
     };
     let given = *tangent.get_ref();
-    // a NaN is in no range
+    // NaN is outside every range
     if !(0.0..modulus).contains(&given) {
         return wrong(format!(
             "target.tangent_modulus = {given:?} is out of range: allowed is 0.0 to below youngs_modulus = {modulus:?} Pa"
@@ -67,7 +67,7 @@ fn of_tangent(
     Ok(Spanned::new(tangent.span(), given / (1.0 - given / modulus)))
 }
 
-/// Refuses what belongs to all contacts in the target of the contact `name`.
+/// Rejects keys in the target of the contact `name` that apply to all contacts.
 pub fn check_contact(name: &str, target: &Target) -> Result<(), Mistake> {
     let power_law = target.power_law.as_ref().map(|table| ("power_law", table.span()));
     let rate = target.rate.as_ref().map(|table| ("rate", table.span()));

@@ -42,7 +42,7 @@ const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
 pub struct Numbers(Vec<(&'static str, Spanned<f64>)>);
 
 impl Numbers {
-    /// Those of a contact that has none for itself.
+    /// Those of a contact without its own numbers.
     pub fn none() -> Numbers {
         Numbers(Vec::new())
     }

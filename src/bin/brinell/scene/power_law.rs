@@ -1,16 +1,16 @@
-//! Power-law hardening as a linear one, over the strains of the scene's impact.
+//! Approximates power-law hardening by linear hardening, over the strains of the scene's impact.
 
 use super::Mistake;
 use super::file::PowerLawTable;
 use serde::Serialize;
 use toml::Spanned;
 
-/// Representative strain of an indentation over its contact radius in units of the effective radius.
+/// Factor of Tabor's representative strain: strain over (contact radius over effective radius).
 ///
 /// Reference: D. Tabor, *The Hardness of Metals*, Oxford 1951, chapter V.
 pub const TABOR: f64 = 0.2;
 
-/// The strain from which the search for that of an impact begins.
+/// The initial strain of the search.
 pub const FIRST_STRAIN: f64 = 0.05;
 
 /// The flow stress `sigma = K eps_p^n`.
@@ -22,21 +22,21 @@ pub struct PowerLaw {
     pub exponent: f64,
 }
 
-/// A power law as a linear one.
+/// The linear approximation of a power law.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Linear {
-    /// The largest plastic strain that counts.
+    /// The largest plastic strain in the approximation.
     pub strain: f64,
     /// `S` [Pa].
     pub yield_strength: f64,
     /// `H` [Pa].
     pub hardening_modulus: f64,
-    /// Error of the flow stress at the largest strain, relative.
+    /// Relative error of the flow stress at the largest strain.
     pub error: f64,
 }
 
 impl PowerLaw {
-    /// The straight line `S + H eps_p` that is nearest to the power law from no strain to `strain`, by least squares.
+    /// The straight line `S + H eps_p` closest to the power law from zero strain to `strain`, by least squares.
     pub fn up_to(&self, strain: f64) -> Linear {
         let PowerLaw { coefficient, exponent: n } = *self;
         let stress = coefficient * libm::pow(strain, n);
@@ -47,7 +47,7 @@ impl PowerLaw {
     }
 }
 
-/// The power law that a scene gives.
+/// The power law of a scene.
 pub fn check(table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
     let PowerLawTable { coefficient, exponent } = table.get_ref();
     super::checks::check_range(("coefficient", "Pa"), "target.power_law.", coefficient, 1e-6..=1e18)?;
@@ -55,7 +55,7 @@ pub fn check(table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
     Ok(PowerLaw { coefficient: *coefficient.get_ref(), exponent: *exponent.get_ref() })
 }
 
-/// What stands for the power law until the impact is known.
+/// Placeholders for the power law until the impact is known.
 pub fn placeholder(law: &PowerLaw) -> Linear {
     law.up_to(FIRST_STRAIN)
 }

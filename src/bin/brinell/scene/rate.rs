@@ -1,4 +1,4 @@
-//! Strain rate: the strength that a target has in the scene's impact.
+//! Strain rate: the strength of a target in the scene's impact.
 
 use super::file::RateTable;
 use super::power_law::Linear;
@@ -11,17 +11,17 @@ use brinell::contact::{Model, Pair};
 use serde::Serialize;
 use toml::Spanned;
 
-/// The names of the models, as scenes call them.
+/// The names of the models in scenes.
 const MODELS: [&str; 2] = ["johnson-cook", "cowper-symonds"];
 
-/// A change below which factor and strain are found, relative, and the steps after which the search is given up.
+/// Relative tolerance of the fixed point for factor and strain, and the largest number of iterations.
 const CLOSE: f64 = 1e-12;
 pub const STEPS: u32 = 200;
 
-/// How the flow stress grows with the strain rate.
+/// Models of the flow stress over the strain rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rate {
-    /// `1 + c ln(rate/reference)`, and 1 below the reference rate.
+    /// `1 + c ln(rate/reference)`; 1 below the reference rate.
     ///
     /// Reference: G. R. Johnson, W. H. Cook, *7th Int. Symp. on Ballistics*, The Hague 1983, 541-547.
     JohnsonCook {
@@ -40,7 +40,7 @@ pub enum Rate {
 }
 
 impl Rate {
-    /// Flow stress at a strain rate [1/s] over the quasi-static one.
+    /// Flow stress at a strain rate [1/s] relative to the quasi-static one.
     pub fn factor(&self, rate: f64) -> f64 {
         match *self {
             Rate::JohnsonCook { c, reference_rate } => 1.0 + c * libm::log(rate / reference_rate).max(0.0),
@@ -49,7 +49,7 @@ impl Rate {
     }
 }
 
-/// The rate model that a scene gives.
+/// The rate model of a scene.
 pub fn check(table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
     let RateTable { model, c, reference_rate, d, q } = table.get_ref();
     let keys = [("c", c), ("reference_rate", reference_rate), ("d", d), ("q", q)];
@@ -85,17 +85,17 @@ pub fn check(table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
     }
 }
 
-/// What the target of a group is worth in an impact.
+/// The strength of the target of a group in an impact.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct InImpact {
-    /// Yield strength and hardening modulus [Pa], with the factor.
+    /// Yield strength and hardening modulus [Pa], including the factor.
     pub yield_strength: f64,
     pub hardening_modulus: f64,
-    /// The straight line that stands for a power law, before the factor.
+    /// The straight line that approximates a power law, without the factor.
     pub line: Option<Linear>,
     /// Mean strain rate of the loading [1/s].
     pub strain_rate: f64,
-    /// Flow stress over the quasi-static one.
+    /// Flow stress relative to the quasi-static one.
     pub factor: f64,
 }
 
@@ -114,9 +114,9 @@ impl Scene {
         self.power_law.is_some() || self.rate.is_some()
     }
 
-    /// What the target of `group` is worth in an `impact`: a fixed point, since its depth and its duration depend on that. The strain is
-    /// Tabor's, `0.2 a/R` at the largest contact radius, and the rate that strain over the time of the loading. `None` beyond
-    /// what the law can be evaluated for.
+    /// The strength of the target of `group` in an `impact`. It is a fixed point, since depth and duration of the
+    /// impact depend on the strength. The strain is Tabor's, `0.2 a/R` at the largest contact radius. The strain rate
+    /// is this strain over the loading time. `None` beyond the range of the law.
     pub fn in_impact(&self, group: usize, impact: &Impact) -> Option<InImpact> {
         let own = |group: usize| self.contacts[group].own.iter().any(|own| own.name == "target.yield_strength");
         let line = |strain: f64| self.power_law.filter(|_| !own(group)).map(|law| law.up_to(strain));
@@ -143,7 +143,7 @@ impl Scene {
         })
     }
 
-    /// The quasi-static hardening of `group`, or that of a `line`.
+    /// The quasi-static hardening of `group`, or of a `line`.
     fn hardening_of(&self, group: usize, line: Option<Linear>) -> QuasiStatic {
         let given = self.quasi_static[group];
         line.map_or(given, |Linear { yield_strength, hardening_modulus, .. }| QuasiStatic {
@@ -152,7 +152,7 @@ impl Scene {
         })
     }
 
-    /// The contacts of `group` with `factor` times the strength that is given or that of a `line`.
+    /// The contacts of `group` with `factor` times their strength or that of a `line`.
     fn with_strength(&self, group: usize, line: Option<Linear>, factor: f64) -> AnyModel {
         let QuasiStatic { yield_strength, hardening_modulus } = self.hardening_of(group, line);
         let model = self.model_of(group);
@@ -165,8 +165,8 @@ impl Scene {
         self.with_strength(0, self.power_law.map(|law| law.up_to(strain)), factor).predict(impact)
     }
 
-    /// The scene with the strengths that its targets have in its own impact, or in the given one on all contacts. `None` beyond what
-    /// the law can be evaluated for.
+    /// The scene with the strengths that its targets have in its own impact, or all of them in the given one. `None`
+    /// beyond the range of the law.
     pub fn with_strengths_for(mut self, given: Option<&Impact>) -> Option<Scene> {
         if !self.depends_on_impact() {
             return Some(self);

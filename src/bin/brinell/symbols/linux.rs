@@ -1,11 +1,11 @@
-//! What Linux asks of a library.
+//! The requirements of Linux for a library.
 
 use super::SymbolError;
 use object::Endianness;
 use object::elf;
 use object::read::elf::{Dyn, ElfFile64};
 
-/// No library at all is needed, and no version of a symbol.
+/// The library needs no other library and no symbol version.
 pub fn check(library: &[u8]) -> Result<(), SymbolError> {
     let file = ElfFile64::<Endianness>::parse(library)?;
     let endian = file.endian();

@@ -1,4 +1,4 @@
-//! What macOS asks of a library.
+//! The requirements of macOS for a library.
 
 use super::SymbolError;
 use crate::platform::Target;
@@ -7,7 +7,7 @@ use object::Endianness;
 use object::macho::Version;
 use object::read::macho::{LoadCommandVariant, MachOFile64};
 
-/// It runs on the oldest macOS that units are for, can be found from any folder, and its signature is right.
+/// The library runs on the oldest supported macOS, loads from any folder, and has a valid signature.
 pub fn check(library: &[u8], target: &Target) -> Result<(), SymbolError> {
     let file = MachOFile64::<Endianness>::parse(library)?;
     let endian = file.endian();

@@ -1,5 +1,5 @@
-//! What a library must be before it is packed: for the right processor, with the 34 functions and nothing else, in need of next
-//! to nothing, and with all that its operating system asks of it.
+//! Checks of a library before it is packed: the right processor, exactly the 34 exported functions, few imports, and
+//! the requirements of its operating system.
 
 mod linux;
 mod macos;
@@ -50,13 +50,14 @@ pub const FUNCTIONS: [&str; 34] = [
     "fmi2GetStringStatus",
 ];
 
-/// What an FMU may take from the C library of its process: memory, and what compilers make of loops over it.
+/// Imports from the C library of the process that an FMU may have: memory functions, and what compilers make of loops
+/// over memory.
 const FROM_C: [&str; 8] = ["calloc", "free", "memcpy", "memmove", "memset", "memcmp", "bcmp", "strlen"];
 
-/// What it may take on macOS beside that: `memset` to zero under its names there, and the function that binds the others.
+/// Additional imports on macOS: `memset` to zero under its names there, and the function that binds the others.
 const FROM_MACOS: [&str; 3] = ["bzero", "__bzero", "dyld_stub_binder"];
 
-/// What it may take on Windows.
+/// Allowed imports on Windows.
 const FROM_KERNEL32: [&str; 3] = ["GetProcessHeap", "HeapAlloc", "HeapFree"];
 
 /// A library that must not be packed.
@@ -86,10 +87,10 @@ pub enum SymbolError {
     Signature(#[from] SignatureError),
 }
 
-/// Checks the library of `platform`; gives the names that it takes from the process. A `standalone` one takes none.
+/// Checks the library of `platform`; returns the names that it imports from the process. A `standalone` one imports none.
 ///
 /// # Errors
-/// [`SymbolError`] with the first thing that is wrong.
+/// [`SymbolError`] with the first violation.
 pub fn check(library: &[u8], platform: &Platform, standalone: bool) -> Result<Vec<String>, SymbolError> {
     let slices = slices(library)?;
     let mut found = Vec::new();
@@ -111,7 +112,7 @@ pub fn check(library: &[u8], platform: &Platform, standalone: bool) -> Result<Ve
     }
 }
 
-/// The libraries in a universal one; itself, if it is none.
+/// The libraries in a universal one; otherwise the library itself.
 fn slices(library: &[u8]) -> Result<Vec<&[u8]>, SymbolError> {
     if FileKind::parse(library)? != FileKind::MachOFat32 {
         return Ok(vec![library]);
@@ -142,10 +143,10 @@ fn words(system: Option<System>, processor: Architecture) -> String {
     format!("code for {system} on {processor:?}")
 }
 
-/// Checks what every system asks for, and what that of `target` asks for.
+/// Checks the requirements of every system, and those of the system of `target`.
 fn check_target(library: &[u8], target: &Target) -> Result<BTreeSet<String>, SymbolError> {
     let file = object::File::parse(library)?;
-    // Mach-O puts an underscore before every name
+    // Mach-O adds an underscore before every name
     let prefix = if file.format() == BinaryFormat::MachO { "_" } else { "" };
     let plain = |bytes: &[u8]| {
         let text = String::from_utf8_lossy(bytes).into_owned();

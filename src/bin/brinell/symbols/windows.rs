@@ -1,4 +1,4 @@
-//! What Windows asks of a library.
+//! The requirements of Windows for a library.
 
 use super::SymbolError;
 use object::pe::{
@@ -7,7 +7,7 @@ use object::pe::{
 };
 use object::read::pe::{ImageNtHeaders, ImageOptionalHeader, PeFile64};
 
-/// It can be loaded at any address, and its data can't be executed.
+/// The library loads at any address, and its data can't be executed.
 pub fn check(library: &[u8]) -> Result<(), SymbolError> {
     let file = PeFile64::parse(library)?;
     let headers = file.nt_headers();

@@ -17,14 +17,14 @@ impl Material {
         points(self.loading)
     }
 
-    /// The impacts whose unloading was computed, each with its path from the largest indentation down.
+    /// The impacts with computed unloading, each with its path from the largest indentation.
     pub fn impacts(&self) -> Vec<(Impact, Vec<Point>)> {
         let curve = self.loading();
         self.unloading.iter().map(|(x, rows)| (computed(&curve, *x, rows), path(rows))).collect()
     }
 }
 
-/// All of them.
+/// All targets.
 pub const MATERIALS: [Material; 7] = [
     Material {
         poissons_ratio: 0.3,

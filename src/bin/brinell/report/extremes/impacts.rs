@@ -1,4 +1,4 @@
-//! Impacts far from the scene's: of harder, stronger, larger and faster bodies, and of softer, weaker, smaller and slower ones.
+//! Impacts far from the scene's: harder or softer, stronger or weaker, larger or smaller, faster or slower.
 
 use super::{Case, TOLERANCE, Verdict};
 use crate::importer::ImportError;
@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::validity::{self, Beyond};
 use brinell::contact::impact::{Impact, Prediction};
 
-/// Bodies and impact that are not the scene's.
+/// Bodies and impact that differ from the scene's.
 pub struct Bodies {
     parameters: Vec<(&'static str, f64)>,
     pub model: AnyModel,
@@ -18,7 +18,8 @@ pub struct Bodies {
     density: Option<f64>,
 }
 
-/// Factors to the scene: target's Young's modulus [Pa], yield strain, radius [m], speed [m/s]; none: as in the scene.
+/// Factors relative to the scene: target's Young's modulus [Pa], yield strain, radius [m], speed [m/s]; `None` keeps
+/// the scene's value.
 #[derive(Clone, Copy, Default)]
 pub struct Change {
     modulus: Option<f64>,
@@ -28,7 +29,8 @@ pub struct Change {
 }
 
 impl Bodies {
-    /// The bodies of `scene` with a `change`: the yield strain stays if it isn't changed, and the mass grows as the volume.
+    /// The bodies of `scene` with a `change`. The yield strain stays the same unless it is changed; the mass scales
+    /// with the volume.
     pub fn of(scene: &Scene, change: Change) -> Option<Bodies> {
         let old = |name| scene.value(name).unwrap_or(f64::NAN);
         let (old_modulus, old_radius) = (old("target.youngs_modulus"), old("impactor.radius"));
@@ -61,7 +63,7 @@ impl Bodies {
         self.model.predict(&self.impact)
     }
 
-    /// A contact of these bodies that will tell what it leaves of its validity.
+    /// A contact of these bodies with warnings about its validity enabled.
     pub fn start(&self, contact: &mut Contact) -> Result<(), ImportError> {
         let mut parameters = self.parameters.clone();
         parameters.push(("initial_gap", 0.0));
@@ -69,13 +71,13 @@ impl Bodies {
         contact.ask_for_warnings()
     }
 
-    /// What a contact leaves that reaches this contact `radius` [m] and closing `speed` [m/s].
+    /// The limits exceeded by a contact with this contact `radius` [m] and closing `speed` [m/s].
     pub fn beyond(&self, radius: f64, speed: f64) -> Vec<Beyond> {
         validity::beyond(&self.model.pair(), self.density, radius, speed)
     }
 }
 
-/// The impacts: one quantity after the other, then the corners.
+/// The impacts: each quantity alone, then the corners.
 fn changes() -> Vec<(String, Change)> {
     let mut all = Vec::new();
     let none = Change::default();
@@ -104,12 +106,12 @@ fn changes() -> Vec<(String, Change)> {
     all
 }
 
-/// The impacts that `scene` can have: an elastic contact has no yield strain to change.
+/// The impacts for `scene`: an elastic contact has no yield strain.
 fn possible(scene: &Scene) -> impl Iterator<Item = (String, Bodies)> {
     changes().into_iter().filter_map(|(name, change)| Some((name, Bodies::of(scene, change)?)))
 }
 
-/// How many impacts there are.
+/// Number of impacts.
 pub fn count(scene: &Scene) -> usize {
     possible(scene).count()
 }
@@ -126,11 +128,11 @@ pub fn run(contact: &mut Contact, scene: &Scene, quick: bool, progress: &Progres
     possible(scene).map(run).collect()
 }
 
-/// How much finer a step is tried whose master has missed the peak of the force: that of a damped contact may be right behind
-/// the first touch. Each try may take more steps.
+/// Factor of a finer step if the importer has missed the peak of the force: for a damped contact it may be just after
+/// first touch. Each attempt may take more steps.
 const FINER: [f64; 2] = [8.0, 64.0];
 
-/// An impact by leap-frog with so many `steps` of its shorter half, at `most` so many of the whole.
+/// An impact with leap-frog: `steps` in its shorter half, at most `most` in total.
 fn impact(contact: &mut Contact, name: &str, bodies: &Bodies, (steps, most): (f64, f64)) -> Case {
     let Some(prediction) = bodies.predict() else { return without_prediction(contact, name, bodies, steps) };
     let shorter = prediction.loading_time.min(prediction.unloading_time);
@@ -144,7 +146,7 @@ fn impact(contact: &mut Contact, name: &str, bodies: &Bodies, (steps, most): (f6
     case
 }
 
-/// The impact by steps of this length [s].
+/// The impact with steps of this length [s].
 fn by_steps(contact: &mut Contact, name: &str, bodies: &Bodies, prediction: &Prediction, step: f64) -> Case {
     let mut case = Case::new(name, TOLERANCE);
     (case.indentation, case.step) = (prediction.max_indentation, step);
@@ -165,11 +167,11 @@ fn by_steps(contact: &mut Contact, name: &str, bodies: &Bodies, prediction: &Pre
     case
 }
 
-/// What rounding makes of a restitution of one.
+/// Tolerance for the rounding of a restitution of one.
 const ROUNDING: f64 = 1e-9;
 
-/// An impact without prediction. If it goes deeper than the law can be evaluated the unit must say so; a contact that is damped
-/// so much that the bodies creep apart for ever has nothing to be judged by.
+/// An impact without a prediction. Beyond the range of the law, the FMU must report an error. A strongly damped
+/// contact, from which the bodies creep apart indefinitely, can't be judged.
 fn without_prediction(contact: &mut Contact, name: &str, bodies: &Bodies, steps: f64) -> Case {
     let mut case = Case::new(name, TOLERANCE);
     if bodies.model.elastoplastic().is_none() {
@@ -177,7 +179,7 @@ fn without_prediction(contact: &mut Contact, name: &str, bodies: &Bodies, steps:
         return case;
     }
     let Impact { mass, speed } = bodies.impact;
-    // as deep as Hertz's law would be; a law that yields is softer
+    // as deep as with Hertz's law; a law that yields is softer
     let depth = (0.5 * mass * speed * speed / (0.4 * bodies.model.pair().hertz_stiffness())).powf(0.4);
     case.step = depth / speed / steps;
     case.verdict = match bodies.start(contact).and_then(|()| LEAP_FROG.impact(contact, mass, speed, case.step)) {

@@ -1,4 +1,4 @@
-//! Stiff and extreme cases: impacts far from the scene's, and motions that no sane master would make, each judged.
+//! Stiff and extreme cases, each judged: impacts far from the scene's, and extreme prescribed motions.
 
 mod impacts;
 mod motions;
@@ -12,43 +12,43 @@ use crate::validity::Beyond;
 use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use impacts::{Bodies, Change};
 
-/// Largest error of an impact by leap-frog: of the energy relative to the incoming one, of the force relative to itself.
+/// Tolerances of an impact with leap-frog: energy relative to the incoming energy, force relative to itself.
 const TOLERANCE: f64 = 0.01;
 
-/// Largest error of the dissipated energy of a motion that is prescribed, relative to the work of its loading.
+/// Tolerance of the dissipated energy of a prescribed motion, relative to the work of its loading.
 const EXACT: f64 = 1e-9;
 
-/// What came out of a case.
+/// The result of a case.
 pub struct Case {
     pub name: String,
-    /// Of the case [m], [s].
+    /// Data of the case [m], [s].
     pub indentation: f64,
     pub step: f64,
     /// Contact radius over the effective radius.
     pub width: f64,
-    /// Of force and energy.
+    /// Errors of force and energy.
     pub errors: (f64, f64),
     pub tolerance: f64,
-    /// How many warnings the unit gave.
+    /// Number of warnings from the FMU.
     told: usize,
-    /// What leaves the validity of the law.
+    /// The exceeded limits of the law's validity.
     pub beyond: Vec<Beyond>,
-    /// Whether the law itself gives back more than it took.
+    /// Whether the law itself returns more energy than it received.
     makes_energy: bool,
     pub verdict: Verdict,
 }
 
-/// What a case was found to be.
+/// The verdict on a case.
 pub enum Verdict {
     Right,
-    /// The unit was right to refuse it, and said why.
+    /// The FMU rejected it, correctly and with the reason.
     Refused(String),
-    /// There is nothing to judge it by.
+    /// There is no reference to judge it.
     NotJudged(&'static str),
     Failed(String),
 }
 
-/// How many cases there are, to a few that a law may leave out.
+/// Approximate number of cases; a law may omit a few.
 pub fn count(scene: &Scene, quick: bool) -> usize {
     let motions = if scene.damped.is_some() { 0 } else { motions::count(quick) };
     impacts::count(scene) + motions
@@ -69,12 +69,12 @@ impl Case {
         !matches!(self.verdict, Verdict::NotJudged(_))
     }
 
-    /// Whether it has failed.
+    /// Whether it failed.
     pub fn has_failed(&self) -> bool {
         matches!(self.verdict, Verdict::Failed(_))
     }
 
-    /// A case that is yet to be run.
+    /// A case before its run.
     fn new(name: &str, tolerance: f64) -> Case {
         let errors = (f64::NAN, f64::NAN);
         Case {
@@ -91,17 +91,17 @@ impl Case {
         }
     }
 
-    /// Notes what was left of the validity, at this contact `radius` [m], and how much of that the unit has told.
+    /// Records the exceeded limits at this contact `radius` [m], and how many of them the FMU reported.
     fn note_validity(&mut self, contact: &mut Contact, bodies: &Bodies, radius: f64) {
         self.width = radius / bodies.model.pair().radius;
         self.beyond = bodies.beyond(radius, contact.fastest);
         self.told = contact.warnings().len();
     }
 
-    /// Fails the case if it isn't right to its tolerance, if `passive` is false, or if the unit was silent or cried wolf.
+    /// Fails the case if an error exceeds its tolerance, if `passive` is false, or if a warning is missing or wrong.
     fn judge(&mut self, passive: bool) {
         let (force, energy) = self.errors;
-        // NaN is not right
+        // NaN counts as wrong
         let right = |error: f64| error <= self.tolerance;
         let failure = if !right(force) {
             format!("the force is off by {force:e}")

@@ -1,4 +1,4 @@
-//! Motions that no sane master would make.
+//! Extreme prescribed motions.
 
 use super::impacts::Bodies;
 use super::{Case, EXACT, Verdict};
@@ -9,22 +9,22 @@ use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model, Surface};
 
-/// What moves a contact.
+/// The driver of a contact.
 type Run = Box<dyn Fn(&mut Contact) -> Result<(), ImportError>>;
 
-/// A motion of the bodies, in and out again.
+/// A motion of the bodies, in and out.
 struct Motion {
     name: String,
-    /// [m]
+    /// Depth [m].
     depth: f64,
-    /// The longest [s].
+    /// Longest step [s].
     step: f64,
-    /// How often it yields at that depth.
+    /// Number of times it yields at that depth.
     yields: u32,
     run: Run,
 }
 
-/// All motions; those of the size of the scene's impact go to `depth` [m].
+/// All motions; those with the size of the scene's impact reach `depth` [m].
 fn motions(depth: f64, quick: bool, surface: Surface) -> Vec<Motion> {
     let mut all = Vec::new();
     let mut add = |name: String, depth: f64, step: f64, run: Run| {
@@ -63,7 +63,7 @@ fn motions(depth: f64, quick: bool, surface: Surface) -> Vec<Motion> {
         let run = Box::new(move |contact: &mut Contact| in_and_out(contact, depth, &[1.0, 1.0]));
         add(format!("indentation of {depth:e} m"), depth, 1.0, run);
     }
-    // a surface that is fresh each time yields each time
+    // a fresh surface yields each time
     let yields = if surface == Surface::Fresh { cycles } else { 1 };
     let run =
         Box::new(move |contact: &mut Contact| (0..cycles).try_for_each(|_| in_and_out(contact, depth, &[1.0, 1.0])));
@@ -71,12 +71,12 @@ fn motions(depth: f64, quick: bool, surface: Surface) -> Vec<Motion> {
     all
 }
 
-/// How many motions there are.
+/// Number of motions.
 pub fn count(quick: bool) -> usize {
     motions(0.0, quick, Surface::Dented).len()
 }
 
-/// Runs all motions on the bodies of the scene; what they dissipate is known.
+/// Runs all motions on the bodies of the scene, for which the dissipated energy is known.
 pub fn run(contact: &mut Contact, bodies: &Bodies, quick: bool, progress: &Progress) -> Vec<Case> {
     let (Some(prediction), Some(model)) = (bodies.predict(), bodies.model.elastoplastic()) else { return Vec::new() };
     let motions = motions(prediction.max_indentation, quick, model.surface);
@@ -89,7 +89,7 @@ pub fn run(contact: &mut Contact, bodies: &Bodies, quick: bool, progress: &Progr
     motions.into_iter().map(run).collect()
 }
 
-/// To `depth` [m] in the first half of the `steps` [s], and back in the second.
+/// To `depth` [m] in the first half of the `steps` [s], and back in the second half.
 fn in_and_out(contact: &mut Contact, depth: f64, steps: &[f64]) -> Result<(), ImportError> {
     let (there, back) = steps.split_at(steps.len() / 2);
     for (way, sign) in [(there, 1.0), (back, -1.0)] {
@@ -102,7 +102,7 @@ fn in_and_out(contact: &mut Contact, depth: f64, steps: &[f64]) -> Result<(), Im
     Ok(())
 }
 
-/// Runs `motion`, and compares what it has dissipated.
+/// Runs `motion` and compares the dissipated energy.
 fn judge(contact: &mut Contact, bodies: &Bodies, model: &Model<AnyLoading, AnyUnloading>, motion: Motion) -> Case {
     let Motion { name, depth, step, yields, run } = motion;
     let mut case = Case::new(&name, EXACT);
@@ -110,7 +110,7 @@ fn judge(contact: &mut Contact, bodies: &Bodies, model: &Model<AnyLoading, AnyUn
     let once = model.loading.work(&model.pair, depth);
     let (work, recovered) = (f64::from(yields) * once, f64::from(yields) * model.recovered_work(depth, depth));
     let segment = model.loading.segment(&model.pair, depth);
-    // a law that makes energy may hold on beyond the original surface, where the motion ends
+    // a law that creates energy may keep the contact closed beyond the original surface, where the motion ends
     let holds_on = model.unloading_path(depth).lower < 0.0;
     let left = if holds_on { model.unloading_segment(depth, 0.0).force(0.0) } else { 0.0 };
     case.makes_energy = recovered > work * (1.0 + EXACT);
@@ -120,9 +120,9 @@ fn judge(contact: &mut Contact, bodies: &Bodies, model: &Model<AnyLoading, AnyUn
         Err(error) => case.verdict = Verdict::Failed(error.to_string()),
         Ok((force, dissipated)) => {
             case.note_validity(contact, bodies, model.loading.contact_radius(&model.pair, depth));
-            // the energy of a tiny indentation is below the smallest number
+            // the energy of a tiny indentation underflows
             let energy = if work > 0.0 { (dissipated - (work - recovered)).abs() / work } else { dissipated.abs() };
-            // rounding of the path may leave a trace of an elastic contact
+            // an elastic contact may show the rounding of the path
             let largest = segment.force(depth);
             case.errors = (if largest > 0.0 { (force - left).abs() / largest } else { force.abs() }, energy);
             case.judge(case.makes_energy || dissipated >= -EXACT * work);

@@ -1,4 +1,4 @@
-//! Error against run time: every way to couple, over the steps per contact.
+//! Error against run time: every way to couple, for different numbers of steps per contact.
 
 mod page;
 
@@ -11,52 +11,53 @@ use std::time::Instant;
 
 pub use page::part;
 
-/// The steps per contact that the order is fitted to: neither big steps nor rounding speak there.
+/// The range of steps per contact for the fit of the order: large steps and rounding do not affect it.
 const FITTED: std::ops::RangeInclusive<u32> = 16..=512;
 
-/// What half a step must make of an error that follows a power of the step: that of another unit may end at what its law
-/// differs by.
+/// Largest ratio of the errors with a halved and a full step for an error that follows a power of the step. The error
+/// of another FMU may converge to the difference of its law instead.
 const LEAST_FALL: f64 = 0.75;
 
 /// Errors below this are rounding.
 const ROUNDING: f64 = 1e-11;
 
-/// One way at one number of steps per contact. Errors are relative to the energy balance, root mean squares over the phases.
+/// One way with one number of steps per contact. Errors are relative to the energy balance, and root mean squares
+/// over the phases.
 pub struct Point {
     pub steps: u32,
     /// [s]
     pub step: f64,
     pub restitution: f64,
     pub max_force: f64,
-    /// NaN where there is none: of an elastic contact, or of a unit that doesn't tell it.
+    /// NaN for an elastic contact, and for an FMU without this output.
     pub dent: f64,
-    /// NaN where there is none.
+    /// NaN if there is no value.
     pub contact_time: f64,
-    /// Of one impact.
+    /// For one impact.
     pub calls: f64,
     /// The shortest of the phases [s].
     pub run_time: f64,
 }
 
-/// One way over the steps per contact, from few to many.
+/// One way for increasing numbers of steps per contact.
 pub struct Line {
-    /// None for the unit alone.
+    /// `None` for the FMU alone.
     pub way: Option<&'static Way>,
-    /// The other unit that was run; none for that of the scene.
+    /// The other FMU; `None` for that of the scene.
     pub peer: Option<String>,
     pub points: Vec<Point>,
-    /// Power of the step that the error of restitution follows; none if that is rounding.
+    /// Order of the error of restitution in the step; `None` if the error is rounding.
     pub order: Option<f64>,
 }
 
-/// What all lines of a report are measured by.
+/// The common settings of all lines of a report.
 #[derive(Clone, Copy)]
 pub struct Plan<'a> {
     pub impact: &'a Impact,
     pub prediction: &'a Prediction,
-    /// Most steps per contact.
+    /// Largest number of steps per contact.
     pub most: u32,
-    /// Places within a step where the bodies meet.
+    /// Number of phases: places within a step where the bodies touch.
     pub phases: u32,
     /// Whether the force follows the rate.
     pub follows_rate: bool,
@@ -64,25 +65,25 @@ pub struct Plan<'a> {
 }
 
 impl Plan<'_> {
-    /// The numbers of steps per contact, from `fewest` on.
+    /// The numbers of steps per contact, starting with `fewest`.
     fn steps(self, fewest: u32) -> impl Iterator<Item = u32> {
         std::iter::successors(Some(fewest), |steps| Some(2 * steps)).take_while(move |steps| *steps <= self.most)
     }
 
-    /// The work of a line.
+    /// The work for a line.
     pub fn work(self) -> impl Iterator<Item = Work> {
         self.steps(2).map(move |steps| self.work_of(steps))
     }
 
-    /// The work of a point.
+    /// The work for a point.
     fn work_of(self, steps: u32) -> Work {
         Work::Steps(u64::from(self.phases * steps))
     }
 
-    /// Runs `way` from 2 steps per contact on.
+    /// Runs `way` with 2 steps per contact and more.
     ///
     /// # Errors
-    /// [`ImportError`] if the unit refuses a call.
+    /// [`ImportError`] if the FMU rejects a call.
     pub fn measure(self, contact: &mut Contact, way: &'static Way) -> Result<Line, ImportError> {
         self.progress.say(&format!("error against run time: {}", way.name));
         let points = self.steps(2).map(|steps| self.point(contact, way, steps));
@@ -101,14 +102,14 @@ impl Plan<'_> {
             let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
             sums.run_time(began);
             let dent = contact.output("residual_indentation").unwrap_or(f64::NAN);
-            // the bodies have parted within the last step, and fly on
+            // the bodies have separated within the last step and fly on
             let past = dent - contact.output("indentation").unwrap_or(f64::NAN);
             let contact_time = contact.elapsed() - past / rebound.speed - gap / impact.speed;
             sums.add([
                 rebound.speed / impact.speed / prediction.restitution - 1.0,
                 rebound.max_force / prediction.max_force - 1.0,
                 dent / prediction.residual_indentation - 1.0,
-                // where a force that follows the rate ends says nothing of the surface
+                // the end of a force that follows the rate is independent of the surface
                 if self.follows_rate { f64::NAN } else { contact_time / prediction.contact_time() - 1.0 },
             ]);
             sums.calls += contact.calls;
@@ -117,11 +118,11 @@ impl Plan<'_> {
         Ok(sums.point(steps, step))
     }
 
-    /// What the unit itself adds to any error: the way in and the way out, each split into steps of unequal length, beside
-    /// the same in one step each.
+    /// The contribution of the FMU itself to any error: loading and unloading, each divided into steps of unequal
+    /// length, compared with one step each.
     ///
     /// # Errors
-    /// [`ImportError`] if the unit refuses a call.
+    /// [`ImportError`] if the FMU rejects a call.
     pub fn alone(self, contact: &mut Contact) -> Result<Line, ImportError> {
         self.progress.say("error against run time: the unit alone");
         let whole = self.there_and_back(contact, 2, 0.0)?;
@@ -143,14 +144,14 @@ impl Plan<'_> {
         Ok(Line { way: None, peer: None, points, order: None })
     }
 
-    /// Restitution, largest force [N] and dent [m] of a contact that is pressed to the largest indentation and let go, each
-    /// in half of the `steps`; those are longer and shorter in turn by the fraction `uneven`.
+    /// Restitution, largest force [N] and dent [m] of a contact with a prescribed motion to the largest indentation
+    /// and back, each in half of the `steps`. The steps are alternately longer and shorter by the fraction `uneven`.
     fn there_and_back(self, contact: &mut Contact, steps: u32, uneven: f64) -> Result<[f64; 3], ImportError> {
         let (depth, half) = (self.prediction.max_indentation, steps / 2);
-        // as fast as the impact, more or less
+        // about as fast as the impact
         let step = self.prediction.contact_time() / f64::from(steps);
         let long = half.div_ceil(2);
-        // not a sum of so many numbers, whose rounding would be the master's own
+        // a sum of so many numbers would add the rounding of the importer
         let rate = depth / step / (f64::from(half) + uneven * f64::from(2 * long - half));
         let length = |index| step * if index % 2 == 0 { 1.0 + uneven } else { 1.0 - uneven };
         contact.start(&[("initial_gap", 0.0)])?;
@@ -167,9 +168,9 @@ impl Plan<'_> {
     }
 }
 
-/// Errors and costs of the phases.
+/// Errors and costs of all phases.
 struct Sums {
-    /// Squares of the errors of restitution, force, dent and contact time.
+    /// Sums of squared errors of restitution, force, dent and contact time.
     squares: [f64; 4],
     calls: u64,
     shortest: f64,
@@ -199,7 +200,7 @@ impl Sums {
     }
 }
 
-/// The slope of the error over the step, both as logarithms, by least squares; none if the error doesn't fall with the step.
+/// The slope of log(error) over log(step), by least squares; `None` if the error does not fall with the step.
 fn order(points: &[Point]) -> Option<f64> {
     let fitted = points.iter().filter(|point| FITTED.contains(&point.steps) && point.restitution > ROUNDING);
     let logs: Vec<_> = fitted.map(|point| (point.step.ln(), point.restitution.ln())).collect();
@@ -214,12 +215,12 @@ fn order(points: &[Point]) -> Option<f64> {
 }
 
 impl Line {
-    /// What the way is called.
+    /// The name of the way.
     pub fn name(&self) -> &'static str {
         self.way.map_or("unit alone", |way| way.name)
     }
 
-    /// The biggest step from which on the error of restitution stays below `error`.
+    /// The largest step from which on the error of restitution stays below `error`.
     pub fn step_for(&self, error: f64) -> Option<&Point> {
         let good = |point: &&Point| point.restitution < error;
         self.points.iter().rev().take_while(good).last()

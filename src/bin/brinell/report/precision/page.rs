@@ -7,7 +7,7 @@ use crate::report::{Figure, Part};
 use std::ops::Range;
 
 impl Line {
-    /// What it is called in pictures.
+    /// Its name in pictures.
     fn label(&self) -> String {
         match &self.peer {
             None => self.name().into(),
@@ -16,7 +16,7 @@ impl Line {
     }
 }
 
-/// All that was measured.
+/// All measurements.
 fn table(scene: &str, lines: &[Line]) -> Table {
     let mut table = Table::new(
         "precision",
@@ -64,11 +64,11 @@ fn orders(scene: &str, lines: &[Line]) -> Table {
     table
 }
 
-/// The decades of errors that matter to somebody, and the error that most people can bear.
+/// The relevant decades of errors, and the error that most users accept.
 const SHOWN: Range<f64> = 1e-6..2.0;
 const BEARABLE: (f64, &str) = (0.01, "1 %");
 
-/// Names of the pictures' files, with what they show.
+/// Names of the picture files, with their contents.
 const PICTURES: [(&str, &str); 6] = [
     ("error-against-steps", "Error of restitution over steps per contact"),
     ("error-against-time", "Error of restitution over run time"),
@@ -78,10 +78,10 @@ const PICTURES: [(&str, &str); 6] = [
     ("contact-time-against-steps", "Error of the contact time over steps per contact"),
 ];
 
-/// Error of restitution against steps, run time and the number of calls, and of the other quantities against steps.
+/// Error of restitution against steps, run time and the number of calls; errors of the other quantities against steps.
 fn pictures(lines: &[Line]) -> [Picture; 6] {
     let series = |line: &Line, at: &dyn Fn(&Point) -> (f64, f64)| {
-        // an error that is zero is below all decades, too
+        // a zero error is also below all decades
         let drawn = |(x, y): (f64, f64)| (x, if y == 0.0 { f64::MIN_POSITIVE } else { y });
         let points = line.points.iter().map(|point| drawn(at(point))).collect();
         Series { label: line.label(), points, dots: false }
@@ -104,9 +104,9 @@ fn pictures(lines: &[Line]) -> [Picture; 6] {
     ]
 }
 
-/// The figures, the first two shown at once.
+/// The figures; the first two are shown initially.
 fn figures(lines: &[Line]) -> Vec<Figure> {
-    // nothing to draw of what no line has
+    // omit figures without lines
     let drawable =
         |picture: &Picture| picture.series.iter().flat_map(|series| &series.points).any(|point| point.1 > 0.0);
     let figure = |(index, ((name, caption), picture)): (usize, ((&'static str, &str), Picture))| {

@@ -1,4 +1,4 @@
-//! The laws side by side for one impact: the spread is what a user can't know without a measurement.
+//! The comparison of the laws for one impact: the spread is what a user can't know without a measurement.
 
 mod page;
 
@@ -12,12 +12,12 @@ use brinell::contact::impact::Prediction;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::material::{Pair, YieldPoint};
 
-/// What laws are compared by.
+/// The compared quantities.
 struct Quantity {
     name: &'static str,
     unit: &'static str,
     of: fn(&Prediction) -> f64,
-    /// What finite elements say of it, where the yield point is this.
+    /// Its value from finite elements, for this yield point.
     truth: fn(&truth::Impact, &YieldPoint) -> Option<f64>,
 }
 
@@ -49,25 +49,25 @@ struct Law {
     prediction: Prediction,
 }
 
-/// All laws, and the truth.
+/// All laws, and the finite-element results.
 pub struct Laws<'a> {
     scene: &'a Scene,
     /// The scene's first.
     laws: Vec<Law>,
-    /// Why others aren't there.
+    /// Reasons for missing laws.
     left_out: Vec<String>,
-    /// The scene's impact by finite elements, where the yield point is this.
+    /// The scene's impact from finite elements, for this yield point.
     truth: Option<(truth::Impact, YieldPoint)>,
 }
 
-/// The yield point of `scene` as the truth has it, if its target yields.
+/// The yield point of `scene` as the finite-element results define it, if its target yields.
 fn yield_point(scene: &Scene) -> Option<YieldPoint> {
     let pair = Pair { yield_strength: scene.yield_strength?, ..scene.any_model().pair() };
     Some(pair.yield_point(truth::YIELD_PRESSURE_FACTOR))
 }
 
 impl Laws<'_> {
-    /// The impact of `scene` by every law that its bodies can have.
+    /// The impact of `scene` with every law that its bodies support.
     pub fn of(scene: &Scene) -> Laws<'_> {
         let mut choices: Vec<Choice> = choose(scene, &[]).unwrap_or_default();
         let (mut left_out, mut without_strength) = (Vec::new(), 0);
@@ -101,25 +101,25 @@ impl Laws<'_> {
         self.truth.as_ref().and_then(|(impact, unit)| (quantity.truth)(impact, unit))
     }
 
-    /// The laws that have an opinion on a quantity.
+    /// The laws that determine a quantity.
     fn with_opinion(&self, quantity: &Quantity) -> impl Iterator<Item = (&str, f64)> {
         let no_dent = quantity.name == "dent";
         self.laws.iter().enumerate().filter_map(move |(place, law)| {
             let name = law.choice.name.as_str();
-            // the scene's has always one; Hertz's law loses nothing, which says nothing of a target that yields, and no
-            // rate-dependent law says anything of a dent
+            // The scene's law always does. Hertz's law loses no energy, so it does not describe a target that yields.
+            // Rate-dependent laws do not describe dents.
             let none = name == "hertz" || no_dent && matches!(law.choice.model, AnyModel::Damped(_));
             (place == 0 || !none).then(|| (name, (quantity.of)(&law.prediction)))
         })
     }
 
-    /// The law with the lowest value of a quantity, and that with the highest.
+    /// The laws with the lowest and the highest value of a quantity.
     fn spread(&self, quantity: &Quantity) -> Option<[(&str, f64); 2]> {
         let by_value = |one: &(&str, f64), other: &(&str, f64)| one.1.total_cmp(&other.1);
         Some([self.with_opinion(quantity).min_by(by_value)?, self.with_opinion(quantity).max_by(by_value)?])
     }
 
-    /// Every law's prediction, and that of finite elements.
+    /// The predictions of all laws and of finite elements.
     fn table(&self) -> Table {
         let [restitution, force, dent, time] = QUANTITIES.map(|quantity| (quantity.name, quantity.unit));
         let mut table = Table::new("laws", [("law", ""), restitution, force, dent, time]);
@@ -138,7 +138,7 @@ impl Laws<'_> {
         table
     }
 
-    /// How far the laws differ.
+    /// The differences between the laws.
     fn spread_table(&self) -> Table {
         let columns = [
             ("quantity", ""),

@@ -1,4 +1,4 @@
-//! The laws side by side as words and pictures.
+//! The comparison of the laws as text and pictures.
 
 use super::{Laws, QUANTITIES, Quantity, yield_point};
 use crate::curve;
@@ -14,19 +14,19 @@ use crate::truth;
 use brinell::contact::TooDeep;
 use std::ops::Range;
 
-/// The speeds at which restitution is shown, over the scene's.
+/// The range of speeds for restitution, relative to the scene's.
 const SPEEDS: (f64, f64) = (0.01, 10.0);
 
-/// Every how manyth speed of the picture the table has.
+/// The table shows one of this many speeds of the picture.
 const EVERY: usize = 5;
 
-/// The law that finite elements were the model of.
+/// The law fitted to finite elements.
 const FITTED: &str = "brinell";
 
-/// What data are called.
+/// Name of the data series.
 const TRUTH: &str = "finite elements";
 
-/// What a restitution can be.
+/// Range of restitution.
 const RESTITUTIONS: Range<f64> = 0.0..1.05;
 
 impl Laws<'_> {
@@ -38,7 +38,7 @@ impl Laws<'_> {
         self.laws.iter().map(|law| law.choice.name.as_str())
     }
 
-    /// The laws that stand out in pictures: the scene's, the one that was fitted to finite elements, and those with the lowest
+    /// The laws that stand out in pictures: the scene's, the one fitted to finite elements, and those with the lowest
     /// and the highest restitution.
     fn strong(&self) -> Vec<String> {
         let mut strong: Vec<&str> = self.names().take(1).collect();
@@ -54,12 +54,12 @@ impl Laws<'_> {
         unique
     }
 
-    /// The law that was fitted to finite elements.
+    /// The law fitted to finite elements.
     fn fitted(&self) -> Option<&super::Law> {
         self.laws.iter().find(|law| law.choice.name.split('/').next() == Some(FITTED))
     }
 
-    /// How far the scene's law can be trusted, in sentences.
+    /// The reliability of the scene's law, in sentences.
     pub fn verdict(&self) -> Vec<String> {
         let mut sentences = Vec::new();
         let Some(own) = self.laws.first() else { return sentences };
@@ -90,12 +90,12 @@ impl Laws<'_> {
         sentences
     }
 
-    /// Force over indentation; none if a law can't be evaluated as deep as that.
+    /// Force over indentation; `None` beyond the range of a law.
     fn forces(&self) -> Result<Figure, TooDeep> {
         let deepest = self.laws.first().map_or(0.0, |law| law.prediction.max_indentation);
         let picture = curve::picture(&self.choices(), deepest, &self.scene.impact, true)?;
         let strong = self.strong();
-        // as high as what stands out: an elastic law would press all others flat
+        // scaled to the strong lines: an elastic law would flatten all others
         let highest =
             picture.series.iter().filter(|series| strong.contains(&series.label)).flat_map(|series| &series.points);
         let highest = highest.map(|point| point.1).fold(0.0, f64::max);
@@ -111,7 +111,7 @@ impl Laws<'_> {
         let range = (SPEEDS.0 * speed, SPEEDS.1 * speed);
         let sweep = Sweep::where_possible(&self.choices(), self.scene.impact.mass, range);
         let mut table = Table::new("restitution", [("law", ""), ("speed", "m/s"), ("restitution", "")]);
-        // hundreds of rows, which the picture shows
+        // hundreds of rows; the picture shows them
         table.on_page = false;
         let row = |law: &str, speed: f64, restitution: f64| vec![text(law), number(speed), number(restitution)];
         for (law, points) in &sweep.laws {
@@ -132,7 +132,7 @@ impl Laws<'_> {
         )
     }
 
-    /// Speeds in `range` [m/s] whose restitution is known from finite elements.
+    /// Speeds in `range` [m/s] with a known restitution from finite elements.
     fn dots(&self, range: (f64, f64)) -> Vec<(f64, f64)> {
         let Some(unit) = yield_point(self.scene) else { return Vec::new() };
         let dot = |impact: truth::Impact| {
@@ -142,7 +142,7 @@ impl Laws<'_> {
         truth::impacts().into_iter().filter_map(dot).filter(|dot| (range.0..=range.1).contains(&dot.0)).collect()
     }
 
-    /// How the comparison was made.
+    /// The method of the comparison.
     fn method(&self) -> String {
         let mut words = String::from(
             "Each loading law takes the unloading law that it was published with, or else the scene's. The curves of force go to \
@@ -167,7 +167,7 @@ impl Laws<'_> {
         words
     }
 
-    /// The laws side by side.
+    /// The comparison of the laws.
     pub fn part(&self) -> Part {
         let mut words = String::from("The laws that stand out: ");
         let strong = self.strong();
@@ -202,7 +202,7 @@ impl Laws<'_> {
     }
 }
 
-/// From where to where finite elements know the rebound.
+/// The range in which finite elements determine the rebound.
 fn known() -> String {
     let end = |impact: &truth::Impact| {
         let restitution = impact.rebound.as_ref().map_or(f64::NAN, |rebound| rebound.restitution);

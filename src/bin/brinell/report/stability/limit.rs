@@ -5,27 +5,27 @@ use crate::importer::ImportError;
 use crate::report::unit::Contact;
 use crate::report::ways::{Body, Needs, Way};
 
-/// Up to which step a way is stable, as `h sqrt(K/m)`.
+/// The stability limit of a way, as `h sqrt(K/m)`.
 #[derive(Clone, Copy)]
 pub enum Limit {
-    /// Not even at the smallest step that was tried.
+    /// Unstable even at the smallest step.
     None,
     Upto(f64),
-    /// At every step that was tried.
+    /// Stable at every step.
     Every,
 }
 
-/// Growth of a late force's disturbance, as the power of e, for which there must be time: more than `ln GROWTH`. Each step
-/// adds `ln(1 + z)/2` to it.
+/// Growth of a disturbance by a delayed force, as a power of e, that the run must allow: more than `ln GROWTH`. Each
+/// step adds `ln(1 + z)/2`.
 const TIME: f64 = 8.0;
 
-/// Fewest steps over which a disturbance has time to grow: just above its limit, a way's grows slowly.
+/// Minimum number of steps for a disturbance to grow: just above the limit it grows slowly.
 const STEPS: f64 = 4000.0;
 
-/// What a bounded disturbance doesn't grow to, but just below the limit.
+/// A bounded disturbance stays below this factor, except just below the limit.
 const GROWTH: f64 = 100.0;
 
-/// The largest step at which `way` is stable, by bisection.
+/// The largest step for which `way` is stable, by bisection.
 pub fn find(contact: &mut Contact, way: &Way, setting: &Setting) -> Result<Limit, ImportError> {
     let (mut low, mut high) = RANGE;
     if !stays(contact, way, setting, low)? {
@@ -41,17 +41,17 @@ pub fn find(contact: &mut Contact, way: &Way, setting: &Setting) -> Result<Limit
     Ok(Limit::Upto(low))
 }
 
-/// Whether a body that a constant load presses into the deepest indentation keeps to a small motion about it.
+/// Whether a body keeps to a small motion about the deepest indentation, into which a constant load presses it.
 fn stays(contact: &mut Contact, way: &Way, setting: &Setting, relative: f64) -> Result<bool, ImportError> {
     let Setting { impact, prediction, frequency, .. } = setting;
     let step = relative / frequency;
     let elastic = prediction.max_indentation - prediction.residual_indentation;
-    // a unit that moves the mass itself is taken where it must be before any force can change that
+    // an FMU that moves the mass itself goes to that position before any force can change it
     let moment = if matches!(way.needs, Needs::Mass | Needs::LateMass) { 1e-6 / frequency } else { step };
     contact.start(&[("initial_gap", 0.0)])?;
     contact.set_rate(prediction.max_indentation / moment)?;
     contact.step(moment)?;
-    // a bit back, so that the motion is on the elastic way and yields nothing
+    // a little back: the motion is then elastic and does not yield
     contact.set_rate(-0.01 * elastic / moment)?;
     contact.step(moment)?;
     contact.set_rate(0.0)?;
@@ -64,7 +64,7 @@ fn stays(contact: &mut Contact, way: &Way, setting: &Setting, relative: f64) -> 
     let steps = STEPS.max(2.0 * TIME / (relative * relative).ln_1p()) as u64;
     for _ in 0..steps {
         (way.advance)(contact, &mut body, step)?;
-        // the speed of a body whose force is on its way isn't that of the motion
+        // with a delayed force, the speed of the body differs from that of the motion
         let speed = if way.needs == Needs::LateMass { contact.output("closing_speed")? } else { body.speed };
         if speed.is_nan() || speed.abs() > GROWTH * disturbance {
             return Ok(false);

@@ -1,11 +1,11 @@
-//! The map of rebound energies over step and way.
+//! The map of rebound energies over steps and ways.
 
 use super::limit::Limit;
 use super::{Line, MATTERS, ROUNDING, Stability, makes_energy};
 use crate::numbers::significant;
 use crate::plot::{Class, Map, Row};
 
-/// The map of what was found.
+/// The map of the results.
 pub fn of(stability: &Stability) -> Map {
     let row = |line: &Line| Row {
         name: line.way.name.into(),
@@ -23,10 +23,10 @@ pub fn of(stability: &Stability) -> Map {
     }
 }
 
-/// The classes about the `predicted` ratio: blue below it, yellow to orange above, and red where energy is made. A page in the
-/// dark turns dark red into pink, so that no red is very dark.
+/// The classes around the `predicted` ratio: blue below, yellow to orange above, and red for an energy gain. In dark
+/// mode a page turns dark red into pink; therefore no red is very dark.
 fn classes(predicted: f64) -> Vec<Class> {
-    // rounding makes no energy
+    // rounding does not count as an energy gain
     let most = 1.0 + ROUNDING;
     let mut classes = Vec::new();
     let mut add = |upto: f64, colour, meaning| {
@@ -40,7 +40,7 @@ fn classes(predicted: f64) -> Vec<Class> {
         add(part * predicted, colour, "too little");
     }
     add(f64::min(1.01 * predicted, most), (255, 255, 255), "right");
-    // the middle of what is left, as a ratio
+    // the middle of the remaining range, as a ratio
     let more = f64::min(1.1 * predicted, most);
     for (upto, colour) in [(more, (255, 243, 176)), (more.sqrt(), (254, 210, 90)), (most, (245, 155, 40))] {
         add(upto, colour, "too much");

@@ -1,4 +1,4 @@
-//! Stability: what a rebound gains by big steps, and the largest step that keeps a pressed body at rest.
+//! Stability: the energy gain of rebounds with large steps, and the largest step that keeps a pressed body at rest.
 
 mod limit;
 mod map;
@@ -16,54 +16,54 @@ use crate::plot::{Picture, Series, View};
 use brinell::contact::impact::{Impact, Prediction};
 use limit::Limit;
 
-/// What was found; steps are told as `h sqrt(K/m)`.
+/// The results; steps are `h sqrt(K/m)`.
 pub struct Stability {
-    /// Largest stiffness of the impact: that of the way back from the largest indentation [N/m].
+    /// Largest stiffness of the impact: that of the unloading at the largest indentation [N/m].
     stiffness: f64,
     /// `sqrt(K/m)` [1/s].
     frequency: f64,
-    /// Rebound energy over the incoming one, as predicted.
+    /// Predicted rebound energy over the incoming energy.
     predicted: f64,
     lines: Vec<Line>,
 }
 
-/// One way over the steps.
+/// One way for all steps.
 struct Line {
     way: &'static Way,
     energies: Vec<Energy>,
     limit: Limit,
 }
 
-/// Rebound energies over the incoming one at one step: the lowest and the highest of the phases.
+/// Rebound energies over the incoming energy for one step: the lowest and the highest of the phases.
 struct Energy {
     relative: f64,
     lowest: f64,
     highest: f64,
 }
 
-/// The impact that is run.
+/// The impact of the runs.
 struct Setting<'a> {
     impact: &'a Impact,
     prediction: &'a Prediction,
     /// As in [`Stability`] [1/s].
     frequency: f64,
-    /// Places within a step where the bodies meet.
+    /// Number of phases: places within a step where the bodies touch.
     phases: u32,
 }
 
-/// Smallest and largest step that is tried.
+/// Smallest and largest step.
 const RANGE: (f64, f64) = (0.02, 8.0);
 
-/// Steps of the map.
+/// Number of steps in the map.
 const POINTS: u32 = 40;
 
-/// What rounding makes of a rebound that loses nothing.
+/// Tolerance for the rounding of a lossless rebound.
 const ROUNDING: f64 = 1e-9;
 
-/// More than this, a rebound has energy that matters: the best ways make a little of it, and lose it at another place.
+/// A relevant gain of rebound energy. The best ways gain a little at some phases, and lose it at others.
 const MATTERS: f64 = 1.01;
 
-/// Measures all ways with the impact of the scene; `stiffness` as in [`Stability`].
+/// Measures all ways with the impact of the scene; `stiffness` as for [`Stability`].
 pub fn measure(
     contacts: &mut Contacts,
     (impact, prediction): (&Impact, &Prediction),
@@ -84,7 +84,7 @@ pub fn measure(
     Ok(Stability { stiffness, frequency, predicted: prediction.rebound_energy / prediction.energy, lines })
 }
 
-/// Rebound energies of `way` over the steps.
+/// Rebound energies of `way` for all steps.
 fn energies(contact: &mut Contact, way: &Way, setting: &Setting) -> Result<Vec<Energy>, ImportError> {
     let Setting { impact, frequency, phases, .. } = *setting;
     let energy = |point| {
@@ -96,7 +96,7 @@ fn energies(contact: &mut Contact, way: &Way, setting: &Setting) -> Result<Vec<E
             let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
             let ratio = (rebound.speed / impact.speed).powi(2);
             energy.lowest = f64::min(energy.lowest, ratio);
-            // an impact that never ends is beyond any energy
+            // an impact that never ends counts as infinite energy
             energy.highest = if ratio.is_nan() { f64::INFINITY } else { f64::max(energy.highest, ratio) };
         }
         Ok(energy)
@@ -104,13 +104,13 @@ fn energies(contact: &mut Contact, way: &Way, setting: &Setting) -> Result<Vec<E
     (0..=POINTS).map(energy).collect()
 }
 
-/// Whether a rebound has more energy than came in.
+/// Whether a rebound has gained energy.
 fn makes_energy(ratio: f64) -> bool {
     ratio > 1.0 + ROUNDING
 }
 
 impl Energy {
-    /// That which makes energy, or else that farther from the `predicted` one.
+    /// The one that gains energy, otherwise the one farther from `predicted`.
     fn worst(&self, predicted: f64) -> f64 {
         let below = predicted - self.lowest > self.highest - predicted;
         if below && !makes_energy(self.highest) { self.lowest } else { self.highest }
@@ -122,7 +122,7 @@ impl Energy {
 }
 
 impl Line {
-    /// The smallest step that was tried at which energy is made.
+    /// The smallest step with an energy gain.
     fn makes_energy_from(&self) -> Option<f64> {
         self.energies.iter().find(|energy| makes_energy(energy.highest)).map(|energy| energy.relative)
     }
@@ -175,7 +175,7 @@ impl Stability {
         table
     }
 
-    /// Rebound energies against steps.
+    /// Rebound energies over steps.
     fn curves(&self) -> Picture {
         let line = |line: &Line| Series {
             label: line.way.name.into(),
@@ -187,7 +187,7 @@ impl Stability {
         Picture { x_title: "h sqrt(K/m)".into(), y_title, logarithmic: (true, true), series }
     }
 
-    /// Stability.
+    /// The section on stability.
     pub fn part(&self) -> Part {
         let map = Figure {
             name: "stability",

@@ -1,4 +1,4 @@
-//! Stability in words, and for programs.
+//! Stability as text and as JSON.
 
 use super::limit::Limit;
 use super::{MATTERS, RANGE, Stability};
@@ -7,7 +7,7 @@ use crate::report::ways::{LATE, LEAP_FROG, Way};
 use serde_json::{Value, json};
 
 impl Limit {
-    /// Where it is stable.
+    /// The stable range.
     pub fn words(self) -> &'static str {
         match self {
             Limit::None => "at no step that was tried",
@@ -16,7 +16,7 @@ impl Limit {
         }
     }
 
-    /// As a number: none if there is no such step, and none if no step is too large.
+    /// As a number; `None` if no step is stable, and if every step is.
     fn step(self) -> Option<f64> {
         if let Limit::Upto(limit) = self { Some(limit) } else { None }
     }
@@ -37,7 +37,7 @@ impl Stability {
         }
     }
 
-    /// From which steps on rebounds gain energy that matters.
+    /// The steps from which rebounds gain a relevant energy.
     pub fn sentence(&self) -> Option<String> {
         let gains = self.lines.iter().filter_map(|line| {
             let first = line.energies.iter().find(|energy| energy.highest > MATTERS)?;
@@ -50,7 +50,7 @@ impl Stability {
         })
     }
 
-    /// For programs; the two ways that have keys of their own have them beside the list of all.
+    /// JSON; two ways have keys of their own in addition to the list of all ways.
     pub fn json(&self) -> Value {
         let of = |way: &str| self.limit(way).and_then(Limit::step);
         let stable: Vec<_> = self
