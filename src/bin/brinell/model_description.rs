@@ -22,7 +22,7 @@ const LOG_CATEGORIES: [(&str, &str); 4] = [
     ("logAll", "all of them"),
 ];
 
-/// Writes the model description of the planned FMU with the identification `guid`. An FMU of 100,000 contacts has 250 MB of it,
+/// Writes the model description of the planned FMU with the identification `guid`. An FMU of 100,000 contacts has 640 MB of it,
 /// which are never in memory at once.
 ///
 /// # Errors

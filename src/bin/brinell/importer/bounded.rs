@@ -6,8 +6,8 @@ use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 use zip::ZipArchive;
 
-/// The largest size of an unpacked archive [bytes]. An FMU of 100,000 contacts with all outputs takes a quarter of it.
-pub const LARGEST: u64 = 1 << 30;
+/// The largest size of an unpacked archive [bytes]. An FMU of 100,000 contacts with all outputs takes a third of it.
+pub const LARGEST: u64 = 2 << 30;
 
 /// The remaining number of bytes.
 pub struct Bound {
@@ -57,4 +57,20 @@ pub fn unpack<R: Read + Seek>(archive: &mut ZipArchive<R>, folder: &Path) -> Res
         bound.copy(&mut file, &mut made.map_err(ImportError::Unpack)?)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bound, ImportError};
+
+    /// The size that an archive declares may be a lie: what counts is what comes out.
+    #[test]
+    fn more_than_the_bound_is_never_copied() {
+        let mut bound = Bound { left: 10 };
+        let mut to = Vec::new();
+        bound.copy(&mut &[1; 4][..], &mut to).expect("four of ten");
+        bound.copy(&mut &[2; 6][..], &mut to).expect("all ten");
+        assert!(matches!(bound.copy(&mut std::io::repeat(3), &mut to), Err(ImportError::TooLarge)));
+        assert_eq!(to.len(), 11, "one byte more shows that there are more");
+    }
 }
