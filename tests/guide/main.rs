@@ -7,6 +7,7 @@ mod book;
 mod code;
 mod links;
 mod markdown;
+mod promises;
 #[path = "../support/python.rs"]
 mod python;
 mod tables;

@@ -19,9 +19,9 @@ impl Row {
     }
 }
 
-/// The text of a file of `truth/friction/`.
+/// The text of a file of the project.
 pub fn file(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/friction").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
@@ -29,7 +29,7 @@ pub fn file(name: &str) -> String {
 pub fn table(name: &str) -> Vec<Row> {
     let mut columns: Vec<String> = Vec::new();
     let mut rows = Vec::new();
-    for line in file("tables.csv").lines().filter(|line| !line.starts_with('#')) {
+    for line in file("truth/friction/tables.csv").lines().filter(|line| !line.starts_with('#')) {
         let fields: Vec<&str> = line.split(',').collect();
         if fields[0] == "table" {
             columns = fields.iter().map(|&field| field.to_string()).collect();

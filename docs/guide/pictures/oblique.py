@@ -34,7 +34,7 @@ def computed():
 
 def measured(quantity):
     """Angles and values of all digitisations."""
-    with (PROJECT / "truth/friction/oblique_elastic.csv").open() as file:
+    with (PROJECT / "experiment/oblique_elastic.csv").open() as file:
         rows = [row for row in csv.DictReader(file) if row["quantity"] == quantity]
     return [float(row["angle_deg"]) for row in rows], [float(row["value"]) for row in rows]
 

@@ -143,10 +143,10 @@ pub struct SspArguments {
 #[derive(clap::Args, Default)]
 pub struct PlatformArguments {
     /// Platforms: linux64, aarch64-linux, win64, darwin64, aarch64-darwin, or "all" [default: this machine's; if nothing is compiled,
-    /// all that are prebuilt but aarch64-darwin, whose library is in that of darwin64]
+    /// all prebuilt ones except aarch64-darwin, whose library is part of that of darwin64]
     #[arg(long, value_delimiter = ',', value_name = "PLATFORM")]
     platforms: Vec<String>,
-    /// Puts the arm64 library into linux64, for importers on ARM Linux that look only there
+    /// Put the arm64 library into linux64, for importers on ARM Linux that look only there
     #[arg(long)]
     arm64_in_linux64: bool,
 }
@@ -183,10 +183,10 @@ impl PlatformArguments {
 
 #[derive(clap::Args)]
 pub struct WayArguments {
-    /// Compiles the library, which needs a Rust toolchain [default: if there is one]
+    /// Compile the library, which needs a Rust toolchain [default: if there is one]
     #[arg(long, conflicts_with = "prebuilt")]
     compile: bool,
-    /// Fills in a prebuilt library, which needs no toolchain
+    /// Fill in a prebuilt library, which needs no toolchain
     #[arg(long)]
     prebuilt: bool,
 }
@@ -203,7 +203,7 @@ impl WayArguments {
 
 #[derive(clap::Args)]
 pub struct PrebuildArguments {
-    /// The folder that the libraries go to
+    /// Folder for the libraries
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
     /// Laws: LOADING, LOADING/UNLOADING or RATE-DEPENDENT/DAMPING [default: all]

@@ -37,7 +37,7 @@ pub struct Arguments {
     /// Draw instead: the curve of the law, or the loading curves of all laws over Hertz's force
     #[arg(short, long, value_name = "FILE.svg")]
     pub output: Option<PathBuf>,
-    /// Set every law, or the one that is named, beside measured rebounds and dents
+    /// Compare every law, or the named one, with measured rebounds and dents
     #[arg(long, conflicts_with = "output")]
     pub experiment: bool,
 }

@@ -49,10 +49,10 @@ pub struct Arguments {
     /// Write force, indentation and speed over time: .csv, .svg or .html
     #[arg(long, value_name = "FILE", conflicts_with_all = ["sweep", "dent", "restitution"])]
     pub time_history: Option<PathBuf>,
-    /// From a measured dent [m] to the speed and the yield strength that explain it
+    /// A measured dent [m]: print the speed and the yield strength that explain it
     #[arg(long, value_parser = units::lengths, conflicts_with = "sweep")]
     pub dent: Option<f64>,
-    /// From a measured restitution to the speeds and yield strengths that explain it
+    /// A measured restitution: print the speeds and yield strengths that explain it
     #[arg(long, conflicts_with_all = ["sweep", "dent"])]
     pub restitution: Option<f64>,
 }
