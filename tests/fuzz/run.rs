@@ -1,15 +1,18 @@
 //! Runs a script: makes the calls and checks the results.
 
-use crate::call::{Call, INSTANCES, Kind, STATES, Simple, Wrong};
+mod states;
+mod values;
+
+use crate::call::{Call, INSTANCES, STATES, Simple, Wrong};
 use crate::face::Face;
-use crate::judge::{Seen, check_values, same_values};
+use crate::judge::{Seen, check_values};
 use brinell::fmi2::abi::*;
 use std::ffi::{CString, c_char, c_int, c_void};
 use std::ptr::{null, null_mut};
+use values::finite;
 
 const OK: c_int = 0;
 const WARNING: c_int = 1;
-const DISCARD: c_int = 2;
 const ERROR: c_int = 3;
 
 /// The states of the standard for a co-simulation FMU.
@@ -315,204 +318,6 @@ impl<'a> Runner<'a> {
         }
         Ok(values)
     }
-
-    fn get(&self, c: fmi2Component, kind: Kind, references: &[u32], no_array: bool) -> Result<c_int, String> {
-        let functions = &self.face.functions;
-        let count = references.len();
-        let (mut reals, mut integers) = (vec![0.0; count], vec![0; count]);
-        let mut strings: Vec<fmi2String> = vec![null(); count];
-        let references = references.as_ptr();
-        // SAFETY: arrays as long as announced, or null
-        let status = unsafe {
-            match kind {
-                Kind::Real => (functions.get_real)(c, references, count, or_null(&mut reals, no_array)),
-                Kind::Integer => (functions.get_integer)(c, references, count, or_null(&mut integers, no_array)),
-                Kind::Boolean => (functions.get_boolean)(c, references, count, or_null(&mut integers, no_array)),
-                Kind::String => (functions.get_string)(c, references, count, or_null(&mut strings, no_array)),
-            }
-        };
-        if no_array && count > 0 && status <= WARNING {
-            return Err("success without an array".into());
-        }
-        finite(status, &reals)?;
-        Ok(status)
-    }
-
-    fn set(&self, c: fmi2Component, kind: Kind, references: &[u32], values: &[f64], no_array: bool) -> c_int {
-        let functions = &self.face.functions;
-        let count = references.len();
-        let mut reals = values.to_vec();
-        let mut integers: Vec<c_int> = values.iter().map(|value| *value as c_int).collect();
-        let text = CString::default();
-        let mut strings: Vec<fmi2String> = vec![text.as_ptr(); count];
-        let references = references.as_ptr();
-        // SAFETY: arrays as long as announced, or null
-        unsafe {
-            match kind {
-                Kind::Real => (functions.set_real)(c, references, count, or_null(&mut reals, no_array)),
-                Kind::Integer => (functions.set_integer)(c, references, count, or_null(&mut integers, no_array)),
-                Kind::Boolean => (functions.set_boolean)(c, references, count, or_null(&mut integers, no_array)),
-                Kind::String => (functions.set_string)(c, references, count, or_null(&mut strings, no_array)),
-            }
-        }
-    }
-
-    fn save(&mut self, at: usize, place: usize) -> Result<(), String> {
-        let Some(instance) = &self.instances[at] else { return Ok(()) };
-        self.calls += 1;
-        let mut pointer = self.states[place].take().map_or(null_mut(), |state| state.pointer);
-        // SAFETY: the component lives, and the state, if it isn't null
-        let status = unsafe { (self.face.functions.get_fmu_state)(instance.component, &raw mut pointer) };
-        if status != OK || pointer.is_null() {
-            return Err(format!("status {status} in the phase {:?}", instance.phase));
-        }
-        self.states[place] = Some(State::of(pointer, instance));
-        Ok(())
-    }
-
-    fn restore(&mut self, at: usize, place: usize) -> Result<(), String> {
-        let (Some(instance), Some(state)) = (&mut self.instances[at], &self.states[place]) else { return Ok(()) };
-        self.calls += 1;
-        // SAFETY: component and state live
-        let status = unsafe { (self.face.functions.set_fmu_state)(instance.component, state.pointer) };
-        if status != OK {
-            return Err(format!("status {status}"));
-        }
-        state.give(instance);
-        Ok(())
-    }
-
-    fn free_state(&mut self, at: usize, place: usize) -> Result<(), String> {
-        let Some(instance) = &self.instances[at] else { return Ok(()) };
-        let mut pointer = self.states[place].take().map_or(null_mut(), |state| state.pointer);
-        self.calls += 1;
-        // SAFETY: it isn't used again
-        let status = unsafe { (self.face.functions.free_fmu_state)(instance.component, &raw mut pointer) };
-        if status == OK && pointer.is_null() { Ok(()) } else { Err(format!("status {status}, {pointer:?} remains")) }
-    }
-
-    fn serialize(&mut self, at: usize, place: usize, short_by: usize) -> Result<(), String> {
-        let (Some(instance), Some(state)) = (&mut self.instances[at], &self.states[place]) else { return Ok(()) };
-        self.calls += 2;
-        let (functions, mut size) = (&self.face.functions, 0);
-        // SAFETY: component and state live
-        let status = unsafe { (functions.serialized_fmu_state_size)(instance.component, state.pointer, &raw mut size) };
-        if status != OK || size == 0 {
-            return Err(format!("status {status}, {size} bytes"));
-        }
-        let mut bytes = vec![0; size.saturating_sub(short_by)];
-        // SAFETY: the same, and the array is as long as announced
-        let status = unsafe {
-            (functions.serialize_fmu_state)(instance.component, state.pointer, bytes.as_mut_ptr(), bytes.len())
-        };
-        match (status, short_by) {
-            (OK, 0) => {
-                self.bytes = Some((bytes, State { pointer: null_mut(), seen: state.seen.clone(), ..*state }));
-                Ok(())
-            }
-            (ERROR, 1..) => {
-                instance.phase = Phase::Error;
-                Ok(())
-            }
-            _ => Err(format!("status {status} with {short_by} bytes too few")),
-        }
-    }
-
-    fn deserialize(
-        &mut self,
-        at: usize,
-        place: usize,
-        flip: Option<usize>,
-        length: Option<usize>,
-    ) -> Result<(), String> {
-        let (Some(instance), Some((bytes, of))) = (&mut self.instances[at], &self.bytes) else { return Ok(()) };
-        let mut changed = bytes.clone();
-        if let Some(bit) = flip {
-            let bit = bit % (8 * changed.len());
-            changed[bit / 8] ^= (1u8 << (bit % 8)).cast_signed();
-        }
-        if let Some(length) = length {
-            changed.resize(length, 0);
-        }
-        let mut pointer = null_mut();
-        self.calls += 1;
-        // SAFETY: the component lives, and the array is as long as announced
-        let status = unsafe {
-            let (bytes, count) = (changed.as_ptr(), changed.len());
-            (self.face.functions.deserialize_fmu_state)(instance.component, bytes, count, &raw mut pointer)
-        };
-        if changed != *bytes {
-            if status != ERROR || !pointer.is_null() {
-                return Err(format!("status {status} with damaged bytes"));
-            }
-            instance.phase = Phase::Error;
-            return Ok(());
-        }
-        if status != OK || pointer.is_null() {
-            return Err(format!("status {status} with good bytes"));
-        }
-        let state = State { pointer, seen: of.seen.clone(), ..*of };
-        if let Some(mut old) = self.states[place].replace(state) {
-            // SAFETY: it isn't used again
-            unsafe { (self.face.functions.free_fmu_state)(instance.component, &raw mut old.pointer) };
-        }
-        Ok(())
-    }
-
-    /// A step from one state, whole and in parts. An FMU that moves the bodies itself uses only the rate at the start
-    /// of a step: its parts would need other rates.
-    fn split(&mut self, at: usize, step: f64, parts: u32) -> Result<(), String> {
-        let Some(mut instance) = self.instances[at].take() else { return Ok(()) };
-        let moves_bodies = self.face.named.keys().any(|name| name.ends_with("mean_force"));
-        let result = if instance.phase == Phase::Step && !moves_bodies && !instance.has_course {
-            self.split_of(&mut instance, step, parts)
-        } else {
-            Ok(())
-        };
-        self.instances[at] = Some(instance);
-        result
-    }
-
-    fn split_of(&mut self, instance: &mut Instance, step: f64, parts: u32) -> Result<(), String> {
-        let functions = &self.face.functions;
-        let (c, mut start) = (instance.component, null_mut());
-        // times without rounding errors: parts of a power of two of the step
-        let part = step / f64::from(parts);
-        // SAFETY: component and state live
-        let (whole, pieces) = unsafe {
-            (functions.get_fmu_state)(c, &raw mut start);
-            let whole = (functions.do_step)(c, instance.time, step, 1);
-            let whole = if whole <= WARNING { Some(self.values(instance)?) } else { None };
-            (functions.set_fmu_state)(c, start);
-            let mut status = OK;
-            for index in 0..parts {
-                status = status.max((functions.do_step)(c, instance.time + f64::from(index) * part, part, 1));
-            }
-            let pieces = if status <= WARNING { Some(self.values(instance)?) } else { None };
-            (functions.set_fmu_state)(c, start);
-            (functions.free_fmu_state)(c, &raw mut start);
-            (whole, pieces)
-        };
-        self.calls += u64::from(parts) + 5;
-        match (whole, pieces) {
-            (Some(whole), Some(pieces)) => same_values(self.face, &whole, &pieces),
-            _ => Ok(()),
-        }
-    }
-}
-
-impl State {
-    fn of(pointer: fmi2FMUstate, instance: &Instance) -> State {
-        let Instance { phase, has_experiment, time, has_course, ref seen, .. } = *instance;
-        State { pointer, phase, has_experiment, time, has_course, seen: seen.clone() }
-    }
-
-    /// Makes `instance` as it was.
-    fn give(&self, instance: &mut Instance) {
-        (instance.phase, instance.has_experiment, instance.time) = (self.phase, self.has_experiment, self.time);
-        instance.has_course = self.has_course;
-        instance.seen = self.seen.clone();
-    }
 }
 
 /// A call with the component as its only argument: its status, and whether it is allowed.
@@ -560,20 +365,6 @@ fn ask(face: &Face, c: fmi2Component, which: u8, kind: c_int) -> c_int {
             3 => (functions.get_boolean_status)(c, kind, &raw mut integer),
             _ => (functions.get_string_status)(c, kind, &raw mut text),
         }
-    }
-}
-
-/// The array, or null.
-fn or_null<T>(values: &mut [T], is_null: bool) -> *mut T {
-    if is_null { null_mut() } else { values.as_mut_ptr() }
-}
-
-/// Checks that a successful call returns finite values.
-fn finite(status: c_int, values: &[f64]) -> Result<(), String> {
-    let _ = DISCARD;
-    match values.iter().find(|value| !value.is_finite()) {
-        Some(value) if status <= WARNING => Err(format!("{value} with status {status}")),
-        _ => Ok(()),
     }
 }
 
