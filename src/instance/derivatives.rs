@@ -158,14 +158,21 @@ impl<S: Scene> Instance<S> {
         if !variable.is_output() {
             return Err(Fault::NoDerivative { of: "outputs" });
         }
-        if input != Real::IndentationRate && !S::has_input(input) {
-            return Err(Fault::NotAnInput);
-        }
+        Self::check_known(input)?;
         let derivative = match contact == by && input == Real::IndentationRate {
             true => self.by_own_input(variable, contact).unwrap_or(f64::NAN),
             false => 0.0,
         };
         if derivative.is_finite() { Ok(derivative) } else { Err(Fault::DerivativeNotFinite) }
+    }
+
+    /// Checks that a variable is one by which derivatives exist.
+    ///
+    /// # Errors
+    /// [`Fault::NotAnInput`]
+    #[inline(always)]
+    pub fn check_known(input: Real) -> Result<(), Fault> {
+        if input == Real::IndentationRate || S::has_input(input) { Ok(()) } else { Err(Fault::NotAnInput) }
     }
 
     #[inline(always)]

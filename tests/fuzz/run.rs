@@ -5,6 +5,7 @@ mod values;
 
 use crate::call::{Call, INSTANCES, STATES, Simple, Wrong};
 use crate::face::Face;
+use crate::functions::variadic;
 use crate::judge::{Seen, check_values};
 use brinell::fmi2::abi::*;
 use std::ffi::{CString, c_char, c_int, c_void};
@@ -72,14 +73,6 @@ unsafe extern "C" fn logger(
     let text = unsafe { std::ffi::CStr::from_ptr(text) }.to_str().expect("messages are UTF-8");
     // messages are format strings: every % is doubled
     assert!(text.replace("%%", "").find('%').is_none(), "{text:?} has a format of printf");
-}
-
-/// A logger with the type of the standard; it ignores further arguments.
-fn variadic(
-    function: unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
-) -> fmi2CallbackLogger {
-    // SAFETY: on the tested platforms, a function without further arguments has the same calling convention
-    unsafe { std::mem::transmute(function) }
 }
 
 fn callbacks() -> fmi2CallbackFunctions {
