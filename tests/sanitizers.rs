@@ -24,7 +24,7 @@ mod targets;
 mod unit;
 
 use driver::{arguments, has_valgrind, valgrind};
-use rebuilt::{Sources, Way};
+use rebuilt::{Sources, TRIPLE, Way};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -105,18 +105,33 @@ fn examine(name: &str, way: &Way, environment: &[(&str, String)], mistakes: &[(M
     }
 }
 
-/// Whether there is a nightly toolchain, and the C compiler's library of this name; its path. A message says if not.
-fn sanitizer(library: &str) -> Option<PathBuf> {
-    let has_nightly = Command::new("rustc").args(["+nightly", "--version"]).output().is_ok_and(|o| o.status.success());
-    let found = Command::new("cc").arg(format!("-print-file-name={library}")).output();
-    let found = found.map(|output| PathBuf::from(String::from_utf8_lossy(&output.stdout).trim())).unwrap_or_default();
-    if has_nightly && found.is_absolute() {
-        return Some(found);
+/// Standard output of a command, if it succeeds.
+fn printed(program: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).env_remove("RUSTUP_TOOLCHAIN").output().ok()?;
+    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_string())
+}
+
+/// `found`, or a message that no test runner hides.
+fn or_skipped(found: Option<PathBuf>, what: &str) -> Option<PathBuf> {
+    if found.is_none() {
+        let _ = writeln!(io::stderr(), "SKIPPED: it takes a nightly toolchain of rustup, and {what}");
     }
-    // written past the capture of the test runner
-    let _ =
-        writeln!(io::stderr(), "SKIPPED: it takes a nightly toolchain (rustup) and {library} (Debian: libgcc-12-dev)");
-    None
+    found
+}
+
+/// The address sanitizer of the C compiler, which fits the one of rustc.
+fn runtime_of_addresses() -> Option<PathBuf> {
+    let has_nightly = printed("rustc", &["+nightly", "--version"]).is_some();
+    let library = printed("cc", &["-print-file-name=libasan.so"]).map(PathBuf::from);
+    let library = library.filter(|path| has_nightly && path.is_absolute());
+    or_skipped(library, "the C compiler's libasan.so (Debian: libgcc-12-dev)")
+}
+
+/// The thread sanitizer of the nightly toolchain.
+fn runtime_of_threads() -> Option<PathBuf> {
+    let root = printed("rustc", &["+nightly", "--print", "sysroot"]).map(PathBuf::from);
+    let archive = root.map(|root| root.join(format!("lib/rustlib/{TRIPLE}/lib/librustc-nightly_rt.tsan.a")));
+    or_skipped(archive.filter(|path| path.exists()), "its thread sanitizer")
 }
 
 /// A failed assertion ends in the function that a library for use must not need; here it says so and ends the process.
@@ -144,7 +159,7 @@ fn debug_assertions_and_overflow_checks_find_nothing() {
 #[test]
 #[ignore = "it builds a library for each scene: ten minutes"]
 fn the_address_sanitizer_finds_nothing() {
-    let Some(runtime) = sanitizer("libasan.so") else { return };
+    let Some(runtime) = runtime_of_addresses() else { return };
     let way = Way {
         toolchain: "+nightly",
         profile: &["debug-assertions=false"],
@@ -172,11 +187,13 @@ fn run_program(mut command: Command, library: &Path) -> Result<(), String> {
 #[test]
 #[ignore = "it builds two libraries"]
 fn the_thread_sanitizer_finds_nothing() {
-    if sanitizer("libtsan.so").is_none() {
-        return;
-    }
-    let way = Way { toolchain: "+nightly", flags: "-Zsanitizer=thread", ..Way::default() };
-    let program = driver::compile("driver-for-threads", &["-DNO_COUNTING", "-fsanitize=thread"]);
+    let Some(runtime) = runtime_of_threads() else { return };
+    // the functions of `core` are not instrumented; none of them shares memory between threads
+    let flags = "-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer";
+    let way = Way { toolchain: "+nightly", flags, ..Way::default() };
+    let runtime = runtime.to_str().expect("a path of plain characters");
+    let options = ["-DNO_COUNTING", "-Wl,--whole-archive", runtime, "-Wl,--no-whole-archive"];
+    let program = driver::compile("driver-for-threads", &options);
     let sources = Sources::copied("threads");
     for (mistake, passes) in [(Some(RACE), false), (None, true)] {
         let (library, _) = build(&sources, &driver::scene(), &way, mistake);

@@ -5,7 +5,7 @@
 //! no test finds is a failure of this test, and so is one that no longer applies to the sources, or does not compile.
 //!
 //! `cargo test --release --test defects -- --ignored --nocapture` makes all of them;
-//! `BRINELL_DEFECTS=TEXT` makes those with this text in their names.
+//! `BRINELL_DEFECTS=TEXT,TEXT` makes those with one of these texts in their names.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
 #[path = "../support/child.rs"]
@@ -165,7 +165,8 @@ fn the_tests_find_every_deliberate_mistake() {
     let all = defects();
     let needs_valgrind = |defect: &Defect| ["memcheck", "helgrind"].contains(&&*defect.test);
     let valgrind = has_valgrind();
-    let chosen: Vec<&Defect> = all.iter().filter(|defect| defect.name.contains(&wanted)).collect();
+    let chosen: Vec<&Defect> =
+        all.iter().filter(|defect| wanted.split(',').any(|text| defect.name.contains(text))).collect();
     let (made, skipped): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|defect| valgrind || !needs_valgrind(defect));
     let program = driver::compile("driver-for-defects", &["-DNO_COUNTING"]);
     let tests = Tests { suites: Suites::build(), sources: Sources::copied("defects"), program };

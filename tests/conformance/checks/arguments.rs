@@ -167,6 +167,23 @@ pub fn repeated_and_many_references(face: &Face) {
     for (reference, value) in backwards.iter().zip(&values).take(50) {
         assert_eq!(i.real(*reference).to_bits(), value.to_bits(), "{reference}");
     }
+    // pairs are no ranges: of the same variable, of consecutive ones, of one contact and of two
+    let first: Vec<u32> = face.reals.iter().copied().take(6).collect();
+    for &one in &first {
+        for &other in &first {
+            let mut values = [f64::NAN; 2];
+            assert_eq!(i.get(&[one, other], &mut values), OK, "{:?}", i.log);
+            let alone = [i.real(one), i.real(other)];
+            assert_eq!(values.map(f64::to_bits), alone.map(f64::to_bits), "{one} and {other}");
+        }
+    }
+    for &one in face.inputs.iter().take(3) {
+        for &other in face.inputs.iter().take(3) {
+            assert_eq!(i.set(&[one, other], &[1e-3, 2e-3]), OK, "{:?}", i.log);
+            assert_eq!(i.real(other), 2e-3);
+            assert!(one == other || i.real(one) == 1e-3, "{one} and {other}");
+        }
+    }
     // of several values for one input, the last one counts
     let input = face.inputs[0];
     let rates: Vec<f64> = (0..100_000).map(|index| 1e-9 * f64::from(index)).collect();

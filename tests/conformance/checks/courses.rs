@@ -36,6 +36,31 @@ pub fn values_along_a_course(face: &Face) {
     }
 }
 
+/// The work is the force over the way: pressed in, drawn back until the bodies part, pressed in again.
+pub fn work(face: &Face) {
+    let Some(prefix) = face.named.keys().find_map(|name| name.strip_suffix("work")) else { return };
+    let of = |name: &str| face.named[&format!("{prefix}{name}")];
+    let (work, force, indentation) = (of("work"), of("force"), of("indentation"));
+    let mut i = Importer::new(face);
+    assert_eq!((i.setup(0.0, None), i.enter(), i.exit()), (OK, OK, OK));
+    let (rates, step) = (face.rates(), 1e-8);
+    let (mut sum, mut largest) = (i.real(work), 0.0f64);
+    for number in 0..8000 {
+        // out for long enough to part
+        let rate = if (2000..5000).contains(&number) { -0.7 } else { 1.0 };
+        assert_eq!(i.set(&rates, &vec![rate; rates.len()]), OK, "{:?}", i.log);
+        // some laws follow the rate at once
+        let (from, begin) = (i.real(indentation), i.real(force));
+        assert_eq!(i.step(i.time, step), OK, "{:?}", i.log);
+        i.time += step;
+        sum += 0.5 * (begin + i.real(force)) * (i.real(indentation) - from);
+        largest = largest.max(sum);
+        let rest = (i.real(work) - sum).abs();
+        assert!(rest <= 1e-3 * largest, "step {number}: a work of {} J, but {sum} J from the force", i.real(work));
+    }
+    assert!(largest > 0.0);
+}
+
 /// The impulse grows by the mean force times the step.
 pub fn impulse(face: &Face) {
     let pairs: Vec<(u32, u32)> = face

@@ -58,6 +58,7 @@ pub const CHECKS: &[Check] = &[
     check("memory", process::memory),
     check("floating-point traps", process::floating_point_traps),
     check("values along a course", courses::values_along_a_course),
+    check("work", courses::work),
     check("impulse", courses::impulse),
     check("steps and their parts", courses::steps_and_their_parts),
 ];

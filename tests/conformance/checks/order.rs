@@ -95,6 +95,8 @@ pub fn a_reset_instance_is_like_a_new_one(face: &Face) {
         assert_eq!(i.setup(0.0, Some(6.0 * STEP)), OK);
         i.go(phase);
         assert_eq!(i.reset(), OK, "{phase:?}: {:?}", i.log);
+        assert_eq!(i.enter(), ERROR, "after a reset in the state {phase:?} the experiment is still known");
+        assert_eq!(i.reset(), OK, "{phase:?}: {:?}", i.log);
         let bits = course(&mut i);
         let place = bits.iter().zip(&expected).position(|(one, other)| one != other);
         assert_eq!(place, None, "differs from a new one in this step after a reset in the state {phase:?}");

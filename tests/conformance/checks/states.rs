@@ -118,12 +118,12 @@ pub fn damaged_bytes(face: &Face) {
     for fill in [0, -1, 0x55] {
         refused(&i, &vec![fill; bytes.len()], "other bytes");
     }
-    // words that have changed places
-    for (one, other) in [(16, 24), (24, 32), (32, 40), (bytes.len() - 24, bytes.len() - 16)] {
+    // bytes that have changed places: the last digits of a number, which are those of a good number then
+    for word in (0..bytes.len()).step_by(8).take(1000) {
         let mut changed = bytes.clone();
-        (0..8).for_each(|byte| changed.swap(one + byte, other + byte));
+        changed.swap(word, word + 1);
         if changed != bytes {
-            refused(&i, &changed, &format!("words at {one} and {other}"));
+            refused(&i, &changed, &format!("bytes {word} and {}", word + 1));
         }
     }
     // buffers that are too short
