@@ -1,7 +1,7 @@
 //! An importer: an instance with the messages that it logs, and calls with arguments of the right kind.
 
 use crate::face::Face;
-use crate::functions::{Functions, variadic};
+use crate::functions::{Functions, memory, variadic};
 use brinell::fmi2::abi::*;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
@@ -72,11 +72,12 @@ unsafe extern "C" fn logger(
 }
 
 /// The callbacks of an importer with this log.
-pub fn callbacks(log: &Log) -> fmi2CallbackFunctions {
+pub fn callbacks(face: &Face, log: &Log) -> fmi2CallbackFunctions {
+    let (allocate, free) = memory(face.needs_no_memory());
     fmi2CallbackFunctions {
         logger: Some(variadic(logger)),
-        allocateMemory: None,
-        freeMemory: None,
+        allocateMemory: allocate,
+        freeMemory: free,
         stepFinished: None,
         componentEnvironment: std::ptr::from_ref(log).cast_mut().cast(),
     }
@@ -103,7 +104,7 @@ impl<'a> Importer<'a> {
 
     pub fn named(face: &'a Face, name: &str, logging: bool) -> Importer<'a> {
         let log = Box::new(Log::default());
-        let (callbacks, name) = (callbacks(&log), CString::new(name).expect("no zero"));
+        let (callbacks, name) = (callbacks(face, &log), CString::new(name).expect("no zero"));
         // SAFETY: strings that end with 0, and callbacks that live
         let c = unsafe {
             (functions(face).instantiate)(

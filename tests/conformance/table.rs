@@ -1,4 +1,6 @@
 //! The table of allowed calls of section 4.2.4 of FMI 2.0, as data: all 34 functions in every state of an instance.
+//!
+//! SAFETY of all calls: the component lives, and arrays have as many elements as announced.
 
 use crate::importer::{ERROR, Importer, OK, Phase, STEP, callbacks, functions};
 use brinell::fmi2::abi::*;
@@ -128,7 +130,7 @@ fn another(i: &mut Importer) -> c_int {
 
 /// The instance is freed, and another takes its place.
 fn renew(i: &mut Importer) -> c_int {
-    let callbacks = callbacks(&i.log);
+    let callbacks = callbacks(i.face, &i.log);
     // SAFETY: the old component is not used again
     unsafe {
         (i.f().free_instance)(i.c);

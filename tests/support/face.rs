@@ -120,6 +120,11 @@ impl Face {
         attribute(&self.capabilities, name).unwrap_or_else(|| panic!("no {name} in the model description"))
     }
 
+    /// Whether the FMU declares that it uses no memory of its importer.
+    pub fn needs_no_memory(&self) -> bool {
+        self.capability("canNotUseMemoryManagementFunctions") == "true"
+    }
+
     /// The rates of the contacts, which are the first inputs.
     pub fn rates(&self) -> Vec<u32> {
         let rates = self.variables.iter().filter(|variable| variable.name.ends_with("indentation_rate"));

@@ -18,13 +18,24 @@ const BODIES: &str = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild ste
 const OUTPUTS: &str = "[fmu]\noutputs = [\"indentation\", \"work\", \"elastic_energy\", \"dissipated_energy\", \
                        \"impulse\", \"predicted_force\", \"regime\"]\n";
 
+/// Memory from the importer, and parameters of each contact of a group.
+const MORE: [(&str, &str); 2] = [
+    ("standalone", "[fmu]\nstandalone = true\noutputs = [\"indentation\", \"work\"]\n"),
+    (
+        "own_parameters",
+        "[fmu]\noutputs = [\"indentation\", \"regime\"]\n[[contact]]\nname = \"bead\"\ncount = 3\n\
+         parameters_per_contact = [\"target.yield_strength\"]\n",
+    ),
+];
+
 /// The scenes of the project, and the further ones.
 pub fn scenes() -> Vec<PathBuf> {
     let further = FURTHER.map(|(name, loading, unloading, target, law)| {
         let law = format!("[law]\nloading = \"{loading}\"\nunloading = \"{unloading}\"\n{law}");
         unit::write_scene(name, &format!("name = \"{name}\"\n{BODIES}{target}{law}{OUTPUTS}"))
     });
-    unit::scenes().into_iter().chain(further).collect()
+    let more = MORE.map(|(name, text)| unit::write_scene(name, &format!("name = \"{name}\"\n{BODIES}{text}")));
+    unit::scenes().into_iter().chain(further).chain(more).collect()
 }
 
 /// The scene of an FMU of the law `loading`, or of the rate-dependent law `LAW/DAMPING`; `unloading` is the law that it was

@@ -39,7 +39,7 @@ impl Arguments<'_> {
 
 fn with<T>(face: &Face, use_of: impl FnOnce(Arguments, &Log) -> T) -> T {
     let log = Log::default();
-    let callbacks = callbacks(&log);
+    let callbacks = callbacks(face, &log);
     let (guid, resources) = (face.guid.as_ptr(), c"".as_ptr());
     let name = c"one".as_ptr();
     use_of(Arguments { name, kind: 1, guid, resources, callbacks: &callbacks, visible: 0, face }, &log)
@@ -131,7 +131,7 @@ pub fn wrong_arguments(face: &Face) {
 /// Name, GUID, resource location and callbacks may be gone after the call, and those of a category as well.
 pub fn strings_end_with_the_call(face: &Face) {
     let log = Box::new(Log::default());
-    let mut own = Box::new(callbacks(&log));
+    let mut own = Box::new(callbacks(face, &log));
     let mut texts: Vec<Vec<u8>> = [NAME, face.guid.to_str().expect("plain characters"), "file:///tmp", "logAll"]
         .iter()
         .map(|text| CString::new(*text).expect("no zero").into_bytes_with_nul())
@@ -169,7 +169,7 @@ pub fn strings_end_with_the_call(face: &Face) {
 /// An importer without a logger gets the same answers.
 pub fn no_logger(face: &Face) {
     let log = Log::default();
-    let silent = fmi2CallbackFunctions { logger: None, ..callbacks(&log) };
+    let silent = fmi2CallbackFunctions { logger: None, ..callbacks(face, &log) };
     with(face, |arguments, _| assert!(Arguments { callbacks: &silent, ..arguments }.make()));
     with(face, |arguments, _| assert!(!Arguments { callbacks: &silent, kind: 0, ..arguments }.make()));
     // SAFETY: everything lives during the calls

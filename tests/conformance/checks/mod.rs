@@ -8,6 +8,7 @@ mod logging;
 mod order;
 mod process;
 mod states;
+mod times;
 mod variables;
 
 use crate::face::Face;
@@ -30,8 +31,8 @@ pub const CHECKS: &[Check] = &[
     check("empty arrays", arguments::empty_arrays),
     check("repeated and many references", arguments::repeated_and_many_references),
     check("wrong references", arguments::wrong_references),
-    check("times", arguments::times),
-    check("statuses", arguments::statuses),
+    check("times", times::times),
+    check("statuses", times::statuses),
     check("names", instances::names),
     check("resource locations", instances::resource_locations),
     check("wrong arguments of fmi2Instantiate", instances::wrong_arguments),

@@ -110,7 +110,7 @@ pub fn memory(face: &Face) {
         assert_eq!(i.reset(), OK);
         // SAFETY: a wrong type gives no instance
         unsafe {
-            let callbacks = callbacks(&i.log);
+            let callbacks = callbacks(face, &i.log);
             let c = (i.f().instantiate)(c"x".as_ptr(), 0, face.guid.as_ptr(), null_mut(), &raw const callbacks, 0, 0);
             (i.f().free_instance)(c);
         }
