@@ -221,7 +221,7 @@ fn helgrind_finds_no_race() {
         command.arg(&program);
         run_program(command, library)
     };
-    let sources = Sources::copied("threads");
+    let sources = Sources::copied("helgrind");
     let (library, place) = build(&sources, &driver::scene(), &Way::default(), Some(RACE));
     let said = run(&library).expect_err("a race that is not reported");
     assert!(said.contains("Possible data race"), "{said}");
