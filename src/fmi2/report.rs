@@ -2,6 +2,7 @@
 
 use super::complaint::Complaint;
 use super::text::Text;
+use crate::contact::Contact;
 use crate::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
 use crate::scene::{Coupling, Presence, Real, Scene, Settable};
@@ -137,6 +138,12 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             *numbers = [rate, -FASTEST, FASTEST];
             "indentation_rate = ~ is out of range: allowed is ~ to ~ m/s"
         }
+        // a library contains no text for features that its scene lacks
+        Fault::TangentialRateOutOfRange { .. } if !S::Contact::HAS_FRICTION => "",
+        Fault::TangentialRateOutOfRange { rate } => {
+            *numbers = [rate, -FASTEST, FASTEST];
+            "tangential_rate = ~ is out of range: allowed is ~ to ~ m/s, also within a step with input derivatives"
+        }
         Fault::TooFast { rate } => {
             numbers[0] = rate;
             "indentation_rate = ~ is too fast: the force would not be finite"
@@ -151,7 +158,6 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
                 "@ = ~ is out of range: allowed is ~ to ~ @"
             }
         }
-        // a library contains no text for features that its scene lacks
         Fault::MassOutOfRange { .. } if !<S::Coupling as Coupling>::Mass::IS_PRESENT => "",
         Fault::MassOutOfRange { mass } => {
             *numbers = [mass, *MASSES.start(), *MASSES.end()];
@@ -204,6 +210,9 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             "only derivatives of @ exist"
         }
         Fault::DerivativeNotFinite => "the derivative is not finite",
+        Fault::NotAnInput if S::Contact::HAS_FRICTION => {
+            "only derivatives by indentation_rate and tangential_rate exist"
+        }
         Fault::NotAnInput => "only derivatives by indentation_rate exist",
         Fault::NoInputDerivatives if S::has_input(Real::ExternalAcceleration) => {
             "inputs of this FMU have no derivatives: external_acceleration is the input for the acceleration"

@@ -22,6 +22,12 @@ pub enum Fault {
         /// The rate \[m/s\].
         rate: f64,
     },
+    /// A tangential rate, possibly one that the derivatives of the input lead to, with an absolute value above
+    /// [`FASTEST`](super::FASTEST).
+    TangentialRateOutOfRange {
+        /// The rate \[m/s\].
+        rate: f64,
+    },
     /// A rate at which the force of a rate-dependent law would not be finite.
     TooFast {
         /// The rate \[m/s\].
