@@ -138,12 +138,6 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             *numbers = [rate, -FASTEST, FASTEST];
             "indentation_rate = ~ is out of range: allowed is ~ to ~ m/s"
         }
-        // a library contains no text for features that its scene lacks
-        Fault::TangentialRateOutOfRange { .. } if !S::Contact::HAS_FRICTION => "",
-        Fault::TangentialRateOutOfRange { rate } => {
-            *numbers = [rate, -FASTEST, FASTEST];
-            "tangential_rate = ~ is out of range: allowed is ~ to ~ m/s, also within a step with input derivatives"
-        }
         Fault::TooFast { rate } => {
             numbers[0] = rate;
             "indentation_rate = ~ is too fast: the force would not be finite"
@@ -158,9 +152,16 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
                 "@ = ~ is out of range: allowed is ~ to ~ @"
             }
         }
-        Fault::MassOutOfRange { .. } if !<S::Coupling as Coupling>::Mass::IS_PRESENT => "",
-        Fault::MassOutOfRange { mass } => {
-            *numbers = [mass, *MASSES.start(), *MASSES.end()];
+        // a library contains no text for features that its scene lacks
+        Fault::InputOutOfRange { .. } if !(<S::Coupling as Coupling>::Mass::IS_PRESENT || S::Contact::HAS_FRICTION) => {
+            ""
+        }
+        Fault::InputOutOfRange { input, value } if S::Contact::HAS_FRICTION && input == Real::TangentialRate => {
+            *numbers = [value, -FASTEST, FASTEST];
+            "tangential_rate = ~ is out of range: allowed is ~ to ~ m/s, also within a step with input derivatives"
+        }
+        Fault::InputOutOfRange { value, .. } => {
+            *numbers = [value, *MASSES.start(), *MASSES.end()];
             "effective_mass = ~ is out of range: allowed is ~ to ~ kg"
         }
         Fault::NoPointContact { impactor, target, .. } => {

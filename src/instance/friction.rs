@@ -5,6 +5,7 @@
 use super::*;
 use crate::contact::path::Course;
 use crate::contact::tangential::Quantity;
+use crate::scene::Real;
 
 impl<S: Scene> Instance<S> {
     /// Sets the tangential rate of `contact` \[m/s\].
@@ -54,7 +55,7 @@ impl<S: Scene> Instance<S> {
     /// Checks the tangential rates during the next `step` \[s\].
     ///
     /// # Errors
-    /// [`Fault::TangentialRateOutOfRange`]
+    /// [`Fault::InputOutOfRange`]
     pub(super) fn check_tangential_rates(&self, step: f64) -> Result<(), Fault> {
         if !S::Contact::HAS_FRICTION || !self.clock.curved {
             return Ok(());
@@ -71,5 +72,9 @@ impl<S: Scene> Instance<S> {
 /// Checks whether a tangential rate may have this value \[m/s\].
 pub(super) fn check_tangential_rate(rate: f64) -> Result<(), Fault> {
     // false for NaN
-    if rate.abs() <= FASTEST { Ok(()) } else { Err(Fault::TangentialRateOutOfRange { rate }) }
+    if rate.abs() <= FASTEST {
+        Ok(())
+    } else {
+        Err(Fault::InputOutOfRange { input: Real::TangentialRate, value: rate })
+    }
 }

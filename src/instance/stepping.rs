@@ -35,7 +35,7 @@ impl<S: Scene> Instance<S> {
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
-    /// [`Fault::TooLong`], [`Fault::TangentialRateOutOfRange`]; no contact changes then.
+    /// [`Fault::TooLong`], [`Fault::InputOutOfRange`]; no contact changes then.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.clock.check(time, step)?;
         self.check_tangential_rates(step)?;

@@ -228,7 +228,7 @@ impl<S: Scene> Instance<S> {
 /// Checks whether an input other than the rate may have this `value`.
 fn check_input(variable: Real, value: f64) -> Result<(), Fault> {
     match variable {
-        Real::EffectiveMass if !is_mass(value) => Err(Fault::MassOutOfRange { mass: value }),
+        Real::EffectiveMass if !is_mass(value) => Err(Fault::InputOutOfRange { input: variable, value }),
         Real::ExternalAcceleration if !value.is_finite() => {
             Err(Fault::NotFinite { name: "external_acceleration", value })
         }
