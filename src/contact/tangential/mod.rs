@@ -30,6 +30,7 @@
 mod contact;
 mod growth;
 mod growth_steps;
+pub mod impact;
 mod list;
 mod mean;
 mod merge;

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
 
 /// The documentation of a law; see `modelDescription/laws.toml`.
 #[derive(Debug, Deserialize)]
@@ -13,13 +14,13 @@ pub struct Law {
     _rust: IgnoredAny,
     #[serde(default, rename = "guarded")]
     _guarded: IgnoredAny,
-    /// The error of the tangential force, or the reason why there is none: for the Rust library. FMUs have no friction yet.
-    #[serde(default, rename = "friction_error")]
-    _friction_error: IgnoredAny,
-    #[serde(default, rename = "friction_error_of")]
-    _friction_error_of: IgnoredAny,
-    #[serde(default, rename = "no_friction")]
-    _no_friction: IgnoredAny,
+    /// Of an unloading law: the error of the tangential force on a growing dent, relative to Coulomb's limit.
+    pub friction_error: Option<f64>,
+    /// The same with certain loading laws.
+    #[serde(default)]
+    pub friction_error_of: BTreeMap<String, f64>,
+    /// The reason why an unloading law has no tangential force.
+    pub no_friction: Option<String>,
     /// Whether the law has a form for targets that harden.
     #[serde(default)]
     pub strengthened: bool,
