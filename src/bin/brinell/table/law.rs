@@ -14,12 +14,13 @@ pub struct Law {
     _rust: IgnoredAny,
     #[serde(default, rename = "guarded")]
     _guarded: IgnoredAny,
-    /// Of an unloading law: the error of the tangential force on a growing dent, relative to Coulomb's limit.
+    /// Of an unloading law: largest error of the tangential force of one step that grows the dent, relative to Coulomb's
+    /// limit.
     pub friction_error: Option<f64>,
-    /// The same with certain loading laws.
+    /// The same for loading laws with another one.
     #[serde(default)]
     pub friction_error_of: BTreeMap<String, f64>,
-    /// The reason why an unloading law has no tangential force.
+    /// Of an unloading law: the reason why it has no tangential force.
     pub no_friction: Option<String>,
     /// Whether the law has a form for targets that harden.
     #[serde(default)]
@@ -59,6 +60,14 @@ pub struct Law {
     /// Constants that depend on each other, so that a scene cannot change them.
     #[serde(default)]
     pub fixed: Vec<String>,
+}
+
+impl Law {
+    /// Largest error of the tangential force of one step that grows the dent with this unloading law after the law
+    /// `loading`, relative to Coulomb's limit.
+    pub fn friction_error_after(&self, loading: &str) -> Option<f64> {
+        self.friction_error_of.get(loading).copied().or(self.friction_error)
+    }
 }
 
 /// The loading law for which an unloading law was made.
