@@ -233,4 +233,13 @@ pub struct CurveArguments {
     /// Add the finite-element loading curve as dots to the picture
     #[arg(long)]
     pub truth: bool,
+    /// Draw loops of the tangential force instead, with the indentation --to held
+    #[arg(long, conflicts_with = "truth")]
+    pub tangential: bool,
+    /// Coefficient of friction of the loops
+    #[arg(long, requires = "tangential")]
+    pub friction: Option<f64>,
+    /// Amplitudes of the loops [m] [default: 0.3, 0.6, 0.9 and 1.2 of that at which the contact slides]
+    #[arg(long, value_delimiter = ',', value_parser = units::lengths, requires = "tangential")]
+    pub amplitude: Vec<f64>,
 }

@@ -28,7 +28,9 @@ pub struct Entry<'a> {
     /// Reference of the input on which the first variable depends at the same instant; the second variable depends on the next
     /// input, and so on.
     pub follows: Option<usize>,
-    /// The same before the first step.
+    /// Reference of the tangential rate on which the first variable depends at the same instant.
+    pub follows_tangential: Option<usize>,
+    /// The same as for `follows` before the first step.
     pub follows_at_start: Option<usize>,
     pub nominal: Option<f64>,
 }
@@ -79,6 +81,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     let shown: Vec<_> = VARIABLES.iter().filter(shown).collect();
     let parameters = Parameters::of(scene, shown.len() * scene.contact_count());
     let nominals = nominal::of(scene);
+    let tangential_rates = shown.iter().position(|variable| variable.name == "tangential_rate");
     let mut entries = Vec::new();
     let mut reference = 0;
     for variable in shown {
@@ -90,6 +93,8 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
         let depends = |name: &str| match name {
             // it affects only the damping
             "restitution" => damped_at_start,
+            // without a tangential motion there is no tangential force
+            "friction.coefficient" => false,
             "effective_mass" => damped_at_start || is_listed(name) && elastic_part_follows_mass(scene),
             _ => is_listed(name),
         };
@@ -105,6 +110,9 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
                 start: (variable.causality == Causality::Input).then(|| start(variable, scene, index)),
                 dependencies: parameters.of_group(index, depends),
                 follows: follows.then_some(first),
+                follows_tangential: tangential_rates
+                    .filter(|_| variable.follows_tangential_rate)
+                    .map(|place| place * scene.contact_count() + first),
                 follows_at_start: follows_at_start.then_some(first),
                 nominal: nominals[index].get(variable),
             });
@@ -123,6 +131,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
         start: Some(settable.parameter.value),
         dependencies: Vec::new(),
         follows: None,
+        follows_tangential: None,
         follows_at_start: None,
         nominal: None,
     }));

@@ -50,6 +50,7 @@ mod ssp;
 mod summary;
 mod symbols;
 mod table;
+mod tangential_curve;
 mod toolchain;
 mod truth;
 mod units;

@@ -102,7 +102,8 @@ fn presence(is: bool) -> &'static str {
 fn parts(scene: &Scene) -> String {
     let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
     let momentum = presence(chosen(&["impulse", "mean_force"]));
-    let (course, prediction) = (presence(scene.damped.is_none()), presence(chosen(&["predicted_force"])));
+    let (course, prediction) =
+        (presence(scene.damped.is_none()), presence(chosen(&["predicted_force", "predicted_tangential_force"])));
     let coupling = match scene.coupling {
         Some(Coupling { parallel, acceleration_input, mass_input }) => {
             let [account, acceleration, mass] = [parallel, acceleration_input, mass_input].map(presence);
@@ -135,10 +136,13 @@ fn uses(text: &str) -> String {
         names.iter().copied().filter(|name| text.contains(name.trim_end_matches(" as _"))).collect()
     };
     let mut contact = vec!["self", "Pair"];
-    contact.extend(named(&["Surface", "damped", "loading", "unloading"]));
+    contact.extend(named(&["Surface", "damped", "loading"]));
+    contact.extend(named(&["tangential::"]).iter().map(|_| "tangential"));
+    contact.extend(named(&["unloading"]));
     let follow = if text.contains("Some(follow)") { "use crate::contact::motion::{Follow, follow};\n" } else { "" };
     let mut scene = named(&["Absent", "Coupled", "Guard", "Integer", "Parameter", "Present", "Real"]);
     scene.extend(["Scene", "Settable", "identity_of"]);
+    scene.extend(named(&["with_friction"]));
     // without a contact law, the file does not use these names
     if !text.contains("contact::") {
         contact.remove(0);
@@ -189,9 +193,15 @@ fn add_laws(file: &mut File, scene: &Scene) {
     let form = |kind: String, module: &str, has| if has { format!("{module}::Strengthened") } else { kind };
     let [of_loading, of_unloading] = strengthened_forms(scene);
     let (loading, unloading) = (form(loading, "loading", of_loading), form(unloading, "unloading", of_unloading));
-    file.model = format!("contact::Model<{loading}, {unloading}>");
-    file.contact = "contact::History".into();
+    let model = format!("Model<{loading}, {unloading}>");
+    (file.model, file.contact) = match scene.friction {
+        true => (format!("tangential::Rough{model}"), format!("tangential::RoughContact<{MEMORY}>")),
+        false => (format!("contact::{model}"), "contact::History".into()),
+    };
 }
+
+/// Number of segments in which the springs of a contact with friction remember its past.
+const MEMORY: usize = 12;
 
 /// The expressions of a model of each kind, from its laws.
 const DAMPED_MODEL: &str = "let (restitution, mass) = (value(Parameter::Restitution), value(Parameter::EffectiveMass));\n\
@@ -232,18 +242,29 @@ fn add_model(file: &mut File, scene: &Scene) {
         return;
     }
     let (group, surface) = groups::surface(file, scene);
-    let (group, values) = match scene.is_strengthened() {
+    let (group, values) = match scene.is_strengthened() || scene.friction {
         true => ("group", "values"),
         false => (group, "_values"),
     };
-    file.add_method(
-        &format!("model(pair: Pair, {group}: usize, {values}: &Self::Values) -> Self::Model"),
-        &model_of(
-            scene,
-            "Self::parameter(Parameter::TargetHardeningModulus, group, values)",
-            &format!("surface: {surface}"),
-        ),
+    let model = model_of(
+        scene,
+        "Self::parameter(Parameter::TargetHardeningModulus, group, values)",
+        &format!("surface: {surface}"),
     );
+    let model = match scene.friction {
+        true => with_friction(&model),
+        false => model,
+    };
+    file.add_method(&format!("model(pair: Pair, {group}: usize, {values}: &Self::Values) -> Self::Model"), &model);
+}
+
+/// The expression of a model with friction, from that of its normal part.
+fn with_friction(normal: &str) -> String {
+    let normal = match normal.rsplit_once("contact::Model") {
+        Some((before, model)) => format!("{before}let normal = contact::Model{model};"),
+        None => normal.to_string(),
+    };
+    format!("{normal}\nwith_friction(normal, |which| Self::parameter(which, group, values))")
 }
 
 /// The Rust expression of a law: the Debug form of the enum that holds it, without the enum.

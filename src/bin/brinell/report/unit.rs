@@ -19,7 +19,8 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
     };
     let mut parameters: Vec<Parameter> = Vec::new();
     // in the order of the table, like the parameters of every scene
-    for name in VARIABLES.iter().map(|variable| variable.name.as_str()) {
+    // the report moves bodies along the normal only
+    for name in VARIABLES.iter().filter(|variable| !variable.friction).map(|variable| variable.name.as_str()) {
         let shared = scene.parameters.iter().find(|parameter| parameter.name == name);
         let Some(found) = scene.contacts[0].own.iter().find(|own| own.name == name).or(shared) else { continue };
         parameters.push(Parameter::shared(found.name, found.value, true));
@@ -44,6 +45,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         rate: scene.rate,
         quasi_static: scene.quasi_static.clone(),
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
+        friction: false,
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],
         watches: false,

@@ -3,7 +3,7 @@
 use super::checks::check_identifier;
 use super::file::{Contact, File, Impactor, SurfaceName, Target};
 use super::hardening;
-use super::numbers::{DENSITY, HARDENING, MASS, Numbers, check_numbers};
+use super::numbers::{DENSITY, FRICTION, HARDENING, MASS, Numbers, check_numbers};
 use super::power_law::{self, PowerLaw};
 use super::rate::{self, Rate};
 use super::{Group, Mistake, Parameter};
@@ -53,8 +53,9 @@ impl Contacts {
         let standard = (Impactor::default(), Target::default());
         let no_gap = Spanned::new(0..0, 0.0);
         let gap = file.fmu.initial_gap.as_ref().unwrap_or(&no_gap);
-        let shared =
-            Numbers::of(impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1), None, Some(gap), None)?;
+        let friction = file.friction.as_ref().map(|friction| &friction.get_ref().coefficient);
+        let (impactor, of_target) = (impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1));
+        let shared = Numbers::of(impactor, of_target, None, Some(gap), friction, None)?;
         check_numbers(&shared, "")?;
         let surface = target.and_then(|target| target.surface);
         let given = given(file, surface, &shared)?;
@@ -132,6 +133,19 @@ impl Contacts {
                 let message =
                     "effective_mass is that of bodies which the unit moves: it needs [coupling] effective_mass for all";
                 Err(Mistake(mass.span(), self.said(index, message)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Rejects the friction of a single contact if the scene gives none for all.
+    pub fn check_friction(&self) -> Result<(), Mistake> {
+        let given = self.given.iter().enumerate().find_map(|(index, given)| Some((index, given.own.get(FRICTION)?)));
+        match given {
+            Some((index, coefficient)) if self.shared.get(FRICTION).is_none() => {
+                let message = "friction.coefficient of one contact needs [friction] coefficient for all: every contact has the \
+                               same variables; 0 is a contact without friction";
+                Err(Mistake(coefficient.span(), self.said(index, message)))
             }
             _ => Ok(()),
         }
@@ -243,7 +257,7 @@ fn given(file: &File, surface: Option<SurfaceName>, shared: &Numbers) -> Result<
     let mut all = Vec::new();
     for contact in contacts.get_ref() {
         let span = contact.span();
-        let Contact { name, count, impactor, target, initial_gap, effective_mass, parameters_per_contact } =
+        let Contact { name, count, impactor, target, initial_gap, effective_mass, friction, parameters_per_contact } =
             contact.get_ref();
         let text = check_contact_name(name)?;
         if !names.insert(text.clone()) {
@@ -257,7 +271,8 @@ fn given(file: &File, surface: Option<SurfaceName>, shared: &Numbers) -> Result<
             return Err(Mistake(span, message));
         }
         hardening::check_contact(&text, target)?;
-        let own = Numbers::of(impactor, target, effective_mass.as_ref(), initial_gap.as_ref(), Some(shared))?;
+        let (mass, gap, coefficient) = (effective_mass.as_ref(), initial_gap.as_ref(), friction.coefficient.as_ref());
+        let own = Numbers::of(impactor, target, mass, gap, coefficient, Some(shared))?;
         check_numbers(&own, &format!("{text}."))?;
         let surface = surface_of(target.surface);
         let (count, per_contact) = (count.map(|count| count as usize), parameters_per_contact.clone());

@@ -18,6 +18,7 @@ pub struct File {
     #[serde(default)]
     pub fmu: Fmu,
     pub impact: Option<Spanned<ImpactTable>>,
+    pub friction: Option<Spanned<FrictionTable>>,
     pub coupling: Option<Spanned<CouplingTable>>,
     pub contact: Option<Spanned<Vec<Spanned<Contact>>>>,
 }
@@ -125,6 +126,21 @@ pub struct CouplingTable {
     pub inputs: Vec<Spanned<String>>,
 }
 
+/// Friction of all contacts.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionTable {
+    pub coefficient: Spanned<f64>,
+    pub directions: Option<Spanned<i64>>,
+}
+
+/// Friction of one contact.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OwnFriction {
+    pub coefficient: Option<Spanned<f64>>,
+}
+
 /// The order in which an importer steps FMUs.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -156,6 +172,8 @@ pub struct Contact {
     pub target: Target,
     pub initial_gap: Option<Spanned<f64>>,
     pub effective_mass: Option<Spanned<f64>>,
+    #[serde(default)]
+    pub friction: OwnFriction,
     #[serde(default)]
     pub parameters_per_contact: Vec<Spanned<String>>,
 }

@@ -5,6 +5,7 @@ mod checks;
 mod contacts;
 mod coupling;
 mod file;
+mod friction;
 mod hardening;
 mod laws;
 mod mistakes;
@@ -55,6 +56,8 @@ pub struct Scene {
     pub quasi_static: Vec<QuasiStatic>,
     /// How the unit moves the bodies through a step by their mass, if it does.
     pub coupling: Option<Coupling>,
+    /// Whether its contacts have friction.
+    pub friction: bool,
     pub impact: Impact,
     /// The prediction of the impact for the contacts of each group.
     pub predictions: Vec<Prediction>,
@@ -202,6 +205,9 @@ impl Scene {
 
     /// Whether the FMU has the input `name`, which is not the rate.
     pub fn has_input(&self, name: &str) -> bool {
+        if name == "tangential_rate" {
+            return self.friction;
+        }
         self.coupling.is_some_and(|coupling| match name {
             "external_acceleration" => coupling.acceleration_input,
             "effective_mass" => coupling.mass_input,

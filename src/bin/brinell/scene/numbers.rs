@@ -10,7 +10,7 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
 /// The properties that a contact may override, in the order of the table.
-const PROPERTIES: [&str; 12] = [
+const PROPERTIES: [&str; 13] = [
     "impactor.radius",
     "impactor.youngs_modulus",
     "impactor.poissons_ratio",
@@ -23,10 +23,14 @@ const PROPERTIES: [&str; 12] = [
     IMPACTOR_DENSITY,
     MASS,
     "initial_gap",
+    FRICTION,
 ];
 
 /// A property that the scene gives elsewhere for all contacts.
 pub const MASS: &str = "effective_mass";
+
+/// A property that every contact has as soon as the scene gives it for all.
+pub const FRICTION: &str = "friction.coefficient";
 
 /// A property that only some laws use.
 pub const HARDENING: &str = "target.hardening_modulus";
@@ -53,6 +57,7 @@ impl Numbers {
         target: &Target,
         mass: Option<&Spanned<f64>>,
         initial_gap: Option<&Spanned<f64>>,
+        friction: Option<&Spanned<f64>>,
         shared: Option<&Numbers>,
     ) -> Result<Numbers, Mistake> {
         let find = |name: &Option<Spanned<String>>| match name {
@@ -82,6 +87,7 @@ impl Numbers {
             impactor.density.clone().or_else(|| of_ball(|material| material.density)),
             mass.cloned(),
             initial_gap.cloned(),
+            friction.cloned(),
         ];
         let numbers = PROPERTIES.into_iter().zip(given);
         Ok(Numbers(numbers.filter_map(|(name, value)| Some((name, value?))).collect()))
