@@ -6,6 +6,8 @@
 
 #[path = "support/python.rs"]
 mod python;
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/unit.rs"]
 mod unit;
 
@@ -93,8 +95,7 @@ fn a_c_program_finds_everything_in_order() {
 #[test]
 fn valgrind_finds_no_wrong_access_and_no_leak() {
     if Command::new("valgrind").arg("--version").output().is_err() {
-        println!("skipped: there is no valgrind");
-        return;
+        return skips::skipped("the C program under valgrind", "there is no valgrind");
     }
     let program = compile("driver-for-valgrind", &["-DNO_COUNTING"]);
     let mut valgrind = Command::new("valgrind");
