@@ -10,6 +10,8 @@ mod markdown;
 mod promises;
 #[path = "../support/python.rs"]
 mod python;
+#[path = "../support/skips.rs"]
+mod skips;
 mod tables;
 
 use std::env;
