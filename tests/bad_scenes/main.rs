@@ -2,6 +2,7 @@
 
 mod beginners;
 mod contacts;
+mod friction;
 mod laws;
 
 #[path = "../support/command.rs"]

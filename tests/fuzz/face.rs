@@ -18,6 +18,8 @@ pub struct Face {
     pub parameters: Vec<u32>,
     /// Start values of Real variables.
     pub starts: HashMap<u32, f64>,
+    /// Whether the contacts can yield.
+    pub yields: bool,
     /// References of Real outputs by name.
     pub named: HashMap<String, u32>,
 }
@@ -43,6 +45,7 @@ impl Face {
             outputs: Vec::new(),
             parameters: Vec::new(),
             starts: HashMap::new(),
+            yields: description.contains("yield_strength"),
             named: HashMap::new(),
         };
         for element in description.split("<ScalarVariable").skip(1) {
