@@ -196,6 +196,7 @@ class Contact:
         acceleration: Numbers | None = None,
         jerk: Numbers | None = None,
         *,
+        tangential_rate: Numbers | None = None,
         mass: Numbers | None = None,
         gap: Numbers | None = None,
     ) -> Any:
@@ -205,7 +206,9 @@ class Contact:
         `rate` [m/s] is the closing speed of the bodies at the start of the step, positive when they
         approach. `acceleration` [m/s^2] and `jerk` [m/s^3] are its time derivatives, for this step:
         if the FMU knows the mass, the acceleration by all forces except that of the contact
-        (gravity, for example); otherwise by all forces. `mass` [kg] sets the effective mass from
+        (gravity, for example); otherwise by all forces. `tangential_rate` [m/s] is the relative
+        tangential speed of the two contact points from this step on, if the FMU has friction; its
+        output `tangential_force` is positive against it. `mass` [kg] sets the effective mass from
         this step on, if the FMU has one that can be set between steps.
 
         `gap` [m] is the distance of the bodies at the start of the step in the simulation. An FMU
@@ -220,7 +223,7 @@ class Contact:
         with self._lock:
             self._alive()
             h = number("h", h)
-            more = (acceleration, jerk, mass, gap)
+            more = (acceleration, jerk, tangential_rate, mass, gap)
             force = self._stepping.advance(self._instance, self._time, h, rate, *more)
             self._time += h
             if self._instance.log:

@@ -61,6 +61,7 @@ class Stepping:
         rate: Numbers,
         acceleration: Numbers | None,
         jerk: Numbers | None,
+        tangential_rate: Numbers | None,
         mass: Numbers | None,
         gap: Numbers | None,
     ) -> Any:
@@ -69,6 +70,8 @@ class Stepping:
         # everything is checked before anything is set
         self._fill(self._rates, 0, "rate", rate)
         orders = self._take_derivatives(acceleration, jerk)
+        if tangential_rate is not None:
+            self._set_tangential_rate(instance, tangential_rate)
         if gap is not None:
             self._follow(instance, h, gap)
         if mass is not None:
@@ -142,6 +145,17 @@ class Stepping:
         first[apart] = second[apart] = 0.0
         self._rates[:] = rate.tolist()
         self._derivatives[:] = [*first, *second]
+
+    def _set_tangential_rate(self, instance: Instance, rate: Numbers) -> None:
+        names = self._variables.every("tangential_rate")
+        if not names:
+            raise ContactError(
+                f"tangential_rate = {rate} m/s: {self._path} has no friction; "
+                "[friction] in its scene adds it"
+            )
+        rates = (c_double * self._count)()
+        self._fill(rates, 0, "tangential_rate", rate)
+        instance.call("SetReal", self._variables.references(names), self._count, rates)
 
     def _set_mass(self, instance: Instance, mass: Numbers) -> None:
         names, path = self._variables.masses, self._path
