@@ -144,15 +144,15 @@ fn both_signs_are_mirror_images_to_the_bit() {
 #[test]
 fn a_step_is_that_of_its_parts() {
     // an elastic contact exactly; a dent that grows, as far as its law is exact
-    for (unit, tolerance) in [
-        (project("oblique"), 2e-12),
-        (steel("thornton_rough", PLASTIC), 1e-9),
-        (steel("brinell_rough", "loading = \"brinell\""), 1e-3),
+    for (unit, tolerance, of_mean) in [
+        (project("oblique"), 2e-12, 2e-11),
+        (steel("thornton_rough", PLASTIC), 1e-9, 1e-6),
+        (steel("brinell_rough", "loading = \"brinell\""), 1e-3, 1e-2),
     ] {
         for parts in [2_u32, 7, 100, 1000] {
             let (mut whole, mut cut, [mut time, mut same]) = (unit.ready(), unit.ready(), [0.0; 2]);
             let coefficient = whole.real("friction.coefficient");
-            let mut worst = 0.0_f64;
+            let (mut worst, mut worst_mean) = (0.0_f64, 0.0_f64);
             for pair in rates(8, 12) {
                 go(&mut whole, &mut time, pair, STEP);
                 let mut mean = 0.0;
@@ -163,11 +163,11 @@ fn a_step_is_that_of_its_parts() {
                 let limit = coefficient * whole.real("force");
                 if limit > 0.0 {
                     worst = worst.max((whole.real("tangential_force") - cut.real("tangential_force")).abs() / limit);
-                    worst = worst.max(0.1 * (whole.real("mean_tangential_force") - mean).abs() / limit);
+                    worst_mean = worst_mean.max((whole.real("mean_tangential_force") - mean).abs() / limit);
                 }
             }
-            println!("{parts} parts: {worst:.1e}");
-            assert!(worst <= tolerance, "{parts} parts: {worst:e}");
+            println!("{parts} parts: {worst:.1e}, mean {worst_mean:.1e}");
+            assert!(worst <= tolerance && worst_mean <= of_mean, "{parts} parts: {worst:e} {worst_mean:e}");
         }
     }
 }
@@ -240,7 +240,7 @@ fn a_rejected_set_changes_nothing() {
     let unit = project("oblique");
     for (value, said) in [
         (f64::NAN, "tangential_rate = NaN is not finite"),
-        (f64::INFINITY, "tangential_rate = inf is not finite"),
+        (f64::INFINITY, "tangential_rate = infinity is not finite"),
         (-2e40, "tangential_rate = -2e40 is out of range: allowed is -1e40 to 1e40 m/s"),
     ] {
         let mut instance = unit.ready();
