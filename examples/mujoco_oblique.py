@@ -71,7 +71,7 @@ class Balance(judge.Friction):
 
 
 if __name__ == "__main__":
-    ANGLES = np.array([2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 75.0])
+    ANGLES = np.array([2.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 75.0])
     path = judge.unit("oblique")
     rebounds = np.array([impact(path, degrees) for degrees in ANGLES]).T
     # a ball that slides throughout is known

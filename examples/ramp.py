@@ -76,9 +76,8 @@ if __name__ == "__main__":
     judge.picture(
         "Ball on a ramp that vibrates along its normal",
         [
-            (time, speed, "centre", "-"),
-            (time, surface, "surface, by its spin", "--"),
-            (other[0][::4000], other[1][::4000], "centre, rigid bodies", "."),
+            (time, speed - surface, "with the unit", "-"),
+            (other[0][::1000], (other[1] - other[2])[::1000], "rigid bodies", "."),
         ],
-        y="speed [m/s]",
+        y="slip speed [m/s]",
     )

@@ -70,6 +70,8 @@ impl<const N: usize> RoughContact<N> {
             first += of_first * rise;
             second += of_second * rise;
         }
-        (first / (6.0 * width), second / (width * width))
+        // a step this short exists only for rates far beyond any that are physical
+        let square = width * width;
+        (first / (6.0 * width), quotient(second, square, square > 0.0, f64::NAN))
     }
 }
