@@ -26,6 +26,8 @@ fn scenes() -> Vec<PathBuf> {
         scene("steel_ball"),
         scene("coupled"),
         scene("mass_known"),
+        scene("oblique"),
+        scene("rough_contacts"),
         with("regime", "[fmu]\noutputs = [\"indentation\", \"regime\"]"),
         with("two", &format!("[fmu]\noutputs = {OUTPUTS}\n[coupling]\neffective_mass = 4e-3\n{two}")),
         with("row", "[fmu]\noutputs = [\"indentation\", \"regime\"]\n[[contact]]\nname = \"bead\"\ncount = 3"),
@@ -82,6 +84,11 @@ fn a_contact_steps_tells_and_ends() {
 #[test]
 fn several_contacts_are_arrays() {
     pytest("test_several_contacts.py");
+}
+
+#[test]
+fn friction_is_a_second_rate() {
+    pytest("test_friction.py");
 }
 
 #[test]
