@@ -90,6 +90,11 @@ fn damaged_and_foreign_states_are_refused() {
 }
 
 #[test]
+fn a_free_ball_rebounds_obliquely_as_in_the_table() {
+    pytest("test_friction.py", &[scene("oblique"), scene("steel_ball")]);
+}
+
+#[test]
 fn steps_are_checked_without_pedantry() {
     pytest("test_steps.py", &steel_ball());
 }

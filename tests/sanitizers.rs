@@ -115,7 +115,7 @@ fn printed(program: &str, arguments: &[&str]) -> Option<String> {
 /// `found`, or a message that no test runner hides.
 fn or_skipped(found: Option<PathBuf>, what: &str) -> Option<PathBuf> {
     if found.is_none() {
-        skips::skipped(what, "it takes a nightly toolchain of rustup");
+        skips::skipped("a sanitizer", &format!("it takes a nightly toolchain of rustup, and {what}"));
     }
     found
 }

@@ -2,6 +2,7 @@
 
 use crate::bodies;
 use crate::energy;
+use crate::friction_text;
 use crate::html::{TEXT_STYLE, begin, escape};
 use crate::interface::Entry;
 use crate::law_text::{self, LawText};
@@ -29,8 +30,9 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(page, "<h1>{name}</h1>\n<p>{description}</p>")?;
     writeln!(
         page,
-        "<p>FMU (FMI 2.0 co-simulation) of the normal contact of {}: the closing speed of the bodies goes in, the contact \
+        "<p>FMU (FMI 2.0 co-simulation) of the {} contact of {}: the closing speed of the bodies goes in, the contact \
          force comes out. {}</p>",
+        if scene.friction { "normal and tangential" } else { "normal" },
         contact(scene),
         coupling(scene)
     )?;
@@ -66,6 +68,7 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
             escape(&guard.words())
         )?;
     }
+    friction_text::section(page, scene)?;
     writeln!(page, "<h2>Variables</h2>")?;
     variables(page, &plan.variables)?;
     constants(page, &plan.constants)?;

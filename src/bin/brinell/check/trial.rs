@@ -1,6 +1,7 @@
 //! The impact of a scene on one contact of its FMU, compared with the prediction.
 
 use super::master::{Master, Simulated};
+use super::oblique;
 use crate::importer::{Description, ImportError, Instance};
 use crate::layout::table;
 use crate::numbers::{percent, quantity};
@@ -30,7 +31,8 @@ pub struct Trial {
     pub disturbed: Vec<String>,
 }
 
-/// One quantity, from the energy balance and from the co-simulation.
+/// One quantity, predicted and from the co-simulation. Those of an oblique impact are predicted by the springs of the
+/// library.
 #[derive(Debug, Serialize)]
 pub struct Row {
     pub quantity: &'static str,
@@ -56,17 +58,7 @@ impl Trial {
         let contact = given.name.is_some().then(|| prefix.trim_end_matches('.').to_string());
         let mut trial =
             Trial { contact, count: given.count, skipped: None, step, rows: Vec::new(), disturbed: Vec::new() };
-        instance.setup_experiment(0.0)?;
-        instance.call("fmi2EnterInitializationMode")?;
-        let (gap_variable, gap) = gap(scene, group);
-        // the impact begins at first contact; a gap that is a constant of the FMU is crossed first
-        let gap = if let Some(name) = gap_variable {
-            instance.set_real(description.real(&name)?, 0.0)?;
-            0.0
-        } else {
-            gap
-        };
-        instance.call("fmi2ExitInitializationMode")?;
+        let gap = begin(instance, description, scene, group)?;
         if gap < 0.0 {
             trial.skipped = Some("the scene starts pressed in, and initial_gap is a constant of it".into());
             return Ok(trial);
@@ -90,8 +82,27 @@ impl Trial {
         let changed = at_rest.into_iter().zip(before.iter().zip(&after)).filter(|(_, (before, after))| before != after);
         trial.disturbed = changed.map(|((name, _), _)| name).collect();
         instance.call("fmi2Terminate")?;
+        if scene.friction {
+            instance.call("fmi2Reset")?;
+            let gap = begin(instance, description, scene, group)?;
+            trial.rows.extend(oblique::compare(instance, description, scene, group, (gap, step))?);
+        }
         Ok(trial)
     }
+}
+
+/// Initializes the FMU for an impact on the first contact of `group`, and returns its gap [m]. The impact begins at first
+/// contact; a gap that is a constant of the FMU has to be crossed.
+fn begin(instance: &mut Instance, description: &Description, scene: &Scene, group: usize) -> Result<f64, ImportError> {
+    instance.setup_experiment(0.0)?;
+    instance.call("fmi2EnterInitializationMode")?;
+    let (gap_variable, mut gap) = gap(scene, group);
+    if let Some(name) = gap_variable {
+        instance.set_real(description.real(&name)?, 0.0)?;
+        gap = 0.0;
+    }
+    instance.call("fmi2ExitInitializationMode")?;
+    Ok(gap)
 }
 
 /// Name of the initial gap of the contacts of `group`, if it can be set, and its value [m].

@@ -201,7 +201,7 @@ fn add_laws(file: &mut File, scene: &Scene) {
 }
 
 /// Number of segments in which the springs of a contact with friction remember its past.
-const MEMORY: usize = 12;
+pub const MEMORY: usize = 12;
 
 /// The expressions of a model of each kind, from its laws.
 const DAMPED_MODEL: &str = "let (restitution, mass) = (value(Parameter::Restitution), value(Parameter::EffectiveMass));\n\
