@@ -73,7 +73,7 @@ fn live<S: Scene>(name: &str) {
             if instance.check_input_derivative(variable, 1, -9.81).is_ok() && step % 3 == 0 {
                 let acceleration = [0.0, -9.81, 3e4, -1e-3][step / 3 % 4];
                 quiet(|| what("derivative"), || instance.check_input_derivative(variable, 1, acceleration));
-                instance.set_input_derivative(contact, 1, acceleration);
+                instance.set_input_derivative((Real::IndentationRate, contact), 1, acceleration);
             }
         }
         let time = instance.time();
