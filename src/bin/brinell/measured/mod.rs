@@ -3,6 +3,8 @@
 mod fit;
 mod flow;
 mod read;
+#[cfg(test)]
+mod tests;
 
 pub use fit::{Estimate, Fit, Fitted, fit};
 pub use flow::Flow;

@@ -3,8 +3,10 @@
 mod card;
 mod choice;
 mod data;
+mod experiment;
 mod extremes;
 mod measurement;
+mod oblique;
 mod page;
 mod peer;
 mod precision;
@@ -177,6 +179,9 @@ impl Report {
         progress.say("stiff and extreme cases");
         let cases = extremes::measure(contacts.plain(), &alone, quick, progress);
         progress.say("laws side by side");
+        progress.say("oblique impacts");
+        // the FMU with friction has no other mass or law
+        let oblique = oblique::measure(scene, contacts.rough(), most)?;
         let laws = Laws::of(&alone, measurement.map(|own| &own.measured));
         let card = card::of(&alone, contacts.plain(), &laws)?;
         let choice = Choice::of(&lines, &stability);
@@ -189,6 +194,8 @@ impl Report {
         }
         let mut parts =
             vec![precision::part(&scene.name, &lines), stability.part(), laws.part(), extremes::part(&cases)];
+        parts.extend(oblique.map(|oblique| oblique.part()));
+        parts.push(experiment::part());
         if let Some(measurement) = measurement {
             // what the user asked for comes first
             parts.insert(0, measurement.part(&alone));
@@ -203,7 +210,7 @@ impl Report {
         let outcome = self.card.outcome.iter().map(|(name, value)| format!("{name:<26} {value}"));
         let warnings = self.card.warnings.iter().map(|warning| format!("Outside the law's validity: {warning}."));
         let sentences = self.card.trust.iter().chain(&self.advice).cloned();
-        let cases = self.parts.last().map(|part| part.words.clone());
+        let cases = self.parts.iter().find(|part| part.title == extremes::TITLE).map(|part| part.words.clone());
         outcome.chain([String::new()]).chain(sentences).chain(warnings).chain(cases).collect()
     }
 
