@@ -5,7 +5,7 @@ use super::{Figure, Part};
 use crate::html::escape;
 use crate::measured::{Estimate, Fit, Fitted, Flow, Kind, Measured, MeasuredError, fit, read};
 use crate::numbers::quantity;
-use crate::plot::{NameAt, Picture, Series, View};
+use crate::plot::{Picture, Series};
 use crate::scene::Scene;
 use crate::wrong_call::WrongCall;
 use std::error::Error;
@@ -120,9 +120,8 @@ impl Measurement {
         series.push(Series { label: NAME.into(), points: self.measured.points.clone(), dots: true });
         let [x, y] = self.measured.kind.titles();
         let picture = Picture { x_title: x.into(), y_title: y.into(), logarithmic: (over_decades, false), series };
-        let view = View { name_at: NameAt::End, ..View::default() };
         let caption = format!("{} over {}: {}", y, x, self.file);
-        Figure { name: "measured", caption: escape(&caption), svg: picture.labelled(700, 400, &view), folded: false }
+        Figure { name: "measured", caption: escape(&caption), svg: picture.svg(860, 420), folded: false }
     }
 
     /// The fitted parameters.
