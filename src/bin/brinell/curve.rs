@@ -67,7 +67,8 @@ fn tangential(
 ) -> Result<(), Box<dyn Error>> {
     let takes_some = arguments.laws.iter().any(|name| name == "all");
     let choices = oblique::with_friction(choices.to_vec(), takes_some).map_err(WrongCall::of)?;
-    let coefficient = arguments.friction.ok_or_else(|| WrongCall::of(PredictError::NoCoefficient))?;
+    let coefficient = arguments.friction.or(scene.group_value(0, oblique::FRICTION));
+    let coefficient = coefficient.ok_or_else(|| WrongCall::of(PredictError::NoCoefficient))?;
     let wanted = Wanted { coefficient, indentation: held, amplitudes: &arguments.amplitude };
     let loops = Loops::of(scene, &choices, wanted).map_err(WrongCall::of)?;
     let text = match (output, format) {

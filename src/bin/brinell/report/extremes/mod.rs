@@ -165,6 +165,9 @@ fn table(cases: &[Case]) -> Table {
     table
 }
 
+/// The title of the section.
+pub const TITLE: &str = "Stiff and extreme cases";
+
 /// Stiff and extreme cases.
 pub fn part(cases: &[Case]) -> Part {
     let judged = cases.iter().filter(|case| case.is_judged()).count();
@@ -174,7 +177,7 @@ pub fn part(cases: &[Case]) -> Part {
         words.push_str(&format!(" Failed: {}.", case.name));
     }
     Part {
-        title: "Stiff and extreme cases",
+        title: TITLE,
         words,
         figures: Vec::new(),
         switches: Vec::new(),
