@@ -176,6 +176,7 @@ fn features(scene: &Scene) -> Vec<&'static str> {
     let dents = scene.unloading.is_some();
     [
         (!scene.passivity_guard, "passivity guard"),
+        (scene.damped.is_none() && scene.loss.is_none(), "losses below yield"),
         (!(dents && surface(Surface::Dented)), "surface that keeps its dents"),
         (!(dents && surface(Surface::Fresh)), "surface that is fresh at every contact"),
     ]
@@ -204,9 +205,10 @@ fn group_line(group: &Group) -> String {
 }
 
 fn law(scene: &Scene) -> String {
-    match (scene.damped, scene.unloading) {
+    let laws = match (scene.damped, scene.unloading) {
         (Some((damped, _)), _) => format!("{damped} (the force depends on the rate)"),
         (None, Some((unloading, _))) => format!("{}/{unloading} (loading/unloading)", scene.loading.0),
         (None, None) => format!("{} (elastic)", scene.loading.0),
-    }
+    };
+    scene.loss.map_or(laws.clone(), |loss| format!("{laws}, with {}", loss.name()))
 }

@@ -167,6 +167,11 @@ impl<K: Loss> History<K> {
         }
     }
 
+    /// Whether the passivity guard shortens the unloading path of the present dent.
+    pub fn is_held_back<L: Loading, U: Unloading>(&self, model: &Model<L, U, K>) -> bool {
+        self.plastic.is_held_back(&model.plastic)
+    }
+
     /// The elastoplastic contact without the loss.
     pub fn plastic(&self) -> &contact::History {
         &self.plastic

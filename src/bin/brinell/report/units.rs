@@ -30,7 +30,7 @@ fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
         (Needs::Mass, "the FMU that knows the mass"),
         (Needs::LateMass, "the FMU that knows the mass, for a parallel master"),
     ];
-    let damped = scene.damped.is_some();
+    let damped = scene.is_rate_dependent();
     all.into_iter().filter(move |(needs, _)| !damped || matches!(needs, Needs::Force | Needs::PredictedForce))
 }
 

@@ -88,6 +88,11 @@ impl Contacts {
         (0..self.given.len()).any(|index| self.number(index, "target.yield_strength").is_some())
     }
 
+    /// A contact whose target has no density.
+    pub fn without_density(&self) -> Option<usize> {
+        (0..self.given.len()).find(|index| self.number(*index, DENSITY).is_none())
+    }
+
     /// Rejects a contact without yield strength for a `law` that needs it.
     pub fn check_strength(&self, law: &str) -> Result<(), Mistake> {
         let elastic = |index: &usize| self.number(*index, "target.yield_strength").is_none();

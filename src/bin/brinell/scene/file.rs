@@ -45,6 +45,7 @@ pub struct Target {
     pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
     pub radius: Option<Spanned<f64>>,
+    pub plate_thickness: Option<Spanned<f64>>,
     pub surface: Option<SurfaceName>,
 }
 
@@ -90,6 +91,7 @@ pub struct Law {
     pub loading_parameters: Option<Given>,
     pub unloading: Option<Spanned<String>>,
     pub restitution: Option<Spanned<f64>>,
+    pub elastic_restitution: Option<Spanned<toml::Value>>,
     pub damping: Option<Spanned<String>>,
     pub unloading_parameters: Option<Given>,
     pub passivity_guard: Option<Spanned<bool>>,

@@ -7,6 +7,7 @@ mod coupling;
 mod file;
 mod hardening;
 mod laws;
+mod losses;
 mod mistakes;
 mod numbers;
 mod plausible;
@@ -21,6 +22,7 @@ use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Model, Surface, strength};
 use std::path::{Path, PathBuf};
 
+pub use losses::Loss;
 pub use power_law::PowerLaw;
 pub use rate::{InImpact, QuasiStatic, Rate, STEPS, TABOR};
 
@@ -43,6 +45,8 @@ pub struct Scene {
     pub unloading: Option<(&'static str, AnyUnloading)>,
     /// The law of a contact whose force depends on the rate. Such a contact has no other law.
     pub damped: Option<(&'static str, AnyDamped)>,
+    /// The loss below yield.
+    pub loss: Option<Loss>,
     /// Whether unloading is limited to return no more than the loading took.
     pub passivity_guard: bool,
     /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law needs it.
@@ -226,7 +230,7 @@ impl Scene {
 
     /// The physical model of the contacts of `group`.
     pub fn any_model_of(&self, group: usize) -> AnyModel {
-        let Some((_, law)) = self.damped else { return AnyModel::Elastoplastic(self.model_of(group)) };
+        let Some((_, law)) = self.damped else { return self.with_loss(group, self.model_of(group)) };
         AnyModel::Damped(damped::Model {
             pair: self.pair_of(group).expect("a checked scene has bodies that fit"),
             law,

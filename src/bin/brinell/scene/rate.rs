@@ -157,7 +157,7 @@ impl Scene {
         let QuasiStatic { yield_strength, hardening_modulus } = self.hardening_of(group, line);
         let model = self.model_of(group);
         let pair = Pair { yield_strength: factor * yield_strength, ..model.pair };
-        AnyModel::Elastoplastic(strengthened(&Model { pair, ..model }, factor * hardening_modulus))
+        self.with_loss(group, strengthened(&Model { pair, ..model }, factor * hardening_modulus))
     }
 
     /// The prediction of `impact` on the first contact with the straight line for another `strain`.
