@@ -55,7 +55,7 @@ fn with_loss(name: &str, target: &str, law: &str, coupling: &str) -> PathBuf {
     let text = format!(
         r#"
 name = "{name}"
-impactor = {{ material = "bearing steel", radius = 5e-3 }}
+impactor = {{ material = "steel AISI 1018", radius = 5e-3 }}
 target = {{ material = "mild steel"{target} }}
 law = {{ loading = "brinell"{law} }}
 fmu = {{ outputs = ["indentation", "residual_indentation", "dissipated_energy", "elastic_energy", "work"{}], initial_gap = {} }}
@@ -82,7 +82,11 @@ fn a_dropped_ball_comes_to_rest_with_each_loss() {
             with_loss(&format!("{name}_held"), target, law, ""),
         ]
     });
-    pytest("test_comes_to_rest.py", &units.collect::<Vec<_>>());
+    let units: Vec<_> = units.collect();
+    pytest("test_comes_to_rest.py", &units);
+    for file in ["test_model_description_is_valid.py", "test_initial_values.py", "test_state_is_restored.py"] {
+        pytest(file, &units);
+    }
 }
 
 #[test]

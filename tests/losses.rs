@@ -93,6 +93,18 @@ fn waves_and_plate_take_the_energy_of_their_theories_from_an_elastic_impact() {
 }
 
 #[test]
+fn the_radiation_of_a_half_space_is_that_of_lambs_problem() {
+    // from fit/fit_waves.py, which integrates
+    for (poissons_ratio, number) in
+        [(-0.5, 0.389364), (0.0, 0.213964), (0.25, 0.148134), (0.3, 0.137227), (0.5, 0.104424)]
+    {
+        let pair = contact::Pair { poissons_ratio, youngs_modulus: 2.0 * (1.0 + poissons_ratio), ..mild() };
+        // shear modulus and density of one
+        assert_close(&format!("nu = {poissons_ratio}"), Waves { density: 1.0 }.factor(&pair), number, 3e-3);
+    }
+}
+
+#[test]
 fn a_steel_ball_on_a_steel_block_loses_what_hunter_and_reed_say() {
     // the published form: 1.04 (v/c0)^0.6 for nu = 0.25, with a force in the shape of a sine; the true shape gives 7 % more
     let modulus = 2.1e11;
@@ -278,6 +290,63 @@ fn stiffness_and_damping_are_the_slopes_of_the_force() {
                     let slope = (at(d + width) - at(d - width)) / (2.0 * width);
                     let stiffness = Contact::<Lossy>::stiffness(&contact, rate);
                     assert!((stiffness - slope).abs() <= 1e-5 * slope.abs(), "{name}: {stiffness:e} for {slope:e} N/m");
+                }
+            }
+        }
+    }
+}
+
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod exceptions {
+    use super::*;
+
+    #[link(name = "m")]
+    unsafe extern "C" {
+        fn feclearexcept(exceptions: i32) -> i32;
+        fn fetestexcept(exceptions: i32) -> i32;
+    }
+
+    /// Invalid, division by zero, overflow.
+    const ALL: i32 = 1 | 4 | 8;
+
+    #[track_caller]
+    fn quiet<T, E>(what: &str, call: impl FnOnce() -> Result<T, E>) {
+        // SAFETY: functions of the C library that read and clear the processor's flags.
+        let (result, flags) = unsafe {
+            feclearexcept(ALL);
+            let result = std::hint::black_box(call());
+            (result, fetestexcept(ALL))
+        };
+        assert!(result.is_err() || flags == 0, "{what}: exceptions {flags}");
+    }
+
+    #[test]
+    fn contacts_with_losses_raise_no_floating_point_exceptions() {
+        for (name, plastic) in all_models(mild()) {
+            for loss in losses() {
+                for gap in [0.0, 1e-6, -3e-6] {
+                    let lossy = with(&plastic, loss);
+                    let mut contact = History::start(&lossy, gap).unwrap();
+                    let mut moved = contact;
+                    let mut speed = 0.0;
+                    for (step, rate) in
+                        [0.0, -0.0, 1.0, 1.0, -0.3, 1e-300, 0.0, 1e-9, 2.0, -1.0, 0.0, -50.0, 0.7].iter().enumerate()
+                    {
+                        let length = [1e-6, 1e-7, 3e-6, 1e-9][step % 4];
+                        let name = format!("{name} {loss:?} at {rate} m/s");
+                        quiet(&name, || contact.mean_force(&lossy, *rate, length));
+                        quiet(&name, || contact.advance(&lossy, *rate, length));
+                        quiet(&name, || {
+                            Ok::<_, ()>((contact.force(*rate), Contact::<Lossy>::stiffness(&contact, *rate)))
+                        });
+                        quiet(&name, || Ok::<_, ()>(Contact::<Lossy>::damping(&contact, *rate)));
+                        quiet(&name, || {
+                            Ok::<_, ()>((contact.dissipated_energy(&lossy), contact.elastic_energy(&lossy)))
+                        });
+                        let drive = Drive { mass: MASS, acceleration: [0.0, 9.81, -9.81][step % 3] };
+                        quiet(&format!("{name}, moved"), || follow(&mut moved, &lossy, &drive, speed, length));
+                        speed += 0.3 * rate;
+                    }
                 }
             }
         }

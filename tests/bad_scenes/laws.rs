@@ -30,6 +30,16 @@ fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
 }
 
 #[test]
+fn a_softer_impactor_is_refused() {
+    refused(
+        "radius = 5e-3",
+        "radius = 5e-3\nyield_strength = §200e6",
+        &["impactor.yield_strength = 200000000.0", "target.yield_strength", "softer body must be the target", "exchange"],
+    );
+    refused("radius = 5e-3", "radius = 5e-3\nyield_strength = §-1.0", &["impactor.yield_strength = -1.0", "1e-9", "Pa"]);
+}
+
+#[test]
 fn losses_below_yield_that_cannot_be_are_refused() {
     for (number, said) in [("0.0", "0.0"), ("1.5", "1.5"), ("2", "2.0"), ("nan", "NaN")] {
         let law = format!("[law]\nelastic_restitution = §{number}\n");

@@ -225,7 +225,7 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
     *history = next;
     let most = if model.plastic.is_segmented() { MOST_EVALUATIONS } else { MOST_EVALUATIONS / COSTLY };
     let deepest = largest(deepest, next.plastic.max_indentation());
-    Ok(Outcome { speed: end, taken: largest(taken, 0.0), evaluations: most - evaluations, deepest })
+    Ok(Outcome { speed: end, taken: largest(taken, 0.0), evaluations: most.saturating_sub(evaluations), deepest })
 }
 
 /// The contact on a plate after `step` \[s\] of bodies that close at `rate` \[m/s\], and its impulse \[N.s\].

@@ -29,6 +29,7 @@ pub struct Impactor {
     pub radius: Option<Spanned<f64>>,
     pub youngs_modulus: Option<Spanned<f64>>,
     pub poissons_ratio: Option<Spanned<f64>>,
+    pub yield_strength: Option<Spanned<f64>>,
     pub density: Option<Spanned<f64>>,
 }
 

@@ -13,6 +13,7 @@ mod numbers;
 mod plausible;
 mod power_law;
 mod rate;
+pub mod softer;
 
 use crate::model::{AnyModel, strengthened};
 use brinell::contact::damped::{self, AnyDamped};
@@ -115,6 +116,8 @@ pub struct Group {
     pub surface: Surface,
     /// Density of the target [kg/m^3], if known. It is not a variable; it limits the speeds for which the law is valid.
     pub density: Option<f64>,
+    /// Yield strength of the impactor [Pa], if known. It is not a variable: the impactor does not yield.
+    pub impactor_strength: Option<f64>,
 }
 
 /// A scene that cannot be used, with the place and the reason.
