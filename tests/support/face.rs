@@ -38,6 +38,8 @@ pub struct Face {
     pub parameters: Vec<u32>,
     /// Start values of Real variables.
     pub starts: HashMap<u32, f64>,
+    /// Whether the contacts can yield.
+    pub yields: bool,
     /// References of Real outputs by name.
     pub named: HashMap<String, u32>,
 }
@@ -103,6 +105,7 @@ impl Face {
                 variable.is_real && !["input", "output"].contains(&&*variable.causality)
             }),
             starts: reals().filter_map(|variable| Some((variable.reference, variable.start?))).collect(),
+            yields: description.contains("yield_strength"),
             named: outputs().map(|variable| (variable.name.clone(), variable.reference)).collect(),
             variables,
         };

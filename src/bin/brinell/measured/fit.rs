@@ -287,7 +287,7 @@ impl<'a> Problem<'a> {
             let pairs = (0..self.fits.len()).flat_map(|one| (0..one).map(move |other| (one, other)));
             let of =
                 |(one, other)| covariance[(one, other)] / (covariance[(one, one)] * covariance[(other, other)]).sqrt();
-            pairs.map(of).any(|correlation: f64| !(correlation.abs() < CORRELATED))
+            pairs.map(of).any(|correlation: f64| correlation.is_nan() || correlation.abs() >= CORRELATED)
         });
         let error = |index: usize| {
             let covariance = covariance.as_ref().filter(|_| freedom > 0)?;

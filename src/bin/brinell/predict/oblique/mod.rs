@@ -61,7 +61,7 @@ impl Setting {
     /// [`PredictError`] with the name, the value and what is allowed.
     pub fn check(&self) -> Result<(), PredictError> {
         let Setting { angle, spin, coefficient, inertia } = *self;
-        if !(angle.abs() < 90.0) {
+        if angle.is_nan() || angle.abs() >= 90.0 {
             return Err(PredictError::Angle(angle));
         }
         if !spin.is_finite() {
