@@ -19,6 +19,8 @@ pub struct Variable {
     pub start: Option<f64>,
     pub minimum: Option<f64>,
     pub maximum: Option<f64>,
+    /// The values of an enumeration.
+    pub items: Vec<i32>,
 }
 
 /// An FMU: its functions and its variables.
@@ -52,8 +54,17 @@ fn number(element: &str, name: &str) -> Option<f64> {
     attribute(element, name).and_then(|text| text.parse().ok())
 }
 
+/// The values of each declared enumeration.
+fn enumerations(description: &str) -> HashMap<&str, Vec<i32>> {
+    let types = description.split("<SimpleType").skip(1).filter_map(|element| element.split("</SimpleType>").next());
+    let items = |element: &str| {
+        element.split("<Item").skip(1).filter_map(|item| attribute(item, "value")?.parse().ok()).collect()
+    };
+    types.filter_map(|element| Some((attribute(element, "name")?, items(element)))).collect()
+}
+
 impl Variable {
-    fn read(element: &str) -> Variable {
+    fn read(element: &str, types: &HashMap<&str, Vec<i32>>) -> Variable {
         let text = |name| attribute(element, name).unwrap_or_default().to_string();
         Variable {
             name: text("name"),
@@ -64,6 +75,7 @@ impl Variable {
             start: number(element, "start"),
             minimum: number(element, "min"),
             maximum: number(element, "max"),
+            items: attribute(element, "declaredType").and_then(|name| types.get(name)).cloned().unwrap_or_default(),
         }
     }
 }
@@ -79,10 +91,11 @@ impl Face {
         let root = place.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
         let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
         let guid = attribute(&description, "guid").expect("a GUID");
+        let types = enumerations(&description);
         let elements = description.split("<ScalarVariable").skip(1);
         let elements =
             elements.map(|element| element.split("</ScalarVariable>").next().expect("text has a first part"));
-        let variables: Vec<Variable> = elements.map(Variable::read).collect();
+        let variables: Vec<Variable> = elements.map(|element| Variable::read(element, &types)).collect();
         let categories = description.split("<Category").skip(1);
         let capabilities = description.split("<CoSimulation").nth(1).and_then(|rest| rest.split('>').next());
         let references = |wanted: &dyn Fn(&Variable) -> bool| -> Vec<u32> {
@@ -127,7 +140,16 @@ impl Face {
 
     /// The rates of the contacts, which are the first inputs.
     pub fn rates(&self) -> Vec<u32> {
-        let rates = self.variables.iter().filter(|variable| variable.name.ends_with("indentation_rate"));
-        rates.map(|variable| variable.reference).collect()
+        self.inputs_named("indentation_rate")
+    }
+
+    /// The rates along the surface, of contacts with friction.
+    pub fn sideways(&self) -> Vec<u32> {
+        self.inputs_named("tangential_rate")
+    }
+
+    fn inputs_named(&self, name: &str) -> Vec<u32> {
+        let is_named = |variable: &&Variable| variable.name.rsplit('.').next() == Some(name);
+        self.variables.iter().filter(is_named).map(|variable| variable.reference).collect()
     }
 }

@@ -132,7 +132,7 @@ pub fn of_inputs(face: &Face) {
 pub fn in_every_direction(face: &Face) {
     let outputs: Vec<_> = some(face).into_iter().filter(|variable| variable.causality == "output").collect();
     for variable in &outputs {
-        for &known in &face.rates()[..1] {
+        for known in face.rates().into_iter().take(1).chain(face.sideways().into_iter().take(1)) {
             let i = Importer::at(face, Phase::StepComplete);
             let (status, one) = directional(&i, variable.reference, known, 1.0);
             let (_, two) = directional(&i, variable.reference, known, -2.0);

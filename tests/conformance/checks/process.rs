@@ -30,9 +30,8 @@ pub fn instances_in_turn(face: &Face) {
     let mut all: Vec<_> = (0..count).map(|_| Importer::at(face, Phase::StepComplete)).collect();
     for step in 0..60 {
         // all inputs first, then all steps, then all outputs
-        let rates = face.rates();
         for (number, i) in all.iter().enumerate() {
-            assert_eq!(i.set(&rates, &vec![rate(number, step); rates.len()]), OK);
+            i.set_rates(rate(number, step));
         }
         for i in &mut all {
             assert_eq!(i.step(i.time, STEP), OK, "{:?}", i.log);
