@@ -171,8 +171,8 @@ impl<'a> Importer<'a> {
     /// Sets all rates to `rate` [m/s], and those along the surface to half of it in the other direction.
     #[track_caller]
     pub fn set_rates(&self, rate: f64) {
-        for (references, rate) in [(self.face.rates(), rate), (self.face.sideways(), -0.5 * rate)] {
-            assert_eq!(self.set(&references, &vec![rate; references.len()]), OK, "{:?}", self.log);
+        for (references, rate) in [(&self.face.rates, rate), (&self.face.sideways, -0.5 * rate)] {
+            assert_eq!(self.set(references, &vec![rate; references.len()]), OK, "{:?}", self.log);
         }
     }
 

@@ -38,6 +38,9 @@ pub struct Face {
     pub inputs: Vec<u32>,
     pub outputs: Vec<u32>,
     pub parameters: Vec<u32>,
+    /// The rates of the contacts, which are the first inputs, and those along the surface, of contacts with friction.
+    pub rates: Vec<u32>,
+    pub sideways: Vec<u32>,
     /// Start values of Real variables.
     pub starts: HashMap<u32, f64>,
     /// References of Real outputs by name.
@@ -115,6 +118,8 @@ impl Face {
             parameters: references(&|variable| {
                 variable.is_real && !["input", "output"].contains(&&*variable.causality)
             }),
+            rates: references(&|variable| variable.name.rsplit('.').next() == Some("indentation_rate")),
+            sideways: references(&|variable| variable.name.rsplit('.').next() == Some("tangential_rate")),
             starts: reals().filter_map(|variable| Some((variable.reference, variable.start?))).collect(),
             named: outputs().map(|variable| (variable.name.clone(), variable.reference)).collect(),
             variables,
@@ -136,20 +141,5 @@ impl Face {
     /// Whether the FMU declares that it uses no memory of its importer.
     pub fn needs_no_memory(&self) -> bool {
         self.capability("canNotUseMemoryManagementFunctions") == "true"
-    }
-
-    /// The rates of the contacts, which are the first inputs.
-    pub fn rates(&self) -> Vec<u32> {
-        self.inputs_named("indentation_rate")
-    }
-
-    /// The rates along the surface, of contacts with friction.
-    pub fn sideways(&self) -> Vec<u32> {
-        self.inputs_named("tangential_rate")
-    }
-
-    fn inputs_named(&self, name: &str) -> Vec<u32> {
-        let is_named = |variable: &&Variable| variable.name.rsplit('.').next() == Some(name);
-        self.variables.iter().filter(is_named).map(|variable| variable.reference).collect()
     }
 }

@@ -44,12 +44,12 @@ pub fn work(face: &Face) {
     let (work, force, indentation) = (of("work"), of("force"), of("indentation"));
     let mut i = Importer::new(face);
     assert_eq!((i.setup(0.0, None), i.enter(), i.exit()), (OK, OK, OK));
-    let (rates, step) = (face.rates(), 1e-8);
+    let (rates, step) = (&face.rates, 1e-8);
     let (mut sum, mut largest) = (i.real(work), 0.0f64);
     for number in 0..8000 {
         // out for long enough to part
         let rate = if (2000..5000).contains(&number) { -0.7 } else { 1.0 };
-        assert_eq!(i.set(&rates, &vec![rate; rates.len()]), OK, "{:?}", i.log);
+        assert_eq!(i.set(rates, &vec![rate; rates.len()]), OK, "{:?}", i.log);
         // some laws follow the rate at once
         let (from, begin) = (i.real(indentation), i.real(force));
         assert_eq!(i.step(i.time, step), OK, "{:?}", i.log);

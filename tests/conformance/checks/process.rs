@@ -45,7 +45,7 @@ pub fn instances_in_turn(face: &Face) {
 
 /// Instances in threads of their own give the same bits as each alone.
 pub fn instances_in_threads(face: &Face) {
-    let (threads, steps) = (8, 300usize.div_ceil(face.rates().len()).max(20));
+    let (threads, steps) = (8, 300usize.div_ceil(face.rates.len()).max(20));
     let alone: Vec<_> = (0..threads).map(|number| course(face, number, steps)).collect();
     for _ in 0..3 {
         thread::scope(|scope| {
@@ -123,11 +123,11 @@ pub fn memory(face: &Face) {
     let left = in_use() as isize - before as isize;
     assert!(left < rounds, "{left} bytes are left after {rounds} lives");
     let mut i = Importer::at(face, Phase::StepComplete);
-    let rates = face.rates();
+    let rates = &face.rates;
     let values = vec![1e-3; rates.len()];
     let before = in_use();
     for _ in 0..100 {
-        assert_eq!(i.set(&rates, &values), OK);
+        assert_eq!(i.set(rates, &values), OK);
         assert_eq!(i.step(i.time, STEP), OK);
         i.time += STEP;
     }
