@@ -209,7 +209,8 @@ pub fn wrong_references(face: &Face) {
     let largest = face.largest_reference();
     let unknown = [largest + 1, largest + 2, 2 * largest + 100, 1 << 16, 1 << 31, u32::MAX - 1, u32::MAX];
     let unknown = unknown.into_iter().filter(|reference| !face.reals.contains(reference));
-    let calls: [(&str, fn(&Importer, u32) -> c_int); 10] = [
+    type Call = fn(&Importer, u32) -> c_int;
+    let calls: [(&str, Call); 10] = [
         ("Real", |i, vr| i.get(&[vr], &mut [0.0])),
         ("Real", |i, vr| i.set(&[vr], &[0.0])),
         ("Integer", |i, vr| i.get_integers(&[vr], &mut [0])),

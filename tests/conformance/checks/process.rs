@@ -28,6 +28,7 @@ pub fn instances_in_turn(face: &Face) {
     let count = 4;
     let alone: Vec<_> = (0..count).map(|number| course(face, number, 60)).collect();
     let mut all: Vec<_> = (0..count).map(|_| Importer::at(face, Phase::StepComplete)).collect();
+    let expected = |number: usize, step: usize| &alone[number][step];
     for step in 0..60 {
         // all inputs first, then all steps, then all outputs
         for (number, i) in all.iter().enumerate() {
@@ -38,7 +39,7 @@ pub fn instances_in_turn(face: &Face) {
             i.time += STEP;
         }
         for (number, i) in all.iter().enumerate() {
-            assert_eq!(i.bits(), alone[number][step], "instance {number} in step {step}");
+            assert_eq!(&i.bits(), expected(number, step), "instance {number} in step {step}");
         }
     }
 }
@@ -155,7 +156,8 @@ pub fn floating_point_traps(face: &Face) {
         let state = i.save();
         let (_, other) = i.state_of(&i.bytes(state));
         assert_eq!(i.restore(other), OK);
-        (i.free(state), i.free(other));
+        i.free(state);
+        i.free(other);
     }
     // refusals compute with the wrong values: none of them may trap. A NaN is left out, since a comparison with it may trap
     for value in [f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300] {
