@@ -8,6 +8,8 @@
 mod driver;
 #[path = "support/python.rs"]
 mod python;
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/unit.rs"]
 mod unit;
 

@@ -16,6 +16,8 @@ mod driver;
 mod python;
 #[path = "support/rebuilt.rs"]
 mod rebuilt;
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/suites.rs"]
 mod suites;
 #[path = "support/targets.rs"]
@@ -26,7 +28,6 @@ mod unit;
 use driver::{arguments, has_valgrind, valgrind};
 use rebuilt::{Sources, TRIPLE, Way};
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
@@ -114,7 +115,7 @@ fn printed(program: &str, arguments: &[&str]) -> Option<String> {
 /// `found`, or a message that no test runner hides.
 fn or_skipped(found: Option<PathBuf>, what: &str) -> Option<PathBuf> {
     if found.is_none() {
-        let _ = writeln!(io::stderr(), "SKIPPED: it takes a nightly toolchain of rustup, and {what}");
+        skips::skipped("a sanitizer", &format!("it takes a nightly toolchain of rustup, and {what}"));
     }
     found
 }

@@ -225,7 +225,8 @@ impl<S: Scene> Instance<S> {
             // after a step with derivatives, the prediction continues from its end, whatever the input is now
             return Some(0.0);
         }
-        if !S::Contact::FOLLOWS_RATE {
+        // of the other contacts, the indentation isn't the distance, or the force follows the rate
+        if S::Contact::DERIVATIVES == 2 {
             return Some(self.predicted(contact, model, rate)?.stiffness(rate) * self.last_step());
         }
         // the speed of a first touch within the step also depends on the input

@@ -16,6 +16,8 @@ mod driver;
 mod python;
 #[path = "../support/rebuilt.rs"]
 mod rebuilt;
+#[path = "../support/skips.rs"]
+mod skips;
 #[path = "../support/suites.rs"]
 mod suites;
 #[path = "../support/unit.rs"]

@@ -1,9 +1,8 @@
 //! The C program of `tests/c`, which uses an FMU as an importer in C does.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
-use super::{python, unit};
+use super::{python, skips, unit};
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -76,8 +75,7 @@ pub fn assert_good(output: &Output) -> usize {
 pub fn has_valgrind() -> bool {
     let has = Command::new("valgrind").arg("--version").output().is_ok();
     if !has {
-        // written past the capture of the test runner
-        let _ = writeln!(io::stderr(), "SKIPPED: valgrind; the Debian package valgrind has it");
+        skips::skipped("valgrind", "the Debian package valgrind has it");
     }
     has
 }

@@ -43,6 +43,8 @@ pub struct Face {
     pub sideways: Vec<u32>,
     /// Start values of Real variables.
     pub starts: HashMap<u32, f64>,
+    /// Whether the contacts can yield.
+    pub yields: bool,
     /// References of Real outputs by name.
     pub named: HashMap<String, u32>,
 }
@@ -121,6 +123,7 @@ impl Face {
             rates: references(&|variable| variable.name.rsplit('.').next() == Some("indentation_rate")),
             sideways: references(&|variable| variable.name.rsplit('.').next() == Some("tangential_rate")),
             starts: reals().filter_map(|variable| Some((variable.reference, variable.start?))).collect(),
+            yields: description.contains("yield_strength"),
             named: outputs().map(|variable| (variable.name.clone(), variable.reference)).collect(),
             variables,
         };

@@ -67,7 +67,8 @@ fn tangential(
 ) -> Result<(), Box<dyn Error>> {
     let takes_some = arguments.laws.iter().any(|name| name == "all");
     let choices = oblique::with_friction(choices.to_vec(), takes_some).map_err(WrongCall::of)?;
-    let coefficient = arguments.friction.ok_or_else(|| WrongCall::of(PredictError::NoCoefficient))?;
+    let coefficient = arguments.friction.or(scene.group_value(0, oblique::FRICTION));
+    let coefficient = coefficient.ok_or_else(|| WrongCall::of(PredictError::NoCoefficient))?;
     let wanted = Wanted { coefficient, indentation: held, amplitudes: &arguments.amplitude };
     let loops = Loops::of(scene, &choices, wanted).map_err(WrongCall::of)?;
     let text = match (output, format) {
@@ -103,7 +104,9 @@ struct Row {
 /// unloading.
 fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooDeep> {
     let model = match choice.model {
+        // the curve of a slow motion: losses begin with the speed
         AnyModel::Elastoplastic(model) => model,
+        AnyModel::Lossy(model) => model.plastic,
         AnyModel::Damped(model) => return Ok(damped_rows(&model, impact)),
     };
     let mut history = History::start(&model, 0.0)?;

@@ -72,9 +72,9 @@ impl Loops {
     /// [`LoopError`] for a law without friction, an impossible number, or an indentation beyond the range of a law.
     pub fn of(scene: &Scene, choices: &[Choice], wanted: Wanted) -> Result<Loops, LoopError> {
         let Wanted { coefficient, indentation, amplitudes } = wanted;
-        if !oblique::COEFFICIENTS.contains(&coefficient) {
-            return Err(PredictError::Coefficient(coefficient).into());
-        }
+        oblique::check_coefficient(coefficient)?;
+        // without friction there is no loop
+        positive("friction", coefficient)?;
         for amplitude in amplitudes {
             positive("amplitude", *amplitude)?;
         }

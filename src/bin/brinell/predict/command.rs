@@ -56,7 +56,7 @@ pub struct Arguments {
     /// Spin of the ball before an oblique impact [rad/s]; positive like that of its contact point
     #[arg(long, value_name = "RAD/S", allow_negative_numbers = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
     pub spin: Option<f64>,
-    /// Coefficient of friction of an oblique impact
+    /// Coefficient of friction of an oblique impact [default: the scene's]
     #[arg(long)]
     pub friction: Option<f64>,
     /// Moment of inertia of the ball in an oblique impact [kg.m^2] [default: that of a solid sphere]
@@ -72,21 +72,22 @@ pub struct Arguments {
 
 impl Arguments {
     /// The setting of an oblique impact, if one is asked for.
-    fn setting(&self, axes: &[Axis]) -> Result<Option<Setting>, WrongCall> {
+    fn setting(&self, scene: &Scene, axes: &[Axis]) -> Result<Option<Setting>, WrongCall> {
         let varied = |name: &str| axes.iter().find(|axis| axis.name == name).map(|axis| axis.from);
         let is_oblique = [self.angle, self.spin].iter().any(Option::is_some);
         if !is_oblique && varied("angle").is_none() && varied("spin").is_none() {
-            let idle = [("friction", self.friction.or(varied("friction"))), ("inertia", self.inertia)];
+            let idle = [("friction", self.friction.or(varied(oblique::FRICTION))), ("inertia", self.inertia)];
             return match idle.iter().find(|(_, value)| value.is_some()) {
                 Some((name, _)) => Err(WrongCall::of(PredictError::NotOblique(name))),
                 None => Ok(None),
             };
         }
+        let coefficient = self.friction.or(varied(oblique::FRICTION)).or(scene.group_value(0, oblique::FRICTION));
         let missing = || WrongCall::of(PredictError::NoCoefficient);
         let setting = Setting {
             angle: self.angle.or(varied("angle")).unwrap_or(0.0),
             spin: self.spin.or(varied("spin")).unwrap_or(0.0),
-            coefficient: self.friction.or(varied("friction")).ok_or_else(missing)?,
+            coefficient: coefficient.ok_or_else(missing)?,
             inertia: self.inertia,
         };
         setting.check().map_err(WrongCall::of)?;
@@ -107,7 +108,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let axes = axes.map_err(WrongCall::of)?;
     let scene = Scene::read_aloud(&arguments.scene)?;
     let impact = impact(&scene, arguments).map_err(WrongCall::of)?;
-    let setting = arguments.setting(&axes)?;
+    let setting = arguments.setting(&scene, &axes)?;
     // the strength is that of the normal impact
     let normal = setting.map_or(impact.speed, |setting| impact.speed * setting.angle.to_radians().cos());
     let scene = scene

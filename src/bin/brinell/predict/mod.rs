@@ -56,11 +56,11 @@ pub enum PredictError {
     Angle(f64),
     #[error("spin = {0} rad/s must be finite")]
     Spin(f64),
-    #[error("friction = {0} is out of range: allowed is {low:e} to {high}", low = oblique::COEFFICIENTS.start(), high = oblique::COEFFICIENTS.end())]
-    Coefficient(f64),
+    #[error("friction = {value} is out of range: allowed is {} to {}", allowed.start(), allowed.end())]
+    Coefficient { value: f64, allowed: std::ops::RangeInclusive<f64> },
     #[error("the law {law} doesn't support friction: {why}")]
     NoFriction { law: String, why: String },
-    #[error("a coefficient of friction is missing, such as --friction 0.1")]
+    #[error("the scene has no friction: give it [friction] coefficient, or --friction, such as --friction 0.1")]
     NoCoefficient,
     #[error("--{0} belongs to an oblique impact: add --angle DEGREES, --spin RAD/S or a sweep over one of them")]
     NotOblique(&'static str),

@@ -62,7 +62,7 @@ pub fn of_oblique(scene: &Scene, (impact, setting): (Impact, Setting), sweep: &o
     let fixed = [
         ("angle", format!("an angle of incidence of {angle} degrees")),
         ("spin", format!("a spin of {}", quantity(spin, "rad/s"))),
-        ("friction", format!("a coefficient of friction of {coefficient}")),
+        (oblique::FRICTION, format!("a coefficient of friction of {coefficient}")),
     ];
     let fixed: Vec<_> = fixed.into_iter().filter(|(name, _)| *name != axis.name).map(|(_, words)| words).collect();
     let normal = impact_but(impact, &[axis.name]).replace("closing speed", "speed");

@@ -19,8 +19,8 @@ use brinell::contact::tangential::impact::{Ball, Rebound, predict};
 use brinell::contact::tangential::{Friction, RoughModel};
 use brinell::contact::unloading::AnyUnloading;
 
-/// Coefficients of friction that can be computed with.
-pub const COEFFICIENTS: std::ops::RangeInclusive<f64> = 1e-6..=10.0;
+/// The coefficient of friction, a parameter of the scene.
+pub const FRICTION: &str = "friction.coefficient";
 
 /// The method of the computation, in words.
 pub const METHOD: &str = "computed with the springs of the contact in a thousand steps";
@@ -29,7 +29,7 @@ pub const METHOD: &str = "computed with the springs of the contact in a thousand
 const SOLID_SPHERE: f64 = 0.4;
 
 /// Quantities of a sweep that only oblique impacts have, with their units.
-pub const QUANTITIES: [(&str, &str); 3] = [("angle", "deg"), ("spin", "rad/s"), ("friction", "")];
+pub const QUANTITIES: [(&str, &str); 2] = [("angle", "deg"), ("spin", "rad/s")];
 
 /// What makes an impact oblique.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,32 +61,43 @@ impl Setting {
     /// [`PredictError`] with the name, the value and what is allowed.
     pub fn check(&self) -> Result<(), PredictError> {
         let Setting { angle, spin, coefficient, inertia } = *self;
-        if !(angle.abs() < 90.0) {
+        if angle.is_nan() || angle.abs() >= 90.0 {
             return Err(PredictError::Angle(angle));
         }
         if !spin.is_finite() {
             return Err(PredictError::Spin(spin));
         }
-        if !COEFFICIENTS.contains(&coefficient) {
-            return Err(PredictError::Coefficient(coefficient));
-        }
+        check_coefficient(coefficient)?;
         inertia.map_or(Ok(()), |inertia| positive("inertia", inertia).map(|_| ()))
     }
 
-    /// The setting with this value of a [quantity](QUANTITIES).
+    /// The setting with this value of a quantity of oblique impacts.
     fn with(self, name: &str, value: f64) -> Setting {
         match name {
             "angle" => Setting { angle: value, ..self },
             "spin" => Setting { spin: value, ..self },
-            "friction" => Setting { coefficient: value, ..self },
+            FRICTION => Setting { coefficient: value, ..self },
             _ => self,
         }
     }
 }
 
+/// End of the names of laws with the passivity guard.
+const GUARDED: &str = " guarded";
+
 /// Whether the quantity `name` belongs to oblique impacts only.
 pub fn is_quantity(name: &str) -> bool {
-    QUANTITIES.iter().any(|(known, _)| *known == name)
+    name == FRICTION || QUANTITIES.iter().any(|(known, _)| *known == name)
+}
+
+/// Rejects a coefficient of friction that no scene can have.
+///
+/// # Errors
+/// [`PredictError::Coefficient`]
+pub fn check_coefficient(value: f64) -> Result<(), PredictError> {
+    let variable = table::variable(FRICTION);
+    let allowed = variable.minimum.unwrap_or(0.0)..=variable.maximum.unwrap_or(f64::MAX);
+    if allowed.contains(&value) { Ok(()) } else { Err(PredictError::Coefficient { value, allowed }) }
 }
 
 /// The reason why the laws of `choice` have no friction.
@@ -94,13 +105,16 @@ pub fn refusal(choice: &Choice) -> Option<String> {
     if let AnyModel::Damped(_) = choice.model {
         return Some("rate-dependent laws have none".into());
     }
+    if choice.laws.ends_with(GUARDED) {
+        return Some("with the passivity guard, its accuracy was not measured".into());
+    }
     let law = table::unloading_law(unloading_of(choice)?);
     law.no_friction.as_ref().map(|why| format!("with the unloading law {}, {why}", law.name))
 }
 
 /// The name of the unloading law of `choice`; `None` for an elastic law.
 pub fn unloading_of(choice: &Choice) -> Option<&str> {
-    choice.laws.split(' ').next()?.split_once('/').map(|(_, unloading)| unloading)
+    choice.laws.trim_end_matches(GUARDED).split_once('/').map(|(_, unloading)| unloading)
 }
 
 /// The laws of `choices` that have friction: all of them, or those of a list that includes every law.

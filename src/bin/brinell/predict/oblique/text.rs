@@ -2,11 +2,11 @@
 
 use super::{METHOD, Outcome, Setting, one, unloading_of};
 use crate::laws::Choice;
-use crate::layout::{paragraph, table};
+use crate::layout::{self, paragraph};
 use crate::numbers::{cell, quantity, significant};
 use crate::predict::PredictError;
 use crate::scene::Scene;
-use crate::table::{self as tables, Law};
+use crate::table;
 use crate::validity;
 use brinell::contact::impact::Impact;
 use serde_json::{Map, Value, json};
@@ -83,7 +83,7 @@ impl Answer<'_> {
             ]
         };
         let rows: Vec<_> = [head].into_iter().chain(self.choices.iter().zip(&self.outcomes).map(row)).collect();
-        table(&rows, 1, 2)
+        layout::table(&rows, 1, 2)
     }
 
     /// Warnings and notes, each with its heading.
@@ -176,12 +176,11 @@ fn single(outcome: &Outcome) -> String {
         ("contact time", quantity(outcome.rebound.contact_time, "s")),
     ];
     let rows: Vec<_> = rows.into_iter().map(|(name, value)| vec![name.to_string(), value]).collect();
-    table(&rows, 2, 2)
+    layout::table(&rows, 2, 2)
 }
 
 /// The error of friction with the laws of `choice`, as the table of laws gives it.
 fn error_of(choice: &Choice) -> Option<f64> {
-    let law: &Law = tables::unloading_law(unloading_of(choice)?);
     let loading = choice.laws.split('/').next()?;
-    law.friction_error_of.get(loading).copied().or(law.friction_error)
+    table::unloading_law(unloading_of(choice)?).friction_error_after(loading)
 }
