@@ -28,6 +28,8 @@ mod materials;
 mod merge;
 mod model;
 mod model_description;
+#[cfg(test)]
+mod mutations;
 mod nearest;
 mod new;
 mod nominal;

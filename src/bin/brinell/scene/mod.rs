@@ -6,6 +6,8 @@ mod contacts;
 mod coupling;
 mod file;
 mod hardening;
+#[cfg(test)]
+mod hostile_tests;
 mod laws;
 mod mistakes;
 mod numbers;
