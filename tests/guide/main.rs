@@ -16,7 +16,6 @@ mod tables;
 
 use std::env;
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The repository.
@@ -53,9 +52,4 @@ fn read(page: &Path) -> String {
 /// Whether texts are written instead of compared.
 fn is_writing() -> bool {
     env::var_os("BRINELL_WRITE").is_some()
-}
-
-/// Prints past the test harness, which hides the output of a test that passes.
-fn tell(what: &str) {
-    writeln!(std::io::stderr(), "{what}").expect("standard error is open");
 }
