@@ -21,9 +21,7 @@ _NAMES = ("LICENSE", "LICENCE", "COPYING", "UNLICENSE", "NOTICE")
 
 def third_party(target: str) -> bytes:
     """A list of the crates in the program for `target`, and the texts of their licenses, each once."""
-    command = ["cargo", "metadata", "--format-version=1", "--locked", "--filter-platform", target]
-    metadata = subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout
-    crates = _linked(json.loads(metadata))
+    crates = linked_crates(target)
     text = _HEAD + "".join(f"- {_name(crate)}: {crate['license']}\n" for crate in crates)
     by_text: dict[str, list[str]] = {}
     for crate in crates:
@@ -32,6 +30,13 @@ def third_party(target: str) -> bytes:
     for license_text, names in by_text.items():
         text += f"\n{'-' * 78}\n{', '.join(names)}:\n\n{license_text}\n"
     return text.encode()
+
+
+def linked_crates(target: str) -> list[dict[str, Any]]:
+    """What cargo says about the crates in the program for `target`."""
+    command = ["cargo", "metadata", "--format-version=1", "--locked", "--filter-platform", target]
+    metadata = subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout
+    return _linked(json.loads(metadata))
 
 
 def _name(crate: dict[str, Any]) -> str:

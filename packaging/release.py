@@ -20,6 +20,7 @@ from pathlib import Path
 
 import archives
 from archives import Files
+from bill import bill_of_materials
 from licenses import third_party
 from platforms import PLATFORMS, ROOT, Tools, environment, has_standard_library, here
 
@@ -159,6 +160,8 @@ def _pack(name: str, tag: str, base: Files, share: Files, output: Path) -> list[
     }
     wheel_files = base | {f"{DATA}/data/{path}": data for path, data in share.items()}
     wheel_files |= {f"{INFO}/licenses/{path}": data for path, data in licenses.items()}
+    bill = bill_of_materials(VERSION, it.target)
+    wheel_files[f"{INFO}/sboms/brinell.cdx.json"] = bill
     metadata = base[f"{INFO}/METADATA"].decode()
     expression = "License-Expression: MIT\n"
     files_named = "".join(f"License-File: {path}\n" for path in licenses)
@@ -172,6 +175,7 @@ def _pack(name: str, tag: str, base: Files, share: Files, output: Path) -> list[
     top = f"brinell-{VERSION}-{name}"
     files = {f"{top}/{path}": data for path, data in share.items()}
     files |= {f"{top}/{path}": data for path, data in licenses.items()}
+    files[f"{top}/brinell.cdx.json"] = bill
     files[f"{top}/bin/{path.split('/')[-1]}"] = program
     files = {path: files[path] for path in sorted(files)}
     archive = output / (f"{top}.zip" if "windows" in name else f"{top}.tar.gz")

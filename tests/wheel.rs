@@ -165,7 +165,7 @@ fn the_archive_contains_the_program_and_its_files() {
     let mut tar = Command::new("tar");
     output(tar.arg("-xzf").arg(file(&INSTALLED.folder, ".tar.gz")).arg("-C").arg(folder.path())).with_status(0);
     let top = folder.path().join(&contents(folder.path())[0]);
-    assert_eq!(contents(&top), ["LICENSE", "THIRD-PARTY-LICENSES", "bin", "share"]);
+    assert_eq!(contents(&top), ["LICENSE", "THIRD-PARTY-LICENSES", "bin", "brinell.cdx.json", "share"]);
     let licenses = fs::read_to_string(top.join("THIRD-PARTY-LICENSES")).unwrap();
     for crate_and_license in
         ["\n- brotli ", ": BSD-3-Clause AND MIT\n", "\n- clap ", "Dropbox", "Permission is hereby granted"]
@@ -174,6 +174,39 @@ fn the_archive_contains_the_program_and_its_files() {
     }
     let version = output(Command::new(top.join("bin/brinell")).arg("--version")).with_status(0).out;
     assert!(version.starts_with(concat!("brinell ", env!("CARGO_PKG_VERSION"), "\n")), "{version}");
+}
+
+/// The bill of materials lists exactly the crates whose licenses are packed, each with the hash in Cargo.lock.
+#[test]
+fn the_wheel_has_a_bill_of_materials() {
+    let info = INSTALLED.python("import importlib.metadata as m; print(m.distribution('brinell')._path)");
+    let read = |path: &str| fs::read_to_string(Path::new(&info).join(path)).expect("installed with the wheel");
+    let bill: serde_json::Value = serde_json::from_str(&read("sboms/brinell.cdx.json")).expect("JSON");
+    assert_eq!((&bill["bomFormat"], &bill["specVersion"]), (&"CycloneDX".into(), &"1.6".into()));
+    let text = |value: &serde_json::Value| value.as_str().expect("a text").to_string();
+    let lock = fs::read_to_string(root().join("Cargo.lock")).expect("a lock file");
+    let components = bill["components"].as_array().expect("a list");
+    let mut listed = Vec::new();
+    for component in components {
+        let [name, version] = ["name", "version"].map(|key| text(&component[key]));
+        let hash = text(&component["hashes"][0]["content"]);
+        let locked = format!("name = \"{name}\"\nversion = \"{version}\"\n");
+        assert!(
+            lock.split("[[package]]\n").any(|it| it.starts_with(&locked) && it.contains(&hash)),
+            "{name} {version}"
+        );
+        assert!(!text(&component["licenses"][0]["expression"]).contains('/'), "{component}");
+        assert_eq!(text(&component["purl"]), format!("pkg:cargo/{name}@{version}"));
+        listed.push(format!("{name} {version}"));
+    }
+    let licenses = read("licenses/THIRD-PARTY-LICENSES");
+    let licensed: Vec<_> = licenses
+        .lines()
+        .take_while(|line| !line.starts_with("-----"))
+        .filter_map(|line| line.strip_prefix("- ")?.split_once(": "))
+        .map(|(name, _)| name.to_string())
+        .collect();
+    assert!(listed.len() > 60 && listed == licensed, "{listed:?}\n{licensed:?}");
 }
 
 #[test]

@@ -30,6 +30,8 @@ mod measured;
 mod merge;
 mod model;
 mod model_description;
+#[cfg(test)]
+mod mutations;
 mod nearest;
 mod new;
 mod nominal;

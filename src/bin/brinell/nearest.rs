@@ -25,6 +25,38 @@ fn similarity(asked: &str, name: &str) -> f64 {
     strsim::jaro_winkler(asked, name).max(if is_part { SIMILAR } else { 0.0 })
 }
 
+/// Most names that a message lists. An FMU may have many thousands.
+const LISTED: usize = 60;
+/// How many of more names than that it lists.
+const NEAREST: usize = 8;
+
+/// The names to choose from, in words; of many, those that are nearest to `asked`.
+pub fn choice<'a>(asked: &str, names: &[&'a str]) -> String {
+    if names.len() <= LISTED {
+        return one_of(names);
+    }
+    let nearest = nearest_first(asked, names);
+    format!("{} (the nearest of {})", one_of(&nearest[..NEAREST]), names.len())
+}
+
+/// The names, those first that are most like `asked`.
+pub fn nearest_first<'a>(asked: &str, names: &[&'a str]) -> Vec<&'a str> {
+    let asked = normal(asked);
+    let mut rated: Vec<(f64, &'a str)> = names.iter().map(|name| (similarity(&asked, &normal(name)), *name)).collect();
+    // equally near ones stay in their order
+    rated.sort_by(|one, other| other.0.total_cmp(&one.0));
+    rated.into_iter().map(|(_, name)| name).collect()
+}
+
+/// At most 80 characters of `text`, for a message.
+pub fn shortened(text: &str) -> String {
+    const MOST: usize = 80;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.into(),
+    }
+}
+
 /// The message about a name that does not exist, such as: unknown material `Mild Steel`; did you mean `mild steel`? Expected
 /// one of ...
 pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
@@ -34,7 +66,7 @@ pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>
         Some(name) => (format!("; did you mean `{name}`? "), "Expected"),
         None => (", ".into(), "expected"),
     };
-    format!("unknown {what} `{asked}`{joint}{expected} {}", one_of(&names))
+    format!("unknown {what} `{}`{joint}{expected} {}", shortened(asked), choice(asked, &names))
 }
 
 /// The names as a choice.
@@ -74,6 +106,19 @@ mod tests {
             assert_eq!(nearest(asked, laws()), Some(meant));
         }
         assert_eq!(nearest("rubber", laws()), None);
+    }
+
+    #[test]
+    fn of_many_names_the_nearest_are_listed() {
+        let names: Vec<String> = (1..=2000).map(|index| format!("bead_{index}.initial_gap")).collect();
+        let said = unknown("parameter", "bead_777.intial_gap", names.iter().map(String::as_str));
+        assert!(
+            said.contains("did you mean `bead_777.initial_gap`?") && said.contains("(the nearest of 2000)"),
+            "{said}"
+        );
+        assert!(said.len() < 500, "{} bytes: {said}", said.len());
+        let said = unknown("parameter", &"x".repeat(100_000), names.iter().map(String::as_str));
+        assert!(said.len() < 500, "{} bytes: {said}", said.len());
     }
 
     #[test]

@@ -90,6 +90,11 @@ pub fn percent(difference: f64) -> String {
     }
 }
 
+/// All digits of a number, with a power of ten where it would have many zeros: `0.005`, `300000`, `1e300`.
+pub fn exact(value: f64) -> String {
+    if value == 0.0 || (1e-6..1e12).contains(&value.abs()) { value.to_string() } else { format!("{value:?}") }
+}
+
 /// A number in the form of a scene file: `5e-3`, `210e9`, `7850`.
 pub fn plain(value: f64) -> String {
     let value = rounded(value, 12);
@@ -142,6 +147,23 @@ mod tests {
             (1e-6, "+0.0001 %"),
         ] {
             assert_eq!(percent(difference), text);
+        }
+    }
+
+    #[test]
+    fn exact_numbers_have_no_rows_of_zeros() {
+        for (value, text) in [
+            (0.005, "0.005"),
+            (-3e5, "-300000"),
+            (0.0, "0"),
+            (1e300, "1e300"),
+            (-1e300, "-1e300"),
+            (5e-324, "5e-324"),
+            (1.5e-9, "1.5e-9"),
+            (f64::INFINITY, "inf"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(exact(value), text);
         }
     }
 

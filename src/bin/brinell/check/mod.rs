@@ -12,6 +12,7 @@ use crate::numbers::quantity;
 use crate::scene::{Scene, SceneError};
 use apart::Found;
 use serde::Serialize;
+use std::fmt::Formatter;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
@@ -182,15 +183,25 @@ impl Outcome {
     }
 }
 
+/// Writes a line for each of the first `items`, and the number of the others: an FMU may have a hundred thousand contacts.
+fn write_some(f: &mut Formatter<'_>, items: &[String], line: impl Fn(&str) -> String) -> std::fmt::Result {
+    const SHOWN: usize = 20;
+    for item in items.iter().take(SHOWN) {
+        writeln!(f, "  {}", line(item))?;
+    }
+    if items.len() > SHOWN {
+        writeln!(f, "  and {} more (--json lists all)", items.len() - SHOWN)?;
+    }
+    Ok(())
+}
+
 impl std::fmt::Display for Outcome {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let ImpactNumbers { mass, speed } = self.impact;
         let assumed = if self.impact_is_assumed { " (the scene names no impact: a solid ball is assumed)" } else { "" };
         writeln!(f, "{}", self.fmu.display())?;
         writeln!(f, "  platforms: {}; {} variables", self.platforms.join(", "), self.variables)?;
-        for wrong in &self.wrong_starts {
-            writeln!(f, "  start value differs: {wrong}")?;
-        }
+        write_some(f, &self.wrong_starts, |wrong| format!("start value differs: {wrong}"))?;
         let trials = || self.plain.iter().chain(&self.contacts);
         if trials().any(|trial| trial.skipped.is_none()) {
             writeln!(f, "  impact of {} at {}{assumed}", quantity(mass, "kg"), quantity(speed, "m/s"))?;

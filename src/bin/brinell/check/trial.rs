@@ -179,9 +179,7 @@ impl std::fmt::Display for Trial {
             ]);
         }
         write!(f, "\n{}", table(&rows, 1, 2))?;
-        for other in &self.disturbed {
-            writeln!(f, "  {other} has changed although its contact was at rest")?;
-        }
-        Ok(())
+        let line = |other: &str| format!("{other} has changed although its contact was at rest");
+        super::write_some(f, &self.disturbed, line)
     }
 }

@@ -4,10 +4,13 @@
 
 mod bounded;
 mod description;
+#[cfg(test)]
+mod hostile_tests;
 mod unit;
 
 use crate::files::private_folder;
 use crate::interrupt::Folder;
+use crate::numbers::exact;
 use crate::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
 use std::ffi::c_int;
@@ -48,7 +51,7 @@ pub enum ImportError {
     Call { function: &'static str, status: c_int, message: String },
     #[error("there is no variable {0}")]
     Variable(String),
-    #[error("the force is {force} after {time} s")]
+    #[error("the force is {} after {} s", exact(*.force), exact(*.time))]
     Force { force: f64, time: f64 },
     #[error("the impact hasn't ended after {steps} steps")]
     Endless { steps: u32 },

@@ -5,6 +5,7 @@ use super::{constants, oblique};
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::nearest::{nearest, one_of};
+use crate::numbers::exact;
 use crate::scene::Scene;
 use crate::table::{self, Causality, VARIABLES};
 use brinell::contact::impact::Impact;
@@ -182,9 +183,10 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
     }
     let pair = scene.pair_with(0, bodies).ok_or_else(|| {
         let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::NAN);
-        let words = bodies.iter().map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ");
+        let words = bodies.iter().map(|(name, value)| format!("{name} = {}", exact(*value))).collect::<Vec<_>>().join(", ");
         PredictError::Sweep(format!(
-            "{words}: these bodies don't touch in one point (impactor.radius = {radius}); a socket must be wider than the impactor"
+            "{words}: these bodies don't touch in one point (impactor.radius = {}); a socket must be wider than the impactor",
+            exact(radius)
         ))
     })?;
     let strength = bodies.iter().find(|(name, _)| *name == "target.yield_strength").map(|(_, value)| *value);
@@ -210,6 +212,6 @@ fn check_limits(name: &'static str, value: f64) -> Result<(), PredictError> {
         return Ok(());
     }
     let unit = variable.unit.as_deref().unwrap_or("");
-    let message = format!("{name} = {value} is out of range: allowed is {minimum:?} to {maximum:?} {unit}");
+    let message = format!("{name} = {} is out of range: allowed is {minimum:?} to {maximum:?} {unit}", exact(value));
     Err(PredictError::Sweep(message.trim_end().into()))
 }

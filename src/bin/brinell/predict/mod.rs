@@ -14,7 +14,7 @@ mod text;
 pub mod time_history;
 
 use crate::laws::Choice;
-use crate::numbers::{quantity, significant};
+use crate::numbers::{exact, quantity, significant};
 use brinell::contact::Loading;
 use brinell::contact::Regime;
 use brinell::contact::impact::{Impact, Prediction};
@@ -25,7 +25,7 @@ const GRAVITY: f64 = 9.80665;
 /// An impact without a prediction.
 #[derive(Debug, thiserror::Error)]
 pub enum PredictError {
-    #[error("{name} = {value} must be positive and finite")]
+    #[error("{name} = {} must be positive and finite", exact(*.value))]
     NotPositive { name: &'static str, value: f64 },
     #[error(
         "the law {law} can't be evaluated for an impact of {} at {}: it is too hard",
@@ -44,9 +44,9 @@ pub enum PredictError {
         value: f64,
         of: &'static str,
     },
-    #[error("restitution = {0} must be above 0 and at most 1")]
+    #[error("restitution = {} must be above 0 and at most 1", exact(*.0))]
     Restitution(f64),
-    #[error("nothing explains restitution = {goal}: {searched}")]
+    #[error("nothing explains restitution = {}: {searched}", exact(*.goal))]
     NoRebound { goal: f64, searched: String },
     #[error("the law {0} is rate-dependent: it leaves no dent and has no yield strength to look for")]
     NoDent(String),

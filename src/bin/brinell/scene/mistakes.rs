@@ -1,6 +1,6 @@
 //! Translates the messages of the parser into the terms of the scene file.
 
-use crate::nearest::{nearest, one_of};
+use crate::nearest::{nearest, one_of, shortened};
 use crate::table::VARIABLES;
 use crate::units;
 
@@ -51,9 +51,10 @@ pub fn words(message: &str, line: &str, meant: &str) -> String {
     if let Some(names) = message.strip_prefix("unknown variant ") {
         let names = quoted(names);
         let (asked, known) = names.split_first().expect("the parser names the variant");
-        return format!("{} in `{line}`", crate::nearest::unknown("word", asked, known.iter().copied()));
+        return format!("{} in `{}`", crate::nearest::unknown("word", asked, known.iter().copied()), shortened(line));
     }
     // the parser names Rust types but not the key; the key is in the line
+    let line = shortened(line);
     let message =
         message.replace("expected f64", "expected a number").replace("expected i64", "expected a whole number");
     format!("{message} in `{line}`")
@@ -65,7 +66,7 @@ fn missing(field: &str, line: &str) -> String {
         ("`name`", line) if !line.starts_with("[[") => {
             "missing `name`: begin the scene with name = \"my_contact\", which is the name of the FMU".into()
         }
-        (field, line) => format!("missing {field} in `{line}`"),
+        (field, line) => format!("missing {field} in `{}`", shortened(line)),
     }
 }
 
@@ -89,7 +90,7 @@ fn unknown_field(names: &str) -> String {
         (Some(guess), None) => format!("; did you mean `{guess}`? Expected "),
         (None, None) => ", expected ".into(),
     };
-    format!("unknown key `{asked}`{more}{}", one_of(known))
+    format!("unknown key `{}`{more}{}", shortened(asked), one_of(known))
 }
 
 /// The message about a number followed by a unit, as in `radius = 5mm`.
@@ -108,7 +109,7 @@ fn hint(line: &str, meant: &str) -> Option<String> {
     };
     let unit = unit_of(key)?;
     let hint = units::hint(value, unit)?;
-    Some(format!("{key} = {}: {hint}", value.trim()))
+    Some(format!("{key} = {}: {hint}", shortened(value.trim())))
 }
 
 /// The SI unit of a key.

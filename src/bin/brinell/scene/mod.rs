@@ -7,6 +7,8 @@ mod coupling;
 mod file;
 mod friction;
 mod hardening;
+#[cfg(test)]
+mod hostile_tests;
 mod laws;
 mod losses;
 mod mistakes;

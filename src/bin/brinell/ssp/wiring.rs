@@ -2,6 +2,7 @@
 
 use super::{COMPONENT, of_kind};
 use crate::importer::{self, Archive, ImportError};
+use crate::nearest::nearest_first;
 use crate::plan::Plan;
 use crate::table::{Causality, Type};
 use std::collections::BTreeSet;
@@ -141,7 +142,7 @@ fn connection(text: &str, units: &[Unit]) -> Result<(End, End), WiringError> {
         let unit = units.iter().find(|unit| unit.name == name).ok_or_else(|| WiringError::NoUnit {
             connection: text.into(),
             name: name.into(),
-            allowed: list(units.iter().map(|unit| unit.name.as_str())),
+            allowed: list(name, units.iter().map(|unit| unit.name.as_str())),
         })?;
         let variables = if kind == "input" { &unit.inputs } else { &unit.outputs };
         if !variables.contains(variable) {
@@ -150,7 +151,7 @@ fn connection(text: &str, units: &[Unit]) -> Result<(End, End), WiringError> {
                 unit: name.into(),
                 kind,
                 name: variable.into(),
-                allowed: list(variables.iter().map(String::as_str)),
+                allowed: list(variable, variables.iter().map(String::as_str)),
             });
         }
         Ok(End { unit: name.into(), variable: variable.into() })
@@ -159,10 +160,13 @@ fn connection(text: &str, units: &[Unit]) -> Result<(End, End), WiringError> {
     Ok((end(from, "output")?, end(to, "input")?))
 }
 
-/// The first names, in words.
-fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+/// The names, in words; of many, those that are nearest to `asked`.
+fn list<'a>(asked: &str, names: impl Iterator<Item = &'a str>) -> String {
     const SHOWN: usize = 20;
-    let names: Vec<_> = names.collect();
+    let mut names: Vec<_> = names.collect();
+    if names.len() > SHOWN {
+        names = nearest_first(asked, &names);
+    }
     let more = if names.len() > SHOWN { format!(" and {} more", names.len() - SHOWN) } else { String::new() };
     match names.len() {
         0 => "none".into(),

@@ -1,0 +1,70 @@
+//! Hostile scenes: read without a panic, or refused with a place in the file and a message of ordinary length. What is accepted
+//! can be planned and written.
+
+use super::{Scene, SceneError};
+use crate::mutations::{assert_message, cases, text};
+use crate::plan::Plan;
+use crate::table::VARIABLES;
+use crate::{constants, documentation, model_description};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+/// Good scenes with everything that the tables know.
+const SEEDS: [&str; 11] = [
+    super::DEFAULT_SCENE,
+    include_str!("../../../../scenes/coupled.toml"),
+    include_str!("../../../../scenes/damped.toml"),
+    include_str!("../../../../scenes/elastic.toml"),
+    include_str!("../../../../scenes/everything.toml"),
+    include_str!("../../../../scenes/mass_known.toml"),
+    include_str!("../../../../scenes/two_contacts.toml"),
+    include_str!("../../../../scenes/wired.toml"),
+    "name = \"a\"\nimpactor = { radius = 5e-3, material = \"tungsten carbide\" }\n[target]\nmaterial = \"mild steel\"\n\
+     surface = \"fresh\"\n[law]\nloading = \"stronge\"\nunloading = \"thornton\"\npassivity_guard = true\n\
+     [impact]\nmass = 4e-3\nspeed = 1.0\nwatch = false\n",
+    "name = \"a\"\nimpactor.radius = 5e-3\n[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 3e8\n\
+     hardening_modulus = 1e9\n[fmu]\nparameters = [\"target.yield_strength\"]\nnames = \"structured\"\nstandalone = true\n\
+     [[contact]]\nname = \"left\"\ncount = 3\nparameters_per_contact = [\"initial_gap\"]\ninitial_gap = 1e-6\n",
+    "name = \"a\"\nimpactor.radius = 5e-3\n[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n\
+     power_law = { strength = 5e8, exponent = 0.2 }\nrate = { model = \"johnson-cook\", coefficient = 0.02, reference_rate = 1.0 }\n",
+];
+
+/// The case is read, and what it makes is written.
+fn read(case: &str) -> Result<bool, SceneError> {
+    let scene = Scene::parse(case.into(), Path::new("scene.toml"))?;
+    // millions of contacts would only take time
+    if scene.contact_count() < 500 {
+        let plan = Plan::of(&scene);
+        let written = constants::write(&plan, "unpacked").len() + documentation::write(&plan).len();
+        let mut xml = Vec::new();
+        model_description::write(&plan, "guid", &mut xml).expect("memory can be written to");
+        let xml = String::from_utf8(xml).expect("XML is UTF-8");
+        for word in ["\"NaN\"", "\"inf\"", "\"-inf\"", "\"INF\""] {
+            assert!(!xml.contains(word), "{word} in the XML");
+        }
+        assert!(written > 1000, "little was written");
+    }
+    Ok(true)
+}
+
+#[test]
+fn hostile_scenes_are_refused_with_a_place_or_can_be_exported() {
+    let names: Vec<&str> = VARIABLES.iter().flat_map(|variable| [variable.name.as_str()]).collect();
+    let (mut accepted, all) = (0, cases(4000));
+    for number in 0..all {
+        let case = text(number, &SEEDS, &names);
+        match catch_unwind(AssertUnwindSafe(|| read(&case))) {
+            Ok(Ok(_)) => accepted += 1,
+            Ok(Err(error)) => {
+                let message = error.to_string();
+                assert_message(&message, &case);
+                let SceneError::Wrong { line, column, .. } = error else { panic!("there is no file: {message}") };
+                let text =
+                    case.split('\n').nth(line - 1).unwrap_or_else(|| panic!("no line {line}: {message}\n{case}"));
+                assert!(column <= text.chars().count() + 1, "no column {column}: {message}\n{case}");
+            }
+            Err(_) => panic!("case {number} panics:\n{case}"),
+        }
+    }
+    assert!(accepted > all / 50 && accepted < all / 2, "{accepted} of {all} were accepted");
+}
