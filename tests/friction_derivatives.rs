@@ -149,7 +149,7 @@ fn curved_motions_of_both_rates_are_exact_in_slip_and_of_second_order_in_stick()
     for size in [0.02, 0.06, 0.1, 0.3] {
         let exact = curved(&unit, size, 2048);
         let errors = [1, 4, 16, 64, 256].map(|parts| (curved(&unit, size, parts) - exact).abs());
-        println!("{size} m/s: {exact:.4}; errors in 1, 4, 16, 64, 256 steps: {errors:.1e?}");
+        println!("{size} m/s: {exact:.4}; errors in 1, 4, 16, 64, 256 steps: {errors:?}");
         if size == 0.3 {
             // the contact slips from the first touch on
             assert!(errors.iter().all(|error| *error < 1e-13), "{errors:?}");
