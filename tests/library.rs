@@ -1,6 +1,8 @@
 //! The library in an FMU, as bytes: small, self-contained, and without traces of where it was built.
 #![cfg(target_os = "linux")]
 
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/unit.rs"]
 mod unit;
 
@@ -25,7 +27,7 @@ fn libraries() -> Vec<PathBuf> {
 /// Standard output of a binutils program; `None`, with a message, if it is not installed.
 fn tool(name: &str, arguments: &[&str], library: &Path) -> Option<String> {
     let Ok(output) = Command::new(name).args(arguments).arg(library).output() else {
-        println!("skipped: there is no {name}");
+        skips::skipped(&format!("what {name} shows of a library"), "it isn't installed");
         return None;
     };
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -67,6 +67,7 @@ fn pytest(file: &str) {
         .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
         .env("BRINELL_TEST_SCENES", root.join("scenes"))
+        .env("BRINELL_TEST_TRUTH", root.join("truth"))
         // the source tree stays clean
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
@@ -79,6 +80,11 @@ fn pytest(file: &str) {
 #[test]
 fn a_contact_steps_tells_and_ends() {
     pytest("test_contact.py");
+}
+
+#[test]
+fn a_contact_with_friction_takes_a_tangential_rate() {
+    pytest("test_friction.py");
 }
 
 #[test]

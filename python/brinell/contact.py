@@ -196,9 +196,10 @@ class Contact:
         acceleration: Numbers | None = None,
         jerk: Numbers | None = None,
         *,
-        tangential_rate: Numbers | None = None,
         mass: Numbers | None = None,
         gap: Numbers | None = None,
+        tangential_rate: Numbers | None = None,
+        tangential_acceleration: Numbers | None = None,
     ) -> Any:
         """Make a step of `h` [s]; return the force [N] to apply to the bodies over this step,
         positive when it pushes them apart.
@@ -206,9 +207,7 @@ class Contact:
         `rate` [m/s] is the closing speed of the bodies at the start of the step, positive when they
         approach. `acceleration` [m/s^2] and `jerk` [m/s^3] are its time derivatives, for this step:
         if the FMU knows the mass, the acceleration by all forces except that of the contact
-        (gravity, for example); otherwise by all forces. `tangential_rate` [m/s] is the relative
-        tangential speed of the two contact points from this step on, if the FMU has friction; its
-        output `tangential_force` is positive against it. `mass` [kg] sets the effective mass from
+        (gravity, for example); otherwise by all forces. `mass` [kg] sets the effective mass from
         this step on, if the FMU has one that can be set between steps.
 
         `gap` [m] is the distance of the bodies at the start of the step in the simulation. An FMU
@@ -217,18 +216,31 @@ class Contact:
         `gap`, a contact that cannot touch within the step ends it where the bodies of the
         simulation do. Near the surface, and while it pushes, it keeps its own distance.
 
+        `tangential_rate` [m/s] is the relative tangential speed of the two contact points, and
+        `tangential_acceleration` [m/s^2] its time derivative, if the scene has friction. A rate
+        that is not given keeps its value. `tangential_force` is then the force along it.
+
         An FMU with several contacts takes a sequence of one number for each contact (the mass may
         be one number for all), and returns an array of forces. Which force: see `Contact`.
         """
         with self._lock:
             self._alive()
             h = number("h", h)
-            more = (acceleration, jerk, tangential_rate, mass, gap)
+            more = (acceleration, jerk, mass, gap, tangential_rate, tangential_acceleration)
             force = self._stepping.advance(self._instance, self._time, h, rate, *more)
             self._time += h
             if self._instance.log:
                 self._tell()
             return force
+
+    @property
+    def tangential_force(self) -> Any:
+        """The tangential force [N] to apply to the bodies over the last step, against a positive
+        `tangential_rate`: the mean force if `step` returned the mean force, otherwise the force at
+        the end. A sphere of radius R also gets its torque."""
+        with self._lock:
+            self._alive()
+            return self._stepping.tangential_force(self._instance)
 
     # values
 

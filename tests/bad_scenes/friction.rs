@@ -77,3 +77,9 @@ fn friction_of_a_single_contact_is_refused() {
         &["`directions`", "`coefficient`"],
     );
 }
+
+#[test]
+fn friction_with_a_loss_below_yield_is_refused() {
+    let said = ["[friction]", "law.elastic_restitution", "target.plate_thickness"];
+    refused_with("§[friction]\ncoefficient = 0.3\n[law]\nelastic_restitution = 0.98", &said);
+}

@@ -10,7 +10,7 @@ use crate::numbers::digits;
 use crate::parameters::{self, Constant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
-use crate::scene::{Parameter, Scene};
+use crate::scene::{Loss, Parameter, Scene};
 use crate::table::{self, Causality};
 use brinell::contact::impact::Prediction;
 use std::collections::BTreeSet;
@@ -55,6 +55,9 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
         let text = law_text::unloading(name, &unloading);
         law(page, "Unloading and reloading", &text)?;
         law_constants(page, &text, &parameters::constants(&unloading, text.law))?;
+    }
+    if let Some(loss) = scene.loss {
+        writeln!(page, "<h3>Loss below yield</h3>\n<p>{}</p>", escape(&loss.words()))?;
     }
     if scene.unloading.is_some() {
         writeln!(page, "<p>{}</p>", escape(&energy::words(scene)))?;
@@ -149,7 +152,11 @@ fn coupling(scene: &Scene) -> String {
              {force}. The FMU warns once in the log if the importer works in the other order. <code>force</code> and the other \
              outputs are those at the end of the step."
         )
-    } else if scene.damped.is_some() {
+    } else if let Some(Loss::Plate(_)) = scene.loss {
+        "The closing speed is held over a step. The plate gives way to the force, so the indentation grows more slowly than the \
+         bodies close; the motion of the plate is integrated within the step."
+            .into()
+    } else if scene.follows_rate() {
         "The rate is held over a step, and the law is followed exactly: the result does not depend on how time is divided. The \
          force follows the rate at the same instant: set the rate again before you read the force, or solve that loop."
             .into()

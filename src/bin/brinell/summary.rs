@@ -180,6 +180,7 @@ fn features(scene: &Scene) -> Vec<&'static str> {
     [
         (!scene.passivity_guard, "passivity guard"),
         (!scene.friction, "friction"),
+        (scene.damped.is_none() && scene.loss.is_none(), "losses below yield"),
         (!(dents && surface(Surface::Dented)), "surface that keeps its dents"),
         (!(dents && surface(Surface::Fresh)), "surface that is fresh at every contact"),
     ]
@@ -208,9 +209,10 @@ fn group_line(group: &Group) -> String {
 }
 
 fn law(scene: &Scene) -> String {
-    match (scene.damped, scene.unloading) {
+    let laws = match (scene.damped, scene.unloading) {
         (Some((damped, _)), _) => format!("{damped} (the force depends on the rate)"),
         (None, Some((unloading, _))) => format!("{}/{unloading} (loading/unloading)", scene.loading.0),
         (None, None) => format!("{} (elastic)", scene.loading.0),
-    }
+    };
+    scene.loss.map_or(laws.clone(), |loss| format!("{laws}, with {}", loss.name()))
 }

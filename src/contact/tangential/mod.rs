@@ -31,6 +31,7 @@ mod behaviour;
 mod contact;
 mod growth;
 mod growth_steps;
+pub mod impact;
 mod list;
 mod mean;
 mod merge;

@@ -58,8 +58,8 @@ impl<const N: usize> RoughContact<N> {
             return (0.0, 0.0);
         }
         // the square of the longest step exists
-        let is_fast = WIDTH * indentation < LONGEST * speed;
-        let width = quotient(WIDTH * indentation, speed, is_fast, LONGEST);
+        let fast = WIDTH * indentation < LONGEST * speed;
+        let width = quotient(WIDTH * indentation, speed, fast, LONGEST);
         if width == 0.0 {
             return (0.0, 0.0);
         }

@@ -63,11 +63,12 @@ impl File {
     /// The whole file.
     fn text(&self, plan: &Plan) -> String {
         let scene = plan.scene;
-        let forces = presence(scene.contact_count() > 1 && scene.damped.is_none());
+        let forces = presence(scene.contact_count() > 1 && !scene.is_rate_dependent());
         let (parts, follow) = (parts(scene), follow(scene));
         let guard = match plan.guard.as_ref().map(|guard| format!("the passivity guard {}", guard.words())) {
             Some(words) => format!(
-                "\n    const GUARD: Option<Guard<Self>> =\n        Some(Guard {{ words: {words:?}, acts: contact::History::is_held_back }});\n"
+                "\n    const GUARD: Option<Guard<Self>> =\n        Some(Guard {{ words: {words:?}, acts: {}::History::is_held_back }});\n",
+                if scene.loss.is_some() { "losses" } else { "contact" }
             ),
             None => String::new(),
         };
@@ -105,7 +106,7 @@ fn parts(scene: &Scene) -> String {
     let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
     let momentum = presence(chosen(&["impulse", "mean_force"]));
     let (course, prediction) =
-        (presence(scene.damped.is_none()), presence(chosen(&["predicted_force", "predicted_tangential_force"])));
+        (presence(has_course(scene)), presence(chosen(&["predicted_force", "predicted_tangential_force"])));
     let coupling = match scene.coupling {
         Some(Coupling { parallel, acceleration_input, mass_input }) => {
             let [account, acceleration, mass] = [parallel, acceleration_input, mass_input].map(presence);
@@ -124,6 +125,11 @@ fn parts(scene: &Scene) -> String {
     )
 }
 
+/// Whether the input may have derivatives. In a scene that moves its bodies, its derivative is their acceleration.
+pub fn has_course(scene: &Scene) -> bool {
+    !scene.is_rate_dependent() || scene.coupling.is_some()
+}
+
 /// The function that moves the bodies, if the scene moves them.
 fn follow(scene: &Scene) -> &'static str {
     match scene.coupling.is_some() {
@@ -138,10 +144,16 @@ fn uses(text: &str) -> String {
         names.iter().copied().filter(|name| text.contains(name.trim_end_matches(" as _"))).collect()
     };
     let mut contact = vec!["self", "Pair"];
-    contact.extend(named(&["Surface", "damped", "loading"]));
+    contact.extend(named(&["Surface", "damped", "loading", "losses"]));
     contact.extend(named(&["tangential::"]).iter().map(|_| "tangential"));
     contact.extend(named(&["unloading"]));
-    let follow = if text.contains("Some(follow)") { "use crate::contact::motion::{Follow, follow};\n" } else { "" };
+    let follow = match text.contains("Some(follow)") {
+        true if text.contains("losses::") => {
+            "use crate::contact::losses::follow;\nuse crate::contact::motion::Follow;\n"
+        }
+        true => "use crate::contact::motion::{Follow, follow};\n",
+        false => "",
+    };
     let mut scene = named(&["Absent", "Coupled", "Guard", "Integer", "Parameter", "Present", "Real"]);
     scene.extend(["Scene", "Settable", "identity_of"]);
     scene.extend(named(&["with_friction"]));
@@ -196,9 +208,14 @@ fn add_laws(file: &mut File, scene: &Scene) {
     let [of_loading, of_unloading] = model::strengthened_forms(scene);
     let (loading, unloading) = (form(loading, "loading", of_loading), form(unloading, "unloading", of_unloading));
     let model = format!("Model<{loading}, {unloading}>");
-    (file.model, file.contact) = match scene.friction {
-        true => (format!("tangential::Rough{model}"), format!("tangential::RoughContact<{MEMORY}>")),
-        false => (format!("contact::{model}"), "contact::History".into()),
+    (file.model, file.contact) = match (scene.friction, scene.loss) {
+        (true, _) => (format!("tangential::Rough{model}"), format!("tangential::RoughContact<{MEMORY}>")),
+        (false, Some(loss)) => {
+            let kind = model::kind_of(loss);
+            let model = format!("losses::Model<{loading}, {unloading}, losses::{kind}>");
+            (model, format!("losses::History<losses::{kind}>"))
+        }
+        (false, None) => (format!("contact::{model}"), "contact::History".into()),
     };
 }
 

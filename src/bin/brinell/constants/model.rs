@@ -1,7 +1,7 @@
 //! The model of a contact, as an expression.
 
-use super::{File, groups};
-use crate::scene::Scene;
+use super::{File, groups, literal};
+use crate::scene::{Loss, Scene};
 
 /// Number of segments in which the springs of a contact with friction remember its past.
 pub const MEMORY: usize = 12;
@@ -35,6 +35,31 @@ pub fn model_of(scene: &Scene, value: &str, surface: &str) -> String {
     )
 }
 
+/// The type of a loss.
+pub fn kind_of(loss: Loss) -> &'static str {
+    match loss {
+        Loss::Fitted(_) => "Fitted",
+        Loss::Waves => "Waves",
+        Loss::Plate(_) => "Plate",
+    }
+}
+
+/// The expression of a model with this `loss`, from that of its `plastic` part.
+fn with_loss(loss: Loss, plastic: &str) -> String {
+    let density = "density: Self::density(group).unwrap_or(f64::NAN)";
+    let fields = match loss {
+        Loss::Fitted(restitution) => format!("restitution: {}", literal(restitution)),
+        Loss::Waves => density.into(),
+        Loss::Plate(thickness) => format!("{density}, thickness: {}", literal(thickness)),
+    };
+    let (first, last) = plastic.split_once(";\n").unwrap_or(("", plastic));
+    let first = if first.is_empty() { String::new() } else { format!("{first};\n") };
+    // a fitted restitution is the same for all groups
+    let unused = if matches!(loss, Loss::Fitted(_)) { "let _ = group;\n" } else { "" };
+    let kind = kind_of(loss);
+    format!("{unused}{first}let plastic = {last};\nlosses::Model {{ plastic, loss: losses::{kind} {{ {fields} }} }}")
+}
+
 /// The model of a group.
 pub fn add_model(file: &mut File, scene: &Scene) {
     if scene.damped.is_some() {
@@ -45,18 +70,15 @@ pub fn add_model(file: &mut File, scene: &Scene) {
         return;
     }
     let (group, surface) = groups::surface(file, scene);
-    let (group, values) = match scene.is_strengthened() || scene.friction {
-        true => ("group", "values"),
-        false => (group, "_values"),
-    };
-    let model = model_of(
-        scene,
-        "Self::parameter(Parameter::TargetHardeningModulus, group, values)",
-        &format!("surface: {surface}"),
-    );
-    let model = match scene.friction {
-        true => with_friction(&model),
-        false => model,
+    let needs_group = scene.is_strengthened() || scene.friction;
+    let group = if needs_group || scene.loss.is_some() { "group" } else { group };
+    let values = if needs_group { "values" } else { "_values" };
+    let hardening_modulus = "Self::parameter(Parameter::TargetHardeningModulus, group, values)";
+    let plastic = model_of(scene, hardening_modulus, &format!("surface: {surface}"));
+    let model = match scene.loss {
+        _ if scene.friction => with_friction(&plastic),
+        Some(loss) => with_loss(loss, &plastic),
+        None => plastic,
     };
     file.add_method(&format!("model(pair: Pair, {group}: usize, {values}: &Self::Values) -> Self::Model"), &model);
 }
