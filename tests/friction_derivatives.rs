@@ -220,6 +220,20 @@ fn a_saved_course_continues_with_the_same_bits() {
 }
 
 #[test]
+fn a_refused_step_changes_nothing() {
+    let unit = oblique();
+    let (mut instance, time) = worked(&unit, (0.3, 0.1));
+    let names = ["force", "tangential_force", "mean_tangential_force", "tangential_impulse", "friction_work"];
+    let before = names.map(|name| instance.real(name).to_bits());
+    bend(&mut instance, [1e150, 1e5], [0.0, 1e11]);
+    take_message();
+    assert_eq!(instance.step(time, STEP), ERROR);
+    let message = take_message();
+    assert!(message.contains("the indentation would become"), "{message}");
+    assert_eq!(names.map(|name| instance.real(name).to_bits()), before);
+}
+
+#[test]
 fn derivatives_that_cannot_be_set_are_refused_in_words() {
     let unit = oblique();
     let refused = |set: &dyn Fn(&mut Instance) -> i32, said: &str| {
