@@ -226,7 +226,9 @@ fn row(law: &serde_json::Value, experiment: &serde_json::Value) -> String {
     let (name, unloading) = (word("name"), word("unloading"));
     let (worst, rms) = (100.0 * number("worst_error"), 100.0 * number("rms_error"));
     let rebounds = rebounds(name, experiment);
-    format!("| `{name}` | {worst:+.1} % at {worst_at} d_y | {rms:.1} % | {jump} | {energy} (with `{unloading}`) | {rebounds} |")
+    format!(
+        "| `{name}` | {worst:+.1} % at {worst_at} d_y | {rms:.1} % | {jump} | {energy} (with `{unloading}`) | {rebounds} |"
+    )
 }
 
 /// The worst error of the law's measured rebounds; a dash for a law that doesn't yield.

@@ -75,7 +75,8 @@ fn the_scenes_friction_is_the_default_and_both_signs_and_spins_are_accepted() {
 fn full_sliding_is_coulombs_law_and_the_slip_is_stated_in_words() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    let said = |angle: &str| run(folder.path(), ["predict", &scene, "--friction", "0.1", "--angle", angle]).with_status(0).out;
+    let said =
+        |angle: &str| run(folder.path(), ["predict", &scene, "--friction", "0.1", "--angle", angle]).with_status(0).out;
     assert!(said("60").contains("slides throughout"), "{}", said("60"));
     assert!(said("3").contains("of the contact time, else sticks"), "{}", said("3"));
     assert!(said("3").contains("no measurement of friction with yield"), "{}", said("3"));
@@ -114,7 +115,9 @@ fn an_oblique_sweep_is_a_table_a_picture_or_a_page() {
         let all = ["predict", &scene, "--friction", "0.2", "--angle", "20", "--json", "--sweep", range];
         run(folder.path(), all).with_status(0).json()["laws"][0]["tangential_restitution"].clone()
     };
-    for range in ["target.poissons_ratio=0.1:0.45:3", "friction.coefficient=0.1:0.5:3", "speed=0.1:10:3", "spin=-10:10:3"] {
+    for range in
+        ["target.poissons_ratio=0.1:0.45:3", "friction.coefficient=0.1:0.5:3", "speed=0.1:10:3", "spin=-10:10:3"]
+    {
         let values = by(range);
         let values = values.as_array().unwrap();
         assert!(values.len() == 3 && values[0] != values[2], "{range}: {values:?}");
@@ -134,10 +137,13 @@ fn an_impossible_oblique_impact_is_rejected_with_the_reason() {
         (&["--angle", "NaN", "--friction", "0.1"], "angle = NaN must be"),
         (&["--spin", "inf", "--friction", "0.1"], "spin = inf rad/s must be finite"),
         (&["--angle", "1", "--friction", "11"], "friction = 11 is out of range: allowed is 0 to 10"),
-        (&["--angle", "1", "--friction", "-0.1"], "unexpected argument '-0'"),
+        (&["--angle", "1", "--friction", "-0.1"], "unexpected argument"),
         (&["--angle", "1", "--friction", "0.1", "--inertia", "0"], "inertia = 0 must be positive"),
         (&["--friction", "0.1", "--sweep", "angle=0:90"], "angle = 90 must be above -90"),
-        (&["--angle", "1", "--friction", "0.1", "--laws", "kogut-etsion"], "kogut-etsion/etsion doesn't support friction"),
+        (
+            &["--angle", "1", "--friction", "0.1", "--laws", "kogut-etsion"],
+            "kogut-etsion/etsion doesn't support friction",
+        ),
         (&["--angle", "1", "--friction", "0.1", "--laws", "damped"], "rate-dependent laws have none"),
         (&["--angle", "1", "--friction", "0.1", "--dent", "1e-6"], "cannot be used with"),
     ];

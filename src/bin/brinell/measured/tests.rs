@@ -71,7 +71,8 @@ fn a_fit_finds_the_strength_of_a_loading_curve_and_its_hardening() {
 
 #[test]
 fn a_fit_finds_the_constant_of_a_rate_model() {
-    let johnson = |c: f64| steel(300e6, &format!("rate = {{ model = \"johnson-cook\", c = {c:?}, reference_rate = 1.0 }}"));
+    let johnson =
+        |c: f64| steel(300e6, &format!("rate = {{ model = \"johnson-cook\", c = {c:?}, reference_rate = 1.0 }}"));
     let measured = computed(&johnson(0.04), Kind::Restitution, &SPEEDS, exact);
     let found = fit(&johnson(0.01), &measured, &[Fit::Rate]).expect("a fit");
     close(found.estimates[0].value, 0.04, 1e-5);
@@ -118,7 +119,8 @@ fn the_interval_contains_the_true_strength_in_95_of_100_measurements() {
 fn what_a_measurement_does_not_determine_is_said() {
     let doubt = |scene: &Scene, measured: &Measured, fits: &[Fit], words: &str| {
         let found = fit(scene, measured, fits).expect("a fit");
-        let said: Vec<_> = found.estimates.iter().filter_map(|estimate| estimate.doubt.clone()).chain(found.remarks).collect();
+        let said: Vec<_> =
+            found.estimates.iter().filter_map(|estimate| estimate.doubt.clone()).chain(found.remarks).collect();
         assert!(said.iter().any(|said| said.contains(words)), "{said:?}, not {words}");
     };
     let normal = steel(300e6, "");
@@ -152,7 +154,12 @@ fn what_a_scene_cannot_fit_is_rejected_with_the_reason() {
         (steel(300e6, ""), &speeds, &[Fit::Rate], "--fit rate needs a rate model in the scene"),
         (rate, &forces, &[Fit::Rate], "--fit rate needs speeds"),
         (steel(300e6, ""), &speeds, &[Fit::YieldStrength, Fit::YieldStrength], "names target.yield_strength twice"),
-        (scene(&format!("{target}law = {{ loading = \"hertz\" }}\n")), &speeds, &[Fit::YieldStrength], "hertz doesn't yield"),
+        (
+            scene(&format!("{target}law = {{ loading = \"hertz\" }}\n")),
+            &speeds,
+            &[Fit::YieldStrength],
+            "hertz doesn't yield",
+        ),
         (
             scene(&format!("{target}law = {{ loading = \"thornton\" }}\n")),
             &speeds,
