@@ -1,5 +1,6 @@
 //! `brinell predict --angle`: the rebound of a ball that hits a surface obliquely, with friction.
 
+mod asked;
 mod picture;
 mod sweep;
 mod text;
