@@ -3,6 +3,8 @@
 
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/skips.rs"]
+mod skips;
 
 use command::{brinell, contents, empty_folder, output, scene};
 use std::os::unix::fs::PermissionsExt;
@@ -174,8 +176,7 @@ fn a_file_that_cannot_grow_is_reported_with_the_folder() {
 fn a_full_disk_is_reported_with_the_folder() {
     let can_mount = Command::new("unshare").args(["-rm", "true"]).status().is_ok_and(|status| status.success());
     if !can_mount {
-        println!("skipped: no file system can be mounted");
-        return;
+        return skips::skipped("a full disk", "no file system can be mounted");
     }
     let mut full = 0;
     for kilobytes in [100, 700, 1500, 2500, 3500, 4500, 5500, 100_000] {

@@ -1,8 +1,10 @@
 //! Examples with multibody engines, and studies. Each example checks its own results. If a package cannot be installed here,
-//! the example is skipped with a message.
+//! the example is skipped with a message. `BRINELL_ENGINES=all` adds Drake and Exudyn.
 
 #[path = "support/python.rs"]
 mod python;
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/unit.rs"]
 mod unit;
 
@@ -15,9 +17,17 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The interpreter of the engines with the module of the project and the program.
-fn interpreter() -> Command {
-    let mut command = Command::new(python::engines());
+/// Whether Drake and Exudyn are tested too.
+fn all() -> bool {
+    std::env::var("BRINELL_ENGINES").is_ok_and(|value| value == "all")
+}
+
+/// The engines that are tested only with `BRINELL_ENGINES=all`, because they are large.
+const LARGE: [&str; 2] = ["pydrake.all", "exudyn"];
+
+/// The interpreter that has these packages, with the module of the project and the program.
+fn interpreter(packages: &[&str]) -> Command {
+    let mut command = Command::new(python::engines(packages.iter().any(|package| LARGE.contains(package))));
     command
         .env("PYTHONPATH", root().join("python"))
         .env("BRINELL", env!("CARGO_BIN_EXE_brinell"))
@@ -36,17 +46,21 @@ fn tell(what: &str) {
     writeln!(std::io::stderr(), "{what}").expect("somebody reads");
 }
 
-/// Whether these packages are available; if not, prints what is skipped.
+/// Whether these packages are available; if not, records what is skipped.
 fn have(packages: &[&str], skipped: &str) -> bool {
+    if !all() && packages.iter().any(|package| LARGE.contains(package)) {
+        skips::skipped(skipped, "a large engine; BRINELL_ENGINES=all adds it");
+        return false;
+    }
     let missing: Vec<_> = packages
         .iter()
         .filter(|package| {
-            let output = interpreter().args(["-c", &format!("import {package}")]).output();
+            let output = interpreter(packages).args(["-c", &format!("import {package}")]).output();
             !output.expect("the environment has an interpreter").status.success()
         })
         .collect();
     if !missing.is_empty() {
-        tell(&format!("NOT RUN: {skipped}, since {missing:?} can't be installed here"));
+        skips::skipped(skipped, &format!("{missing:?} can't be installed here"));
     }
     missing.is_empty()
 }
@@ -58,7 +72,7 @@ struct Example {
     animated: bool,
 }
 
-const EXAMPLES: [Example; 7] = [
+const EXAMPLES: [Example; 10] = [
     Example { name: "mujoco_ball", packages: &["mujoco"], animated: false },
     Example { name: "mujoco_arm", packages: &["mujoco"], animated: true },
     Example { name: "exudyn_ball", packages: &["exudyn"], animated: false },
@@ -66,6 +80,9 @@ const EXAMPLES: [Example; 7] = [
     Example { name: "pendulum", packages: &[], animated: false },
     Example { name: "cradle", packages: &["mujoco"], animated: true },
     Example { name: "ball_in_box", packages: &[], animated: false },
+    Example { name: "mujoco_oblique", packages: &["mujoco"], animated: false },
+    Example { name: "billiard", packages: &[], animated: false },
+    Example { name: "ramp", packages: &[], animated: false },
 ];
 
 /// Runs an example, which ends with an error if its checks fail, and compares its pictures, which `BRINELL_WRITE=1` copies to
@@ -78,7 +95,7 @@ fn run(example: &Example) -> Result<(String, f64), String> {
     for path in drawn.into_iter().flatten() {
         let _ = std::fs::remove_file(path);
     }
-    let mut command = interpreter();
+    let mut command = interpreter(example.packages);
     command.arg(root().join("examples").join(name).with_extension("py")).args(drawn.into_iter().flatten());
     let start = std::time::Instant::now();
     let output = command.output().expect("the environment has an interpreter");
@@ -123,8 +140,10 @@ fn every_example_judges_itself_and_draws_its_pictures() {
             Ok((text, seconds)) => {
                 println!("{name}:\n{text}");
                 table += &format!("| {name} | {:.1e} | {seconds:.0} |\n", balance(&text));
-                wrong
-                    .extend((balance(&text).is_nan() || balance(&text) > 1e-6).then(|| format!("{name}: the balance")));
+                // the friction of the billiard ball begins within a step: an error of first order
+                let allowed = if name == "billiard" { 1e-4 } else { 1e-6 };
+                let errs = balance(&text).is_nan() || balance(&text) > allowed;
+                wrong.extend(errs.then(|| format!("{name}: the balance")));
             }
             Err(reason) => wrong.push(reason),
         }
@@ -137,7 +156,7 @@ fn every_example_judges_itself_and_draws_its_pictures() {
 #[test]
 fn an_example_is_at_most_forty_lines_of_the_users_own_code() {
     let paths = EXAMPLES.map(|example| root().join("examples").join(example.name).with_extension("py"));
-    let output = interpreter().arg(root().join("tests/python/own_lines.py")).args(paths).output().unwrap();
+    let output = interpreter(&[]).arg(root().join("tests/python/own_lines.py")).args(paths).output().unwrap();
     assert!(output.status.success(), "{}", text(&output));
     let counts = String::from_utf8_lossy(&output.stdout).into_owned();
     assert_eq!(counts.lines().count(), EXAMPLES.len(), "{counts}");
@@ -171,7 +190,8 @@ fn page(name: &str, packages: &[&str]) {
     let page = read(&format!("{name}.md"));
     let folder = tempfile::tempdir().expect("a folder for what the page writes");
     std::fs::copy(&*BALL, folder.path().join("ball.fmu")).unwrap();
-    let output = interpreter().args(["-c", block(&page, "python")]).current_dir(folder.path()).output().unwrap();
+    let output =
+        interpreter(packages).args(["-c", block(&page, "python")]).current_dir(folder.path()).output().unwrap();
     assert!(output.status.success(), "{}", text(&output));
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
     // an engine may print additional lines
@@ -204,7 +224,7 @@ fn studies_run_completely_and_are_resumed() {
     if !have(&["scipy", "pyarrow", "tqdm", "matplotlib"], "studies") {
         return;
     }
-    let output = interpreter()
+    let output = interpreter(&[])
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", "test_study.py"])
         .current_dir(root().join("tests/python"))
         .env("BRINELL_TEST_SCENES", root().join("scenes"))

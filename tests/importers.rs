@@ -2,7 +2,7 @@
 //!
 //! Every tool runs the same history of rates, whose forces must be those of the C interface. A co-simulation tool also runs a
 //! ball that hits the block, whose restitution must be the predicted one. The result is a table, including tools that did not
-//! run and the reason. `BRINELL_IMPORTERS=all` adds the large tools (two gigabytes), `BRINELL_IMPORTER_PYTHON` names an
+//! run and the reason. `BRINELL_IMPORTERS=all` adds the larger tools (two gigabytes), `BRINELL_IMPORTER_PYTHON` names an
 //! interpreter with tools that no registry provides, `BRINELL_WRITE=1` writes the table to docs/importers.md.
 #![cfg(target_os = "linux")]
 
@@ -16,6 +16,8 @@ mod importer_table;
 mod loaded;
 #[path = "support/python.rs"]
 mod python;
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/unit.rs"]
 mod unit;
 
@@ -33,29 +35,41 @@ use std::time::{Duration, Instant};
 
 /// The source of the interpreter of a driver.
 enum Interpreter {
-    /// A virtual environment with this requirements file.
-    Made { requirements: &'static str, large: bool },
+    /// The environment of all tests.
+    Common,
+    /// A virtual environment with the packages of that and those of this requirements file.
+    Beside { requirements: &'static str, large: bool },
+    /// A virtual environment with this requirements file only, because it wants other versions.
+    Own { requirements: &'static str },
     /// The interpreter in `BRINELL_IMPORTER_PYTHON` with this Python package, if no registry provides an installable one.
     Given { package: &'static str, since: &'static str },
 }
 
-use Interpreter::{Given, Made};
+use Interpreter::{Beside, Common, Given, Own};
 
 struct Driver {
     name: &'static str,
     interpreter: Interpreter,
 }
 
-const LIGHT: Interpreter = Made { requirements: "light", large: false };
+impl Interpreter {
+    /// Whether it is tested only with `BRINELL_IMPORTERS=all`.
+    fn is_large(&self) -> bool {
+        matches!(self, Beside { large: true, .. } | Own { .. })
+    }
+}
+
+const LIGHT: Interpreter = Beside { requirements: "light", large: false };
+const MORE: Interpreter = Beside { requirements: "more", large: true };
 
 const DRIVERS: [Driver; 10] = [
-    Driver { name: "fmpy", interpreter: LIGHT },
+    Driver { name: "fmpy", interpreter: Common },
     Driver { name: "libcosim", interpreter: LIGHT },
     Driver { name: "ecos", interpreter: LIGHT },
-    Driver { name: "container", interpreter: LIGHT },
-    Driver { name: "pathsim", interpreter: LIGHT },
-    Driver { name: "cofmupy", interpreter: Made { requirements: "cofmupy", large: true } },
-    Driver { name: "gemseo", interpreter: Made { requirements: "gemseo", large: true } },
+    Driver { name: "container", interpreter: MORE },
+    Driver { name: "pathsim", interpreter: MORE },
+    Driver { name: "cofmupy", interpreter: Own { requirements: "cofmupy" } },
+    Driver { name: "gemseo", interpreter: Own { requirements: "gemseo" } },
     Driver {
         name: "fmipp",
         interpreter: Given {
@@ -166,12 +180,15 @@ fn reference() -> Vec<f64> {
 
 /// The interpreter that has the tool.
 fn python_of(driver: &Driver) -> Result<PathBuf, String> {
+    let name = |requirements| format!("importers-{requirements}");
+    let file = |requirements| {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/importers/requirements-{requirements}.txt"))
+    };
+    let failed = |reason: String| format!("can't be installed: {}", last_line(&reason));
     match driver.interpreter {
-        Made { requirements: name, .. } => {
-            let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/importers/requirements-{name}.txt"));
-            python::environment_of(&format!("importers-{name}"), &file)
-                .map_err(|reason| format!("can't be installed: {}", last_line(&reason)))
-        }
+        Common => Ok(python::python()),
+        Beside { requirements: of, .. } => python::environment_beside(&name(of), &file(of)).map_err(failed),
+        Own { requirements: of } => python::environment_of(&name(of), &file(of)).map_err(failed),
         Given { package, since } => {
             let python = PathBuf::from(env::var_os("BRINELL_IMPORTER_PYTHON").unwrap_or_default());
             let imports = Command::new(&python).args(["-c", &format!("import {package}")]).output();
@@ -278,8 +295,8 @@ fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitutio
     table.rows.push(fmi_crate(&folder, &right.forces));
     let all = env::var("BRINELL_IMPORTERS").is_ok_and(|value| value == "all");
     for driver in &DRIVERS {
-        if matches!(driver.interpreter, Made { large: true, .. }) && !all {
-            table.not_run.push((driver.name.into(), "large; with BRINELL_IMPORTERS=all".into()));
+        if driver.interpreter.is_large() && !all {
+            table.not_run.push((driver.name.into(), "large; BRINELL_IMPORTERS=all adds it".into()));
             continue;
         }
         match run(driver, &folder) {
@@ -295,6 +312,7 @@ fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitutio
     }
     table.not_run.extend(NOT_RUN.map(|(tool, reason)| (tool.to_string(), reason.to_string())));
     table.print();
+    table.not_run.iter().for_each(|(tool, reason)| skips::skipped(&format!("the importer {tool}"), reason));
     let wrong = table.wrong();
     assert!(wrong.is_empty(), "{wrong:#?}; logs are in {}", folder.display());
     assert!(table.rows.len() > 1, "no importer could be installed");

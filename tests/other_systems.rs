@@ -21,12 +21,15 @@ mod kinds;
 mod prebuilt;
 #[path = "support/python.rs"]
 mod python;
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/systems.rs"]
 mod systems;
 #[path = "support/toolchain.rs"]
 mod toolchain;
 
-use hosts::{Host, Interface, Loading, Said, cc, compile, skipped};
+use hosts::{Host, Interface, Loading, Said, cc, compile};
+use skips::skipped;
 use std::collections::BTreeSet;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};

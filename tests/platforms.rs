@@ -2,6 +2,8 @@
 
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/toolchain.rs"]
 mod toolchain;
 

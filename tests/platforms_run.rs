@@ -12,12 +12,15 @@ mod debian;
 mod hosts;
 #[path = "support/python.rs"]
 mod python;
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/standalone.rs"]
 mod standalone;
 #[path = "support/unit.rs"]
 mod unit;
 
-use hosts::{Host, Interface, Loading, Said, cc, compile, skipped};
+use hosts::{Host, Interface, Loading, Said, cc, compile};
+use skips::skipped;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

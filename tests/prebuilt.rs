@@ -21,6 +21,8 @@ mod prebuilt;
 mod pytest;
 #[path = "support/python.rs"]
 mod python;
+#[path = "support/skips.rs"]
+mod skips;
 #[path = "support/unit.rs"]
 mod unit;
 
@@ -90,7 +92,7 @@ fn instructions(fmu: &Path, program: &Path) -> f64 {
 #[test]
 fn a_prebuilt_library_takes_hardly_more_instructions_than_a_compiled_one() {
     if Command::new("valgrind").arg("--version").output().is_err() {
-        return hosts::skipped("instructions of prebuilt libraries", "there is no valgrind");
+        return skips::skipped("instructions of prebuilt libraries", "there is no valgrind");
     }
     let program =
         compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).unwrap_or_else(|why| panic!("{why}"));

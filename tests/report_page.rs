@@ -3,10 +3,11 @@
 
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/skips.rs"]
+mod skips;
 
 use command::{empty_folder, run, scene};
 use std::ffi::OsString;
-use std::io::Write;
 use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
@@ -52,11 +53,7 @@ fn attribute<'a>(page: &'a str, name: &str) -> &'a str {
 #[test]
 fn the_page_fits_a_desktop_a_phone_and_six_printed_pages() {
     let Some(browser) = chromium() else {
-        let _ = writeln!(
-            std::io::stderr(),
-            "SKIPPED: no Chromium here (BRINELL_CHROMIUM names one): the report wasn't looked at"
-        );
-        return;
+        return skips::skipped("the look of the report", "there is no Chromium (BRINELL_CHROMIUM names one)");
     };
     let folder = empty_folder();
     for name in ["steel_ball", "damped", "two_contacts"] {

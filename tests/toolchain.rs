@@ -3,6 +3,8 @@
 
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/skips.rs"]
+mod skips;
 
 use command::{Run, brinell, contents, empty_folder, output};
 use std::fs;
@@ -66,7 +68,7 @@ impl Mirror {
     /// `None`, with a message, if curl is not installed.
     fn new() -> Option<Mirror> {
         if Command::new("curl").arg("--version").output().is_err() {
-            eprintln!("SKIPPED: there is no curl");
+            skips::skipped("downloads of the toolchain", "there is no curl");
             return None;
         }
         let folder = empty_folder();

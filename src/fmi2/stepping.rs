@@ -7,7 +7,7 @@ use super::handle::Handle;
 use super::order;
 use super::variables::{any_real, real};
 use crate::contact::Contact;
-use crate::instance::Plain;
+use crate::instance::{Instance, Plain};
 use crate::scene::{Presence, Scene};
 
 /// Reference of the input of the first contact.
@@ -224,8 +224,9 @@ pub unsafe fn get_directional_derivative<S: Scene>(
                 let mut sum = 0.0;
                 for (&known, &direction) in knowns.iter().zip(directions) {
                     let input = any_real::<S>(known)?;
-                    if let Some(output) = output {
-                        sum += component.instance.derivative_by_input(output, input)? * direction;
+                    match output {
+                        Some(output) => sum += component.instance.derivative_by_input(output, input)? * direction,
+                        None => Instance::<S>::check_known(input.0)?,
                     }
                 }
                 *derivative = sum;

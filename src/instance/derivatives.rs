@@ -168,9 +168,7 @@ impl<S: Scene> Instance<S> {
         if !variable.is_output() {
             return Err(Fault::NoDerivative { of: "outputs" });
         }
-        if input != Real::IndentationRate && !S::has_input(input) {
-            return Err(Fault::NotAnInput);
-        }
+        Self::check_known(input)?;
         let derivative = match (contact == by, input) {
             (true, Real::IndentationRate) => self.by_own_input(variable, contact).unwrap_or(f64::NAN),
             (true, Real::TangentialRate) if S::Contact::HAS_FRICTION => {
@@ -179,6 +177,15 @@ impl<S: Scene> Instance<S> {
             _ => 0.0,
         };
         if derivative.is_finite() { Ok(derivative) } else { Err(Fault::DerivativeNotFinite) }
+    }
+
+    /// Checks that a variable is one by which derivatives exist.
+    ///
+    /// # Errors
+    /// [`Fault::NotAnInput`]
+    #[inline(always)]
+    pub fn check_known(input: Real) -> Result<(), Fault> {
+        if input == Real::IndentationRate || S::has_input(input) { Ok(()) } else { Err(Fault::NotAnInput) }
     }
 
     #[inline(always)]
@@ -218,7 +225,8 @@ impl<S: Scene> Instance<S> {
             // after a step with derivatives, the prediction continues from its end, whatever the input is now
             return Some(0.0);
         }
-        if !S::Contact::FOLLOWS_RATE {
+        // of the other contacts, the indentation isn't the distance, or the force follows the rate
+        if S::Contact::DERIVATIVES == 2 {
             return Some(self.predicted(contact, model, rate)?.stiffness(rate) * self.last_step());
         }
         // the speed of a first touch within the step also depends on the input

@@ -144,7 +144,8 @@ impl<S: Scene> Instance<S> {
         if Self::ALONE && self.clock.curved && self.contacts.curves.as_ref().iter().any(Curve::is_curved) {
             return self.advance_on_course(end, step);
         }
-        match Self::SIMPLE {
+        // only with friction a single contact gets here with derivatives of its inputs
+        match Self::SIMPLE && !(S::Contact::HAS_FRICTION && self.clock.curved) {
             true => self.advance_one(end, step).map_err(|deep| too_deep(0, deep))?,
             false => self.advance_all(end, step)?,
         }

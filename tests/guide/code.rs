@@ -8,7 +8,7 @@
 //! - `rust` blocks are tests of the documentation; see the end of src/lib.rs.
 
 use crate::markdown::{Block, Page};
-use crate::{is_writing, pages, python, read, root, tell};
+use crate::{is_writing, pages, python, read, root, skips};
 use std::env;
 use std::ffi::OsString;
 use std::fs;
@@ -108,11 +108,12 @@ impl Run {
 
     fn python(&mut self, text: &str) {
         let engine = ENGINES.iter().find(|engine| text.contains(&format!("import {engine}")));
-        let interpreter = if engine.is_some() { python::engines() } else { python::python() };
+        let interpreter = if engine.is_some() { python::engines(false) } else { python::python() };
         if let Some(engine) = engine {
             let output = Command::new(&interpreter).args(["-c", &format!("import {engine}")]).output();
             if !output.is_ok_and(|output| output.status.success()) {
-                return tell(&format!("NOT RUN: {}, since {engine} can't be installed here", self.page.display()));
+                let why = format!("{engine} can't be installed here");
+                return skips::skipped(&self.page.display().to_string(), &why);
             }
         }
         let mut command = Command::new(interpreter);

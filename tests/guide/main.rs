@@ -10,11 +10,12 @@ mod markdown;
 mod promises;
 #[path = "../support/python.rs"]
 mod python;
+#[path = "../support/skips.rs"]
+mod skips;
 mod tables;
 
 use std::env;
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The repository.
@@ -51,9 +52,4 @@ fn read(page: &Path) -> String {
 /// Whether texts are written instead of compared.
 fn is_writing() -> bool {
     env::var_os("BRINELL_WRITE").is_some()
-}
-
-/// Prints past the test harness, which hides the output of a test that passes.
-fn tell(what: &str) {
-    writeln!(std::io::stderr(), "{what}").expect("standard error is open");
 }

@@ -108,3 +108,21 @@ def test_a_contact_without_friction_says_so():
                 made.step(1e-6, 1.0, **{name: 1.0})
         with pytest.raises(UnknownName, match="tangential_force"):
             _ = made.tangential_force
+
+
+def test_a_state_contains_the_friction():
+    with contact("oblique") as made, contact("oblique") as other:
+        made.step(1e-6, 1.0, tangential_rate=0.01)
+        other.restore(made.save())
+        for one in (made, other):
+            one.step(1e-6, -0.2)
+        assert made["tangential_force"] == other["tangential_force"] != 0.0
+        assert made["friction_work"] == other["friction_work"]
+
+
+def test_a_rate_that_is_no_number_is_refused():
+    with contact("oblique") as made:
+        with pytest.raises(ContactError, match="tangential_rate"):
+            made.step(1e-6, 1.0, tangential_rate=float("nan"))
+        with pytest.raises(TypeError, match="tangential_rate"):
+            made.step(1e-6, 1.0, tangential_rate="fast")

@@ -3,7 +3,7 @@
 
 use super::python::site_packages_file;
 use std::fs::File;
-use std::io::{Write as _, stderr};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{fs, io};
@@ -154,11 +154,6 @@ pub fn compile(
 /// The compiler of this system.
 pub fn cc() -> Vec<PathBuf> {
     vec!["cc".into()]
-}
-
-/// Prints past the harness, which hides the output of a test that passes, that something could not be tested.
-pub fn skipped(what: &str, why: &str) {
-    let _ = writeln!(stderr(), "SKIPPED: {what}: {why}");
 }
 
 /// Writes a history: the value of the input and the step \[s\], for each step.

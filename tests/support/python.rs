@@ -9,7 +9,10 @@ use std::process::{Command, Output};
 use std::sync::OnceLock;
 
 const REQUIREMENTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/requirements.txt");
-const ENGINES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/requirements-engines.txt");
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
 
 /// The target folder of cargo, which contains its folder for tests.
 pub fn target_folder() -> PathBuf {
@@ -20,14 +23,18 @@ pub fn target_folder() -> PathBuf {
 /// The interpreter with fmpy, pytest and libclang.
 pub fn python() -> PathBuf {
     static PYTHON: OnceLock<PathBuf> = OnceLock::new();
-    PYTHON.get_or_init(|| made("test-venv", None)).clone()
+    PYTHON
+        .get_or_init(|| environment_of("test-venv", Path::new(REQUIREMENTS)).unwrap_or_else(|why| panic!("{why}")))
+        .clone()
 }
 
-/// The interpreter of a second environment with the packages of `tests/requirements-engines.txt`: multibody engines and the
-/// packages for studies. They are large, and some have no package for some platforms: what cannot be installed is omitted.
-pub fn engines() -> PathBuf {
-    static ENGINES_PYTHON: OnceLock<PathBuf> = OnceLock::new();
-    ENGINES_PYTHON.get_or_init(|| made("engines-venv", Some(ENGINES))).clone()
+/// The interpreter with MuJoCo and the packages for studies, or with the large engines also.
+pub fn engines(large: bool) -> PathBuf {
+    static ENVIRONMENTS: [OnceLock<PathBuf>; 2] = [const { OnceLock::new() }; 2];
+    let name = if large { "engines-large" } else { "engines" };
+    let file = root().join(format!("tests/requirements-{name}.txt"));
+    let made = || environment_beside(&format!("{name}-venv"), &file).unwrap_or_else(|why| panic!("{why}"));
+    ENVIRONMENTS[usize::from(large)].get_or_init(made).clone()
 }
 
 /// The path of a file of the installed packages, such as `fmpy/c-code` with the official C headers and `fmpy/schema/fmi2` with
@@ -42,30 +49,56 @@ pub fn site_packages_file(path: &str) -> PathBuf {
     file
 }
 
-/// The environment `name` of the tests, according to tests/requirements.txt and the file `more`.
-fn made(name: &str, more: Option<&str>) -> PathBuf {
-    environment(name, Path::new(REQUIREMENTS), more).unwrap_or_else(|reason| panic!("{reason}"))
-}
-
 /// The interpreter of the virtual environment `name` in the target folder, created according to `requirements` if it does not
 /// exist.
 ///
 /// # Errors
 /// The reason why it cannot be created.
 pub fn environment_of(name: &str, requirements: &Path) -> Result<PathBuf, String> {
-    environment(name, requirements, None)
+    environment(name, &read(requirements)?, |interpreter| {
+        let hint =
+            format!("{} can't be installed; the first run needs the Python Package Index", requirements.display());
+        succeed(pip(interpreter).arg("-r").arg(requirements), &hint).map(|_| true)
+    })
 }
 
-/// The same with the packages of the file `more`. If they cannot be installed together, each of its lines is installed
-/// separately.
-fn environment(name: &str, requirements: &Path, more: Option<&str>) -> Result<PathBuf, String> {
+/// The same with the packages of tests/requirements.txt, which are not installed again. Some of `more` have no package for some
+/// platforms: if they cannot be installed together, each line of the file is installed separately.
+///
+/// # Errors
+/// The reason why the environment cannot be created.
+pub fn environment_beside(name: &str, more: &Path) -> Result<PathBuf, String> {
+    let packages = packages_of(&python())?;
+    let wanted = [read(Path::new(REQUIREMENTS))?, read(more)?].concat();
+    environment(name, &wanted, |interpreter| {
+        // a path file: its lines are added to those where Python looks for packages
+        let link = Path::new(&packages_of(interpreter)?).join("of_the_tests.pth");
+        fs::write(link, &packages).expect("the target folder can be written to");
+        Ok(install_what_can_be(interpreter, more))
+    })
+}
+
+/// The folder with the packages of `interpreter`.
+fn packages_of(interpreter: &Path) -> Result<String, String> {
+    let mut command = Command::new(interpreter);
+    command.args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]);
+    let output = succeed(&mut command, "the virtual environment is broken; delete it")?;
+    Ok(String::from_utf8_lossy(&output.stdout).trim().into())
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    fs::read(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The interpreter of the virtual environment `name`. If it does not exist, or was made for something other than `wanted`, it is created
+/// and filled by `install`, which returns whether it is complete.
+fn environment(
+    name: &str,
+    wanted: &[u8],
+    install: impl FnOnce(&Path) -> Result<bool, String>,
+) -> Result<PathBuf, String> {
     let folder = target_folder().join(name);
     let interpreter = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
-    let mut wanted = read(requirements)?;
-    if let Some(more) = more {
-        wanted.extend(read(Path::new(more))?);
-    }
     // test programs may run at the same time with one common environment; the lock ends with the process
     let lock = File::create(folder.with_extension("lock")).expect("the target folder can be written to");
     lock.lock().expect("the target folder is on a file system with locks");
@@ -77,9 +110,7 @@ fn environment(name: &str, requirements: &Path, more: Option<&str>) -> Result<Pa
     let _ = fs::remove_dir_all(&folder);
     let hint = "the tests in Python need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
     succeed(Command::new("python3").args(["-m", "venv"]).arg(&folder), hint)?;
-    let hint = format!("{} can't be installed; the first run needs the Python Package Index", requirements.display());
-    succeed(pip(&interpreter).arg("-r").arg(requirements), &hint)?;
-    if more.is_none_or(|file| install_what_can_be(&interpreter, file)) {
+    if install(&interpreter)? {
         fs::write(&marker, wanted).expect("the target folder can be written to");
     }
     Ok(interpreter)
@@ -92,16 +123,22 @@ fn pip(interpreter: &Path) -> Command {
 }
 
 /// Installs all of `file`, or each of its lines that can be installed. Returns whether all could.
-fn install_what_can_be(interpreter: &Path, file: &str) -> bool {
+fn install_what_can_be(interpreter: &Path, file: &Path) -> bool {
     let installs = |command: &mut Command| command.output().is_ok_and(|output| output.status.success());
-    if installs(pip(interpreter).arg("-r").arg(file)) {
+    // nothing is compiled here
+    let ready = || {
+        let mut command = pip(interpreter);
+        command.args(["--only-binary", ":all:"]);
+        command
+    };
+    if installs(ready().arg("-r").arg(file)) {
         return true;
     }
     let lines = fs::read_to_string(file).expect("a file that was read before");
     for line in lines.lines().filter(|line| !line.starts_with('#') && !line.is_empty()) {
-        if !installs(pip(interpreter).arg("--no-deps").arg(line)) {
+        if !installs(ready().arg("--no-deps").arg(line)) {
             // past the harness, which hides the output of a test that passes
-            let _ = writeln!(std::io::stderr(), "NOT INSTALLED: {line} can't be installed here");
+            let _ = writeln!(std::io::stderr(), "NOT INSTALLED: {line}");
         }
     }
     false

@@ -1,7 +1,6 @@
 //! The compiler for all platforms, if available.
 
 use std::env;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -25,12 +24,7 @@ pub fn toolchain() -> Option<PathBuf> {
     if folder.join("packages.json").is_file() {
         return Some(folder);
     }
-    // written past the capture of the test runner
-    let _ = writeln!(
-        io::stderr(),
-        "SKIPPED: libraries for other platforms, since there is no toolchain in {}. \
-         BRINELL_PLATFORMS=all cargo test --release --test platforms fetches it (100 MB) and tests them.",
-        folder.display()
-    );
+    let why = format!("there is no toolchain in {}; BRINELL_PLATFORMS=all fetches it (100 MB)", folder.display());
+    super::skips::skipped("libraries for other platforms", &why);
     None
 }

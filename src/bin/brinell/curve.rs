@@ -104,7 +104,9 @@ struct Row {
 /// unloading.
 fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooDeep> {
     let model = match choice.model {
+        // the curve of a slow motion: losses begin with the speed
         AnyModel::Elastoplastic(model) => model,
+        AnyModel::Lossy(model) => model.plastic,
         AnyModel::Damped(model) => return Ok(damped_rows(&model, impact)),
     };
     let mut history = History::start(&model, 0.0)?;

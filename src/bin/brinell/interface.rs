@@ -95,7 +95,9 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
             "restitution" => damped_at_start,
             // without a tangential motion there is no tangential force
             "friction.coefficient" => false,
-            "effective_mass" => damped_at_start || is_listed(name) && elastic_part_follows_mass(scene),
+            "effective_mass" => {
+                damped_at_start && scene.damped.is_some() || is_listed(name) && elastic_part_follows_mass(scene)
+            }
             _ => is_listed(name),
         };
         for (index, group) in scene.contacts.iter().enumerate() {
@@ -153,7 +155,7 @@ fn start(variable: &Variable, scene: &Scene, group: usize) -> f64 {
 fn follows(variable: &Variable, scene: &Scene) -> bool {
     match variable.follows_rate {
         Follows::Never | Follows::AtStart => false,
-        Follows::WithLaw => scene.damped.is_some(),
+        Follows::WithLaw => scene.follows_rate(),
         Follows::Always => true,
     }
 }
@@ -162,7 +164,7 @@ fn follows(variable: &Variable, scene: &Scene) -> bool {
 /// begins at the first touch is zero then; the next step begins with the touch.
 fn is_damped_at_start(variable: &Variable, scene: &Scene) -> bool {
     let looks_ahead = variable.follows_rate == Follows::Always;
-    scene.damped.is_some_and(|(_, law)| looks_ahead || !law.scaled_by_touch())
+    scene.loss.is_some() || scene.damped.is_some_and(|(_, law)| looks_ahead || !law.scaled_by_touch())
 }
 
 /// Whether the elastic part of a rate-dependent law also depends on the mass.

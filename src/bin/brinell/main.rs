@@ -13,6 +13,7 @@ mod energy;
 mod experiment;
 mod export;
 mod files;
+mod friction_text;
 mod guard;
 mod hardness;
 mod html;

@@ -1,6 +1,6 @@
 //! A history as words for a saved state.
 
-use super::{History, Regime, Sum};
+use super::{History, LARGEST_INDENTATION, Regime, Sum};
 use crate::contact::segment::Segment;
 use crate::contact::words::{load_numbers, store_numbers};
 
@@ -15,10 +15,14 @@ impl History {
         store(self.regime as u64);
     }
 
-    /// The history that [`History::save_words`] has stored; `None` if a word is not a finite number or not a regime.
+    /// The history that [`History::save_words`] has stored; `None` if a word is not a finite number or not a regime, or if the
+    /// largest indentation is outside the range of the loading curve, along which the work would be summed for ever.
     pub(super) fn of_words(words: &mut impl Iterator<Item = u64>) -> Option<History> {
         let [value, rest, max, lower, upper, origin, constant, linear, power, square, least, left] =
             load_numbers(words)?;
+        if !(0.0..=LARGEST_INDENTATION).contains(&max) {
+            return None;
+        }
         let indentation = Sum { value, rest };
         let segment = Segment { lower, upper, origin, constant, linear, power, square };
         let (max_indentation, least_increment, left_behind) = (max, least, left);

@@ -35,6 +35,8 @@ pub(super) struct Bodies<'a, L, U, K> {
     way: f64,
     /// Distance by which the target has given way \[m\].
     retreat: f64,
+    /// Energy that the target has carried away by giving way \[J\].
+    heat: f64,
     /// Closing speed removed by the contact force so far \[m/s\].
     taken: f64,
     /// Time left \[s\].
@@ -68,6 +70,7 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
             turned: None,
             way: 0.0,
             retreat: 0.0,
+            heat: 0.0,
             taken: 0.0,
             left: time,
             guess: time,
@@ -170,6 +173,7 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
         self.taken += acceleration * state.time - (state.speed - self.speed);
         self.left -= state.time;
         (self.way, self.retreat) = (self.way + state.way, self.retreat + state.retreat);
+        self.heat += state.heat;
         self.speed = state.speed;
         self.turned = (ended == Ended::Turned).then_some(!rising);
         match ended {
@@ -190,6 +194,7 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
         self.speed = stretch.damping.retreat(force);
         self.way += self.speed * self.left;
         self.retreat += self.speed * self.left;
+        self.heat += force * self.speed * self.left;
         self.taken += self.acceleration * self.left;
         self.left = 0.0;
     }
@@ -220,7 +225,7 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
     *history = next;
     let most = if model.plastic.is_segmented() { MOST_EVALUATIONS } else { MOST_EVALUATIONS / COSTLY };
     let deepest = largest(deepest, next.plastic.max_indentation());
-    Ok(Outcome { speed: end, taken: largest(taken, 0.0), evaluations: most - evaluations, deepest })
+    Ok(Outcome { speed: end, taken: largest(taken, 0.0), evaluations: most.saturating_sub(evaluations), deepest })
 }
 
 /// The contact on a plate after `step` \[s\] of bodies that close at `rate` \[m/s\], and its impulse \[N.s\].
@@ -233,18 +238,15 @@ pub(super) fn driven<L: Loading, U: Unloading, K: Loss>(
     rate: f64,
     step: f64,
 ) -> Result<(History<K>, f64), TooDeep> {
-    let before = history.plastic.work(&model.plastic);
     let mobility = history.damping_for(rate).retreat(1.0);
     let mut bodies = Bodies::new(history, model, (0.0, 0.0, rate), step)?;
     bodies.run().map_err(|reason| match reason {
         NoMotion::TooDeep(deep) => deep,
         NoMotion::TooLong => TooDeep { indentation: history.plastic.indentation() + rate * step },
     })?;
-    let Bodies { contact: mut next, retreat, .. } = bodies;
-    let impulse = retreat / mobility;
-    let heat = if retreat == 0.0 { 0.0 } else { rate * impulse - (next.plastic.work(&model.plastic) - before) };
+    let Bodies { contact: mut next, retreat, heat, .. } = bodies;
     next.take(model, heat)?;
-    Ok((next, impulse))
+    Ok((next, retreat / mobility))
 }
 
 /// A time that is short for the bodies of an impact \[s\]: a thousandth of that in which they move by `indentation` \[m\].

@@ -3,6 +3,7 @@
 use super::{Damping, Form};
 use crate::contact::history::TooDeep;
 use crate::contact::loading::Loading;
+use crate::contact::numbers::quotient;
 use crate::contact::piece::Piece;
 use crate::contact::quadrature::{gauss, graded_integral};
 use crate::contact::segment::Segment;
@@ -58,7 +59,7 @@ impl Part<'_> {
             let stiffness = segment.linear + root * (1.5 * segment.power + 2.0 * segment.square * root);
             2.0 * root * stiffness * stiffness
         });
-        mean * ((to - from) / (p + q))
+        mean * quotient(to - from, p + q, p + q > 0.0, 0.0)
     }
 
     /// The indentation between `low` and `high` \[m\] above which the surface pushes at `rate` < 0 \[m/s\].

@@ -7,7 +7,7 @@ use super::held::{Spent, on_segment, on_the_way};
 use super::{Damping, Form, Loss, Model};
 use crate::contact::history::{LARGEST_INDENTATION, Regime, TooDeep};
 use crate::contact::loading::Loading;
-use crate::contact::numbers::largest;
+use crate::contact::numbers::{largest, quotient};
 use crate::contact::path::Sum;
 use crate::contact::unloading::Unloading;
 use crate::contact::{self, Surface};
@@ -99,7 +99,7 @@ impl<K: Loss> History<K> {
         };
         next.swiftest = damping.swiftest;
         next.take(model, heat)?;
-        let impulse = if increment == 0.0 { self.force(rate) * step } else { (work + heat) / rate };
+        let impulse = quotient(work + heat, rate, increment != 0.0, self.force(rate) * step);
         Ok((next, impulse))
     }
 
@@ -161,10 +161,17 @@ impl<K: Loss> History<K> {
         match damping.form {
             Form::Mobility => 0.0,
             // the fastest motion determines its own scale
-            Form::Proportional if fabs(rate) < self.swiftest => force * self.factor / self.swiftest,
-            Form::Proportional => 0.0,
+            Form::Proportional => {
+                let follows = fabs(rate) < self.swiftest;
+                quotient(force * self.factor, self.swiftest, follows, 0.0)
+            }
             Form::Radiation => self.factor * stiffness * stiffness,
         }
+    }
+
+    /// Whether the passivity guard shortens the unloading path of the present dent.
+    pub fn is_held_back<L: Loading, U: Unloading>(&self, model: &Model<L, U, K>) -> bool {
+        self.plastic.is_held_back(&model.plastic)
     }
 
     /// The elastoplastic contact without the loss.

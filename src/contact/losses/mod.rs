@@ -20,7 +20,7 @@ pub use history::History;
 
 use super::damped::hunt_crossley::DampingFactor;
 use super::material::Pair;
-use super::numbers::largest;
+use super::numbers::{largest, quotient};
 use libm::{fabs, sqrt};
 
 /// The bodies in contact, their elastoplastic law, and its loss.
@@ -199,8 +199,7 @@ impl Damping {
     /// `1 + chi v/v0` at `rate` \[m/s\], never negative.
     pub fn gain(&self, rate: f64) -> f64 {
         let fastest = largest(fabs(rate), self.swiftest);
-        // the ratio of two numbers that are not zero is at most one
-        let ratio = if fastest > 0.0 { rate / fastest } else { 0.0 };
+        let ratio = quotient(rate, fastest, fastest > 0.0, 0.0);
         largest(1.0 + self.factor * ratio, 0.0)
     }
 

@@ -18,6 +18,8 @@ pub(super) struct State {
     pub retreat: f64,
     /// Closing speed of the bodies \[m/s\].
     pub speed: f64,
+    /// Energy that the target has carried away since the start of the stretch by giving way \[J\].
+    pub heat: f64,
 }
 
 /// The reason why a stretch ended.
@@ -38,8 +40,14 @@ pub(super) enum Ended {
 /// Largest error of a step, relative to the changes in it and to the height above the surface.
 const TOLERANCE: f64 = 1e-11;
 
+/// A distance by which the plate gives way, relative to the height, below which its digits do not count.
+const SMALL: f64 = 1e-4;
+
 /// Distance from the balance of forces, relative to the height above the surface, at which bodies count as at rest.
 const REST: f64 = 1e-9;
+
+/// The same for the rate of indentation at a given closing speed, relative to that speed.
+const STILL: f64 = 1e-14;
 
 /// More halvings than the interpolation of an event ever needs.
 const MOST_CUTS: u32 = 100;
@@ -78,19 +86,21 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
 
     /// The state after `step` \[s\], and its relative error.
     fn step(&self, from: &State, step: f64) -> (State, f64) {
-        let mut slopes = [(0.0, 0.0, 0.0); 7];
+        let mut slopes = [(0.0, 0.0, 0.0, 0.0); 7];
         let mut next = *from;
         for (stage, row) in STAGES.iter().enumerate() {
-            let (mut way, mut retreat, mut speed) = (from.way, from.retreat, from.speed);
+            let State { mut way, mut retreat, mut speed, mut heat, .. } = *from;
             for (weight, slope) in row.iter().zip(&slopes) {
                 way += step * weight * slope.0;
                 retreat += step * weight * slope.1;
                 speed += step * weight * slope.2;
+                heat += step * weight * slope.3;
             }
-            next = State { time: from.time + step, way, retreat, speed };
+            next = State { time: from.time + step, way, retreat, speed, heat };
             if let Some(slope) = slopes.get_mut(stage) {
                 let (force, _) = self.force_and_rate(&next);
-                *slope = (speed, self.damping.retreat(force), self.acceleration - force * self.inverse_mass);
+                let given = self.damping.retreat(force);
+                *slope = (speed, given, self.acceleration - force * self.inverse_mass, given * force);
             }
         }
         let mut errors = [0.0; 3];
@@ -103,7 +113,9 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         let height = fabs(self.start - self.surface) + fabs(next.way) + fabs(next.retreat);
         let speeds = fabs(from.speed) + fabs(next.speed) + fabs(next.speed - from.speed);
         let relative = |error: f64, size: f64| quotient(error, size, size > 0.0, 0.0);
-        (next, largest(relative(way + retreat, height), relative(speed, speeds)))
+        // where the force begins, the distance is a fractional power of time: its first steps are never accurate by themselves
+        let given = fabs(next.retreat) + fabs(next.retreat - from.retreat) + SMALL * height;
+        (next, largest(largest(relative(way, height), relative(retreat, given)), relative(speed, speeds)))
     }
 
     /// How far the state is beyond the end of the stretch: positive beyond its border, or when the indentation has turned.
@@ -144,7 +156,11 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         let (force, rate) = self.force_and_rate(state);
         let d = self.indentation(state);
         let (height, stiffness) = (d - self.surface, self.piece.stiffness(d));
-        // a given speed of the bodies never ends; with a mass the speed is that at which the plate gives way
+        if self.inverse_mass == 0.0 {
+            // bodies at a given speed rest when the plate gives way at that speed, or when nothing is left of the contact
+            let same = fabs(rate) <= STILL * fabs(state.speed);
+            return same || state.speed == 0.0 && height <= STILL * fabs(self.start - self.surface);
+        }
         let excess = fabs(self.acceleration - force * self.inverse_mass);
         let scale = stiffness * self.inverse_mass;
         let is_balanced = excess <= REST * scale * height;

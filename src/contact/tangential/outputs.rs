@@ -60,7 +60,8 @@ impl<const N: usize> Stuck<N> {
                 let shortfall = force - curve.mean_force(vertex.height, height);
                 vertex.slope * (tension * (force - vertex.force) - vertex.slope * rise * shortfall)
             })
-            .sum()
+            // not -0.0, the sum of no numbers
+            .fold(0.0, |sum, energy| sum + energy)
     }
 
     /// Slip state of the contact.

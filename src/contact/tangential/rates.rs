@@ -12,6 +12,9 @@ use libm::fabs;
 /// tangential direction together.
 const WIDTH: f64 = 1.0 / 8192.0;
 
+/// The longest trial step \[s\], for motions that are slower than any physical one.
+const LONGEST: f64 = 1e50;
+
 impl<const N: usize> RoughContact<N> {
     /// First and second time derivative of `quantity`, for motions that continue on these `courses` along the normal and in
     /// the tangential direction.
@@ -54,7 +57,9 @@ impl<const N: usize> RoughContact<N> {
         if indentation <= 0.0 || speed == 0.0 {
             return (0.0, 0.0);
         }
-        let width = quotient(WIDTH * indentation, speed, speed > 0.0, 0.0);
+        // the square of the longest step exists
+        let fast = WIDTH * indentation < LONGEST * speed;
+        let width = quotient(WIDTH * indentation, speed, fast, LONGEST);
         if width == 0.0 {
             return (0.0, 0.0);
         }
@@ -70,6 +75,8 @@ impl<const N: usize> RoughContact<N> {
             first += of_first * rise;
             second += of_second * rise;
         }
-        (first / (6.0 * width), second / (width * width))
+        // a step this short exists only for rates far beyond any that are physical
+        let square = width * width;
+        (first / (6.0 * width), quotient(second, square, square > 0.0, f64::NAN))
     }
 }

@@ -146,9 +146,9 @@ pub fn varied(
                 check_limits(name, value)?;
                 match (name, &mut choice.model) {
                     ("effective_mass", AnyModel::Damped(model)) => (model.mass, impact.mass) = (value, value),
-                    ("effective_mass", AnyModel::Elastoplastic(_)) => impact.mass = value,
+                    ("effective_mass", AnyModel::Elastoplastic(_) | AnyModel::Lossy(_)) => impact.mass = value,
                     ("restitution", AnyModel::Damped(model)) => model.restitution = value,
-                    ("restitution", AnyModel::Elastoplastic(_)) => {
+                    ("restitution", AnyModel::Elastoplastic(_) | AnyModel::Lossy(_)) => {
                         let why = format!("restitution is a parameter of rate-dependent laws, not of {}", choice.laws);
                         return Err(PredictError::Sweep(why));
                     }

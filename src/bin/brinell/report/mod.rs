@@ -159,7 +159,7 @@ impl Report {
         let prediction = alone.predictions[0];
         let (most, phases) = if quick { (256, 8) } else { (4096, 16) };
         let progress = &Progress::new();
-        let follows_rate = scene.damped.is_some();
+        let follows_rate = scene.is_rate_dependent();
         let plan = Plan { impact: &impact, prediction: &prediction, most, phases, follows_rate, progress };
         progress.expect(work(&alone, &plan, &peers, quick));
         let units = Units::build(scene, progress)?;

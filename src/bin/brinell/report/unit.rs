@@ -47,6 +47,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         loading: scene.loading,
         unloading: scene.unloading,
         damped: scene.damped,
+        loss: scene.loss,
         passivity_guard: scene.passivity_guard,
         yield_strength: scene.yield_strength,
         power_law: scene.power_law,

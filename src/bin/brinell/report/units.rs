@@ -31,7 +31,7 @@ fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
         (Needs::LateMass, "the FMU that knows the mass, for a parallel master"),
         (Needs::Friction, "the FMU with friction"),
     ];
-    let (damped, friction) = (scene.damped.is_some(), scene.friction);
+    let (damped, friction) = (scene.is_rate_dependent(), scene.friction);
     let all = all.into_iter().filter(move |(needs, _)| friction || *needs != Needs::Friction);
     all.filter(move |(needs, _)| !damped || matches!(needs, Needs::Force | Needs::PredictedForce))
 }

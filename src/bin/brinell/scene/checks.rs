@@ -5,6 +5,7 @@ use super::coupling;
 use super::file::{File, ImpactTable, NamesName};
 use super::friction;
 use super::laws;
+use super::losses;
 use super::numbers::IMPACTOR_DENSITY;
 use super::{Mistake, Parameter, QuasiStatic, Scene};
 use crate::nearest::unknown;
@@ -43,12 +44,14 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     if elastic {
         contacts.forget_strength();
     }
+    let loss = losses::check(&file, &contacts, damped.map(|(name, _)| name))?;
     let coupling = coupling::check(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
     let (coupling, known_mass) = coupling.unzip();
     let with_friction = friction::Given {
         damped: damped.map(|(name, _)| name),
         unloading: unloading.map(|(name, _)| name),
         passivity_guard,
+        has_loss: loss.is_some(),
         knows_mass: coupling.is_some(),
     };
     let friction = friction::check(file.friction.as_ref(), &with_friction)?;
@@ -88,6 +91,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         loading,
         unloading,
         damped,
+        loss,
         passivity_guard,
         yield_strength,
         power_law: contacts.power_law,
@@ -100,6 +104,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         // for an importer that moves the mass itself, with a law that has a stable step size
         watches: coupling.is_none()
             && damped.is_none()
+            && loss.is_none()
             && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
         structured_names: file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
         standalone: file.fmu.standalone == Some(true),
@@ -229,11 +234,9 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
 /// The message about an impact for which the law cannot be evaluated.
 fn too_hard(scene: &Scene, group: usize) -> String {
     let Impact { mass, speed } = scene.impact_of(group);
-    let what = match scene.damped {
-        None => "drives the bodies deeper than the law can be evaluated",
-        Some(_) => {
-            "drives the bodies deeper than the law can be evaluated, or is damped so strongly that it never ends"
-        }
+    let what = match scene.is_rate_dependent() {
+        false => "drives the bodies deeper than the law can be evaluated",
+        true => "drives the bodies deeper than the law can be evaluated, or is damped so strongly that it never ends",
     };
     format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}")
 }

@@ -3,9 +3,10 @@
 use super::checks::check_identifier;
 use super::file::{Contact, File, Impactor, SurfaceName, Target};
 use super::hardening;
-use super::numbers::{DENSITY, FRICTION, HARDENING, MASS, Numbers, check_numbers};
+use super::numbers::{DENSITY, FRICTION, HARDENING, IMPACTOR_STRENGTH, MASS, Numbers, check_numbers};
 use super::power_law::{self, PowerLaw};
 use super::rate::{self, Rate};
+use super::softer;
 use super::{Group, Mistake, Parameter};
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS, VARIABLES};
@@ -70,6 +71,7 @@ impl Contacts {
                 None => check_tables(file, &contacts)?,
             }
             contacts.check_impactor(index)?;
+            softer::check(file, &contacts, index)?;
         }
         Ok(contacts)
     }
@@ -87,6 +89,11 @@ impl Contacts {
     /// Whether a contact has a yield strength.
     pub fn any_yields(&self) -> bool {
         (0..self.given.len()).any(|index| self.number(index, "target.yield_strength").is_some())
+    }
+
+    /// A contact whose target has no density.
+    pub fn without_density(&self) -> Option<usize> {
+        (0..self.given.len()).find(|index| self.number(*index, DENSITY).is_none())
     }
 
     /// Rejects a contact without yield strength for a `law` that needs it.
@@ -191,7 +198,9 @@ impl Contacts {
         let group = |(index, given): (usize, &Given)| {
             let own = given.own.parameters(|_| true);
             let density = self.number(index, DENSITY).map(|density| *density.get_ref());
-            Group { name: given.name.clone(), count: given.count, own, surface: given.surface, density }
+            let impactor_strength = self.number(index, IMPACTOR_STRENGTH).map(|strength| *strength.get_ref());
+            let (name, count, surface) = (given.name.clone(), given.count, given.surface);
+            Group { name, count, own, surface, density, impactor_strength }
         };
         (self.shared.parameters(|_| true), self.given.iter().enumerate().map(group).collect())
     }

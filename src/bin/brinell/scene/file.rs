@@ -30,6 +30,7 @@ pub struct Impactor {
     pub radius: Option<Spanned<f64>>,
     pub youngs_modulus: Option<Spanned<f64>>,
     pub poissons_ratio: Option<Spanned<f64>>,
+    pub yield_strength: Option<Spanned<f64>>,
     pub density: Option<Spanned<f64>>,
 }
 
@@ -46,6 +47,7 @@ pub struct Target {
     pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
     pub radius: Option<Spanned<f64>>,
+    pub plate_thickness: Option<Spanned<f64>>,
     pub surface: Option<SurfaceName>,
 }
 
@@ -91,6 +93,7 @@ pub struct Law {
     pub loading_parameters: Option<Given>,
     pub unloading: Option<Spanned<String>>,
     pub restitution: Option<Spanned<f64>>,
+    pub elastic_restitution: Option<Spanned<toml::Value>>,
     pub damping: Option<Spanned<String>>,
     pub unloading_parameters: Option<Given>,
     pub passivity_guard: Option<Spanned<bool>>,

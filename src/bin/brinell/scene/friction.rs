@@ -12,6 +12,8 @@ pub struct Given<'a> {
     /// The name of the unloading law.
     pub unloading: Option<&'a str>,
     pub passivity_guard: bool,
+    /// Whether the law has a loss below yield.
+    pub has_loss: bool,
     /// Whether the FMU moves the bodies itself.
     pub knows_mass: bool,
 }
@@ -44,6 +46,11 @@ pub fn check(table: Option<&Spanned<FrictionTable>>, given: &Given) -> Result<bo
         return no(
             "[friction] doesn't go with law.passivity_guard: how exact it is on guarded paths wasn't measured".into()
         );
+    }
+    if given.has_loss {
+        return no("[friction] doesn't go with law.elastic_restitution or target.plate_thickness: the springs of the contact follow \
+                   a force without such losses; leave one of them out"
+            .into());
     }
     if given.knows_mass {
         return no("[friction] doesn't go with [coupling] effective_mass: the tangential motion within a step would have to be \

@@ -167,7 +167,7 @@ impl Scene {
         let QuasiStatic { yield_strength, hardening_modulus } = hardening;
         let model = self.model_of(group);
         let pair = Pair { yield_strength: factor * yield_strength, ..model.pair };
-        AnyModel::Elastoplastic(strengthened(&Model { pair, ..model }, factor * hardening_modulus))
+        self.with_loss(group, strengthened(&Model { pair, ..model }, factor * hardening_modulus))
     }
 
     /// The first contact under a slow load, with another quasi-static hardening.

@@ -50,14 +50,14 @@ pub enum Verdict {
 
 /// Approximate number of cases; a law may omit a few.
 pub fn count(scene: &Scene, quick: bool) -> usize {
-    let motions = if scene.damped.is_some() { 0 } else { motions::count(quick) };
+    let motions = if scene.is_rate_dependent() { 0 } else { motions::count(quick) };
     impacts::count(scene) + motions
 }
 
 /// Runs all cases.
 pub fn measure(contact: &mut Contact, scene: &Scene, quick: bool, progress: &Progress) -> Vec<Case> {
     let mut cases = impacts::run(contact, scene, quick, progress);
-    if let (None, Some(bodies)) = (scene.damped, Bodies::of(scene, Change::default())) {
+    if let (false, Some(bodies)) = (scene.is_rate_dependent(), Bodies::of(scene, Change::default())) {
         cases.extend(motions::run(contact, &bodies, quick, progress));
     }
     cases

@@ -1,0 +1,76 @@
+//! The first test program, because cargo runs them in alphabetical order: this machine has what the tests need, and the list of
+//! what is skipped begins anew. docs/guide/tests.md lists the packages for each system.
+
+#[path = "support/skips.rs"]
+mod skips;
+
+use std::process::{Command, Output, Stdio};
+
+/// Oldest version of Python that the tests support: their packages have no files for older ones.
+const OLDEST_PYTHON: (u32, u32) = (3, 11);
+
+/// The output of `command`, if it can be started.
+fn run(command: &str, arguments: &[&str]) -> Option<Output> {
+    Command::new(command).args(arguments).stdin(Stdio::null()).output().ok()
+}
+
+/// What is wrong with the C compiler, which links FMUs and compiles importers for tests.
+fn c_compiler() -> Option<String> {
+    match run("cc", &["--version"]) {
+        Some(output) if output.status.success() => None,
+        _ => Some(
+            "there is no C compiler `cc` (Debian and Ubuntu: apt install gcc libc6-dev; macOS: xcode-select --install)"
+                .into(),
+        ),
+    }
+}
+
+/// What is wrong with a Python that says this version.
+fn too_old(version: &str) -> Option<String> {
+    let mut numbers = version.trim().split('.').map(|number| number.parse::<u32>().ok());
+    let (major, minor) = (numbers.next().flatten()?, numbers.next().flatten()?);
+    let (least_major, least_minor) = OLDEST_PYTHON;
+    ((major, minor) < OLDEST_PYTHON).then(|| {
+        format!(
+            "`python3` is Python {major}.{minor}; the tests need Python {least_major}.{least_minor} or newer first on the PATH \
+             (such as from https://www.python.org or with pyenv)"
+        )
+    })
+}
+
+fn python() -> Option<String> {
+    let missing = || "there is no `python3` (Debian and Ubuntu: apt install python3 python3-venv)".to_string();
+    let version = "import sys; print('%d.%d' % sys.version_info[:2])";
+    let Some(output) = run("python3", &["-c", version]).filter(|output| output.status.success()) else {
+        return Some(missing());
+    };
+    if let Some(old) = too_old(&String::from_utf8_lossy(&output.stdout)) {
+        return Some(old);
+    }
+    // Debian has the modules that make an environment in a package of their own
+    let venv = run("python3", &["-c", "import venv, ensurepip"]);
+    let has = venv.is_some_and(|output| output.status.success());
+    (!has).then(|| "`python3 -m venv` doesn't work (Debian and Ubuntu: apt install python3-venv)".into())
+}
+
+#[test]
+fn this_machine_has_what_the_tests_need() {
+    let missing: Vec<_> = [c_compiler(), python()].into_iter().flatten().collect();
+    assert!(missing.is_empty(), "the tests can't run here:\n- {}", missing.join("\n- "));
+}
+
+#[test]
+fn an_old_python_is_named_with_the_version_that_is_needed() {
+    for version in ["3.9\n", "3.10\n", "2.7\n"] {
+        let message = too_old(version).expect("too old");
+        assert!(message.contains(version.trim()) && message.contains("3.11 or newer"), "{message}");
+    }
+    for version in ["3.11\n", "3.14\n", "4.0\n"] {
+        assert_eq!(too_old(version), None);
+    }
+}
+
+#[test]
+fn the_list_of_what_is_skipped_begins_anew() {
+    skips::begin();
+}
