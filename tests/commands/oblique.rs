@@ -232,3 +232,17 @@ fn loops_have_amplitudes_laws_and_reasons_for_refusals() {
         assert!(failed.err.contains(words), "{arguments:?}: {}, not {words}", failed.err);
     }
 }
+
+#[test]
+fn a_loss_below_yield_is_not_combined_with_friction_silently() {
+    let folder = empty_folder();
+    let text = KHARAZ.replace("friction = { coefficient = 0.092 }\n", "");
+    let text = text.replace("poissons_ratio = 0.25 }", "poissons_ratio = 0.25, yield_strength = 3e9 }");
+    let text = text.replace("loading = \"hertz\"", "loading = \"brinell\", elastic_restitution = 0.98");
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    for command in [&["predict", "--angle", "10"][..], &["curve", "--tangential"]] {
+        let all = [command[0], "scene.toml"].into_iter().chain(command[1..].iter().copied());
+        let failed = run(folder.path(), all.chain(["--friction", "0.1"])).with_status(2);
+        assert!(failed.err.contains("a loss below yield and friction can't be combined"), "{}", failed.err);
+    }
+}
