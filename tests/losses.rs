@@ -8,7 +8,7 @@ use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::losses::{AnyLoss, Fitted, Form, History, Loss, Model, Plate, Waves, follow, impact};
 use brinell::contact::motion::Drive;
 use brinell::contact::quadrature::graded_integral;
-use brinell::contact::{self, Contact, Surface};
+use brinell::contact::{self, Contact, Loading, Surface};
 use physics::{AnyModel, MASS, all_models, logarithmic, mild, model, unit};
 
 const DENSITY: f64 = 7850.0;
@@ -197,8 +197,8 @@ fn a_held_rate_may_be_cut_into_any_number_of_steps() {
             let (indentation, lost, force) = at(1);
             let tolerance = if loss.form() == Form::Mobility { 1e-9 } else { 1e-12 };
             // a law without segments has an integral in every step
-            let counts: &[u32] = if plastic.is_segmented() { &[2, 30, 1000] } else { &[2, 30] };
-            let heat_tolerance = if plastic.is_segmented() { tolerance.max(1e-11) } else { tolerance.max(1e-10) };
+            let counts: &[u32] = if plastic.loading.is_segmented() { &[2, 30, 1000] } else { &[2, 30] };
+            let heat_tolerance = if loss.form() == Form::Mobility { 1e-9 } else { 1e-10 };
             for &count in counts {
                 let (other, other_lost, other_force) = at(count);
                 let name = format!("{name} {loss:?} in {count} steps");
