@@ -176,7 +176,6 @@ fn features(scene: &Scene) -> Vec<&'static str> {
     let dents = scene.unloading.is_some();
     [
         (!scene.passivity_guard, "passivity guard"),
-        (scene.damped.is_none() && scene.loss.is_none(), "losses below yield"),
         (!(dents && surface(Surface::Dented)), "surface that keeps its dents"),
         (!(dents && surface(Surface::Fresh)), "surface that is fresh at every contact"),
     ]
