@@ -77,10 +77,7 @@ fn a_dropped_ball_comes_to_rest_with_each_loss() {
         ("plate", ", plate_thickness = 0.01", ""),
     ];
     let units = losses.iter().flat_map(|(name, target, law)| {
-        [
-            with_loss(&format!("{name}_moved"), target, law, mass),
-            with_loss(&format!("{name}_held"), target, law, ""),
-        ]
+        [with_loss(&format!("{name}_moved"), target, law, mass), with_loss(&format!("{name}_held"), target, law, "")]
     });
     let units: Vec<_> = units.collect();
     pytest("test_comes_to_rest.py", &units);

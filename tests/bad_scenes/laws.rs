@@ -34,9 +34,18 @@ fn a_softer_impactor_is_refused() {
     refused(
         "radius = 5e-3",
         "radius = 5e-3\nyield_strength = §200e6",
-        &["impactor.yield_strength = 200000000.0", "target.yield_strength", "softer body must be the target", "exchange"],
+        &[
+            "impactor.yield_strength = 200000000.0",
+            "target.yield_strength",
+            "softer body must be the target",
+            "exchange",
+        ],
     );
-    refused("radius = 5e-3", "radius = 5e-3\nyield_strength = §-1.0", &["impactor.yield_strength = -1.0", "1e-9", "Pa"]);
+    refused(
+        "radius = 5e-3",
+        "radius = 5e-3\nyield_strength = §-1.0",
+        &["impactor.yield_strength = -1.0", "1e-9", "Pa"],
+    );
 }
 
 #[test]
