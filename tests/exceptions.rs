@@ -6,16 +6,17 @@ mod physics;
 #[path = "support/scenes.rs"]
 mod scenes;
 
-use brinell::contact::Surface;
 use brinell::contact::damped::AnyDamped;
+use brinell::contact::{Contact, Surface};
 use brinell::instance::Instance;
 use brinell::scene::{Present, Real, Scene};
 use physics::{Random, all_models, mild};
-use scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, choose, words};
+use scenes::{Choice, Chosen, Damped, Elastoplastic, FRICTIONS, Massive, OUTPUTS, Rough, choose, words};
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Present>;
 type MassiveOne = Chosen<Massive, 1, Present>;
+type RoughOne = Chosen<Rough, 1, Present>;
 type DampedOne = Chosen<Damped, 1, Present>;
 
 const INVALID: i32 = 1;
@@ -73,12 +74,21 @@ fn live<S: Scene>(name: &str) {
             if instance.check_input_derivative(variable, 1, -9.81).is_ok() && step % 3 == 0 {
                 let acceleration = [0.0, -9.81, 3e4, -1e-3][step / 3 % 4];
                 quiet(|| what("derivative"), || instance.check_input_derivative(variable, 1, acceleration));
-                instance.set_input_derivative(contact, 1, acceleration);
+                instance.set_input_derivative((Real::IndentationRate, contact), 1, acceleration);
+            }
+            if S::Contact::HAS_FRICTION {
+                let (variable, slip) = ((Real::TangentialRate, contact), special[(3 * step + 1) % special.len()]);
+                quiet(|| what("tangential set"), || instance.check_real(variable, slip));
+                instance.set_real(variable, slip);
+                if step % 5 == 0 {
+                    instance.set_input_derivative(variable, 2, 1e9 * slip.clamp(-1.0, 1.0));
+                }
             }
         }
         let time = instance.time();
         quiet(|| what("step"), || instance.do_step(time, length));
-        for output in OUTPUTS {
+        let frictions = if S::Contact::HAS_FRICTION { &FRICTIONS[..] } else { &[] };
+        for &output in OUTPUTS.iter().chain(frictions) {
             for contact in 0..S::CONTACTS {
                 let (_, flags) = raised(|| instance.real((output, contact)));
                 assert_eq!(flags, 0, "{}", what(&format!("{output:?}")));
@@ -124,6 +134,23 @@ fn rate_dependent_instances_raise_none() {
                 choose(Choice { damped, restitution, initial_gap, ..Choice::of(model.loading, model.unloading) });
                 live::<DampedOne>(name);
             }
+        }
+    }
+}
+
+#[test]
+fn instances_with_friction_raise_none() {
+    for (name, model) in all_models(mild()) {
+        // the laws without a tangential force
+        if ["hertz-shift", "etsion", "vu-quoc-zhang"].iter().any(|law| name.ends_with(law)) {
+            continue;
+        }
+        for friction in [0.0, 1e-200, 0.3] {
+            let choice = Choice { friction, ..Choice::of(model.loading, model.unloading) };
+            choose(choice);
+            live::<RoughOne>(&format!("{name}, friction {friction:e}"));
+            choose(Choice { surface: Surface::Fresh, initial_gap: -3e-5, ..choice });
+            live::<RoughOne>(&format!("{name}, friction {friction:e}, fresh"));
         }
     }
 }

@@ -50,6 +50,42 @@ fn the_model_description_is_valid() {
     pytest("test_model_description_is_valid.py", &all);
 }
 
+/// A steel ball of 5 mm that the FMU moves, on mild steel, with this loss.
+fn with_loss(name: &str, target: &str, law: &str, coupling: &str) -> PathBuf {
+    let text = format!(
+        r#"
+name = "{name}"
+impactor = {{ material = "steel AISI 1018", radius = 5e-3 }}
+target = {{ material = "mild steel"{target} }}
+law = {{ loading = "brinell"{law} }}
+fmu = {{ outputs = ["indentation", "residual_indentation", "dissipated_energy", "elastic_energy", "work"{}], initial_gap = {} }}
+impact = {{ mass = 4.1e-3, speed = 3.13 }}
+{coupling}
+"#,
+        if coupling.is_empty() { "" } else { ", \"closing_speed\"" },
+        if coupling.is_empty() { 0.0 } else { 0.5 },
+    );
+    write_scene(name, &text)
+}
+
+#[test]
+fn a_dropped_ball_comes_to_rest_with_each_loss() {
+    let mass = "coupling = { effective_mass = 4.1e-3 }";
+    let losses = [
+        ("fitted", "", ", elastic_restitution = 0.98"),
+        ("waves", "", ", elastic_restitution = \"waves\""),
+        ("plate", ", plate_thickness = 0.01", ""),
+    ];
+    let units = losses.iter().flat_map(|(name, target, law)| {
+        [with_loss(&format!("{name}_moved"), target, law, mass), with_loss(&format!("{name}_held"), target, law, "")]
+    });
+    let units: Vec<_> = units.collect();
+    pytest("test_comes_to_rest.py", &units);
+    for file in ["test_model_description_is_valid.py", "test_initial_values.py", "test_state_is_restored.py"] {
+        pytest(file, &units);
+    }
+}
+
 #[test]
 fn values_before_the_first_step_are_those_of_the_model_description() {
     pytest("test_initial_values.py", &plain_scenes());
@@ -87,6 +123,11 @@ fn a_restored_state_continues_with_the_same_bits() {
 #[test]
 fn damaged_and_foreign_states_are_refused() {
     pytest("test_damaged_state_is_refused.py", &[scene("steel_ball"), scene("everything")]);
+}
+
+#[test]
+fn a_free_ball_rebounds_obliquely_as_in_the_table() {
+    pytest("test_friction.py", &[scene("oblique"), scene("steel_ball")]);
 }
 
 #[test]

@@ -293,7 +293,7 @@ fn the_derivative_of_the_force_is_the_limit_of_small_steps() {
         }
         let time = 1e-12 / rates.0.abs().max(rates.1.abs());
         let way = Way { from: run.indentation, to: run.indentation, shift: 0.0, normal: rates.0, tangential: rates.1 };
-        let rate = run.stuck.pull_rate(&curve, &way);
+        let rate = run.stuck.pull_rates(&curve, &way, (0.0, 0.0)).0;
         let before = run.pull();
         run.step((time * rates.0, time * rates.1), 1);
         let size = curve.stiffness(run.indentation) * rates.0.abs().max(rates.1.abs());

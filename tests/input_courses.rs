@@ -242,13 +242,13 @@ fn ready() -> Instance<Exported> {
 fn a_derivative_of_a_state_that_was_left_is_forgotten() {
     for plainly in [false, true] {
         let (plain, mut instance, mut expected) = (ready(), ready(), ready());
-        instance.set_input_derivative(0, 1, 3e4);
+        instance.set_input_derivative((Real::IndentationRate, 0), 1, 3e4);
         instance.copy(&plain);
         for instance in [&mut instance, &mut expected] {
             instance.set_real((Real::IndentationRate, 0), 0.1);
             match plainly {
                 true => assert!(instance.set_plain_derivatives([(2, 5e9)].into_iter())),
-                false => instance.set_input_derivative(0, 2, 5e9),
+                false => instance.set_input_derivative((Real::IndentationRate, 0), 2, 5e9),
             }
             instance.do_step(0.0, 1e-6).unwrap();
         }
@@ -271,7 +271,7 @@ fn quick_steps_with_derivatives_are_those_that_are_not() {
         assert!(quick.set_plain_derivatives([(1, first), (2, second)].into_iter()));
         for (order, value) in [(1, first), (2, second)] {
             slow.check_input_derivative((Real::IndentationRate, 0), order, value).unwrap();
-            slow.set_input_derivative(0, order, value);
+            slow.set_input_derivative((Real::IndentationRate, 0), order, value);
         }
         let time = quick.time();
         slow.do_step(time, 1e-6).unwrap();

@@ -7,6 +7,7 @@ mod physics;
 #[path = "support/scenes.rs"]
 mod scenes;
 
+use brinell::contact::Contact;
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
@@ -14,12 +15,17 @@ use brinell::instance::{FASTEST, Fault, Instance, LATEST, Phase, Plain};
 use brinell::scene::exported::Exported;
 use brinell::scene::{Coupled, Present, Real, Scene};
 use physics::{Random, all_models, mild};
-use scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, choose, outputs, ready, set_rate, words};
+use scenes::{
+    Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, Rough, choose, outputs, ready, set_rate,
+    set_tangential_rate, words,
+};
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 5, Present>;
 type DampedOne = Chosen<Damped, 1, Present>;
 type DampedSeveral = Chosen<Damped, 3, Present>;
+type RoughOne = Chosen<Rough, 1, Present>;
+type RoughSeveral = Chosen<Rough, 3, Present>;
 type MassiveOne = Chosen<Massive, 1, Present>;
 type MassiveSeveral = Chosen<Massive, 2, Present>;
 type ParallelOne = Chosen<Massive<Coupled<Present>>, 1, Present>;
@@ -48,6 +54,9 @@ fn drive<S: Scene>(instance: &mut Instance<S>, steps: usize, seed: u64) -> Vec<f
     for _ in 0..steps {
         for contact in 0..S::CONTACTS {
             set_rate(instance, contact, 4.0 * random.next() - 1.9);
+            if S::Contact::HAS_FRICTION {
+                set_tangential_rate(instance, contact, 2.0 * random.next() - 0.9);
+            }
         }
         let time = instance.time();
         instance.do_step(time, STEP).expect("within the range of the law");
@@ -93,6 +102,8 @@ fn instances_of_every_kind_run_copy_save_and_reset_to_the_bit() {
         behaves::<MassiveSeveral>(&name);
         behaves::<ParallelOne>(&name);
         behaves::<WiredSeveral>(&name);
+        behaves::<RoughOne>(&name);
+        behaves::<RoughSeveral>(&name);
     }
     for (name, damped) in AnyDamped::ALL {
         choose(Choice { damped, ..some_pairings()[0].1 });
@@ -244,7 +255,7 @@ fn equal_states_have_equal_words_whatever_came_before() {
     choose(some_pairings()[0].1);
     let mut curved = ready::<Several>();
     let plain = ready::<Several>();
-    curved.set_input_derivative(2, 1, -3e4);
+    curved.set_input_derivative((Real::IndentationRate, 2), 1, -3e4);
     set_rate(&mut curved, 2, 1.0);
     curved.do_step(0.0, STEP).unwrap();
     curved.copy(&plain);

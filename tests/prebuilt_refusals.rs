@@ -43,6 +43,8 @@ fn a_scene_that_needs_a_compiler_is_rejected_with_the_key_that_needs_it() {
         ),
         (law("loading_parameters = { fully_plastic = 80.0 }"), "law.loading_parameters: "),
         (law("unloading = \"contact-radius\"\npassivity_guard = true"), "law.passivity_guard: "),
+        (scene("big-alabo", &[], "[friction]\ncoefficient = 0.3\n"), "[friction]: prebuilt libraries have no friction"),
+        (law("elastic_restitution = 0.98"), "law.elastic_restitution: prebuilt libraries have no losses"),
         (
             scene("hunt-crossley/exact", &[], "[[contact]]\nname = \"a\"\n[[contact]]\nname = \"b\"\n"),
             "[[contact]]: there are 2",

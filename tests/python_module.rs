@@ -26,6 +26,8 @@ fn scenes() -> Vec<PathBuf> {
         scene("steel_ball"),
         scene("coupled"),
         scene("mass_known"),
+        scene("oblique"),
+        scene("rough_contacts"),
         with("regime", "[fmu]\noutputs = [\"indentation\", \"regime\"]"),
         with("two", &format!("[fmu]\noutputs = {OUTPUTS}\n[coupling]\neffective_mass = 4e-3\n{two}")),
         with("row", "[fmu]\noutputs = [\"indentation\", \"regime\"]\n[[contact]]\nname = \"bead\"\ncount = 3"),
@@ -65,6 +67,7 @@ fn pytest(file: &str) {
         .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
         .env("BRINELL_TEST_SCENES", root.join("scenes"))
+        .env("BRINELL_TEST_TRUTH", root.join("truth"))
         // the source tree stays clean
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
@@ -80,8 +83,18 @@ fn a_contact_steps_tells_and_ends() {
 }
 
 #[test]
+fn a_contact_with_friction_takes_a_tangential_rate() {
+    pytest("test_friction.py");
+}
+
+#[test]
 fn several_contacts_are_arrays() {
     pytest("test_several_contacts.py");
+}
+
+#[test]
+fn friction_is_a_second_rate() {
+    pytest("test_friction.py");
 }
 
 #[test]

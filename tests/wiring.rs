@@ -225,7 +225,7 @@ fn inputs_are_checked_by_name_and_derivatives_are_refused_with_them() {
     let mut instance: Instance<WiredSerial> = ready();
     for mass in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e31, 1e-31] {
         let refused = instance.check_real((Real::EffectiveMass, 0), mass);
-        assert!(matches!(refused, Err(Fault::MassOutOfRange { mass: told }) if told.to_bits() == mass.to_bits()));
+        assert!(matches!(refused, Err(Fault::InputOutOfRange { value: told, .. }) if told.to_bits() == mass.to_bits()));
     }
     for acceleration in [f64::NAN, f64::INFINITY] {
         let refused = instance.check_real((Real::ExternalAcceleration, 0), acceleration);

@@ -198,6 +198,8 @@ class Contact:
         *,
         mass: Numbers | None = None,
         gap: Numbers | None = None,
+        tangential_rate: Numbers | None = None,
+        tangential_acceleration: Numbers | None = None,
     ) -> Any:
         """Make a step of `h` [s]; return the force [N] to apply to the bodies over this step,
         positive when it pushes them apart.
@@ -214,18 +216,31 @@ class Contact:
         `gap`, a contact that cannot touch within the step ends it where the bodies of the
         simulation do. Near the surface, and while it pushes, it keeps its own distance.
 
+        `tangential_rate` [m/s] is the relative tangential speed of the two contact points, and
+        `tangential_acceleration` [m/s^2] its time derivative, if the scene has friction. A rate
+        that is not given keeps its value. `tangential_force` is then the force along it.
+
         An FMU with several contacts takes a sequence of one number for each contact (the mass may
         be one number for all), and returns an array of forces. Which force: see `Contact`.
         """
         with self._lock:
             self._alive()
             h = number("h", h)
-            more = (acceleration, jerk, mass, gap)
+            more = (acceleration, jerk, mass, gap, tangential_rate, tangential_acceleration)
             force = self._stepping.advance(self._instance, self._time, h, rate, *more)
             self._time += h
             if self._instance.log:
                 self._tell()
             return force
+
+    @property
+    def tangential_force(self) -> Any:
+        """The tangential force [N] to apply to the bodies over the last step, against a positive
+        `tangential_rate`: the mean force if `step` returned the mean force, otherwise the force at
+        the end. A sphere of radius R also gets its torque."""
+        with self._lock:
+            self._alive()
+            return self._stepping.tangential_force(self._instance)
 
     # values
 

@@ -23,6 +23,8 @@ class Stepping:
         self._rate_references = variables.references(variables.rates)
         self._rates = (c_double * count)()
         self._external = variables.references(variables.every("external_acceleration"))
+        self._tangential = variables.references(variables.every("tangential_rate"))
+        self._tangential_values = (c_double * count)()
         # orders 1 of all contacts, then orders 2
         self._twice = variables.references(variables.rates * 2)
         self._orders = (c_int * (2 * count))(*[1] * count, *[2] * count)
@@ -52,6 +54,8 @@ class Stepping:
         self._mean_sometimes = bool(mean) and force == "auto"
         self._end_references = variables.references(variables.every("force"))
         self._mean_references = variables.references(mean)
+        # of the last step
+        self._was_mean = False
 
     def advance(
         self,
@@ -63,12 +67,16 @@ class Stepping:
         jerk: Numbers | None,
         mass: Numbers | None,
         gap: Numbers | None,
+        tangential_rate: Numbers | None,
+        tangential_acceleration: Numbers | None,
     ) -> Any:
         """Make the step from `time` to `time + h` [s]; return the force [N] of each contact."""
         functions, component, count = instance.functions, instance.component, self._count
         # everything is checked before anything is set
         self._fill(self._rates, 0, "rate", rate)
         orders = self._take_derivatives(acceleration, jerk)
+        along = (tangential_rate, tangential_acceleration)
+        slips = self._take_tangential(*along) if along != (None, None) else ()
         if gap is not None:
             self._follow(instance, h, gap)
         if mass is not None:
@@ -76,6 +84,8 @@ class Stepping:
         rates = self._rates
         if functions["fmi2SetReal"](component, self._rate_references, count, rates) > WARNING:
             raise instance.refusal("SetReal")
+        for function, arguments in slips:
+            instance.call(function, *arguments)
         if len(self._external) > 0:
             instance.call("SetReal", self._external, count, self._derivatives)
         elif orders:
@@ -84,6 +94,7 @@ class Stepping:
         if functions["fmi2DoStep"](component, time, h, True) > WARNING:
             raise instance.refusal("DoStep")
         mean = self._mean_always or (self._mean_sometimes and orders > 0)
+        self._was_mean = mean
         references = self._mean_references if mean else self._end_references
         if functions["fmi2GetReal"](component, references, count, self._values) > WARNING:
             raise instance.refusal("GetReal")
@@ -119,6 +130,40 @@ class Stepping:
                 "external_acceleration, which is held over a step"
             )
         return orders
+
+    def _take_tangential(
+        self, rate: Numbers | None, acceleration: Numbers | None
+    ) -> list[tuple[str, tuple[Any, ...]]]:
+        """Return the calls that set the tangential rates and their derivatives."""
+        references, count = self._tangential, self._count
+        if len(references) == 0:
+            name, value = ("tangential_rate", rate)
+            if rate is None:
+                name, value = ("tangential_acceleration", acceleration)
+            raise ContactError(
+                f"{name} = {value}: {self._path} has no friction; [friction] in its scene adds it"
+            )
+        calls: list[tuple[str, tuple[Any, ...]]] = []
+        if rate is not None:
+            # the FMU keeps the values until they are set again
+            self._fill(self._tangential_values, 0, "tangential_rate", rate)
+            calls.append(("SetReal", (references, count, self._tangential_values)))
+        if acceleration is not None:
+            values = (c_double * count)()
+            self._fill(values, 0, "tangential_acceleration", acceleration)
+            orders = (c_int * count)(*[1] * count)
+            calls.append(("SetRealInputDerivatives", (references, count, orders, values)))
+        return calls
+
+    def tangential_force(self, instance: Instance) -> Any:
+        """The tangential force [N] of each contact that belongs to the force of the last step."""
+        name = "mean_tangential_force" if self._was_mean else "tangential_force"
+        names = self._variables.every(name)
+        if not names:
+            raise self._variables.unknown("output", name, self._variables.outputs)
+        values = (c_double * self._count)()
+        instance.call("GetReal", self._variables.references(names), self._count, values)
+        return values[0] if self._count == 1 else np.array(values)
 
     def _follow(self, instance: Instance, h: float, gap: Numbers) -> None:
         """Contacts that cannot touch within the step end it where those of the engine do: a

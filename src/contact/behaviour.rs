@@ -2,6 +2,7 @@
 
 use super::history::{Regime, TooDeep};
 use super::path::Course;
+use super::tangential::{Quantity, Sliding};
 use core::borrow::Borrow;
 use core::f64::consts::PI;
 
@@ -18,6 +19,9 @@ pub trait Contact<M>: Copy {
 
     /// The number of words in a saved contact.
     const WORDS: usize;
+
+    /// Whether the contact has friction. The tangential rate is then a second input, which the contact itself keeps.
+    const HAS_FRICTION: bool = false;
 
     /// The part of the model that is worth caching while the bodies stay the same, because steps that leave their branch need
     /// it.
@@ -138,6 +142,36 @@ pub trait Contact<M>: Copy {
     /// The contact as it would be at another `indentation` \[m\] on its [smooth piece](Contact::smooth_piece). It serves to
     /// differentiate the outputs.
     fn moved_to(&self, model: &M, indentation: f64) -> Self;
+
+    /// The course of the tangential rate over the next step \[m/s\]; zero without friction.
+    fn tangential_course(&self) -> Course {
+        Course::held(0.0)
+    }
+
+    /// Sets the course of the tangential rate. Its derivatives apply to the next step, its rate until it is set again. It has
+    /// no effect without friction.
+    fn set_tangential_course(&mut self, _course: &Course) {}
+
+    /// The course on which the tangential rate ended the last step \[m/s\].
+    fn tangential_end(&self) -> Course {
+        Course::held(0.0)
+    }
+
+    /// A quantity of the friction; NaN without friction.
+    fn tangential(&self, _model: &M, _quantity: Quantity) -> f64 {
+        f64::NAN
+    }
+
+    /// First and second time derivative of a quantity of the friction, for motions that continue on these courses along the
+    /// normal and in the tangential direction.
+    fn tangential_derivatives(&self, _model: &M, _quantity: Quantity, _courses: &[Course; 2]) -> (f64, f64) {
+        (f64::NAN, f64::NAN)
+    }
+
+    /// How much of the contact slips.
+    fn sliding(&self) -> Sliding {
+        Sliding::Apart
+    }
 
     /// The indentation up to which the law of `model` is valid \[m\].
     fn valid_depth(model: &M) -> f64;

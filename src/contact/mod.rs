@@ -21,6 +21,7 @@
 //! | [`momentum`] | the integral of force over time, along branches or by pieces |
 //! | [`motion`] | the motion of bodies of known mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
+//! | [`losses`] | losses below yield: damping, elastic waves, a plate that gives way |
 //! | [`strength`] | hardening and Poisson's ratio as one effective strength |
 //! | [`tangential`] | friction: the tangential force of a contact |
 //! | [`validity`] | the range in which the laws are valid |
@@ -31,6 +32,7 @@ pub mod dual;
 pub mod history;
 pub mod impact;
 pub mod loading;
+pub mod losses;
 pub mod material;
 pub mod momentum;
 pub mod motion;

@@ -2,6 +2,7 @@
 
 use super::complaint::Complaint;
 use super::text::Text;
+use crate::contact::Contact;
 use crate::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
 use crate::scene::{Coupling, Presence, Real, Scene, Settable};
@@ -152,9 +153,15 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             }
         }
         // a library contains no text for features that its scene lacks
-        Fault::MassOutOfRange { .. } if !<S::Coupling as Coupling>::Mass::IS_PRESENT => "",
-        Fault::MassOutOfRange { mass } => {
-            *numbers = [mass, *MASSES.start(), *MASSES.end()];
+        Fault::InputOutOfRange { .. } if !(<S::Coupling as Coupling>::Mass::IS_PRESENT || S::Contact::HAS_FRICTION) => {
+            ""
+        }
+        Fault::InputOutOfRange { input, value } if S::Contact::HAS_FRICTION && input == Real::TangentialRate => {
+            *numbers = [value, -FASTEST, FASTEST];
+            "tangential_rate = ~ is out of range: allowed is ~ to ~ m/s, also within a step with input derivatives"
+        }
+        Fault::InputOutOfRange { value, .. } => {
+            *numbers = [value, *MASSES.start(), *MASSES.end()];
             "effective_mass = ~ is out of range: allowed is ~ to ~ kg"
         }
         Fault::NoPointContact { impactor, target, .. } => {
@@ -204,6 +211,9 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             "only derivatives of @ exist"
         }
         Fault::DerivativeNotFinite => "the derivative is not finite",
+        Fault::NotAnInput if S::Contact::HAS_FRICTION => {
+            "only derivatives by indentation_rate and tangential_rate exist"
+        }
         Fault::NotAnInput => "only derivatives by indentation_rate exist",
         Fault::NoInputDerivatives if S::has_input(Real::ExternalAcceleration) => {
             "inputs of this FMU have no derivatives: external_acceleration is the input for the acceleration"

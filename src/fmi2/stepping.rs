@@ -6,7 +6,8 @@ use super::component::{Component, array, array_mut, call};
 use super::handle::Handle;
 use super::order;
 use super::variables::{any_real, real};
-use crate::instance::Plain;
+use crate::contact::Contact;
+use crate::instance::{Instance, Plain};
 use crate::scene::{Presence, Scene};
 
 /// Reference of the input of the first contact.
@@ -163,9 +164,9 @@ unsafe fn set_any_input_derivatives<S: Scene>(
             for ((&reference, &order), &value) in all() {
                 component.instance.check_input_derivative(any_real::<S>(reference)?, order, value)?;
             }
-            // those of a single contact have already been set if they were valid
-            for ((&reference, &order), &value) in all().filter(|_| S::CONTACTS > 1) {
-                component.instance.set_input_derivative(any_real::<S>(reference)?.1, order, value);
+            // those of a single contact have already been set if they were valid, except for the tangential rate
+            for ((&reference, &order), &value) in all().filter(|_| S::CONTACTS > 1 || S::Contact::HAS_FRICTION) {
+                component.instance.set_input_derivative(any_real::<S>(reference)?, order, value);
             }
             Ok(())
         })
@@ -223,8 +224,9 @@ pub unsafe fn get_directional_derivative<S: Scene>(
                 let mut sum = 0.0;
                 for (&known, &direction) in knowns.iter().zip(directions) {
                     let input = any_real::<S>(known)?;
-                    if let Some(output) = output {
-                        sum += component.instance.derivative_by_input(output, input)? * direction;
+                    match output {
+                        Some(output) => sum += component.instance.derivative_by_input(output, input)? * direction,
+                        None => Instance::<S>::check_known(input.0)?,
                     }
                 }
                 *derivative = sum;

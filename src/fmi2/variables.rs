@@ -255,7 +255,7 @@ pub unsafe fn get_string<S: Scene>(
 
 /// No Integer variable can be set: they are outputs.
 ///
-/// No Integer variable can be set: all are outputs.
+/// # Safety
 /// See [the module](super#safety).
 pub unsafe fn set_integer<S: Scene>(
     c: fmi2Component,

@@ -4,7 +4,8 @@ use super::*;
 
 impl<S: Scene> Instance<S> {
     /// Whether a step with derivatives of the input concerns a single contact that follows its input.
-    pub(super) const ALONE: bool = S::CONTACTS == 1 && Self::PLAIN && S::Course::IS_PRESENT;
+    pub(super) const ALONE: bool =
+        S::CONTACTS == 1 && Self::PLAIN && S::Course::IS_PRESENT && !S::Contact::HAS_FRICTION;
 
     /// A step with derivatives of the input that is otherwise plain. It is fastest if the rate keeps its sign and the contact
     /// stays on its branch. The result is the same as that of [`Instance::do_step`]. Returns false if it is not such a step,

@@ -3,6 +3,8 @@
 use super::*;
 use crate::contact::Regime;
 use crate::contact::behaviour::slopes;
+use crate::contact::path::Course;
+use crate::contact::tangential::Quantity;
 use crate::scene::Real;
 use core::f64::consts::PI;
 
@@ -19,21 +21,25 @@ impl<S: Scene> Instance<S> {
         if !S::Course::IS_PRESENT || S::has_input(Real::ExternalAcceleration) {
             return Err(Fault::NoInputDerivatives);
         }
-        if variable != Real::IndentationRate {
-            return Err(Fault::NoDerivative { of: "indentation_rate" });
+        let (inputs, name) = match variable {
+            _ if !S::Contact::HAS_FRICTION => ("indentation_rate", "a derivative of indentation_rate"),
+            Real::TangentialRate => ("", "a derivative of tangential_rate"),
+            _ => ("indentation_rate and tangential_rate", "a derivative of indentation_rate"),
+        };
+        if variable != Real::IndentationRate && !(S::Contact::HAS_FRICTION && variable == Real::TangentialRate) {
+            return Err(Fault::NoDerivative { of: inputs });
         }
         check_order(order, Self::INPUT_ORDER)?;
-        if value.is_finite() {
-            Ok(())
-        } else {
-            Err(Fault::NotFinite { name: "a derivative of indentation_rate", value })
-        }
+        if value.is_finite() { Ok(()) } else { Err(Fault::NotFinite { name, value }) }
     }
 
     /// Sets a derivative that [`Instance::check_input_derivative`] has accepted. It applies to the next step.
-    pub fn set_input_derivative(&mut self, contact: usize, order: i32, value: f64) {
+    pub fn set_input_derivative(&mut self, (variable, contact): (Real, usize), order: i32, value: f64) {
         if value != 0.0 || self.clock.curved {
             self.curve();
+            if S::Contact::HAS_FRICTION && variable == Real::TangentialRate {
+                return self.set_tangential_derivative(contact, order, value);
+            }
             if let Some(curve) = self.contacts.curves.as_mut().get_mut(contact) {
                 *(if order == 1 { &mut curve.slope } else { &mut curve.bend }) = value;
             }
@@ -115,6 +121,10 @@ impl<S: Scene> Instance<S> {
         let work = (force * rate, stiffness * rate * rate + force * slope);
         // for a function of the indentation with these derivatives
         let by_time = |(first, second): (f64, f64)| (first * rate, second * rate * rate + first * slope);
+        if let (true, Some(quantity)) = (S::Contact::HAS_FRICTION, variable.quantity()) {
+            let courses = [Course { rate, slope, bend: 0.0 }, self.tangential_end_of(contact)];
+            return Some(history.tangential_derivatives(&model, quantity, &courses));
+        }
         let along: fn(&S::Contact, &S::Model, f64) -> f64 = match variable {
             Real::Force => return Some(by_time((stiffness, history.curvature(&model, rate)))),
             Real::Indentation => return Some((rate, slope)),
@@ -124,7 +134,7 @@ impl<S: Scene> Instance<S> {
             }
             Real::Work => return Some(work),
             Real::Impulse => return Some((force, stiffness * rate)),
-            Real::MeanForce | Real::PredictedForce => return Some((0.0, 0.0)),
+            Real::MeanForce | Real::PredictedForce | Real::PredictedTangentialForce => return Some((0.0, 0.0)),
             // the force changes with the distance
             Real::ClosingSpeed if Self::MOVES => return Some((slope, -stiffness * rate / self.mass(contact))),
             Real::ResidualIndentation => |contact, model, _| contact.residual_indentation(model),
@@ -158,14 +168,24 @@ impl<S: Scene> Instance<S> {
         if !variable.is_output() {
             return Err(Fault::NoDerivative { of: "outputs" });
         }
-        if input != Real::IndentationRate && !S::has_input(input) {
-            return Err(Fault::NotAnInput);
-        }
-        let derivative = match contact == by && input == Real::IndentationRate {
-            true => self.by_own_input(variable, contact).unwrap_or(f64::NAN),
-            false => 0.0,
+        Self::check_known(input)?;
+        let derivative = match (contact == by, input) {
+            (true, Real::IndentationRate) => self.by_own_input(variable, contact).unwrap_or(f64::NAN),
+            (true, Real::TangentialRate) if S::Contact::HAS_FRICTION => {
+                self.by_tangential_rate(variable, contact).unwrap_or(f64::NAN)
+            }
+            _ => 0.0,
         };
         if derivative.is_finite() { Ok(derivative) } else { Err(Fault::DerivativeNotFinite) }
+    }
+
+    /// Checks that a variable is one by which derivatives exist.
+    ///
+    /// # Errors
+    /// [`Fault::NotAnInput`]
+    #[inline(always)]
+    pub fn check_known(input: Real) -> Result<(), Fault> {
+        if input == Real::IndentationRate || S::has_input(input) { Ok(()) } else { Err(Fault::NotAnInput) }
     }
 
     #[inline(always)]
@@ -175,6 +195,11 @@ impl<S: Scene> Instance<S> {
         let model = self.model(contact);
         if variable == Real::PredictedForce {
             return self.prediction_by_input(contact, &model, rate);
+        }
+        if S::Contact::HAS_FRICTION && variable == Real::PredictedTangentialForce {
+            let tangential = self.tangential_end_of(contact).rate;
+            let force = |rate| self.tangential_prediction_at(contact, (rate, tangential));
+            return if self.clock.curved { Some(0.0) } else { slope_at(rate, force) };
         }
         if Self::MOVES && variable == Real::ClosingSpeed && self.phase() == Phase::Initialization {
             return Some(1.0);
@@ -200,14 +225,41 @@ impl<S: Scene> Instance<S> {
             // after a step with derivatives, the prediction continues from its end, whatever the input is now
             return Some(0.0);
         }
-        if !S::Contact::FOLLOWS_RATE {
+        // of the other contacts, the indentation isn't the distance, or the force follows the rate
+        if S::Contact::DERIVATIVES == 2 {
             return Some(self.predicted(contact, model, rate)?.stiffness(rate) * self.last_step());
         }
         // the speed of a first touch within the step also depends on the input
-        let width = if rate == 0.0 { SLOW } else { NEAR * rate.abs() };
-        let at = |rate: f64| Some(self.predicted(contact, model, rate)?.force(rate));
-        Some((at(rate + width)? - at(rate - width)?) / (2.0 * width))
+        slope_at(rate, |rate| Some(self.predicted(contact, model, rate)?.force(rate)))
     }
+
+    /// The derivative of `variable` with respect to the tangential rate of its `contact`: of the predicted tangential force
+    /// \[N.s/m\], otherwise zero.
+    fn by_tangential_rate(&self, variable: Real, contact: usize) -> Option<f64> {
+        if variable != Real::PredictedTangentialForce || self.clock.curved {
+            return Some(0.0);
+        }
+        let rate = *self.rates().get(contact)?;
+        let force = |tangential| self.tangential_prediction_at(contact, (rate, tangential));
+        slope_at(self.tangential_end_of(contact).rate, force)
+    }
+
+    /// The predicted tangential force \[N\] of `contact` at these rates along the normal and in the tangential direction
+    /// \[m/s\].
+    fn tangential_prediction_at(&self, contact: usize, (rate, tangential): (f64, f64)) -> Option<f64> {
+        let (mut next, model) = (*self.histories().get(contact)?, self.model(contact));
+        next.set_tangential_course(&Course::held(tangential));
+        // where the law ends, the state does not change
+        let _ = next.step_held(rate, self.last_step(), &S::Contact::kept(&model), || model);
+        Some(next.tangential(&model, Quantity::Force))
+    }
+}
+
+/// The derivative of a function at `rate` \[m/s\], by a central difference.
+#[inline(always)]
+fn slope_at(rate: f64, of: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let width = if rate == 0.0 { SLOW } else { NEAR * rate.abs() };
+    Some((of(rate + width)? - of(rate - width)?) / (2.0 * width))
 }
 
 /// The difference between two rates, as a fraction of them, for the slope of a force.

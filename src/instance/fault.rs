@@ -1,5 +1,7 @@
 //! Reasons to reject a call, and warnings for the user.
 
+use crate::scene::Real;
+
 /// The reason why an instance rejects a call. The instance does not change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
@@ -34,10 +36,13 @@ pub enum Fault {
         /// The value.
         value: f64,
     },
-    /// An effective mass outside its range.
-    MassOutOfRange {
-        /// The mass \[kg\].
-        mass: f64,
+    /// An input that not every scene has, outside its range: an effective mass outside of [`MASSES`](super::MASSES), or a
+    /// tangential rate with an absolute value above [`FASTEST`](super::FASTEST), possibly within a step with derivatives.
+    InputOutOfRange {
+        /// The input.
+        input: Real,
+        /// Its value.
+        value: f64,
     },
     /// The impactor does not fit into the socket.
     NoPointContact {

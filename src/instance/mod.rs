@@ -20,6 +20,7 @@ mod coupling;
 mod course;
 mod derivatives;
 mod fault;
+mod friction;
 mod saved;
 mod stability;
 mod start;

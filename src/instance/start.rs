@@ -115,6 +115,7 @@ impl<S: Scene> Instance<S> {
     pub fn reset(&mut self) -> Result<(), Fault> {
         self.settings.values = S::start_values();
         self.contacts.rates.as_mut().fill(0.0);
+        self.forget_tangential_rates();
         self.contacts.last_step.as_mut().fill(0.0);
         self.contacts.accelerations.as_mut().fill(0.0);
         for (contact, mass) in self.contacts.masses.as_mut().iter_mut().enumerate() {
@@ -169,7 +170,10 @@ impl<S: Scene> Instance<S> {
             bodies.take(&pair);
             let end = S::end(group);
             for slot in histories.by_ref().take(end - first) {
+                let tangential = slot.tangential_course();
                 *slot = history;
+                // inputs survive
+                slot.set_tangential_course(&tangential);
             }
             first = end;
         }

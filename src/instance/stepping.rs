@@ -35,9 +35,10 @@ impl<S: Scene> Instance<S> {
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
-    /// [`Fault::TooLong`]; no contact changes then.
+    /// [`Fault::TooLong`], [`Fault::InputOutOfRange`]; no contact changes then.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
         self.clock.check(time, step)?;
+        self.check_tangential_rates(step)?;
         self.advance(time + step, step)?;
         // it may have been asked to look
         if !self.clock.curved && !self.is_watching() {
@@ -143,7 +144,8 @@ impl<S: Scene> Instance<S> {
         if Self::ALONE && self.clock.curved && self.contacts.curves.as_ref().iter().any(Curve::is_curved) {
             return self.advance_on_course(end, step);
         }
-        match Self::SIMPLE {
+        // only with friction a single contact gets here with derivatives of its inputs
+        match Self::SIMPLE && !(S::Contact::HAS_FRICTION && self.clock.curved) {
             true => self.advance_one(end, step).map_err(|deep| too_deep(0, deep))?,
             false => self.advance_all(end, step)?,
         }
@@ -227,7 +229,8 @@ impl<S: Scene> Instance<S> {
     /// Moves all contacts, along the course of their inputs or by their masses.
     #[cold]
     fn advance_any(&mut self, step: f64) -> Result<(), Fault> {
-        let curved = !Self::PLAIN || self.contacts.curves.as_ref().iter().any(Curve::is_curved);
+        let any_curve = self.contacts.curves.as_ref().iter().any(Curve::is_curved);
+        let curved = !Self::PLAIN || any_curve || self.any_tangential_curve();
         self.clock.curved |= !Self::PLAIN;
         for contact in 0..S::CONTACTS {
             self.check_wiring(contact);

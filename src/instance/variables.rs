@@ -1,6 +1,8 @@
 //! Reading and setting variables.
 
+use super::friction::check_tangential_rate;
 use super::*;
+use crate::contact::path::Course;
 use crate::scene::{Integer, Real};
 
 impl<S: Scene> Instance<S> {
@@ -15,6 +17,10 @@ impl<S: Scene> Instance<S> {
             Real::IndentationRate if value.abs() > FASTEST => Err(Fault::RateOutOfRange { rate: value }),
             Real::IndentationRate => self.histories().get(contact).map_or(Ok(()), |history| check_rate(history, value)),
             Real::Parameter(index) => self.check_parameter(index, value),
+            Real::TangentialRate if S::Contact::HAS_FRICTION && !value.is_finite() => {
+                Err(Fault::NotFinite { name: "tangential_rate", value })
+            }
+            Real::TangentialRate if S::Contact::HAS_FRICTION => check_tangential_rate(value),
             _ if S::has_input(variable) => check_input(variable, value),
             _ => Err(Fault::NotSettable),
         }
@@ -31,6 +37,10 @@ impl<S: Scene> Instance<S> {
     /// Sets a variable to a `value` that [`Instance::check_real`] has accepted. Returns true for a parameter, which takes
     /// effect when [`Instance::parameters_are_set`] is called.
     pub fn set_real(&mut self, (variable, contact): (Real, usize), value: f64) -> bool {
+        if S::Contact::HAS_FRICTION && variable == Real::TangentialRate {
+            self.set_tangential_rate(contact, value);
+            return false;
+        }
         let slot = match variable {
             Real::IndentationRate => self.contacts.rates.as_mut().get_mut(contact),
             Real::ExternalAcceleration => self.contacts.accelerations.as_mut().get_mut(contact),
@@ -150,6 +160,19 @@ impl<S: Scene> Instance<S> {
             },
             Real::ExternalAcceleration if S::has_input(variable) => self.acceleration(contact, f64::NAN),
             Real::EffectiveMass if S::has_input(variable) => self.mass(contact),
+            Real::TangentialRate => history.tangential_course().rate,
+            Real::PredictedTangentialForce if S::Contact::HAS_FRICTION => {
+                self.predicted_tangential_force(contact, &model, rate)
+            }
+            Real::TangentialForce
+            | Real::MeanTangentialForce
+            | Real::TangentialImpulse
+            | Real::TangentialEnergy
+            | Real::FrictionWork
+            | Real::StickRadius
+            | Real::PredictedTangentialForce => {
+                variable.quantity().map_or(f64::NAN, |quantity| history.tangential(&model, quantity))
+            }
             Real::ClosingSpeed | Real::ExternalAcceleration | Real::EffectiveMass => f64::NAN,
             Real::Parameter(index) => self.settings.values.as_ref().get(index).copied().unwrap_or(f64::NAN),
         }
@@ -173,6 +196,7 @@ impl<S: Scene> Instance<S> {
     pub(super) fn predicted(&self, contact: usize, model: &S::Model, rate: f64) -> Option<S::Contact> {
         let history = *self.histories().get(contact)?;
         let mut next = history;
+        next.set_tangential_course(&Course::held(self.tangential_end_of(contact).rate));
         let step = self.last_step();
         let moved =
             next.short_step(rate * step) || next.step_held(rate, step, &S::Contact::kept(model), || *model).is_ok();
@@ -196,6 +220,7 @@ impl<S: Scene> Instance<S> {
     pub fn integer(&self, (variable, contact): (Integer, usize)) -> i32 {
         match variable {
             Integer::Regime => self.histories().get(contact).map_or(0, |history| history.regime() as i32),
+            Integer::Sliding => self.histories().get(contact).map_or(0, |history| history.sliding() as i32),
         }
     }
 }
@@ -203,7 +228,7 @@ impl<S: Scene> Instance<S> {
 /// Checks whether an input other than the rate may have this `value`.
 fn check_input(variable: Real, value: f64) -> Result<(), Fault> {
     match variable {
-        Real::EffectiveMass if !is_mass(value) => Err(Fault::MassOutOfRange { mass: value }),
+        Real::EffectiveMass if !is_mass(value) => Err(Fault::InputOutOfRange { input: variable, value }),
         Real::ExternalAcceleration if !value.is_finite() => {
             Err(Fault::NotFinite { name: "external_acceleration", value })
         }

@@ -98,6 +98,7 @@ impl Scene for Exported {
             Parameter::Restitution => 1.0,
             Parameter::EffectiveMass => f64::INFINITY,
             Parameter::InitialGap => values[4],
+            Parameter::FrictionCoefficient => 0.0,
         }
     }
 

@@ -18,7 +18,8 @@ pub use storage::{Absent, Presence, Present, Store};
 pub use variable::{Integer, Parameter, Real, Settable};
 
 use crate::contact::motion::Follow;
-use crate::contact::{Contact, Pair};
+use crate::contact::tangential::{Friction, RoughModel};
+use crate::contact::{Body, Contact, Model, Pair};
 
 /// A scene: `CONTACTS` contacts in groups of equal contacts, with their parameters and variables.
 ///
@@ -112,6 +113,7 @@ pub trait Scene: Sized {
         match variable {
             Real::ExternalAcceleration => <Self::Coupling as Coupling>::Acceleration::IS_PRESENT,
             Real::EffectiveMass => <Self::Coupling as Coupling>::Mass::IS_PRESENT,
+            Real::TangentialRate => Self::Contact::HAS_FRICTION,
             _ => false,
         }
     }
@@ -130,6 +132,20 @@ pub trait Scene: Sized {
 
     /// The Integer variable with this value reference, and its contact.
     fn integer(value_reference: u32) -> Option<(Integer, usize)>;
+}
+
+/// The model `normal` with friction between its bodies; `value` gives the parameters of the scene.
+pub fn with_friction<L, U>(normal: Model<L, U>, value: impl Fn(Parameter) -> f64) -> RoughModel<L, U> {
+    let body = |youngs_modulus, poissons_ratio| Body {
+        radius: f64::INFINITY,
+        youngs_modulus: value(youngs_modulus),
+        poissons_ratio: value(poissons_ratio),
+    };
+    let impactor = body(Parameter::ImpactorYoungsModulus, Parameter::ImpactorPoissonsRatio);
+    let target = body(Parameter::TargetYoungsModulus, Parameter::TargetPoissonsRatio);
+    let coefficient = value(Parameter::FrictionCoefficient);
+    let friction = Friction::between(&impactor, &target, normal.pair.modulus, coefficient);
+    RoughModel { normal, friction }
 }
 
 /// The passivity guard of a scene.

@@ -1,5 +1,7 @@
 //! The variables that a scene can have; `modelDescription/variables.toml` is their table.
 
+use crate::contact::tangential::Quantity;
+
 /// A parameter of contacts. Each scene has either a constant or a variable for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
@@ -25,11 +27,13 @@ pub enum Parameter {
     EffectiveMass,
     /// `initial_gap` \[m\].
     InitialGap,
+    /// `friction.coefficient`; zero without friction.
+    FrictionCoefficient,
 }
 
 impl Parameter {
     /// The number of parameters.
-    pub const COUNT: usize = Parameter::InitialGap as usize + 1;
+    pub const COUNT: usize = Parameter::FrictionCoefficient as usize + 1;
 }
 
 /// A parameter of the scene that can be set, with its limits.
@@ -142,6 +146,22 @@ pub enum Real {
     ClosingSpeed,
     /// Acceleration by all forces except the contact force, an input \[m/s^2\].
     ExternalAcceleration,
+    /// Tangential rate, an input \[m/s\].
+    TangentialRate,
+    /// Tangential force \[N\].
+    TangentialForce,
+    /// Mean tangential force of the last step \[N\].
+    MeanTangentialForce,
+    /// Integral of the tangential force since the start \[N.s\].
+    TangentialImpulse,
+    /// Predicted tangential force at the end of the next step \[N\].
+    PredictedTangentialForce,
+    /// Elastic energy of the tangential strain \[J\].
+    TangentialEnergy,
+    /// Energy lost by slip \[J\].
+    FrictionWork,
+    /// Radius of the stick area \[m\].
+    StickRadius,
     /// Effective mass, as an input \[kg\].
     EffectiveMass,
     /// The settable parameter with this index among [`Scene::Values`](super::Scene::Values).
@@ -156,7 +176,20 @@ impl Real {
 
     /// Whether it is an input.
     pub fn is_input(self) -> bool {
-        matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::EffectiveMass)
+        matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::TangentialRate | Real::EffectiveMass)
+    }
+
+    /// The quantity of the friction that it is, if its present value is one.
+    pub fn quantity(self) -> Option<Quantity> {
+        Some(match self {
+            Real::TangentialForce => Quantity::Force,
+            Real::MeanTangentialForce => Quantity::MeanForce,
+            Real::TangentialImpulse => Quantity::Impulse,
+            Real::TangentialEnergy => Quantity::Energy,
+            Real::FrictionWork => Quantity::FrictionWork,
+            Real::StickRadius => Quantity::StickRadius,
+            _ => return None,
+        })
     }
 }
 
@@ -165,6 +198,8 @@ impl Real {
 pub enum Integer {
     /// Number of the [`Regime`](crate::contact::Regime).
     Regime,
+    /// Number of the state of [`Sliding`](crate::contact::tangential::Sliding).
+    Sliding,
 }
 
 /// The kind of variable that a value reference denotes, and its contact. The variables of a kind are consecutive.

@@ -153,7 +153,6 @@ fn a_typing_mistake_finds_the_word_that_is_meant() {
 #[test]
 fn missing_features_are_called_not_supported() {
     for (from, to) in [
-        ("[target]", "[target]\nfriction = 0.3"),
         ("[impact]", "[impact]\nangle = 30"),
         ("[target]", "[target]\ncoating = \"TiN\""),
         ("[impactor]", "[impactor]\nshape = \"cylinder\""),
@@ -162,6 +161,10 @@ fn missing_features_are_called_not_supported() {
     ] {
         let said = said(&with_impact().replacen(from, to, 1));
         assert!(said.contains("is not supported") && said.contains("see Limits"), "{said}");
+    }
+    for key in ["friction", "mu", "friction_coefficient"] {
+        let said = said(&with_impact().replacen("[target]", &format!("[target]\n{key} = 0.3"), 1));
+        assert!(said.contains("a table [friction] with a `coefficient`"), "{said}");
     }
     let said = said(&with_impact().replacen("[target]", "[target]\nhardness = 200", 1));
     assert!(said.contains("yield_strength") && said.contains("brinell hardness"), "{said}");

@@ -30,6 +30,45 @@ fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
 }
 
 #[test]
+fn a_softer_impactor_is_refused() {
+    refused(
+        "radius = 5e-3",
+        "radius = 5e-3\nyield_strength = §200e6",
+        &[
+            "impactor.yield_strength = 200000000.0",
+            "target.yield_strength",
+            "softer body must be the target",
+            "exchange",
+        ],
+    );
+    refused(
+        "radius = 5e-3",
+        "radius = 5e-3\nyield_strength = §-1.0",
+        &["impactor.yield_strength = -1.0", "1e-9", "Pa"],
+    );
+}
+
+#[test]
+fn losses_below_yield_that_cannot_be_are_refused() {
+    for (number, said) in [("0.0", "0.0"), ("1.5", "1.5"), ("2", "2.0"), ("nan", "NaN")] {
+        let law = format!("[law]\nelastic_restitution = §{number}\n");
+        refused_with(&law, &[&format!("law.elastic_restitution = {said}"), "0.001 to 1.0", "waves"]);
+    }
+    refused_with("[law]\nelastic_restitution = §\"wave\"\n", &["wave", "0.001 to 1", "\"waves\""]);
+    let own = "[law]\nloading = \"tsuji\"\nrestitution = 0.5\nelastic_restitution = §0.9\n";
+    refused_with(own, &["law.elastic_restitution has no effect", "tsuji", "damping of its own"]);
+    // the target of these scenes has no density
+    refused_with("[law]\nelastic_restitution = §\"waves\"\n", &["waves", "needs target.density, or a material"]);
+    let plate = |more: &str| format!("yield_strength = 300e6\n{more}\n");
+    refused("yield_strength = 300e6\n", &plate("plate_thickness = §0.0"), &["target.plate_thickness = 0.0", "1e-9"]);
+    refused("yield_strength = 300e6\n", &plate("plate_thickness = §0.01"), &["plate_thickness needs target.density"]);
+    let curved = plate("density = 7850.0\nradius = §0.1\nplate_thickness = 0.01");
+    refused("yield_strength = 300e6\n", &curved, &["target.radius = 0.1", "a plate is flat"]);
+    let both = plate("density = 7850.0\nplate_thickness = §0.01\n[law]\nelastic_restitution = 0.9");
+    refused("yield_strength = 300e6\n", &both, &["plate_thickness", "elastic_restitution", "one of them"]);
+}
+
+#[test]
 fn an_impact_without_an_answer_is_refused() {
     let deep = "[law]\nloading = \"jackson-green\"\n§[impact]\nmass = 1e250\nspeed = 1e9\n";
     refused_with(deep, &["mass = 1e250 kg", "speed = 1000000000.0 m/s", "deeper than the law can be evaluated"]);

@@ -2,6 +2,7 @@
 
 mod beginners;
 mod contacts;
+mod friction;
 mod laws;
 
 #[path = "../support/command.rs"]
@@ -61,7 +62,7 @@ fn an_unknown_key_is_refused_in_each_table() {
     refused_with("[fmu]\n§inputs = []", &["`inputs`", "`outputs`", "`parameters`", "`initial_gap`"]);
     refused_with(
         "[impact]\nmass = 1\nspeed = 1\n§angle = 1",
-        &["`angle` is not supported", "without friction", "`mass`", "`speed`"],
+        &["`angle` is not supported", "along the normal", "`mass`", "`speed`"],
     );
 }
 

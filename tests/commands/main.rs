@@ -2,6 +2,7 @@
 
 mod hardness;
 mod law_list;
+mod oblique;
 mod sweeps;
 
 #[path = "../support/command.rs"]

@@ -8,24 +8,29 @@
 //! makes 1e8 calls. `BRINELL_FUZZ_SEED` sets the first script.
 #![cfg(target_os = "linux")]
 
+#[path = "../support/child.rs"]
+mod child;
+#[path = "../support/face.rs"]
+mod face;
 #[path = "../support/functions.rs"]
 mod functions;
+#[path = "../support/targets.rs"]
+mod targets;
 #[path = "../support/unit.rs"]
 mod unit;
 
 mod call;
-mod face;
 mod judge;
 mod run;
 
 use call::{Call, script};
+use child::Failure;
 use face::Face;
 use run::Runner;
 use std::env;
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tempfile::TempDir;
 
 /// Number of calls over all FMUs in a usual run.
@@ -42,6 +47,8 @@ const CHUNK: u64 = 2000;
 
 /// The environment variables that control a process.
 const LIBRARY: &str = "BRINELL_FUZZ_LIBRARY";
+/// The place of another library whose model description applies to this one.
+const PLACE: &str = "BRINELL_FUZZ_PLACE";
 const FIRST: &str = "BRINELL_FUZZ_FIRST";
 const COUNT: &str = "BRINELL_FUZZ_COUNT";
 /// The numbers of the calls to make; all, if it isn't set.
@@ -61,7 +68,8 @@ fn number(name: &str) -> Option<u64> {
 #[ignore = "the tests below start it in processes of their own"]
 fn worker() {
     let Ok(library) = env::var(LIBRARY) else { return };
-    let face = Face::load(Path::new(&library));
+    let place = env::var(PLACE).unwrap_or_else(|_| library.clone());
+    let face = Face::of(Path::new(&library), Path::new(&place));
     let (first, count) = (number(FIRST).expect("a number"), number(COUNT).expect("a number"));
     let kept: Option<Vec<usize>> =
         env::var(KEPT).ok().map(|text| text.split(',').filter_map(|number| number.parse().ok()).collect());
@@ -92,57 +100,23 @@ struct Target {
     scratch: TempDir,
 }
 
-/// How a process ended before it finished.
-enum Failure {
-    Hang,
-    Ended { status: ExitStatus, said: String },
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Failure::Hang => write!(f, "no end within {LIMIT:?}"),
-            Failure::Ended { status, said } => write!(f, "{status}\n{said}"),
-        }
-    }
-}
-
 impl Target {
     /// Runs `count` scripts starting with `first`; returns the number of calls, or the script that failed.
     fn run(&self, first: u64, count: u64, kept: Option<&[usize]>) -> Result<u64, (u64, Failure)> {
         let progress = self.scratch.path().join("progress");
-        let program = env::current_exe().expect("a test program");
-        let mut command = Command::new(program);
-        command.args(["worker", "--exact", "--ignored", "--nocapture"]);
+        let mut command = child::worker(&env::current_exe().expect("a test program"));
         command.env(LIBRARY, &self.library).env(FIRST, first.to_string()).env(COUNT, count.to_string());
-        command.env(PROGRESS, &progress).env("RUST_BACKTRACE", "0");
+        command.env(PROGRESS, &progress);
         if let Some(kept) = kept {
             command.env(KEPT, kept.iter().map(usize::to_string).collect::<Vec<_>>().join(","));
         }
-        let log = self.scratch.path().join("log");
-        let file = std::fs::File::create(&log).expect("the target folder can be written to");
-        command.stdout(file.try_clone().expect("a file")).stderr(file);
-        let mut child = command.spawn().expect("a test program can be started");
-        let begin = Instant::now();
-        let failure = loop {
-            match child.try_wait().expect("a child") {
-                Some(status) if status.success() => break None,
-                Some(status) => {
-                    let said = std::fs::read(&log).map(|text| String::from_utf8_lossy(&text).into_owned());
-                    break Some(Failure::Ended { status, said: said.unwrap_or_default() });
-                }
-                None if begin.elapsed() > LIMIT => {
-                    let _ = child.kill();
-                    let _ = child.wait();
-                    break Some(Failure::Hang);
-                }
-                None => std::thread::sleep(Duration::from_millis(2)),
-            }
-        };
+        let result = child::run(&mut command, &self.scratch.path().join("log"), LIMIT);
         let reached = std::fs::read_to_string(&progress).unwrap_or_default();
-        match failure {
-            None => Ok(reached.strip_prefix("made ").and_then(|calls| calls.parse().ok()).expect("a number of calls")),
-            Some(failure) => Err((reached.parse().unwrap_or(first), failure)),
+        match result {
+            Ok(()) => {
+                Ok(reached.strip_prefix("made ").and_then(|calls| calls.parse().ok()).expect("a number of calls"))
+            }
+            Err(failure) => Err((reached.parse().unwrap_or(first), failure)),
         }
     }
 
@@ -192,22 +166,8 @@ impl Target {
 
 /// All FMUs: those of the project's own scenes, and of additional laws and keys.
 fn targets() -> Vec<Target> {
-    let own = [
-        ("fresh", "brinell", "brinell", "surface = \"fresh\"\n", ""),
-        ("guarded", "jackson-green", "contact-radius", "", "passivity_guard = true\n"),
-        ("thornton", "thornton", "thornton", "", ""),
-    ];
-    let own = own.map(|(name, loading, unloading, target, law)| {
-        let text = format!(
-            "name = \"{name}\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n{target}[law]\n\
-             loading = \"{loading}\"\nunloading = \"{unloading}\"\n{law}[fmu]\noutputs = [\"indentation\", \"work\", \
-             \"elastic_energy\", \"dissipated_energy\", \"impulse\", \"predicted_force\", \"regime\"]\n"
-        );
-        unit::write_scene(name, &text)
-    });
     // a thousand contacts show no more than two, and take longer
-    let plain = unit::scenes().into_iter().filter(|scene| !scene.ends_with("many_contacts.toml"));
-    let scenes = plain.chain(own);
+    let scenes = targets::scenes().into_iter().filter(|scene| !scene.ends_with("many_contacts.toml"));
     let target = |scene: PathBuf| Target {
         name: scene.file_stem().expect("a name").to_string_lossy().into_owned(),
         library: unit::library(&unit::export(&scene)),

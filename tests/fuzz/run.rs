@@ -5,6 +5,7 @@ mod values;
 
 use crate::call::{Call, INSTANCES, STATES, Simple, Wrong};
 use crate::face::Face;
+use crate::functions::{memory, variadic};
 use crate::judge::{Seen, check_values};
 use brinell::fmi2::abi::*;
 use std::ffi::{CString, c_char, c_int, c_void};
@@ -74,19 +75,12 @@ unsafe extern "C" fn logger(
     assert!(text.replace("%%", "").find('%').is_none(), "{text:?} has a format of printf");
 }
 
-/// A logger with the type of the standard; it ignores further arguments.
-fn variadic(
-    function: unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
-) -> fmi2CallbackLogger {
-    // SAFETY: on the tested platforms, a function without further arguments has the same calling convention
-    unsafe { std::mem::transmute(function) }
-}
-
-fn callbacks() -> fmi2CallbackFunctions {
+fn callbacks(face: &Face) -> fmi2CallbackFunctions {
+    let (allocate, free) = memory(face.needs_no_memory());
     fmi2CallbackFunctions {
         logger: Some(variadic(logger)),
-        allocateMemory: None,
-        freeMemory: None,
+        allocateMemory: allocate,
+        freeMemory: free,
         stepFinished: None,
         componentEnvironment: null_mut(),
     }
@@ -144,7 +138,7 @@ impl<'a> Runner<'a> {
         let (empty, name) = (CString::default(), CString::new("100 %s # Größe").expect("no zero"));
         let other = CString::new("{another}").expect("no zero");
         let (mut name_pointer, mut guid, mut kind) = (name.as_ptr(), self.face.guid.as_ptr(), 1);
-        let callbacks = callbacks();
+        let callbacks = callbacks(self.face);
         let mut callbacks_pointer = &raw const callbacks;
         match wrong {
             None => {}

@@ -197,6 +197,7 @@ fn every_key_of_a_scene_is_explained_and_no_other() {
         ("### `[law]`", "Law"),
         ("### `[fmu]`", "Fmu"),
         ("### `[impact]`", "ImpactTable"),
+        ("### `[friction]`", "FrictionTable"),
         ("### `[coupling]`", "CouplingTable"),
         ("### `[[contact]]`", "Contact"),
     ];

@@ -3,6 +3,7 @@
 
 use brinell::fmi2::abi::*;
 use libloading::Library;
+use std::ffi::{c_char, c_int, c_void};
 use std::path::Path;
 
 /// Declares the table: the names of the functions are those of the standard without `fmi2`, in snake case.
@@ -79,4 +80,30 @@ functions! {
     get_integer_status = "fmi2GetIntegerStatus" (fmi2Component, fmi2StatusKind, *mut fmi2Integer) -> fmi2Status;
     get_boolean_status = "fmi2GetBooleanStatus" (fmi2Component, fmi2StatusKind, *mut fmi2Boolean) -> fmi2Status;
     get_string_status = "fmi2GetStringStatus" (fmi2Component, fmi2StatusKind, *mut fmi2String) -> fmi2Status;
+}
+
+unsafe extern "C" {
+    fn calloc(count: usize, size: usize) -> *mut c_void;
+    fn free(memory: *mut c_void);
+}
+
+unsafe extern "C" fn no_allocation(_: usize, _: usize) -> *mut c_void {
+    panic!("the FMU says that it doesn't use the memory of its importer");
+}
+
+unsafe extern "C" fn no_release(_: *mut c_void) {
+    panic!("the FMU says that it doesn't use the memory of its importer");
+}
+
+/// The memory functions of an importer: for an FMU that says that it uses none, ones that must not be called.
+pub fn memory(needs_none: bool) -> (Option<fmi2CallbackAllocateMemory>, Option<fmi2CallbackFreeMemory>) {
+    if needs_none { (Some(no_allocation), Some(no_release)) } else { (Some(calloc), Some(free)) }
+}
+
+/// A logger with the type of the standard; it ignores further arguments.
+pub fn variadic(
+    function: unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char),
+) -> fmi2CallbackLogger {
+    // SAFETY: on the tested platforms, a function without further arguments has the same calling convention
+    unsafe { std::mem::transmute(function) }
 }

@@ -71,7 +71,7 @@ impl<S: Scene> Master<S> {
             self.instance.set_real((Real::ExternalAcceleration, 0), self.acceleration);
             self.instance.set_real((Real::EffectiveMass, 0), self.mass);
         } else if self.acceleration != 0.0 {
-            self.instance.set_input_derivative(0, 1, self.acceleration);
+            self.instance.set_input_derivative((Real::IndentationRate, 0), 1, self.acceleration);
         }
         let before = self.get(Real::MeanForce);
         let time = self.instance.time();

@@ -8,8 +8,9 @@
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::motion::{Follow, follow};
+use brinell::contact::tangential::{Friction, RoughContact, RoughModel};
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Contact, History, Model, Pair, Surface};
+use brinell::contact::{Body, Contact, History, Model, Pair, Surface};
 use brinell::instance::Instance;
 use brinell::scene::{
     Absent, Coupled, Coupling, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of,
@@ -35,6 +36,8 @@ pub struct Choice {
     pub restitution: f64,
     pub effective_mass: f64,
     pub initial_gap: f64,
+    /// Coefficient of friction.
+    pub friction: f64,
 }
 
 impl Choice {
@@ -53,6 +56,7 @@ impl Choice {
             restitution: 0.6,
             effective_mass: 4.11e-3,
             initial_gap: 0.0,
+            friction: 0.3,
         }
     }
 }
@@ -87,6 +91,9 @@ pub struct Elastoplastic;
 /// The same, moved by its mass, with the coupling `C`.
 pub struct Massive<C = Coupled>(PhantomData<C>);
 
+/// The same with friction.
+pub struct Rough;
+
 /// A rate-dependent law.
 pub struct Damped;
 
@@ -115,6 +122,20 @@ impl<C: Coupling> Kind for Massive<C> {
     const FOLLOW: Option<Follow<History, Self::Model>> = Some(follow);
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
         elastoplastic(pair)
+    }
+}
+
+impl Kind for Rough {
+    type Model = RoughModel<AnyLoading, AnyUnloading>;
+    type Contact = RoughContact<12>;
+    type Course = Present;
+    type Coupling = Absent;
+    type Watch = Present;
+    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
+        let rigid = Body { radius: 1.0, youngs_modulus: f64::INFINITY, poissons_ratio: 0.0 };
+        let target = Body { youngs_modulus: pair.youngs_modulus, poissons_ratio: pair.poissons_ratio, ..rigid };
+        let friction = Friction::between(&rigid, &target, pair.modulus, chosen().friction);
+        RoughModel { normal: elastoplastic(pair), friction }
     }
 }
 
@@ -156,6 +177,17 @@ pub const OUTPUTS: [Real; 13] = [
     Real::Impulse,
     Real::MeanForce,
     Real::PredictedForce,
+];
+
+/// The Real outputs of contacts with friction. They have no references.
+pub const FRICTIONS: [Real; 7] = [
+    Real::TangentialForce,
+    Real::MeanTangentialForce,
+    Real::TangentialImpulse,
+    Real::PredictedTangentialForce,
+    Real::TangentialEnergy,
+    Real::FrictionWork,
+    Real::StickRadius,
 ];
 
 impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
@@ -219,6 +251,7 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
             Parameter::Restitution => choice.restitution,
             Parameter::EffectiveMass => choice.effective_mass,
             Parameter::InitialGap => values[2],
+            Parameter::FrictionCoefficient => choice.friction,
         }
     }
 
@@ -266,16 +299,29 @@ pub fn set_rate<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64)
     instance.set_real(variable, rate);
 }
 
+/// Sets the tangential rate of `contact` [m/s], which must be accepted.
+pub fn set_tangential_rate<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64) {
+    let variable = (Real::TangentialRate, contact);
+    instance.check_real(variable, rate).expect("the rate is allowed");
+    instance.set_real(variable, rate);
+}
+
 /// Every Real output of every contact, and the regimes.
 pub fn outputs<S: Scene>(instance: &Instance<S>) -> Vec<f64> {
     let contacts = 0..S::CONTACTS;
     let reals = contacts.clone().flat_map(|contact| OUTPUTS.map(|output| (output, contact)));
     let shown = |output: Real| {
-        let momentum = matches!(output, Real::Impulse | Real::MeanForce | Real::PredictedForce);
+        let momentum =
+            matches!(output, Real::Impulse | Real::MeanForce | Real::PredictedForce | Real::PredictedTangentialForce);
         S::Momentum::IS_PRESENT || !momentum
     };
     let mut all: Vec<f64> =
         reals.filter(|(output, _)| shown(*output)).map(|variable| instance.real(variable)).collect();
+    if S::Contact::HAS_FRICTION {
+        let frictions = contacts.clone().flat_map(|contact| FRICTIONS.map(|output| (output, contact)));
+        all.extend(frictions.filter(|(output, _)| shown(*output)).map(|variable| instance.real(variable)));
+        all.extend(contacts.clone().map(|contact| f64::from(instance.integer((Integer::Sliding, contact)))));
+    }
     all.extend(contacts.map(|contact| f64::from(instance.integer((Integer::Regime, contact)))));
     all
 }

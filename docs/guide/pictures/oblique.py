@@ -6,6 +6,7 @@
 
 import csv
 import io
+import math
 import subprocess
 from pathlib import Path
 
@@ -17,10 +18,12 @@ from matplotlib import pyplot
 FOLDER = Path(__file__).parent
 PROJECT = FOLDER.parents[2]
 BLUE, RED = "#0072b2", "#d55e00"
+# radius of the ball [m], coefficient of friction and speed [m/s], as in the example
+RADIUS, FRICTION, SPEED = 2.5e-3, 0.092, 3.9
 QUANTITIES = (
-    ("e_t", "tangential restitution"),
-    ("omega", "spin [rad/s]"),
-    ("rebound_angle_centre", "rebound angle [degrees]"),
+    ("e_t", "tangential restitution", "{:.3f}"),
+    ("omega", "spin [rad/s]", "{:.0f} rad/s"),
+    ("rebound_angle_centre", "rebound angle [degrees]", "{:.2f} degrees"),
 )
 
 
@@ -32,22 +35,65 @@ def computed():
     return {name: [float(row[name]) for row in rows] for name in rows[0]}
 
 
-def measured(quantity):
-    """Angles and values of all digitisations."""
+def rows(quantity):
+    """The digitisation, angle and value of each measured point."""
     with (PROJECT / "experiment/oblique_elastic.csv").open() as file:
-        rows = [row for row in csv.DictReader(file) if row["quantity"] == quantity]
-    return [float(row["angle_deg"]) for row in rows], [float(row["value"]) for row in rows]
+        found = [row for row in csv.DictReader(file) if row["quantity"] == quantity]
+    return [(row["digitisation"], float(row["angle_deg"]), float(row["value"])) for row in found]
+
+
+def slip(angle, restitution, spin):
+    """Maw's numbers: tan(angle)/mu, and the slip speed after the impact over mu times the normal speed."""
+    normal, tangential = SPEED * math.cos(math.radians(angle)), SPEED * math.sin(math.radians(angle))
+    return tangential / (FRICTION * normal), (tangential * restitution - RADIUS * spin) / (FRICTION * normal)
+
+
+def measured_slips():
+    """Those of the measured points, with the spin between its measured angles in each digitisation."""
+    found = []
+    for source, angle, restitution in rows("e_t"):
+        spins = [(at, value) for other, at, value in rows("omega") if other == source]
+        if spins[0][0] <= angle <= spins[-1][0]:
+            found.append(slip(angle, restitution, interpolated(angle, *zip(*spins))))
+    return zip(*found)
+
+
+def interpolated(at, arguments, values):
+    """The value between those at the neighbouring arguments."""
+    for (low, high), (below, above) in zip(zip(arguments, arguments[1:]), zip(values, values[1:])):
+        if low <= at <= high:
+            return below + (above - below) * (at - low) / (high - low)
+    raise ValueError(f"{at} is outside of {arguments[0]} to {arguments[-1]}")
+
+
+def rms(curve, points):
+    """Root-mean-square distance of the points from the curve."""
+    squares = [(value - interpolated(at, *curve)) ** 2 for at, value in zip(*points)]
+    return math.sqrt(sum(squares) / len(squares))
+
+
+def draw(axis, curve, points, titles, words):
+    """A curve with measured points, and their distance from it."""
+    axis.plot(*curve, color=BLUE, label="computed")
+    axis.plot(*points, "o", markersize=3.5, color=RED, fillstyle="none", label="measured")
+    axis.set(xlabel=titles[0], ylabel=titles[1], title="rms " + words.format(rms(curve, points)))
+    axis.grid(alpha=0.3)
 
 
 def main():
-    pyplot.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9})
+    pyplot.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9, "axes.titlesize": 9})
     curves = computed()
-    figure, axes = pyplot.subplots(1, 3, figsize=(9, 3), layout="constrained")
-    for axis, (quantity, label) in zip(axes, QUANTITIES):
-        axis.plot(curves["angle_deg"], curves[quantity], color=BLUE, label="computed")
-        axis.plot(*measured(quantity), "o", markersize=3.5, color=RED, fillstyle="none", label="measured")
-        axis.set(xlabel="angle of incidence [degrees]", ylabel=label, xlim=(0, 90))
-        axis.grid(alpha=0.3)
+    figure, axes = pyplot.subplots(1, 4, figsize=(12, 3.1), layout="constrained")
+    for axis, (quantity, label, words) in zip(axes, QUANTITIES):
+        points = [column[1:] for column in rows(quantity)]
+        curve = curves["angle_deg"], curves[quantity]
+        draw(axis, curve, list(zip(*points)), ("angle of incidence [degrees]", label), words)
+        axis.set(xlim=(0, 90))
+    triples = zip(curves["angle_deg"], curves["e_t"], curves["omega"])
+    # beyond the angle of the last spin the slip is that of full sliding
+    slips = [slip(*triple) for triple in triples if triple[0] <= 75]
+    titles = "psi_1 = tan(angle)/mu", "psi_2 = slip after the impact / (mu v_n)"
+    draw(axes[3], tuple(zip(*slips)), tuple(measured_slips()), titles, "{:.2f}")
     axes[0].legend(frameon=False)
     figure.savefig(FOLDER / "oblique.svg", metadata={"Date": None})
 

@@ -3,7 +3,7 @@
 use crate::package::Way;
 use crate::platform::{self, Platform};
 use crate::prebuilt;
-use crate::{check, hardness, law_list, new, predict, units};
+use crate::{check, hardness, law_list, new, predict, report, units};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -58,20 +58,7 @@ pub enum Command {
     /// Draw or tabulate one cycle of loading, unloading and reloading
     Curve(CurveArguments),
     /// Measure the FMU of a scene: errors, run times, stability, laws; on one page
-    #[command(next_line_help = true)]
-    Report {
-        /// The scene file
-        scene: PathBuf,
-        /// The folder for the page and its data [default: NAME_report in the current folder]
-        #[arg(short, long, value_name = "DIR")]
-        output: Option<PathBuf>,
-        /// Another FMU with the same variables, for the same pictures; can be repeated
-        #[arg(long, value_name = "FMU")]
-        peer: Vec<PathBuf>,
-        /// Use fewer steps and shorter runs
-        #[arg(long)]
-        quick: bool,
-    },
+    Report(report::Arguments),
     /// List the laws with their error against finite elements, or show one law
     Laws(law_list::Arguments),
     /// Compile the libraries from which FMUs are made where there is no compiler
@@ -233,4 +220,13 @@ pub struct CurveArguments {
     /// Add the finite-element loading curve as dots to the picture
     #[arg(long)]
     pub truth: bool,
+    /// Draw loops of the tangential force instead, with the indentation --to held
+    #[arg(long, conflicts_with = "truth")]
+    pub tangential: bool,
+    /// Coefficient of friction of the loops [default: the scene's]
+    #[arg(long, requires = "tangential")]
+    pub friction: Option<f64>,
+    /// Amplitudes of the loops [m] [default: 0.3, 0.6, 0.9 and 1.2 of that at which the contact slides]
+    #[arg(long, value_delimiter = ',', value_parser = units::lengths, requires = "tangential")]
+    pub amplitude: Vec<f64>,
 }

@@ -6,7 +6,10 @@ use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
 use crate::model::AnyModel;
 use crate::plot::{Picture, Series};
+use crate::predict::PredictError;
+use crate::predict::oblique;
 use crate::scene::Scene;
+use crate::tangential_curve::{Loops, Wanted};
 use crate::wrong_call::WrongCall;
 use crate::{predict, truth};
 use brinell::contact::damped::{self, AnyDamped, Damped};
@@ -15,6 +18,7 @@ use brinell::contact::{History, Loading, TooDeep};
 use serde_json::json;
 use std::error::Error;
 use std::f64::consts::PI;
+use std::path::Path;
 
 /// Number of points on each branch of the path.
 const POINTS: u32 = 200;
@@ -34,6 +38,9 @@ pub fn run(arguments: &CurveArguments, as_json: bool) -> Result<(), Box<dyn Erro
     let largest = arguments.to.unwrap_or(scene.predictions[0].max_indentation);
     let largest = predict::positive("to", largest).map_err(WrongCall::of)?;
     let impact = &scene.impact_of(0);
+    if arguments.tangential {
+        return tangential(&scene, &choices, largest, arguments, (output, format), as_json);
+    }
     let too_deep = |_: TooDeep| WrongCall(format!("to = {largest:e} m is too deep for the law"));
     let text = match (output, format) {
         (Some(_), "svg") => picture(&choices, largest, impact, arguments.truth).map_err(too_deep)?.svg(860, 480),
@@ -45,6 +52,30 @@ pub fn run(arguments: &CurveArguments, as_json: bool) -> Result<(), Box<dyn Erro
                 false => table(&columns),
             }
         }
+    };
+    Ok(deliver(&text, output)?)
+}
+
+/// Loops of the tangential force at the indentation `held` [m].
+fn tangential(
+    scene: &Scene,
+    choices: &[Choice],
+    held: f64,
+    arguments: &CurveArguments,
+    (output, format): (Option<&Path>, &str),
+    as_json: bool,
+) -> Result<(), Box<dyn Error>> {
+    let takes_some = arguments.laws.iter().any(|name| name == "all");
+    let choices = oblique::with_friction(choices.to_vec(), takes_some).map_err(WrongCall::of)?;
+    let coefficient = arguments.friction.or(scene.group_value(0, oblique::FRICTION));
+    let coefficient = coefficient.ok_or_else(|| WrongCall::of(PredictError::NoCoefficient))?;
+    let wanted = Wanted { coefficient, indentation: held, amplitudes: &arguments.amplitude };
+    let loops = Loops::of(scene, &choices, wanted).map_err(WrongCall::of)?;
+    let text = match (output, format) {
+        (Some(_), "svg") => loops.picture().svg(860, 480),
+        (Some(_), _) => loops.columns().csv(),
+        (None, _) if as_json => format!("{}\n", json!({ "laws": loops.columns().json() })),
+        (None, _) => loops.text(),
     };
     Ok(deliver(&text, output)?)
 }
@@ -73,7 +104,9 @@ struct Row {
 /// unloading.
 fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooDeep> {
     let model = match choice.model {
+        // the curve of a slow motion: losses begin with the speed
         AnyModel::Elastoplastic(model) => model,
+        AnyModel::Lossy(model) => model.plastic,
         AnyModel::Damped(model) => return Ok(damped_rows(&model, impact)),
     };
     let mut history = History::start(&model, 0.0)?;

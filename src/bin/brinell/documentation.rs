@@ -2,6 +2,7 @@
 
 use crate::bodies;
 use crate::energy;
+use crate::friction_text;
 use crate::html::{TEXT_STYLE, begin, escape};
 use crate::interface::Entry;
 use crate::law_text::{self, LawText};
@@ -9,7 +10,7 @@ use crate::numbers::{digits, exact};
 use crate::parameters::{self, Constant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
-use crate::scene::{Parameter, Scene};
+use crate::scene::{Loss, Parameter, Scene};
 use crate::table::{self, Causality};
 use brinell::contact::impact::Prediction;
 use std::collections::BTreeSet;
@@ -29,8 +30,9 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(page, "<h1>{name}</h1>\n<p>{description}</p>")?;
     writeln!(
         page,
-        "<p>FMU (FMI 2.0 co-simulation) of the normal contact of {}: the closing speed of the bodies goes in, the contact \
+        "<p>FMU (FMI 2.0 co-simulation) of the {} contact of {}: the closing speed of the bodies goes in, the contact \
          force comes out. {}</p>",
+        if scene.friction { "normal and tangential" } else { "normal" },
         contact(scene),
         coupling(scene)
     )?;
@@ -54,6 +56,9 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
         law(page, "Unloading and reloading", &text)?;
         law_constants(page, &text, &parameters::constants(&unloading, text.law))?;
     }
+    if let Some(loss) = scene.loss {
+        writeln!(page, "<h3>Loss below yield</h3>\n<p>{}</p>", escape(&loss.words()))?;
+    }
     if scene.unloading.is_some() {
         writeln!(page, "<p>{}</p>", escape(&energy::words(scene)))?;
     }
@@ -66,6 +71,7 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
             escape(&guard.words())
         )?;
     }
+    friction_text::section(page, scene)?;
     writeln!(page, "<h2>Variables</h2>")?;
     variables(page, &plan.variables)?;
     constants(page, &plan.constants)?;
@@ -146,7 +152,11 @@ fn coupling(scene: &Scene) -> String {
              {force}. The FMU warns once in the log if the importer works in the other order. <code>force</code> and the other \
              outputs are those at the end of the step."
         )
-    } else if scene.damped.is_some() {
+    } else if let Some(Loss::Plate(_)) = scene.loss {
+        "The closing speed is held over a step. The plate gives way to the force, so the indentation grows more slowly than the \
+         bodies close; the motion of the plate is integrated within the step."
+            .into()
+    } else if scene.follows_rate() {
         "The rate is held over a step, and the law is followed exactly: the result does not depend on how time is divided. The \
          force follows the rate at the same instant: set the rate again before you read the force, or solve that loop."
             .into()

@@ -28,7 +28,9 @@ pub struct Entry<'a> {
     /// Reference of the input on which the first variable depends at the same instant; the second variable depends on the next
     /// input, and so on.
     pub follows: Option<usize>,
-    /// The same before the first step.
+    /// Reference of the tangential rate on which the first variable depends at the same instant.
+    pub follows_tangential: Option<usize>,
+    /// The same as for `follows` before the first step.
     pub follows_at_start: Option<usize>,
     pub nominal: Option<f64>,
 }
@@ -79,6 +81,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     let shown: Vec<_> = VARIABLES.iter().filter(shown).collect();
     let parameters = Parameters::of(scene, shown.len() * scene.contact_count());
     let nominals = nominal::of(scene);
+    let tangential_rates = shown.iter().position(|variable| variable.name == "tangential_rate");
     let mut entries = Vec::new();
     let mut reference = 0;
     for variable in shown {
@@ -90,7 +93,11 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
         let depends = |name: &str| match name {
             // it affects only the damping
             "restitution" => damped_at_start,
-            "effective_mass" => damped_at_start || is_listed(name) && elastic_part_follows_mass(scene),
+            // without a tangential motion there is no tangential force
+            "friction.coefficient" => false,
+            "effective_mass" => {
+                damped_at_start && scene.damped.is_some() || is_listed(name) && elastic_part_follows_mass(scene)
+            }
             _ => is_listed(name),
         };
         for (index, group) in scene.contacts.iter().enumerate() {
@@ -105,6 +112,9 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
                 start: (variable.causality == Causality::Input).then(|| start(variable, scene, index)),
                 dependencies: parameters.of_group(index, depends),
                 follows: follows.then_some(first),
+                follows_tangential: tangential_rates
+                    .filter(|_| variable.follows_tangential_rate)
+                    .map(|place| place * scene.contact_count() + first),
                 follows_at_start: follows_at_start.then_some(first),
                 nominal: nominals[index].get(variable),
             });
@@ -123,6 +133,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
         start: Some(settable.parameter.value),
         dependencies: Vec::new(),
         follows: None,
+        follows_tangential: None,
         follows_at_start: None,
         nominal: None,
     }));
@@ -144,7 +155,7 @@ fn start(variable: &Variable, scene: &Scene, group: usize) -> f64 {
 fn follows(variable: &Variable, scene: &Scene) -> bool {
     match variable.follows_rate {
         Follows::Never | Follows::AtStart => false,
-        Follows::WithLaw => scene.damped.is_some(),
+        Follows::WithLaw => scene.follows_rate(),
         Follows::Always => true,
     }
 }
@@ -153,7 +164,7 @@ fn follows(variable: &Variable, scene: &Scene) -> bool {
 /// begins at the first touch is zero then; the next step begins with the touch.
 fn is_damped_at_start(variable: &Variable, scene: &Scene) -> bool {
     let looks_ahead = variable.follows_rate == Follows::Always;
-    scene.damped.is_some_and(|(_, law)| looks_ahead || !law.scaled_by_touch())
+    scene.loss.is_some() || scene.damped.is_some_and(|(_, law)| looks_ahead || !law.scaled_by_touch())
 }
 
 /// Whether the elastic part of a rate-dependent law also depends on the mass.

@@ -102,7 +102,7 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let no_loading = || UnknownLaw::Name(unknown("loading law", loading_name, loading_names()));
     let (_, loading) = find_loading(loading_name, scene).ok_or_else(no_loading)?;
     if loading_name == "hertz" && other_name.is_none() {
-        let model = AnyModel::Elastoplastic(Model { loading, ..scene.model() });
+        let model = scene.with_loss(0, Model { loading, ..scene.model() });
         return Ok(Choice { name: name.into(), laws: name.into(), model });
     }
     let is_own = loading_name == scene.loading.0 && scene.damped.is_none();
@@ -124,7 +124,7 @@ fn choose_one(scene: &Scene, name: &str) -> Result<Choice, UnknownLaw> {
     let model = Model { pair, loading, unloading, surface: scene.contacts[0].surface };
     let model = strengthened(&model, scene.hardening_modulus(0));
     let laws = format!("{loading_name}/{chosen}");
-    Ok(Choice { name: name.into(), laws, model: AnyModel::Elastoplastic(model) })
+    Ok(Choice { name: name.into(), laws, model: scene.with_loss(0, model) })
 }
 
 /// A rate-dependent law for comparison with the scene's own. Its damping is for the restitution that the scene requires, or for

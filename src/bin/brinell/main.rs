@@ -13,6 +13,7 @@ mod energy;
 mod experiment;
 mod export;
 mod files;
+mod friction_text;
 mod guard;
 mod hardness;
 mod html;
@@ -25,6 +26,7 @@ mod law_text;
 mod laws;
 mod layout;
 mod materials;
+mod measured;
 mod merge;
 mod model;
 mod model_description;
@@ -52,6 +54,7 @@ mod ssp;
 mod summary;
 mod symbols;
 mod table;
+mod tangential_curve;
 mod toolchain;
 mod truth;
 mod units;
@@ -130,12 +133,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             return Ok(check::exported(&unit, json)?);
         }
         Some(Command::Check(arguments)) => return Ok(check::run(arguments, json)?),
-        Some(Command::Report { scene, output, peer, quick }) => {
-            let scene = Scene::read_aloud(scene)?;
-            let usual = format!("{}_report", scene.name).into();
-            files::check_folder(output.as_ref().unwrap_or(&usual))?;
-            return Ok(report::run(&scene, peer, output.as_deref(), *quick, json)?);
-        }
+        Some(Command::Report(arguments)) => return report::run(arguments, json),
         Some(Command::Export { scene, output, platforms, way }) => {
             let way = way.chosen();
             export::run(&Scene::read_aloud(scene)?, (way, &platforms.chosen(way)?), output.as_deref(), json)?;

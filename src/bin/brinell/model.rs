@@ -5,6 +5,7 @@ use brinell::contact::damped::tsuji::TsujiDamping;
 use brinell::contact::damped::{self, AnyDamped, HuntCrossley, Tsuji};
 use brinell::contact::impact::{self, Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
+use brinell::contact::losses::{self, AnyLoss};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model, Pair};
 
@@ -14,10 +15,11 @@ thread_local!(pub static PREDICTIONS: std::cell::Cell<usize> = const { std::cell
 
 /// Bodies and laws of either kind.
 #[derive(Clone, Copy, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there are a few of them at a time")]
 pub enum AnyModel {
     /// The force depends on the indentation and the largest indentation.
     Elastoplastic(Model<AnyLoading, AnyUnloading>),
+    /// The same, with a loss below yield.
+    Lossy(losses::Model<AnyLoading, AnyUnloading, AnyLoss>),
     /// The force depends on the indentation and the rate.
     Damped(damped::Model<AnyDamped>),
 }
@@ -29,6 +31,7 @@ impl AnyModel {
         PREDICTIONS.set(PREDICTIONS.get() + 1);
         match self {
             AnyModel::Elastoplastic(model) => impact::predict(model, impact),
+            AnyModel::Lossy(model) => losses::impact::predict(model, impact),
             AnyModel::Damped(model) => damped::impact::predict(model, impact),
         }
     }
@@ -37,15 +40,25 @@ impl AnyModel {
     pub fn restitution(&self, impact: &Impact) -> Option<f64> {
         match self {
             AnyModel::Elastoplastic(model) => impact::restitution(model, impact),
+            AnyModel::Lossy(model) => losses::impact::predict(model, impact).map(|prediction| prediction.restitution),
             AnyModel::Damped(model) => damped::impact::predict(model, impact).map(|prediction| prediction.restitution),
         }
     }
 
-    /// The model if its force does not depend on the rate.
+    /// The model without its loss, if it has no law whose force depends on the rate.
     pub fn elastoplastic(&self) -> Option<&Model<AnyLoading, AnyUnloading>> {
         match self {
             AnyModel::Elastoplastic(model) => Some(model),
+            AnyModel::Lossy(model) => Some(&model.plastic),
             AnyModel::Damped(_) => None,
+        }
+    }
+
+    /// The same contact by another elastoplastic `model`, with the same loss.
+    pub fn with_plastic(&self, plastic: Model<AnyLoading, AnyUnloading>) -> AnyModel {
+        match self {
+            AnyModel::Lossy(model) => AnyModel::Lossy(losses::Model { plastic, ..*model }),
+            _ => AnyModel::Elastoplastic(plastic),
         }
     }
 
@@ -53,6 +66,7 @@ impl AnyModel {
     pub fn pair(&self) -> Pair {
         match self {
             AnyModel::Elastoplastic(model) => model.pair,
+            AnyModel::Lossy(model) => model.plastic.pair,
             AnyModel::Damped(model) => model.pair,
         }
     }
@@ -61,6 +75,7 @@ impl AnyModel {
     pub fn valid_depth(&self) -> f64 {
         match self {
             AnyModel::Elastoplastic(model) => model.valid_depth(),
+            AnyModel::Lossy(model) => model.plastic.valid_depth(),
             AnyModel::Damped(model) => model.valid_depth(),
         }
     }
@@ -68,7 +83,7 @@ impl AnyModel {
     /// The model with this yield strength of the target [Pa], if its law has one.
     pub fn with_yield_strength(&self, yield_strength: f64) -> Option<AnyModel> {
         let model = self.elastoplastic()?;
-        Some(AnyModel::Elastoplastic(Model { pair: Pair { yield_strength, ..model.pair }, ..*model }))
+        Some(self.with_plastic(Model { pair: Pair { yield_strength, ..model.pair }, ..*model }))
     }
 
     /// The law on the bodies `pair`, with the given yield strength [Pa]; without one, the yield strength stays the same.
@@ -76,6 +91,7 @@ impl AnyModel {
         let pair = Pair { yield_strength: yield_strength.unwrap_or(self.pair().yield_strength), ..pair };
         match self {
             AnyModel::Elastoplastic(model) => AnyModel::Elastoplastic(Model { pair, ..*model }),
+            AnyModel::Lossy(model) => self.with_plastic(Model { pair, ..model.plastic }),
             AnyModel::Damped(model) => AnyModel::Damped(damped::Model { pair, ..*model }),
         }
     }
@@ -83,13 +99,15 @@ impl AnyModel {
     /// The model with a target of this hardening modulus [Pa]; `None` if its law has none.
     pub fn with_hardening(&self, hardening_modulus: f64) -> Option<AnyModel> {
         let model = self.elastoplastic().filter(|model| model.loading.strengthened(hardening_modulus).is_some())?;
-        Some(AnyModel::Elastoplastic(strengthened(model, hardening_modulus)))
+        Some(self.with_plastic(strengthened(model, hardening_modulus)))
     }
 
     /// The stiffness of the way back from `indentation` [m]; of a rate-dependent law that of its elastic part [N/m].
     pub fn stiffness(&self, indentation: f64) -> f64 {
         match self {
-            AnyModel::Elastoplastic(model) => model.unloading_segment(indentation, indentation).stiffness(indentation),
+            AnyModel::Elastoplastic(model) | AnyModel::Lossy(losses::Model { plastic: model, .. }) => {
+                model.unloading_segment(indentation, indentation).stiffness(indentation)
+            }
             AnyModel::Damped(model) => {
                 let contact = damped::History::start(model, -indentation);
                 contact.expect("a checked scene is within range").stiffness(0.0)
@@ -101,7 +119,7 @@ impl AnyModel {
     pub fn method(&self) -> &'static str {
         match self {
             AnyModel::Elastoplastic(_) => "by energy balance",
-            AnyModel::Damped(_) => "by integrating the motion",
+            AnyModel::Lossy(_) | AnyModel::Damped(_) => "by integrating the motion",
         }
     }
 
@@ -126,9 +144,16 @@ impl AnyModel {
                     let branch = if state.speed > 0.0 { &mut there } else { &mut back };
                     branch.push((state.indentation, force));
                 })?;
-                // the two branches meet
-                back.splice(0..0, there.last().copied());
-                Some(vec![thinned(&there), thinned(&back)])
+                Some(joined(there, back))
+            }
+            AnyModel::Lossy(model) => {
+                let (mut all, mut deepest) = (Vec::new(), 0);
+                losses::impact::follow(model, impact, |state, force| {
+                    all.push((state.indentation, force));
+                    deepest = if state.indentation >= all[deepest].0 { all.len() - 1 } else { deepest };
+                })?;
+                let back = all.split_off(deepest + 1);
+                Some(joined(all, back))
             }
         }
     }
@@ -142,6 +167,12 @@ pub fn strengthened(
     let Some(loading) = model.loading.strengthened(hardening_modulus) else { return *model };
     let unloading = model.unloading.strengthened(hardening_modulus).unwrap_or(model.unloading);
     Model { loading, unloading, ..*model }
+}
+
+/// The two branches of an impact, which meet.
+fn joined(there: Vec<(f64, f64)>, mut back: Vec<(f64, f64)>) -> Vec<Vec<(f64, f64)>> {
+    back.splice(0..0, there.last().copied());
+    vec![thinned(&there), thinned(&back)]
 }
 
 /// Some of the `points`, with the first and the last.

@@ -1,5 +1,6 @@
 //! `modelDescription.xml`.
 
+use crate::constants;
 use crate::interface::{Entry, is_tunable};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -66,14 +67,24 @@ fn document(xml: &mut Xml<'_>, plan: &Plan, guid: &str) -> io::Result<()> {
     Ok(())
 }
 
+/// The highest order of the derivative of an output.
+fn output_order(scene: &Scene) -> &'static str {
+    match scene.is_rate_dependent() {
+        true if scene.follows_rate() => "1",
+        // the rate of indentation on a plate isn't the input
+        true => "0",
+        false => "2",
+    }
+}
+
 fn co_simulation(xml: &mut Xml<'_>, scene: &Scene) -> io::Result<()> {
-    let takes_derivatives = scene.damped.is_none() && !scene.has_input("external_acceleration");
+    let takes_derivatives = constants::has_course(scene) && !scene.has_input("external_acceleration");
     let attributes = [
         ("modelIdentifier", scene.name.as_str()),
         ("needsExecutionTool", "false"),
         ("canHandleVariableCommunicationStepSize", "true"),
         ("canInterpolateInputs", if takes_derivatives { "true" } else { "false" }),
-        ("maxOutputDerivativeOrder", if scene.damped.is_some() { "1" } else { "2" }),
+        ("maxOutputDerivativeOrder", output_order(scene)),
         ("canRunAsynchronuously", "false"),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
         ("canNotUseMemoryManagementFunctions", if scene.standalone { "false" } else { "true" }),
@@ -205,7 +216,9 @@ fn structure(xml: &mut Xml<'_>, entries: &[Entry]) -> io::Result<()> {
     xml.create_element("ModelStructure").write_inner_content(|xml| {
         xml.create_element("Outputs").write_inner_content(|xml| {
             for (entry, index) in outputs() {
-                unknown(xml, entry.reference + index, entry.follows.map(|first| first + index).as_slice())?;
+                let inputs = [entry.follows, entry.follows_tangential];
+                let inputs: Vec<_> = inputs.into_iter().flatten().map(|first| first + index).collect();
+                unknown(xml, entry.reference + index, &inputs)?;
             }
             Ok(())
         })?;

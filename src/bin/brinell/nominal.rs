@@ -13,6 +13,8 @@ pub struct Nominal {
     stiffness: f64,
     /// Speed of the scene's impact [m/s].
     speed: f64,
+    /// Coefficient of friction; 1 if it is zero.
+    friction: f64,
 }
 
 /// The typical values of each group.
@@ -20,7 +22,9 @@ pub fn of(scene: &Scene) -> Vec<Nominal> {
     scene.by_bodies(|group| {
         let prediction = scene.predictions[group];
         let stiffness = scene.any_model_of(group).stiffness(prediction.max_indentation);
-        Nominal { prediction, stiffness, speed: scene.impact.speed }
+        let friction =
+            scene.group_value(group, "friction.coefficient").filter(|friction| *friction > 0.0).unwrap_or(1.0);
+        Nominal { prediction, stiffness, speed: scene.impact.speed, friction }
     })
 }
 
@@ -36,6 +40,8 @@ impl Nominal {
             "max_stiffness" => self.stiffness,
             "energy" => energy,
             "speed" => self.speed,
+            "max_friction" => self.friction * max_force,
+            "tangential_momentum" => self.friction * 2.0 * energy / self.speed,
             "momentum" => 2.0 * energy / self.speed,
             other => unreachable!("variables.toml names the nominal size {other}, which nobody computes"),
         };

@@ -72,9 +72,9 @@ pub fn quantity(value: f64, unit: &'static str) -> String {
     format!("{} {unit}", significant(value / size, DIGITS)).trim_end().into()
 }
 
-/// A number in a table, in units of this size.
+/// A number in a table, in units of this size; a dash if there is none.
 pub fn cell(value: f64, size: f64) -> String {
-    significant(value / size, DIGITS)
+    if value.is_nan() { "-".into() } else { significant(value / size, DIGITS) }
 }
 
 /// A relative difference in percent with its sign. A negligible difference is described as such.

@@ -71,8 +71,10 @@ impl Plan<'_> {
 /// The kinds of the FMU of `scene`, whose laws have this `energy` balance.
 fn kinds(scene: &Scene, energy: Energy) -> Vec<Kind> {
     let coupling = scene.coupling;
+    // a loss adds heat to that of yielding
+    let heats = scene.loss.is_some() && coupling.is_none() && energy == Energy::Passive;
     let kinds = [
-        (Kind::RateDependent, scene.damped.is_some()),
+        (Kind::RateDependent, scene.damped.is_some() || heats),
         (Kind::Parallel, coupling.is_some_and(|coupling| coupling.parallel)),
         (Kind::AccelerationInput, coupling.is_some_and(|coupling| coupling.acceleration_input)),
         (Kind::MassKnown, coupling.is_some()),

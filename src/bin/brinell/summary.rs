@@ -5,7 +5,7 @@ use crate::layout::paragraph;
 use crate::package::{Exported, How, Packed};
 use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
-use crate::table::{Causality, VARIABLES};
+use crate::table::{self, Causality, VARIABLES};
 use brinell::contact::Surface;
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
@@ -34,8 +34,11 @@ impl Summary<'_> {
     pub fn of<'a>(plan: &'a Plan<'a>) -> Summary<'a> {
         let scene = plan.scene;
         let parameters = scene.parameters.iter().chain(scene.contacts.iter().flat_map(|group| &group.own));
+        // without friction, its variables are not listed one by one
+        let exists = |name: &&str| scene.friction || !table::variable(name).friction;
         let absent = of_kind(Causality::Parameter).filter(|name| !parameters.clone().any(|other| other.name == *name));
-        let outputs = of_kind(Causality::Output).filter(|name| !shows(plan, name));
+        let absent = absent.filter(exists);
+        let outputs = of_kind(Causality::Output).filter(|name| !shows(plan, name)).filter(exists);
         let (outputs, absent) = (outputs.collect(), absent.collect());
         Summary { plan, outputs, absent, laws: OtherLaws::of(scene), features: features(scene) }
     }
@@ -176,6 +179,8 @@ fn features(scene: &Scene) -> Vec<&'static str> {
     let dents = scene.unloading.is_some();
     [
         (!scene.passivity_guard, "passivity guard"),
+        (!scene.friction, "friction"),
+        (scene.damped.is_none() && scene.loss.is_none(), "losses below yield"),
         (!(dents && surface(Surface::Dented)), "surface that keeps its dents"),
         (!(dents && surface(Surface::Fresh)), "surface that is fresh at every contact"),
     ]
@@ -204,9 +209,10 @@ fn group_line(group: &Group) -> String {
 }
 
 fn law(scene: &Scene) -> String {
-    match (scene.damped, scene.unloading) {
+    let laws = match (scene.damped, scene.unloading) {
         (Some((damped, _)), _) => format!("{damped} (the force depends on the rate)"),
         (None, Some((unloading, _))) => format!("{}/{unloading} (loading/unloading)", scene.loading.0),
         (None, None) => format!("{} (elastic)", scene.loading.0),
-    }
+    };
+    scene.loss.map_or(laws.clone(), |loss| format!("{laws}, with {}", loss.name()))
 }

@@ -27,6 +27,12 @@ pub struct Variable {
     pub nominal_from: Option<String>,
     #[serde(default)]
     pub follows_rate: Follows,
+    /// Whether an output also depends on the tangential rate at the same instant.
+    #[serde(default)]
+    pub follows_tangential_rate: bool,
+    /// Whether it belongs to FMUs with friction only.
+    #[serde(default)]
+    pub friction: bool,
     /// Whether an output belongs to a whole step, and changes at communication points only.
     #[serde(default)]
     pub held: bool,

@@ -203,7 +203,7 @@ impl<'a, D: Damped + Copy> Motion<'a, D> {
 }
 
 /// The stages of Dormand and Prince; the last one is the step itself.
-const STAGES: [[f64; 6]; 7] = [
+pub(in crate::contact) const STAGES: [[f64; 6]; 7] = [
     [0.0; 6],
     [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
@@ -214,5 +214,5 @@ const STAGES: [[f64; 6]; 7] = [
 ];
 
 /// The difference between the methods of order 5 and 4.
-const ERROR: [f64; 7] =
+pub(in crate::contact) const ERROR: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];

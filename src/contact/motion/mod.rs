@@ -10,7 +10,7 @@ mod bodies;
 mod curve;
 mod field;
 mod fit;
-mod flight;
+pub(in crate::contact) mod flight;
 mod line;
 mod moment;
 mod series;

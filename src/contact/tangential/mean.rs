@@ -85,29 +85,52 @@ impl<const N: usize> Stuck<N> {
         })
     }
 
-    /// Time derivative of the tangential force in the direction of the motion, for the rates of a `way` that begins
-    /// at the current position, divided by the coefficient of friction \[N/s\].
-    pub fn pull_rate(&self, curve: &Segment, way: &Way) -> f64 {
+    /// First and second time derivative of the tangential force in the direction of the motion, for the rates of a `way`
+    /// that begins at the current position and for its `accelerations` along the normal and in the (scaled) tangential
+    /// direction, divided by the coefficient of friction \[N/s, N/s^2\].
+    pub fn pull_rates(&self, curve: &Segment, way: &Way, accelerations: (f64, f64)) -> (f64, f64) {
         let (indentation, displacement) = (way.from, self.displacement.total());
-        if self.list.is_empty() || !way.moves() {
-            return 0.0;
+        let (normal, tangential) = accelerations;
+        if self.list.is_empty() {
+            return (0.0, 0.0);
+        }
+        if !way.moves() {
+            // the motion begins in the direction of the accelerations
+            let begun = Way { normal, tangential, ..*way };
+            return (0.0, if begun.moves() { self.pull_rates(curve, &begun, (0.0, 0.0)).0 } else { 0.0 });
         }
         let stiffness = curve.stiffness(indentation);
+        let (speed, change) = (way.normal, normal);
         if way.sticks() {
-            return stiffness * way.tangential;
+            let stiffening = product(curve.curvature(indentation), speed);
+            return (stiffness * way.tangential, stiffening * way.tangential + stiffness * tangential);
         }
         let sign = self.direction(way);
+        // of a part of the curve whose end moves with this speed and acceleration
+        let rates = |height: f64, speed: f64, change: f64| {
+            let stiffness = curve.stiffness(height);
+            (stiffness * speed, product(curve.curvature(height), speed * speed) + stiffness * change)
+        };
+        let whole = rates(indentation, speed, change);
         let mut left = self.list.vertices();
         while let Some((last, below)) = left.split_last() {
             let distance = distance(last, sign, displacement, indentation);
             if distance > SAME * indentation && fabs(last.slope - sign) > SAME {
                 let front = front(last, sign, distance);
-                let speed = (way.normal - sign * way.tangential) / (1.0 - sign * last.slope);
+                let divisor = 1.0 - sign * last.slope;
                 let front = if front < indentation { front } else { indentation };
-                return sign * stiffness * way.normal + (last.slope - sign) * curve.stiffness(front) * speed;
+                let of_front = |normal: f64, tangential: f64| (normal - sign * tangential) / divisor;
+                let stuck = rates(front, of_front(speed, way.tangential), of_front(normal, tangential));
+                let less = last.slope - sign;
+                return (sign * whole.0 + less * stuck.0, sign * whole.1 + less * stuck.1);
             }
             left = below;
         }
-        sign * stiffness * way.normal
+        (sign * whole.0, sign * whole.1)
     }
+}
+
+/// The product of a curvature, which may be infinite at the surface, and a rate.
+fn product(curvature: f64, rate: f64) -> f64 {
+    if rate == 0.0 { 0.0 } else { curvature * rate }
 }

@@ -27,13 +27,16 @@
 //! - V. L. Popov, M. Hess, *Facta Univ. Mech. Eng.* 12 (2014) 1-18.
 //! - M. A. Krasnosel'skii, A. V. Pokrovskii, *Systems with Hysteresis*, 1989: the play operator.
 
+mod behaviour;
 mod contact;
 mod growth;
 mod growth_steps;
+pub mod impact;
 mod list;
 mod mean;
 mod merge;
 mod outputs;
+mod rates;
 mod rough;
 mod saved;
 mod stuck;
@@ -41,21 +44,25 @@ mod way;
 
 pub use contact::RoughContact;
 pub use list::{List, Vertex};
-pub use outputs::Sliding;
+pub use outputs::{Quantity, Sliding};
 pub use rough::{RoughModel, Springs};
 pub use stuck::Stuck;
 pub use way::Way;
 
 use super::material::Body;
+use super::numbers::{largest, quotient};
 
 /// Slopes whose difference is smaller are equal. Distances smaller than this part of the indentation are zero.
 /// Otherwise rounding would leave an extra vertex at each reversal of a vibration.
 const SAME: f64 = 1e-13;
 
+/// The smallest coefficient of friction that determines the [scale](Friction::scale) of the displacements.
+const SMALLEST: f64 = 1e-100;
+
 /// The friction parameters of a pair of bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// Coefficient of friction `mu` > 0.
+    /// Coefficient of friction `mu` >= 0.
     pub coefficient: f64,
     /// Ratio of the tangential to the normal stiffness, `4 G*/E*`.
     pub stiffness_ratio: f64,
@@ -75,7 +82,11 @@ impl Friction {
     }
 
     /// Scale of the tangential displacements: `kappa = 4 G*/(mu E*)`.
+    ///
+    /// It is that of a coefficient of 1e-100 for all smaller ones. Their tangential force is below 1e-100 of the normal
+    /// force; without friction it is zero.
     pub fn scale(&self) -> f64 {
-        self.stiffness_ratio / self.coefficient
+        let coefficient = largest(self.coefficient, SMALLEST);
+        quotient(self.stiffness_ratio, coefficient, coefficient > 0.0, 0.0)
     }
 }

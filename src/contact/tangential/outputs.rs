@@ -17,6 +17,23 @@ pub enum Sliding {
     Sliding = 3,
 }
 
+/// A quantity of the friction of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Tangential force \[N\].
+    Force,
+    /// Mean tangential force of the last step \[N\].
+    MeanForce,
+    /// Integral of the tangential force over time since the start \[N.s\].
+    Impulse,
+    /// Elastic energy of the tangential strain \[J\].
+    Energy,
+    /// Energy lost by slip since the start \[J\].
+    FrictionWork,
+    /// Radius of the stick area \[m\].
+    StickRadius,
+}
+
 impl Sliding {
     /// All states, in the order of their numbers.
     pub const ALL: [Sliding; 4] = [Sliding::Apart, Sliding::Stick, Sliding::PartialSlip, Sliding::Sliding];
@@ -43,7 +60,8 @@ impl<const N: usize> Stuck<N> {
                 let shortfall = force - curve.mean_force(vertex.height, height);
                 vertex.slope * (tension * (force - vertex.force) - vertex.slope * rise * shortfall)
             })
-            .sum()
+            // not -0.0, the sum of no numbers
+            .fold(0.0, |sum, energy| sum + energy)
     }
 
     /// Slip state of the contact.

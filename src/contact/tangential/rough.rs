@@ -4,7 +4,7 @@ use super::growth_steps::next_of_lattice;
 use super::{Friction, Sliding, Stuck, Way};
 use crate::contact::history::{History, TooDeep};
 use crate::contact::loading::Loading;
-use crate::contact::numbers::smallest;
+use crate::contact::numbers::{quotient, smallest};
 use crate::contact::segment::Segment;
 use crate::contact::unloading::Unloading;
 use crate::contact::{Model, Surface};
@@ -164,18 +164,30 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         friction.coefficient * self.pull(indentation)
     }
 
-    /// Time derivative of the tangential force \[N/s\] for these `rates` along the normal and in the tangential
-    /// direction \[m/s\], on the current curve. On the loading curve of a yielding contact it is valid only for
-    /// stick.
-    pub fn force_rate(&self, friction: &Friction, indentation: f64, rates: (f64, f64)) -> f64 {
-        let (normal, tangential) = (rates.0, friction.scale() * rates.1);
-        let way = Way { from: indentation, to: indentation, shift: 0.0, normal, tangential };
-        friction.coefficient * self.stuck.pull_rate(&self.curve, &way)
+    /// First and second time derivative of the tangential force \[N/s, N/s^2\] for these `rates` \[m/s\] and
+    /// `accelerations` \[m/s^2\] along the normal and in the tangential direction, on the current curve. `None` if the
+    /// dent grows.
+    pub fn force_rates(
+        &self,
+        friction: &Friction,
+        indentation: f64,
+        rates: (f64, f64),
+        accelerations: (f64, f64),
+    ) -> Option<(f64, f64)> {
+        if rates.0 > 0.0 && indentation >= self.curve.upper {
+            return None;
+        }
+        let scale = friction.scale();
+        let way = Way { from: indentation, to: indentation, shift: 0.0, normal: rates.0, tangential: scale * rates.1 };
+        let accelerations = (accelerations.0, scale * accelerations.1);
+        let (first, second) = self.stuck.pull_rates(&self.curve, &way, accelerations);
+        Some((friction.coefficient * first, friction.coefficient * second))
     }
 
     /// Stored tangential energy \[J\] at `indentation` \[m\].
     pub fn energy(&self, friction: &Friction, indentation: f64) -> f64 {
-        friction.coefficient / friction.scale() * self.stuck.energy(&self.curve, indentation)
+        let scale = friction.scale();
+        quotient(friction.coefficient, scale, scale > 0.0, 0.0) * self.stuck.energy(&self.curve, indentation)
     }
 
     /// Radius of the stick area \[m\] at `indentation` \[m\], for the effective modulus `modulus` \[Pa\].

@@ -2,6 +2,7 @@
 
 mod apart;
 mod master;
+mod oblique;
 mod trial;
 
 use crate::files::FileError;

@@ -6,7 +6,7 @@ mod parameters;
 mod variables;
 
 use crate::plan::Plan;
-use crate::scene::{Coupling, Scene};
+use crate::scene::{Coupling, Loss, Scene};
 use brinell::contact::damped::AnyDamped;
 use std::fmt::Write;
 
@@ -61,11 +61,12 @@ impl File {
     /// The whole file.
     fn text(&self, plan: &Plan) -> String {
         let scene = plan.scene;
-        let forces = presence(scene.contact_count() > 1 && scene.damped.is_none());
+        let forces = presence(scene.contact_count() > 1 && !scene.is_rate_dependent());
         let (parts, follow) = (parts(scene), follow(scene));
         let guard = match plan.guard.as_ref().map(|guard| format!("the passivity guard {}", guard.words())) {
             Some(words) => format!(
-                "\n    const GUARD: Option<Guard<Self>> =\n        Some(Guard {{ words: {words:?}, acts: contact::History::is_held_back }});\n"
+                "\n    const GUARD: Option<Guard<Self>> =\n        Some(Guard {{ words: {words:?}, acts: {}::History::is_held_back }});\n",
+                if scene.loss.is_some() { "losses" } else { "contact" }
             ),
             None => String::new(),
         };
@@ -102,7 +103,8 @@ fn presence(is: bool) -> &'static str {
 fn parts(scene: &Scene) -> String {
     let chosen = |names: &[&str]| names.iter().any(|name| scene.outputs.iter().any(|output| output == name));
     let momentum = presence(chosen(&["impulse", "mean_force"]));
-    let (course, prediction) = (presence(scene.damped.is_none()), presence(chosen(&["predicted_force"])));
+    let (course, prediction) =
+        (presence(has_course(scene)), presence(chosen(&["predicted_force", "predicted_tangential_force"])));
     let coupling = match scene.coupling {
         Some(Coupling { parallel, acceleration_input, mass_input }) => {
             let [account, acceleration, mass] = [parallel, acceleration_input, mass_input].map(presence);
@@ -121,6 +123,11 @@ fn parts(scene: &Scene) -> String {
     )
 }
 
+/// Whether the input may have derivatives. In a scene that moves its bodies, its derivative is their acceleration.
+pub fn has_course(scene: &Scene) -> bool {
+    !scene.is_rate_dependent() || scene.coupling.is_some()
+}
+
 /// The function that moves the bodies, if the scene moves them.
 fn follow(scene: &Scene) -> &'static str {
     match scene.coupling.is_some() {
@@ -135,10 +142,19 @@ fn uses(text: &str) -> String {
         names.iter().copied().filter(|name| text.contains(name.trim_end_matches(" as _"))).collect()
     };
     let mut contact = vec!["self", "Pair"];
-    contact.extend(named(&["Surface", "damped", "loading", "unloading"]));
-    let follow = if text.contains("Some(follow)") { "use crate::contact::motion::{Follow, follow};\n" } else { "" };
+    contact.extend(named(&["Surface", "damped", "loading", "losses"]));
+    contact.extend(named(&["tangential::"]).iter().map(|_| "tangential"));
+    contact.extend(named(&["unloading"]));
+    let follow = match text.contains("Some(follow)") {
+        true if text.contains("losses::") => {
+            "use crate::contact::losses::follow;\nuse crate::contact::motion::Follow;\n"
+        }
+        true => "use crate::contact::motion::{Follow, follow};\n",
+        false => "",
+    };
     let mut scene = named(&["Absent", "Coupled", "Guard", "Integer", "Parameter", "Present", "Real"]);
     scene.extend(["Scene", "Settable", "identity_of"]);
+    scene.extend(named(&["with_friction"]));
     // without a contact law, the file does not use these names
     if !text.contains("contact::") {
         contact.remove(0);
@@ -189,9 +205,20 @@ fn add_laws(file: &mut File, scene: &Scene) {
     let form = |kind: String, module: &str, has| if has { format!("{module}::Strengthened") } else { kind };
     let [of_loading, of_unloading] = strengthened_forms(scene);
     let (loading, unloading) = (form(loading, "loading", of_loading), form(unloading, "unloading", of_unloading));
-    file.model = format!("contact::Model<{loading}, {unloading}>");
-    file.contact = "contact::History".into();
+    let model = format!("Model<{loading}, {unloading}>");
+    (file.model, file.contact) = match (scene.friction, scene.loss) {
+        (true, _) => (format!("tangential::Rough{model}"), format!("tangential::RoughContact<{MEMORY}>")),
+        (false, Some(loss)) => {
+            let kind = kind_of(loss);
+            let model = format!("losses::Model<{loading}, {unloading}, losses::{kind}>");
+            (model, format!("losses::History<losses::{kind}>"))
+        }
+        (false, None) => (format!("contact::{model}"), "contact::History".into()),
+    };
 }
+
+/// Number of segments in which the springs of a contact with friction remember its past.
+pub const MEMORY: usize = 12;
 
 /// The expressions of a model of each kind, from its laws.
 const DAMPED_MODEL: &str = "let (restitution, mass) = (value(Parameter::Restitution), value(Parameter::EffectiveMass));\n\
@@ -222,6 +249,31 @@ fn model_of(scene: &Scene, value: &str, surface: &str) -> String {
     )
 }
 
+/// The type of a loss.
+fn kind_of(loss: Loss) -> &'static str {
+    match loss {
+        Loss::Fitted(_) => "Fitted",
+        Loss::Waves => "Waves",
+        Loss::Plate(_) => "Plate",
+    }
+}
+
+/// The expression of a model with this `loss`, from that of its `plastic` part.
+fn with_loss(loss: Loss, plastic: &str) -> String {
+    let density = "density: Self::density(group).unwrap_or(f64::NAN)";
+    let fields = match loss {
+        Loss::Fitted(restitution) => format!("restitution: {}", literal(restitution)),
+        Loss::Waves => density.into(),
+        Loss::Plate(thickness) => format!("{density}, thickness: {}", literal(thickness)),
+    };
+    let (first, last) = plastic.split_once(";\n").unwrap_or(("", plastic));
+    let first = if first.is_empty() { String::new() } else { format!("{first};\n") };
+    // a fitted restitution is the same for all groups
+    let unused = if matches!(loss, Loss::Fitted(_)) { "let _ = group;\n" } else { "" };
+    let kind = kind_of(loss);
+    format!("{unused}{first}let plastic = {last};\nlosses::Model {{ plastic, loss: losses::{kind} {{ {fields} }} }}")
+}
+
 /// The model of a group.
 fn add_model(file: &mut File, scene: &Scene) {
     if scene.damped.is_some() {
@@ -232,18 +284,26 @@ fn add_model(file: &mut File, scene: &Scene) {
         return;
     }
     let (group, surface) = groups::surface(file, scene);
-    let (group, values) = match scene.is_strengthened() {
-        true => ("group", "values"),
-        false => (group, "_values"),
+    let needs_group = scene.is_strengthened() || scene.friction;
+    let group = if needs_group || scene.loss.is_some() { "group" } else { group };
+    let values = if needs_group { "values" } else { "_values" };
+    let hardening_modulus = "Self::parameter(Parameter::TargetHardeningModulus, group, values)";
+    let plastic = model_of(scene, hardening_modulus, &format!("surface: {surface}"));
+    let model = match scene.loss {
+        _ if scene.friction => with_friction(&plastic),
+        Some(loss) => with_loss(loss, &plastic),
+        None => plastic,
     };
-    file.add_method(
-        &format!("model(pair: Pair, {group}: usize, {values}: &Self::Values) -> Self::Model"),
-        &model_of(
-            scene,
-            "Self::parameter(Parameter::TargetHardeningModulus, group, values)",
-            &format!("surface: {surface}"),
-        ),
-    );
+    file.add_method(&format!("model(pair: Pair, {group}: usize, {values}: &Self::Values) -> Self::Model"), &model);
+}
+
+/// The expression of a model with friction, from that of its normal part.
+fn with_friction(normal: &str) -> String {
+    let normal = match normal.rsplit_once("contact::Model") {
+        Some((before, model)) => format!("{before}let normal = contact::Model{model};"),
+        None => normal.to_string(),
+    };
+    format!("{normal}\nwith_friction(normal, |which| Self::parameter(which, group, values))")
 }
 
 /// The Rust expression of a law: the Debug form of the enum that holds it, without the enum.

@@ -8,8 +8,8 @@ use crate::table::{self, Causality, Variable};
 use std::fmt::Write;
 
 /// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, a contact that never yields,
-/// a target that doesn't harden, no damping.
-const ABSENT: [(&str, f64); 7] = [
+/// a target that doesn't harden, no damping, no friction.
+const ABSENT: [(&str, f64); 8] = [
     ("impactor.youngs_modulus", f64::INFINITY),
     ("impactor.poissons_ratio", 0.0),
     ("target.radius", f64::INFINITY),
@@ -17,6 +17,7 @@ const ABSENT: [(&str, f64); 7] = [
     ("target.hardening_modulus", 0.0),
     ("restitution", 1.0),
     ("effective_mass", f64::INFINITY),
+    ("friction.coefficient", 0.0),
 ];
 
 /// The initial value of the parameter `name` for the contacts of a group.

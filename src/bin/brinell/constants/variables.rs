@@ -98,12 +98,43 @@ mod tests {
             PredictedForce,
             ClosingSpeed,
             ExternalAcceleration,
+            TangentialRate,
+            TangentialForce,
+            MeanTangentialForce,
+            TangentialImpulse,
+            PredictedTangentialForce,
+            TangentialEnergy,
+            FrictionWork,
+            StickRadius,
             EffectiveMass,
         ];
         match all[0] {
-            IndentationRate | Force | Indentation | MaxIndentation | ResidualIndentation | ContactRadius
-            | MeanPressure | Stiffness | Work | ElasticEnergy | DissipatedEnergy | Impulse | MeanForce
-            | PredictedForce | ClosingSpeed | ExternalAcceleration | EffectiveMass | Parameter(_) => {}
+            IndentationRate
+            | Force
+            | Indentation
+            | MaxIndentation
+            | ResidualIndentation
+            | ContactRadius
+            | MeanPressure
+            | Stiffness
+            | Work
+            | ElasticEnergy
+            | DissipatedEnergy
+            | Impulse
+            | MeanForce
+            | PredictedForce
+            | ClosingSpeed
+            | ExternalAcceleration
+            | TangentialRate
+            | TangentialForce
+            | MeanTangentialForce
+            | TangentialImpulse
+            | PredictedTangentialForce
+            | TangentialEnergy
+            | FrictionWork
+            | StickRadius
+            | EffectiveMass
+            | Parameter(_) => {}
         }
         all.iter().map(|variable| format!("{variable:?}")).collect()
     }
@@ -112,7 +143,10 @@ mod tests {
     fn the_library_and_the_table_have_the_same_variables_in_the_same_order() {
         let is_real = |variable: &Variable| variable.r#type == Type::Real && variable.causality != Causality::Parameter;
         assert_eq!(listed(is_real), reals());
-        assert_eq!(listed(|variable| variable.r#type == Type::Enumeration), [format!("{:?}", Integer::Regime)]);
+        assert_eq!(
+            listed(|variable| variable.r#type == Type::Enumeration),
+            [Integer::Regime, Integer::Sliding].map(|variable| format!("{variable:?}"))
+        );
     }
 
     #[test]
@@ -130,6 +164,7 @@ mod tests {
             Restitution,
             EffectiveMass,
             InitialGap,
+            FrictionCoefficient,
         ];
         match all[0] {
             ImpactorRadius
@@ -142,7 +177,8 @@ mod tests {
             | TargetHardeningModulus
             | Restitution
             | EffectiveMass
-            | InitialGap => {}
+            | InitialGap
+            | FrictionCoefficient => {}
         }
         let names: Vec<_> = all.iter().map(|parameter| format!("{parameter:?}")).collect();
         assert_eq!(listed(|variable| variable.causality == Causality::Parameter), names);

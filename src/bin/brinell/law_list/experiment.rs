@@ -41,10 +41,10 @@ const LITERATURE: [(&str, Rate); 2] = [
 ];
 
 /// The law that is combined with the strain rate.
-const WITH_RATE: &str = "brinell";
+pub const WITH_RATE: &str = "brinell";
 
 /// The range of the comparison with the measured curve [HV].
-fn grid() -> impl Iterator<Item = f64> {
+pub fn grid() -> impl Iterator<Item = f64> {
     (0..=22).map(|step| 250.0 + 25.0 * f64::from(step))
 }
 
@@ -60,7 +60,7 @@ fn rate_errors(rate: &Rate) -> Vec<f64> {
 
 /// Johnson and Cook's constant with the best fit for all hardnesses, by least squares of the relative errors and
 /// golden-section search.
-fn fitted() -> f64 {
+pub fn fitted() -> f64 {
     let squares = |c: f64| {
         rate_errors(&Rate::JohnsonCook { c, reference_rate: 1.0 }).iter().map(|error| error * error).sum::<f64>()
     };
@@ -135,6 +135,12 @@ pub fn run(name: Option<&str>, as_json: bool) -> Result<(), Box<dyn Error>> {
         false => print!("{}", experiment.text()),
     }
     Ok(())
+}
+
+/// Every law that yields, compared with the measurements.
+pub fn all() -> Experiment {
+    let yielding = AnyLoading::ALL.into_iter().filter(|(known, _)| *known != "hertz");
+    compare(&yielding.collect::<Vec<_>>())
 }
 
 /// These loading laws, each with its own unloading law.

@@ -1,7 +1,7 @@
 //! `brinell laws`: the laws, each evaluated when the command runs.
 
 mod chart;
-mod experiment;
+pub mod experiment;
 mod materials;
 mod single;
 mod text;

@@ -67,9 +67,13 @@ pub fn grey() -> Stroke {
     Stroke { rgb: (181, 181, 181), width: SCALE, dashed: false }
 }
 
-/// The colour of data.
-pub fn black() -> Stroke {
-    Stroke { rgb: (0, 0, 0), width: SCALE, dashed: false }
+/// The beginning of the names of measured data.
+const MEASURED: &str = "measured";
+
+/// The colour of data with this name: red for measured data, otherwise black.
+pub fn data(name: &str) -> Stroke {
+    let rgb = if name.starts_with(MEASURED) { (200, 20, 30) } else { (0, 0, 0) };
+    Stroke { rgb, width: SCALE, dashed: false }
 }
 
 /// The strokes of lines with these names, for CSS.

@@ -1,6 +1,6 @@
 //! The axes of a picture, and its lines in the coordinates of the drawing.
 
-use super::colours::{self, black, grey};
+use super::colours::{self, data, grey};
 use super::lines::{self, Frame, Line, Place};
 use super::{IN_MEMORY, Picture, Point, SCALE, Series, View, clip, label};
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
@@ -62,7 +62,7 @@ impl Drawing<'_> {
         let line = |(series, stroke): (&Series, colours::Stroke)| {
             let strong = view.shows(&series.label);
             let stroke = if series.dots {
-                black()
+                data(&series.label)
             } else if strong {
                 stroke
             } else {

@@ -181,7 +181,10 @@ impl Picture {
         let line = RGBColor(stroke.rgb.0, stroke.rgb.1, stroke.rgb.2).stroke_width(stroke.width);
         let pieces: &[(i32, i32)] = if stroke.dashed { &[(0, 7), (11, 18)] } else { &[(0, 18)] };
         let drawn = match series.dots {
-            true => root.draw(&Circle::new((x + length / 2, y), 5 * SCALE / 2, BLACK.filled())),
+            true => {
+                let (red, green, blue) = colours::data(&series.label).rgb;
+                root.draw(&Circle::new((x + length / 2, y), 5 * SCALE / 2, RGBColor(red, green, blue).filled()))
+            }
             false => pieces.iter().try_for_each(|(from, to)| {
                 let ends = [from, to].map(|pixels| (x + pixels * SCALE as i32, y));
                 root.draw(&PathElement::new(ends, line))

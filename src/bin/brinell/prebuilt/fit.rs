@@ -42,6 +42,13 @@ fn library_for(scene: &Scene) -> Result<Library, NeedsCompiler> {
     if scene.passivity_guard {
         return Err(needs("law.passivity_guard", "prebuilt libraries have no guard"));
     }
+    if scene.friction {
+        return Err(needs("[friction]", "prebuilt libraries have no friction"));
+    }
+    if let Some(loss) = scene.loss {
+        let key = if loss.follows_rate() { "law.elastic_restitution" } else { "target.plate_thickness" };
+        return Err(needs(key, "prebuilt libraries have no losses below yield"));
+    }
     let laws = laws_of(scene)?;
     let library = Library::for_scene(laws, scene).expect("some kind has all outputs");
     let (published, kind) = (&library.scene, "the prebuilt library has the constants of the reference");

@@ -5,7 +5,7 @@ use crate::model::Dampings;
 use crate::package::{self, Hash};
 use crate::pairing;
 use crate::scene::{Coupling, Scene};
-use crate::table::{Causality, VARIABLES};
+use crate::table::{Causality, VARIABLES, Variable};
 use brinell::contact::damped::{AnyDamped, Damped};
 use brinell::contact::loading::AnyLoading;
 use std::path::Path;
@@ -59,7 +59,8 @@ impl Kind {
 
     /// The outputs besides the force, in the order of the table.
     fn outputs(&self) -> impl Iterator<Item = &'static str> {
-        let outputs = VARIABLES.iter().filter(|variable| variable.causality == Causality::Output);
+        let is_output = |variable: &&Variable| variable.causality == Causality::Output && !variable.friction;
+        let outputs = VARIABLES.iter().filter(is_output);
         let names = outputs.map(|variable| variable.name.as_str());
         names.filter(|name| *name != "force" && self.has_output(name))
     }

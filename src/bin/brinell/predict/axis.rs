@@ -1,7 +1,7 @@
 //! The varied quantity of a sweep: a quantity of the impact, or a parameter of the scene.
 
-use super::constants;
 use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_height};
+use super::{constants, oblique};
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::nearest::{nearest, one_of};
@@ -104,7 +104,7 @@ impl Axis {
 fn find(name: &str) -> Result<(&'static str, &'static str), String> {
     let parameters = VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter);
     let parameters = parameters.map(|variable| (variable.name.as_str(), variable.unit.as_deref().unwrap_or("")));
-    let known: Vec<_> = OF_IMPACT.into_iter().chain(parameters).collect();
+    let known: Vec<_> = OF_IMPACT.into_iter().chain(oblique::QUANTITIES).chain(parameters).collect();
     let constants: Vec<_> = constants::names().collect();
     let found = known.iter().chain(&constants).find(|(known, _)| *known == name);
     let names: Vec<_> = known.iter().map(|(name, _)| *name).filter(|name| !WITHOUT_EFFECT.contains(name)).collect();
@@ -147,9 +147,9 @@ pub fn varied(
                 check_limits(name, value)?;
                 match (name, &mut choice.model) {
                     ("effective_mass", AnyModel::Damped(model)) => (model.mass, impact.mass) = (value, value),
-                    ("effective_mass", AnyModel::Elastoplastic(_)) => impact.mass = value,
+                    ("effective_mass", AnyModel::Elastoplastic(_) | AnyModel::Lossy(_)) => impact.mass = value,
                     ("restitution", AnyModel::Damped(model)) => model.restitution = value,
-                    ("restitution", AnyModel::Elastoplastic(_)) => {
+                    ("restitution", AnyModel::Elastoplastic(_) | AnyModel::Lossy(_)) => {
                         let why = format!("restitution is a parameter of rate-dependent laws, not of {}", choice.laws);
                         return Err(PredictError::Sweep(why));
                     }

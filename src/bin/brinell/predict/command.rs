@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::map::Map;
+use super::oblique::{self, Setting};
 use super::sweep::Sweep;
 use super::text::Answer;
 use super::time_history::TimeHistory;
@@ -49,12 +50,49 @@ pub struct Arguments {
     /// Write force, indentation and speed over time: .csv, .svg or .html
     #[arg(long, value_name = "FILE", conflicts_with_all = ["sweep", "dent", "restitution"])]
     pub time_history: Option<PathBuf>,
+    /// Angle of incidence from the normal [degrees], for an oblique impact; the speed is then that along the path
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
+    pub angle: Option<f64>,
+    /// Spin of the ball before an oblique impact [rad/s]; positive like that of its contact point
+    #[arg(long, value_name = "RAD/S", allow_negative_numbers = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
+    pub spin: Option<f64>,
+    /// Coefficient of friction of an oblique impact [default: the scene's]
+    #[arg(long)]
+    pub friction: Option<f64>,
+    /// Moment of inertia of the ball in an oblique impact [kg.m^2] [default: that of a solid sphere]
+    #[arg(long)]
+    pub inertia: Option<f64>,
     /// A measured dent [m]: print the speed and the yield strength that explain it
     #[arg(long, value_parser = units::lengths, conflicts_with = "sweep")]
     pub dent: Option<f64>,
     /// A measured restitution: print the speeds and yield strengths that explain it
     #[arg(long, conflicts_with_all = ["sweep", "dent"])]
     pub restitution: Option<f64>,
+}
+
+impl Arguments {
+    /// The setting of an oblique impact, if one is asked for.
+    fn setting(&self, scene: &Scene, axes: &[Axis]) -> Result<Option<Setting>, WrongCall> {
+        let varied = |name: &str| axes.iter().find(|axis| axis.name == name).map(|axis| axis.from);
+        let is_oblique = [self.angle, self.spin].iter().any(Option::is_some);
+        if !is_oblique && varied("angle").is_none() && varied("spin").is_none() {
+            let idle = [("friction", self.friction.or(varied(oblique::FRICTION))), ("inertia", self.inertia)];
+            return match idle.iter().find(|(_, value)| value.is_some()) {
+                Some((name, _)) => Err(WrongCall::of(PredictError::NotOblique(name))),
+                None => Ok(None),
+            };
+        }
+        let coefficient = self.friction.or(varied(oblique::FRICTION)).or(scene.group_value(0, oblique::FRICTION));
+        let missing = || WrongCall::of(PredictError::NoCoefficient);
+        let setting = Setting {
+            angle: self.angle.or(varied("angle")).unwrap_or(0.0),
+            spin: self.spin.or(varied("spin")).unwrap_or(0.0),
+            coefficient: coefficient.ok_or_else(missing)?,
+            inertia: self.inertia,
+        };
+        setting.check().map_err(WrongCall::of)?;
+        Ok(Some(setting))
+    }
 }
 
 /// Runs the command.
@@ -70,9 +108,17 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let axes = axes.map_err(WrongCall::of)?;
     let scene = Scene::read_aloud(&arguments.scene)?;
     let impact = impact(&scene, arguments).map_err(WrongCall::of)?;
-    let scene = scene.with_strengths_for(Some(&impact)).ok_or("the impact is too hard for the law of the scene")?;
+    let setting = arguments.setting(&scene, &axes)?;
+    // the strength is that of the normal impact
+    let normal = setting.map_or(impact.speed, |setting| impact.speed * setting.angle.to_radians().cos());
+    let scene = scene
+        .with_strengths_for(Some(&Impact { speed: normal, ..impact }))
+        .ok_or("the impact is too hard for the law of the scene")?;
     let choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
     let question = Question { scene: &scene, choices: &choices, impact, as_json };
+    if let Some(setting) = setting {
+        return question.oblique((setting, arguments.laws.iter().any(|name| name == "all")), axes, output, format);
+    }
     if !axes.is_empty() {
         return question.sweep(axes, output, format);
     }
@@ -118,6 +164,14 @@ fn impact(scene: &Scene, arguments: &Arguments) -> Result<Impact, PredictError> 
     Ok(impact)
 }
 
+/// An impossible quantity or range is a wrong call. A law that can't be evaluated is not.
+fn failed(error: PredictError) -> Box<dyn Error> {
+    match error {
+        PredictError::Beyond { .. } => error.into(),
+        error => WrongCall::of(error).into(),
+    }
+}
+
 /// An impact on a scene with several laws, and the format of the output.
 struct Question<'a> {
     scene: &'a Scene,
@@ -142,13 +196,6 @@ impl Question<'_> {
             choices.retain(has_all);
         }
         let choices = choices.as_slice();
-        // an impossible quantity or range is a wrong call; a law that can't be evaluated is not
-        let failed = |error: PredictError| -> Box<dyn Error> {
-            match error {
-                PredictError::Beyond { .. } => error.into(),
-                error => WrongCall::of(error).into(),
-            }
-        };
         let text = match <[Axis; 2]>::try_from(axes) {
             Ok(axes) => {
                 let map = Map::of(scene, choices, impact, axes).map_err(failed)?;
@@ -163,6 +210,39 @@ impl Question<'_> {
             }
             Err(axes) => return Err(WrongCall(format!("--sweep is given {} times: at most two", axes.len())).into()),
         };
+        Ok(deliver(&text, output)?)
+    }
+
+    /// Oblique impacts: one, or several over a quantity.
+    fn oblique(
+        &self,
+        (setting, takes_some): (Setting, bool),
+        axes: Vec<Axis>,
+        output: Option<&Path>,
+        format: &str,
+    ) -> Result<(), Box<dyn Error>> {
+        let choices = oblique::with_friction(self.choices.to_vec(), takes_some).map_err(WrongCall::of)?;
+        let (scene, asked) = (self.scene, (self.impact, setting));
+        let axis = match <[Axis; 1]>::try_from(axes) {
+            Ok([axis]) => axis,
+            Err(none) if none.is_empty() => {
+                let answer = oblique::Answer::of(scene, &choices, asked).map_err(failed)?;
+                match self.as_json {
+                    true => println!("{}", answer.json()),
+                    false => print!("{}", answer.text()),
+                }
+                return Ok(());
+            }
+            Err(axes) => {
+                let count = axes.len();
+                return Err(
+                    WrongCall(format!("--sweep is given {count} times: at most once for oblique impacts")).into()
+                );
+            }
+        };
+        let sweep = oblique::Sweep::of(scene, &choices, asked, axis).map_err(failed)?;
+        let page = || page::of_oblique(scene, asked, &sweep);
+        let text = self.written((output, format), &|| sweep.columns(), &|| sweep.svg(), &page, &|| sweep.text());
         Ok(deliver(&text, output)?)
     }
 

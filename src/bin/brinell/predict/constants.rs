@@ -54,8 +54,8 @@ fn law_with(choice: &Choice, name: &str) -> Option<&'static table::Law> {
     let (loading, other, _) = laws_of(choice);
     match (&choice.model, name.starts_with(LOADING)) {
         (AnyModel::Damped(_), true) => Some(table::damped_law(loading)),
-        (AnyModel::Elastoplastic(_), true) => Some(table::loading_law(loading)),
-        (AnyModel::Elastoplastic(_), false) => other.map(table::unloading_law),
+        (AnyModel::Elastoplastic(_) | AnyModel::Lossy(_), true) => Some(table::loading_law(loading)),
+        (AnyModel::Elastoplastic(_) | AnyModel::Lossy(_), false) => other.map(table::unloading_law),
         (AnyModel::Damped(_), false) => None,
     }
 }
@@ -81,6 +81,7 @@ pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result
     let (loading, unloading, guarded) = laws_of(choice);
     let mut model = match choice.model {
         AnyModel::Elastoplastic(model) => model,
+        AnyModel::Lossy(model) => model.plastic,
         AnyModel::Damped(mut model) => {
             model.law = apply(model.law, "law.loading", Some(&given), law).map_err(wrong)?;
             choice.model = AnyModel::Damped(model);
@@ -101,6 +102,6 @@ pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result
     }
     law_check::check_loading(&model, published(loading)).map_err(refused)?;
     law_check::check_unloading(&model).map_err(refused)?;
-    choice.model = AnyModel::Elastoplastic(model);
+    choice.model = choice.model.with_plastic(model);
     Ok(())
 }

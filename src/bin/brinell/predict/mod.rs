@@ -6,6 +6,7 @@ mod constants;
 mod inverse;
 mod map;
 mod notes;
+pub mod oblique;
 mod page;
 mod rebound;
 pub mod sweep;
@@ -51,6 +52,18 @@ pub enum PredictError {
     NoDent(String),
     #[error("--sweep {0}")]
     Sweep(String),
+    #[error("angle = {0} must be above -90 and below 90 degrees from the normal")]
+    Angle(f64),
+    #[error("spin = {0} rad/s must be finite")]
+    Spin(f64),
+    #[error("friction = {value} is out of range: allowed is {} to {}", allowed.start(), allowed.end())]
+    Coefficient { value: f64, allowed: std::ops::RangeInclusive<f64> },
+    #[error("the law {law} doesn't support friction: {why}")]
+    NoFriction { law: String, why: String },
+    #[error("the scene has no friction: give it [friction] coefficient, or --friction, such as --friction 0.1")]
+    NoCoefficient,
+    #[error("--{0} belongs to an oblique impact: add --angle DEGREES, --spin RAD/S or a sweep over one of them")]
+    NotOblique(&'static str),
 }
 
 /// Rejects numbers that are not positive and finite.

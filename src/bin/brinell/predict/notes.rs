@@ -1,10 +1,13 @@
 //! Notes that accompany the numbers of a prediction.
 
 use crate::laws::Choice;
+use crate::model::AnyModel;
 use crate::numbers::{cell, quantity};
-use crate::scene::Scene;
-use brinell::contact::Surface;
+use crate::scene::{Loss, Scene, softer};
 use brinell::contact::impact::{Impact, Prediction};
+use brinell::contact::loading::{AnyLoading, Hertz};
+use brinell::contact::losses::Loss as _;
+use brinell::contact::{Model, Surface};
 
 /// On a surface that keeps its dents, a second impact at the same place is elastic.
 const ENDLESS: &str = "The surface keeps its dent (surface = \"dented\", the default). A ball that falls into its own dent again \
@@ -18,8 +21,29 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
         .zip(predictions)
         .any(|(choice, prediction)| choice.model.elastoplastic().is_some() && prediction.residual_indentation > 0.0);
     let keeps = scene.contacts[0].surface == Surface::Dented;
-    let endless = (dents && keeps).then(|| ENDLESS.to_string());
-    endless.into_iter().chain(strength(scene, impact)).collect()
+    let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.to_string());
+    let softer = predictions.first().and_then(|prediction| softer::notes(scene, prediction));
+    endless.into_iter().chain(loss(scene, impact)).chain(softer).chain(strength(scene, impact)).collect()
+}
+
+/// What the loss of the scene takes from an impact.
+fn loss(scene: &Scene, impact: &Impact) -> Option<String> {
+    let loss = scene.loss?;
+    let elastic = scene.with_loss(0, Model { loading: AnyLoading::Hertz(Hertz), ..scene.model() });
+    let restitution = elastic.restitution(impact).map_or("unknown".into(), |restitution| cell(restitution, 1.0));
+    let more = match (loss, elastic) {
+        (Loss::Plate(_), AnyModel::Lossy(model)) => {
+            let pair = model.plastic.pair;
+            let mobility = model.loss.factor(&pair);
+            format!(" The plate gives way at {} m/s per newton.", cell(mobility, 1.0))
+        }
+        _ => String::new(),
+    };
+    Some(format!(
+        "The scene has a loss below yield: {}. It alone would leave an elastic impact of this speed a restitution of \
+         {restitution}.{more}",
+        loss.name()
+    ))
 }
 
 /// The strength of the target in an impact, if it depends on the impact, and its reliability.

@@ -2,6 +2,7 @@
 
 use super::map::Map;
 use super::methods;
+use super::oblique::{self, Setting};
 use super::sweep::Sweep;
 use super::time_history::TimeHistory;
 use crate::bodies;
@@ -22,11 +23,12 @@ const ROWS: usize = 21;
 /// A page about impacts on the bodies of the first contact of a scene.
 struct Page<'a> {
     scene: &'a Scene,
-    choices: &'a [Choice],
     /// Title of the page, such as "impacts over speed".
     subject: String,
     /// The impact in words, starting with "with".
     with: String,
+    /// The method of the computation, in words.
+    method: String,
     /// The heading of the pictures.
     heading: &'static str,
     /// The names of the lines, if there are any.
@@ -41,10 +43,35 @@ pub fn of_sweep(scene: &Scene, choices: &[Choice], sweep: &Sweep) -> String {
     let fixed = impact_but(sweep.impact, &[sweep.axis.name]);
     Page {
         scene,
-        choices,
         subject: format!("impacts over {}", sweep.axis.name.replace('_', " ")),
         with: format!("{fixed} and {} from {from} to {to}", sweep.axis.name),
+        method: format!("predicted {}", methods(choices)),
         heading: "Restitution, largest force and dent",
+        lines: sweep.laws.iter().map(|(law, _)| law.as_str()).collect(),
+        pictures: figures(&sweep.panels()),
+        columns: sweep.columns(),
+    }
+    .write()
+}
+
+/// The page of oblique impacts over one quantity.
+pub fn of_oblique(scene: &Scene, (impact, setting): (Impact, Setting), sweep: &oblique::Sweep) -> String {
+    let axis = &sweep.axis;
+    let (from, to) = (quantity(axis.from, axis.unit), quantity(axis.to, axis.unit));
+    let Setting { angle, spin, coefficient, .. } = setting;
+    let fixed = [
+        ("angle", format!("an angle of incidence of {angle} degrees")),
+        ("spin", format!("a spin of {}", quantity(spin, "rad/s"))),
+        (oblique::FRICTION, format!("a coefficient of friction of {coefficient}")),
+    ];
+    let fixed: Vec<_> = fixed.into_iter().filter(|(name, _)| *name != axis.name).map(|(_, words)| words).collect();
+    let normal = impact_but(impact, &[axis.name]).replace("closing speed", "speed");
+    Page {
+        scene,
+        subject: format!("oblique impacts over {}", axis.name.replace('_', " ")),
+        with: format!("{normal}, {} and {} from {from} to {to}", fixed.join(", "), axis.name),
+        method: oblique::METHOD.into(),
+        heading: "Tangential restitution, rebound angle, spin and slip",
         lines: sweep.laws.iter().map(|(law, _)| law.as_str()).collect(),
         pictures: figures(&sweep.panels()),
         columns: sweep.columns(),
@@ -60,9 +87,9 @@ pub fn of_map(scene: &Scene, choices: &[Choice], impact: Impact, map: &Map) -> S
     };
     Page {
         scene,
-        choices,
         subject: format!("impacts over {} and {}", first.name.replace('_', " "), second.name.replace('_', " ")),
         with: format!("{}, {} and {}", impact_but(impact, &[first.name, second.name]), range(first), range(second)),
+        method: format!("predicted {}", methods(choices)),
         heading: "Restitution, largest force and dent",
         lines: Vec::new(),
         pictures: vec![map.svg()],
@@ -75,9 +102,9 @@ pub fn of_map(scene: &Scene, choices: &[Choice], impact: Impact, map: &Map) -> S
 pub fn of_time_history(scene: &Scene, choices: &[Choice], impact: Impact, history: &TimeHistory) -> String {
     Page {
         scene,
-        choices,
         subject: "an impact over time".into(),
         with: impact_but(impact, &[]),
+        method: format!("predicted {}", methods(choices)),
         heading: "Force, indentation and closing speed",
         lines: history.laws().collect(),
         pictures: figures(&history.panels()),
@@ -145,11 +172,10 @@ impl Page<'_> {
             Some(contact) => format!("In {contact}, {impactor}"),
             None => capitalized(impactor),
         };
-        let methods = methods(self.choices);
         writeln!(
             page,
-            "<p>{begin} meets {target} with {}. The impacts are predicted {methods}.</p>\n<table class=\"scene\">",
-            self.with
+            "<p>{begin} meets {target} with {}. The impacts are {}.</p>\n<table class=\"scene\">",
+            self.with, self.method
         )?;
         for (name, value, unit) in
             bodies::numbers(self.scene, 0).into_iter().filter(|(name, ..)| *name != "initial_gap")

@@ -7,7 +7,7 @@ use crate::model::AnyModel;
 use crate::plot::{Picture, Series, side_by_side};
 use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::motion::{Drive, follow};
-use brinell::contact::{History, Model, damped};
+use brinell::contact::{History, Model, damped, losses};
 
 /// Number of moments during the loading; there are as many during the unloading.
 const MOMENTS: u32 = 200;
@@ -41,12 +41,23 @@ pub fn moments(model: &AnyModel, impact: &Impact) -> Option<Vec<Moment>> {
                 let damped::impact::State { time, indentation, speed } = *state;
                 all.push(Moment { time, indentation, force, speed });
             })?;
-            // the method takes about a thousand steps
-            let last = all.len() - 1;
-            let count = 2 * MOMENTS as usize;
-            Some((0..=count).map(|moment| all[last * moment / count]).collect())
+            Some(thinned(&all))
+        }
+        AnyModel::Lossy(model) => {
+            let mut all = Vec::new();
+            losses::impact::follow(model, impact, |state, force| {
+                let losses::impact::State { time, indentation, speed } = *state;
+                all.push(Moment { time, indentation, force, speed });
+            })?;
+            Some(thinned(&all))
         }
     }
+}
+
+/// Some of the moments: an integration takes about a thousand steps.
+fn thinned(all: &[Moment]) -> Vec<Moment> {
+    let (last, count) = (all.len() - 1, 2 * MOMENTS as usize);
+    (0..=count).map(|moment| all[last * moment / count]).collect()
 }
 
 /// The motion with the law, in equal steps of the loading and of the unloading. Each step is exact, whatever its length.

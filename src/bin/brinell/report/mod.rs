@@ -3,7 +3,10 @@
 mod card;
 mod choice;
 mod data;
+mod experiment;
 mod extremes;
+mod measurement;
+mod oblique;
 mod page;
 mod peer;
 mod precision;
@@ -14,19 +17,22 @@ mod unit;
 mod units;
 mod ways;
 
-use crate::files::{FileError, write_whole};
+use crate::files::{self, FileError, write_whole};
 use crate::importer::ImportError;
 use crate::layout::paragraph;
+use crate::measured::Fit;
 use crate::package::ExportError;
 use crate::scene::Scene;
 use card::Card;
 use choice::Choice;
 use data::Table;
+use measurement::Measurement;
 use peer::Peer;
 use precision::Plan;
 use progress::{Progress, Work};
 use serde_json::{Value, json};
 use spread::Laws;
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use units::Units;
 use ways::Needs;
@@ -44,17 +50,40 @@ pub enum ReportError {
     File(#[from] FileError),
 }
 
-/// The command: measures the FMU of `scene` and those at `peers`, and writes the page to `folder`. Returns whether
-/// all cases passed.
-pub fn run(
-    scene: &Scene,
-    peers: &[PathBuf],
-    folder: Option<&Path>,
-    quick: bool,
-    as_json: bool,
-) -> Result<bool, ReportError> {
-    let folder = folder.map_or_else(|| format!("{}_report", scene.name).into(), Path::to_path_buf);
-    let report = Report::of(scene, peers, quick)?;
+/// The arguments of `brinell report`.
+#[derive(clap::Args)]
+#[command(next_line_help = true)]
+pub struct Arguments {
+    /// The scene file
+    pub scene: PathBuf,
+    /// The folder for the page and its data [default: NAME_report in the current folder]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Another FMU with the same variables, for the same pictures; can be repeated
+    #[arg(long, value_name = "FMU")]
+    pub peer: Vec<PathBuf>,
+    /// Your own measurement, in the same pictures: speed and restitution, or depth and force
+    #[arg(long, value_name = "FILE.csv")]
+    pub measured: Option<PathBuf>,
+    /// Parameters to fit to the measurement [default: yield_strength]
+    #[arg(long, value_delimiter = ',', requires = "measured", value_enum)]
+    pub fit: Vec<Fit>,
+    /// Use fewer steps and shorter runs
+    #[arg(long)]
+    pub quick: bool,
+}
+
+/// The command: measures the FMU of the scene and the other ones, and writes the page. Returns whether all cases passed.
+///
+/// # Errors
+/// [`ReportError`], or an error of the scene, of the measurement or of the arguments.
+pub fn run(arguments: &Arguments, as_json: bool) -> Result<bool, Box<dyn Error>> {
+    let Arguments { scene, output, peer, measured, fit, quick } = arguments;
+    let scene = Scene::read_aloud(scene)?;
+    let folder = output.clone().unwrap_or_else(|| format!("{}_report", scene.name).into());
+    files::check_folder(&folder)?;
+    let measurement = measured.as_deref().map(|path| Measurement::of(&scene, path, fit)).transpose()?;
+    let report = Report::of(&scene, peer, measurement.as_ref(), *quick)?;
     let page = report.write_into(&folder)?;
     if as_json {
         println!("{}", report.json());
@@ -114,18 +143,23 @@ impl Figure {
 }
 
 impl Report {
-    /// Measures the first contact of `scene`, and the other FMUs at `peers`.
+    /// Measures the first contact of `scene`, and the other FMUs at `peers`. A `measurement` is shown beside the laws.
     ///
     /// # Errors
     /// [`ReportError`] if an FMU can't be built or loaded, or rejects an ordinary impact.
-    pub fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<Report, ReportError> {
+    fn of(
+        scene: &Scene,
+        peers: &[PathBuf],
+        measurement: Option<&Measurement>,
+        quick: bool,
+    ) -> Result<Report, ReportError> {
         let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
         let alone = unit::first_contact(scene, Needs::Force);
         let (model, impact) = (alone.any_model(), alone.impact);
         let prediction = alone.predictions[0];
         let (most, phases) = if quick { (256, 8) } else { (4096, 16) };
         let progress = &Progress::new();
-        let follows_rate = scene.damped.is_some();
+        let follows_rate = scene.is_rate_dependent();
         let plan = Plan { impact: &impact, prediction: &prediction, most, phases, follows_rate, progress };
         progress.expect(work(&alone, &plan, &peers, quick));
         let units = Units::build(scene, progress)?;
@@ -145,7 +179,10 @@ impl Report {
         progress.say("stiff and extreme cases");
         let cases = extremes::measure(contacts.plain(), &alone, quick, progress);
         progress.say("laws side by side");
-        let laws = Laws::of(&alone);
+        progress.say("oblique impacts");
+        // the FMU with friction has no other mass or law
+        let oblique = oblique::measure(scene, contacts.rough(), most)?;
+        let laws = Laws::of(&alone, measurement.map(|own| &own.measured));
         let card = card::of(&alone, contacts.plain(), &laws)?;
         let choice = Choice::of(&lines, &stability);
         let mut advice = choice.sentences();
@@ -155,7 +192,15 @@ impl Report {
         if let (Value::Object(all), Value::Object(stable)) = (&mut recommendations, stability.json()) {
             all.extend(stable);
         }
-        let parts = vec![precision::part(&scene.name, &lines), stability.part(), laws.part(), extremes::part(&cases)];
+        let mut parts =
+            vec![precision::part(&scene.name, &lines), stability.part(), laws.part(), extremes::part(&cases)];
+        parts.extend(oblique.map(|oblique| oblique.part()));
+        parts.push(experiment::part());
+        if let Some(measurement) = measurement {
+            // what the user asked for comes first
+            parts.insert(0, measurement.part(&alone));
+            advice.extend(measurement.sentences());
+        }
         let all_right = !cases.iter().any(extremes::Case::has_failed);
         Ok(Report { name: scene.name.clone(), choice: choice.html(), card, advice, recommendations, parts, all_right })
     }
@@ -165,7 +210,7 @@ impl Report {
         let outcome = self.card.outcome.iter().map(|(name, value)| format!("{name:<26} {value}"));
         let warnings = self.card.warnings.iter().map(|warning| format!("Outside the law's validity: {warning}."));
         let sentences = self.card.trust.iter().chain(&self.advice).cloned();
-        let cases = self.parts.last().map(|part| part.words.clone());
+        let cases = self.parts.iter().find(|part| part.title == extremes::TITLE).map(|part| part.words.clone());
         outcome.chain([String::new()]).chain(sentences).chain(warnings).chain(cases).collect()
     }
 

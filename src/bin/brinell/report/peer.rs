@@ -91,6 +91,7 @@ impl Peer {
             Needs::Force => true,
             Needs::PredictedForce => has("predicted_force"),
             Needs::MeanForce => derivatives && has("mean_force"),
+            Needs::Friction => false,
         };
         WAYS.iter().filter(offered).collect()
     }

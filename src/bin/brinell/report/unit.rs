@@ -12,14 +12,18 @@ const OUTPUTS: [&str; 3] = ["indentation", "residual_indentation", "dissipated_e
 pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
     let mass = matches!(needs, Needs::Mass | Needs::LateMass).then_some(scene.impact_of(0).mass);
     let more: &[&str] = match needs {
-        Needs::Force => &[],
+        Needs::Force | Needs::Friction => &[],
         Needs::PredictedForce => &["predicted_force"],
         Needs::MeanForce | Needs::Mass => &["mean_force"],
         Needs::LateMass => &["mean_force", "closing_speed"],
     };
     let mut parameters: Vec<Parameter> = Vec::new();
     // in the order of the table, like the parameters of every scene
-    for name in VARIABLES.iter().map(|variable| variable.name.as_str()) {
+    // the other ways move bodies along the normal only
+    let friction = needs == Needs::Friction;
+    for name in
+        VARIABLES.iter().filter(|variable| friction || !variable.friction).map(|variable| variable.name.as_str())
+    {
         let shared = scene.parameters.iter().find(|parameter| parameter.name == name);
         let Some(found) = scene.contacts[0].own.iter().find(|own| own.name == name).or(shared) else { continue };
         parameters.push(Parameter::shared(found.name, found.value, true));
@@ -34,16 +38,23 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         description: scene.description.clone(),
         parameters,
         contacts: vec![Group { name: None, count: None, own: Vec::new(), ..scene.contacts[0].clone() }],
-        outputs: OUTPUTS.iter().chain(more).map(|name| (*name).to_string()).collect(),
+        outputs: OUTPUTS
+            .iter()
+            .chain(more)
+            .chain(friction.then_some(&"tangential_force"))
+            .map(|name| (*name).to_string())
+            .collect(),
         loading: scene.loading,
         unloading: scene.unloading,
         damped: scene.damped,
+        loss: scene.loss,
         passivity_guard: scene.passivity_guard,
         yield_strength: scene.yield_strength,
         power_law: scene.power_law,
         rate: scene.rate,
         quasi_static: scene.quasi_static.clone(),
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
+        friction,
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],
         watches: false,
@@ -143,6 +154,12 @@ impl<'a> Contact<'a> {
         self.calls += 1;
         self.fastest = self.fastest.max(rate);
         self.instance.set_real(self.rate, rate)
+    }
+
+    /// Sets the relative tangential speed of the contact points [m/s].
+    pub fn set_tangential_rate(&mut self, rate: f64) -> Result<(), ImportError> {
+        self.calls += 1;
+        self.instance.set_real(self.description.real("tangential_rate")?, rate)
     }
 
     /// Sets the derivatives of the closing speed for the next step: [m/s^2], [m/s^3].

@@ -29,9 +29,11 @@ fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
         (Needs::MeanForce, "the FMU with mean_force"),
         (Needs::Mass, "the FMU that knows the mass"),
         (Needs::LateMass, "the FMU that knows the mass, for a parallel master"),
+        (Needs::Friction, "the FMU with friction"),
     ];
-    let damped = scene.damped.is_some();
-    all.into_iter().filter(move |(needs, _)| !damped || matches!(needs, Needs::Force | Needs::PredictedForce))
+    let (damped, friction) = (scene.is_rate_dependent(), scene.friction);
+    let all = all.into_iter().filter(move |(needs, _)| friction || *needs != Needs::Friction);
+    all.filter(move |(needs, _)| !damped || matches!(needs, Needs::Force | Needs::PredictedForce))
 }
 
 impl Units {
@@ -88,6 +90,11 @@ impl<'a> Contacts<'a> {
     pub fn of(&mut self, way: &Way) -> &mut Contact<'a> {
         let contact = self.0.iter_mut().find(|(needs, _)| *needs == way.needs);
         &mut contact.expect("a way that can be run has a contact").1
+    }
+
+    /// The contact with friction, if the scene has friction.
+    pub fn rough(&mut self) -> Option<&mut Contact<'a>> {
+        self.0.iter_mut().find(|(needs, _)| *needs == Needs::Friction).map(|(_, contact)| contact)
     }
 
     /// The contact with the features that all FMUs have.

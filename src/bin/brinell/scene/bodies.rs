@@ -12,6 +12,14 @@ impl Scene {
 
     /// The same bodies with other values for some of their parameters.
     pub fn pair_with(&self, group: usize, values: &[(&str, f64)]) -> Option<Pair> {
+        let [impactor, target] = self.bodies_with(group, values);
+        let other = values.iter().find(|(known, _)| *known == "target.yield_strength").map(|(_, value)| *value);
+        let strength = other.or_else(|| self.group_value(group, "target.yield_strength")).unwrap_or(f64::INFINITY);
+        Pair::new(&impactor, &target, strength)
+    }
+
+    /// Impactor and target of `group`, with other values for some of their parameters.
+    pub fn bodies_with(&self, group: usize, values: &[(&str, f64)]) -> [Body; 2] {
         let value = |name| {
             let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
             other.or_else(|| self.group_value(group, name))
@@ -26,8 +34,7 @@ impl Scene {
             youngs_modulus: value("target.youngs_modulus").unwrap_or(f64::NAN),
             poissons_ratio: value("target.poissons_ratio").unwrap_or(f64::NAN),
         };
-        let strength = value("target.yield_strength").unwrap_or(f64::INFINITY);
-        Pair::new(&impactor, &target, strength)
+        [impactor, target]
     }
 
     /// The result of `of` for each group. Ten thousand groups may have the same bodies. A result that follows only from the

@@ -3,7 +3,9 @@
 use super::contacts::Contacts;
 use super::coupling;
 use super::file::{File, ImpactTable, NamesName};
+use super::friction;
 use super::laws;
+use super::losses;
 use super::numbers::IMPACTOR_DENSITY;
 use super::{Mistake, Parameter, QuasiStatic, Scene};
 use crate::layout::shortened;
@@ -43,8 +45,18 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     if elastic {
         contacts.forget_strength();
     }
+    let loss = losses::check(&file, &contacts, damped.map(|(name, _)| name))?;
     let coupling = coupling::check(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
     let (coupling, known_mass) = coupling.unzip();
+    let with_friction = friction::Given {
+        damped: damped.map(|(name, _)| name),
+        unloading: unloading.map(|(name, _)| name),
+        passivity_guard,
+        has_loss: loss.is_some(),
+        knows_mass: coupling.is_some(),
+    };
+    let friction = friction::check(file.friction.as_ref(), &with_friction)?;
+    contacts.check_friction()?;
     let impact = check_impact(file.impact.as_ref(), known_mass.as_ref(), &contacts)?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     predict::check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
@@ -64,10 +76,12 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     // a value that every contact has for itself is not shared
     parameters.retain(|shared| !groups.iter().all(|group| group.own.iter().any(|own| own.name == shared.name)));
     parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
-    let mut outputs = check_outputs(&file.fmu.outputs, coupling.is_some())?;
-    // without it such an FMU is useless
-    if coupling.is_some() && !outputs.iter().any(|output| output == "mean_force") {
-        outputs.push("mean_force".into());
+    let mut outputs = check_outputs(&file.fmu.outputs, coupling.is_some(), friction)?;
+    // without them such an FMU is useless
+    for (needed, name) in [(coupling.is_some(), "mean_force"), (friction, "tangential_force")] {
+        if needed && !outputs.iter().any(|output| output == name) {
+            outputs.push(name.into());
+        }
     }
     let mut scene = Scene {
         name,
@@ -78,17 +92,20 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         loading,
         unloading,
         damped,
+        loss,
         passivity_guard,
         yield_strength,
         power_law: contacts.power_law,
         rate: contacts.rate,
         quasi_static: Vec::new(),
         coupling,
+        friction,
         impact,
         predictions: Vec::new(),
         // for an importer that moves the mass itself, with a law that has a stable step size
         watches: coupling.is_none()
             && damped.is_none()
+            && loss.is_none()
             && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
         structured_names: file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
         standalone: file.fmu.standalone == Some(true),
@@ -219,11 +236,9 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
 /// The message about an impact for which the law cannot be evaluated.
 fn too_hard(scene: &Scene, group: usize) -> String {
     let Impact { mass, speed } = scene.impact_of(group);
-    let what = match scene.damped {
-        None => "drives the bodies deeper than the law can be evaluated",
-        Some(_) => {
-            "drives the bodies deeper than the law can be evaluated, or is damped so strongly that it never ends"
-        }
+    let what = match scene.is_rate_dependent() {
+        false => "drives the bodies deeper than the law can be evaluated",
+        true => "drives the bodies deeper than the law can be evaluated, or is damped so strongly that it never ends",
     };
     format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}")
 }
@@ -290,7 +305,7 @@ fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Res
     }
 }
 
-fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool) -> Result<Vec<String>, Mistake> {
+fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool, friction: bool) -> Result<Vec<String>, Mistake> {
     let available = || VARIABLES.iter().filter(|v| v.causality == Causality::Output).map(|v| v.name.as_str());
     let mut outputs: Vec<String> = Vec::new();
     for name in chosen {
@@ -302,6 +317,10 @@ fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool) -> Result<Vec<Str
             let message =
                 "the output closing_speed needs [coupling] effective_mass: the FMU must move the bodies itself";
             return Err(Mistake(name.span(), message.into()));
+        }
+        if table::variable(text).friction && !friction {
+            let message = format!("the output {text} needs friction: give [friction] coefficient");
+            return Err(Mistake(name.span(), message));
         }
         if text != "force" && !outputs.contains(text) {
             outputs.push(text.clone());

@@ -3,9 +3,10 @@
 use super::checks::check_identifier;
 use super::file::{Contact, File, Impactor, SurfaceName, Target};
 use super::hardening;
-use super::numbers::{DENSITY, HARDENING, MASS, Numbers, check_numbers};
+use super::numbers::{DENSITY, FRICTION, HARDENING, IMPACTOR_STRENGTH, MASS, Numbers, check_numbers};
 use super::power_law::{self, PowerLaw};
 use super::rate::{self, Rate};
+use super::softer;
 use super::{Group, Mistake, Parameter};
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS, VARIABLES};
@@ -53,8 +54,9 @@ impl Contacts {
         let standard = (Impactor::default(), Target::default());
         let no_gap = Spanned::new(0..0, 0.0);
         let gap = file.fmu.initial_gap.as_ref().unwrap_or(&no_gap);
-        let shared =
-            Numbers::of(impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1), None, Some(gap), None)?;
+        let friction = file.friction.as_ref().map(|friction| &friction.get_ref().coefficient);
+        let (impactor, of_target) = (impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1));
+        let shared = Numbers::of(impactor, of_target, None, Some(gap), friction, None)?;
         check_numbers(&shared, "")?;
         let surface = target.and_then(|target| target.surface);
         let given = given(file, surface, &shared)?;
@@ -69,6 +71,7 @@ impl Contacts {
                 None => check_tables(file, &contacts)?,
             }
             contacts.check_impactor(index)?;
+            softer::check(file, &contacts, index)?;
         }
         Ok(contacts)
     }
@@ -86,6 +89,11 @@ impl Contacts {
     /// Whether a contact has a yield strength.
     pub fn any_yields(&self) -> bool {
         (0..self.given.len()).any(|index| self.number(index, "target.yield_strength").is_some())
+    }
+
+    /// A contact whose target has no density.
+    pub fn without_density(&self) -> Option<usize> {
+        (0..self.given.len()).find(|index| self.number(*index, DENSITY).is_none())
     }
 
     /// Rejects a contact without yield strength for a `law` that needs it.
@@ -137,6 +145,19 @@ impl Contacts {
         }
     }
 
+    /// Rejects the friction of a single contact if the scene gives none for all.
+    pub fn check_friction(&self) -> Result<(), Mistake> {
+        let given = self.given.iter().enumerate().find_map(|(index, given)| Some((index, given.own.get(FRICTION)?)));
+        match given {
+            Some((index, coefficient)) if self.shared.get(FRICTION).is_none() => {
+                let message = "friction.coefficient of one contact needs [friction] coefficient for all: every contact has the \
+                               same variables; 0 is a contact without friction";
+                Err(Mistake(coefficient.span(), self.said(index, message)))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Gives each contact its own value of the properties that its group names. They may be parameters of the group or of all
     /// contacts (`shared`). `is_input` returns whether a property is an input and so cannot be a parameter.
     pub fn divide(
@@ -177,7 +198,9 @@ impl Contacts {
         let group = |(index, given): (usize, &Given)| {
             let own = given.own.parameters(|_| true);
             let density = self.number(index, DENSITY).map(|density| *density.get_ref());
-            Group { name: given.name.clone(), count: given.count, own, surface: given.surface, density }
+            let impactor_strength = self.number(index, IMPACTOR_STRENGTH).map(|strength| *strength.get_ref());
+            let (name, count, surface) = (given.name.clone(), given.count, given.surface);
+            Group { name, count, own, surface, density, impactor_strength }
         };
         (self.shared.parameters(|_| true), self.given.iter().enumerate().map(group).collect())
     }
@@ -243,7 +266,7 @@ fn given(file: &File, surface: Option<SurfaceName>, shared: &Numbers) -> Result<
     let mut all = Vec::new();
     for contact in contacts.get_ref() {
         let span = contact.span();
-        let Contact { name, count, impactor, target, initial_gap, effective_mass, parameters_per_contact } =
+        let Contact { name, count, impactor, target, initial_gap, effective_mass, friction, parameters_per_contact } =
             contact.get_ref();
         let text = check_contact_name(name)?;
         if !names.insert(text.clone()) {
@@ -257,7 +280,8 @@ fn given(file: &File, surface: Option<SurfaceName>, shared: &Numbers) -> Result<
             return Err(Mistake(span, message));
         }
         hardening::check_contact(&text, target)?;
-        let own = Numbers::of(impactor, target, effective_mass.as_ref(), initial_gap.as_ref(), Some(shared))?;
+        let (mass, gap, coefficient) = (effective_mass.as_ref(), initial_gap.as_ref(), friction.coefficient.as_ref());
+        let own = Numbers::of(impactor, target, mass, gap, coefficient, Some(shared))?;
         check_numbers(&own, &format!("{text}."))?;
         let surface = surface_of(target.surface);
         let (count, per_contact) = (count.map(|count| count as usize), parameters_per_contact.clone());

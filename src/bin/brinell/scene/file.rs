@@ -18,6 +18,7 @@ pub struct File {
     #[serde(default)]
     pub fmu: Fmu,
     pub impact: Option<Spanned<ImpactTable>>,
+    pub friction: Option<Spanned<FrictionTable>>,
     pub coupling: Option<Spanned<CouplingTable>>,
     pub contact: Option<Spanned<Vec<Spanned<Contact>>>>,
 }
@@ -29,6 +30,7 @@ pub struct Impactor {
     pub radius: Option<Spanned<f64>>,
     pub youngs_modulus: Option<Spanned<f64>>,
     pub poissons_ratio: Option<Spanned<f64>>,
+    pub yield_strength: Option<Spanned<f64>>,
     pub density: Option<Spanned<f64>>,
 }
 
@@ -45,6 +47,7 @@ pub struct Target {
     pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
     pub radius: Option<Spanned<f64>>,
+    pub plate_thickness: Option<Spanned<f64>>,
     pub surface: Option<SurfaceName>,
 }
 
@@ -90,6 +93,7 @@ pub struct Law {
     pub loading_parameters: Option<Given>,
     pub unloading: Option<Spanned<String>>,
     pub restitution: Option<Spanned<f64>>,
+    pub elastic_restitution: Option<Spanned<toml::Value>>,
     pub damping: Option<Spanned<String>>,
     pub unloading_parameters: Option<Given>,
     pub passivity_guard: Option<Spanned<bool>>,
@@ -125,6 +129,21 @@ pub struct CouplingTable {
     pub inputs: Vec<Spanned<String>>,
 }
 
+/// Friction of all contacts.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionTable {
+    pub coefficient: Spanned<f64>,
+    pub directions: Option<Spanned<i64>>,
+}
+
+/// Friction of one contact.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OwnFriction {
+    pub coefficient: Option<Spanned<f64>>,
+}
+
 /// The order in which an importer steps FMUs.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -156,6 +175,8 @@ pub struct Contact {
     pub target: Target,
     pub initial_gap: Option<Spanned<f64>>,
     pub effective_mass: Option<Spanned<f64>>,
+    #[serde(default)]
+    pub friction: OwnFriction,
     #[serde(default)]
     pub parameters_per_contact: Vec<Spanned<String>>,
 }

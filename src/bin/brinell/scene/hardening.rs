@@ -71,7 +71,8 @@ fn of_tangent(
 pub fn check_contact(name: &str, target: &Target) -> Result<(), Mistake> {
     let power_law = target.power_law.as_ref().map(|table| ("power_law", table.span()));
     let rate = target.rate.as_ref().map(|table| ("rate", table.span()));
-    match power_law.or(rate) {
+    let plate = target.plate_thickness.as_ref().map(|thickness| ("plate_thickness", thickness.span()));
+    match power_law.or(rate).or(plate) {
         Some((key, span)) => {
             Err(Mistake(span, format!("contact `{name}`: target.{key} belongs to [target], for all contacts")))
         }

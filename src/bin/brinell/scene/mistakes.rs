@@ -6,11 +6,12 @@ use crate::table::VARIABLES;
 use crate::units;
 
 /// Unsupported features, with the words by which users would look for them.
-const UNSUPPORTED: [(&[&str], &str); 6] = [
+const UNSUPPORTED: [(&[&str], &str); 7] = [
     (
-        &["friction", "friction_coefficient", "mu", "tangential", "tangential_stiffness", "angle", "spin", "oblique"],
-        "contacts act along the normal, without friction",
+        &["angle", "spin", "oblique"],
+        "the impact of a scene is along the normal; with [friction] the importer moves the bodies along the surface, too",
     ),
+    (&["tangential_stiffness", "rolling_friction", "rolling_resistance"], "[friction] has a coefficient only"),
     (&["coating", "layer", "film", "thickness"], "bodies are of one material each, and thick"),
     (
         &["cylinder", "shape", "geometry", "length", "cone", "plane", "mesh"],
@@ -22,14 +23,20 @@ const UNSUPPORTED: [(&[&str], &str); 6] = [
 ];
 
 /// Keys that belong to another table.
-const ELSEWHERE: [(&str, &str); 6] = [
+const ELSEWHERE: [(&str, &str); 9] = [
     ("mass", "[impact] has a mass, the bodies have none"),
     ("speed", "[impact] has a speed"),
     ("hardness", "give yield_strength; `brinell hardness SCENE --brinell HBW` finds it from a Brinell hardness"),
     ("diameter", "give the radius"),
     ("elasticity", "give youngs_modulus"),
     ("poisson_ratio", "it is called poissons_ratio"),
+    ("friction", FRICTION),
+    ("friction_coefficient", FRICTION),
+    ("mu", FRICTION),
 ];
+
+/// Where friction is given.
+const FRICTION: &str = "a table [friction] with a `coefficient` gives it for all contacts";
 
 /// The `message` of the parser about the part `meant` of a `line`.
 pub fn words(message: &str, line: &str, meant: &str) -> String {

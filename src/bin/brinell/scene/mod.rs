@@ -5,15 +5,18 @@ mod checks;
 mod contacts;
 mod coupling;
 mod file;
+mod friction;
 mod hardening;
 #[cfg(test)]
 mod hostile_tests;
 mod laws;
+mod losses;
 mod mistakes;
 mod numbers;
 mod plausible;
 mod power_law;
 mod rate;
+pub mod softer;
 
 use crate::model::{AnyModel, strengthened};
 use brinell::contact::damped::{self, AnyDamped};
@@ -23,6 +26,7 @@ use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Model, Surface, strength};
 use std::path::{Path, PathBuf};
 
+pub use losses::Loss;
 pub use power_law::PowerLaw;
 pub use rate::{InImpact, QuasiStatic, Rate, STEPS, TABOR};
 
@@ -45,6 +49,8 @@ pub struct Scene {
     pub unloading: Option<(&'static str, AnyUnloading)>,
     /// The law of a contact whose force depends on the rate. Such a contact has no other law.
     pub damped: Option<(&'static str, AnyDamped)>,
+    /// The loss below yield.
+    pub loss: Option<Loss>,
     /// Whether unloading is limited to return no more than the loading took.
     pub passivity_guard: bool,
     /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law needs it.
@@ -57,6 +63,8 @@ pub struct Scene {
     pub quasi_static: Vec<QuasiStatic>,
     /// How the unit moves the bodies through a step by their mass, if it does.
     pub coupling: Option<Coupling>,
+    /// Whether its contacts have friction.
+    pub friction: bool,
     pub impact: Impact,
     /// The prediction of the impact for the contacts of each group.
     pub predictions: Vec<Prediction>,
@@ -113,6 +121,8 @@ pub struct Group {
     pub surface: Surface,
     /// Density of the target [kg/m^3], if known. It is not a variable; it limits the speeds for which the law is valid.
     pub density: Option<f64>,
+    /// Yield strength of the impactor [Pa], if known. It is not a variable: the impactor does not yield.
+    pub impactor_strength: Option<f64>,
 }
 
 /// A scene that cannot be used, with the place and the reason.
@@ -204,6 +214,9 @@ impl Scene {
 
     /// Whether the FMU has the input `name`, which is not the rate.
     pub fn has_input(&self, name: &str) -> bool {
+        if name == "tangential_rate" {
+            return self.friction;
+        }
         self.coupling.is_some_and(|coupling| match name {
             "external_acceleration" => coupling.acceleration_input,
             "effective_mass" => coupling.mass_input,
@@ -228,7 +241,7 @@ impl Scene {
 
     /// The physical model of the contacts of `group`.
     pub fn any_model_of(&self, group: usize) -> AnyModel {
-        let Some((_, law)) = self.damped else { return AnyModel::Elastoplastic(self.model_of(group)) };
+        let Some((_, law)) = self.damped else { return self.with_loss(group, self.model_of(group)) };
         AnyModel::Damped(damped::Model {
             pair: self.pair_of(group).expect("a checked scene has bodies that fit"),
             law,

@@ -10,7 +10,7 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
 /// The properties that a contact may override, in the order of the table.
-const PROPERTIES: [&str; 12] = [
+const PROPERTIES: [&str; 14] = [
     "impactor.radius",
     "impactor.youngs_modulus",
     "impactor.poissons_ratio",
@@ -21,12 +21,17 @@ const PROPERTIES: [&str; 12] = [
     HARDENING,
     DENSITY,
     IMPACTOR_DENSITY,
+    IMPACTOR_STRENGTH,
     MASS,
     "initial_gap",
+    FRICTION,
 ];
 
 /// A property that the scene gives elsewhere for all contacts.
 pub const MASS: &str = "effective_mass";
+
+/// A property that every contact has as soon as the scene gives it for all.
+pub const FRICTION: &str = "friction.coefficient";
 
 /// A property that only some laws use.
 pub const HARDENING: &str = "target.hardening_modulus";
@@ -35,8 +40,13 @@ pub const HARDENING: &str = "target.hardening_modulus";
 pub const DENSITY: &str = "target.density";
 pub const IMPACTOR_DENSITY: &str = "impactor.density";
 
+pub const IMPACTOR_STRENGTH: &str = "impactor.yield_strength";
+
 /// Allowed densities [kg/m^3]: from thin gases to beyond any solid.
 const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
+
+/// Allowed yield strengths of the impactor [Pa], as for the target.
+const STRENGTHS: RangeInclusive<f64> = 1e-9..=1e18;
 
 /// The numbers at one level, the whole scene or one contact, with their places in the file.
 pub struct Numbers(Vec<(&'static str, Spanned<f64>)>);
@@ -53,6 +63,7 @@ impl Numbers {
         target: &Target,
         mass: Option<&Spanned<f64>>,
         initial_gap: Option<&Spanned<f64>>,
+        friction: Option<&Spanned<f64>>,
         shared: Option<&Numbers>,
     ) -> Result<Numbers, Mistake> {
         let find = |name: &Option<Spanned<String>>| match name {
@@ -80,8 +91,10 @@ impl Numbers {
             hardening_modulus,
             target.density.clone().or_else(|| of_material(|material| material.density)),
             impactor.density.clone().or_else(|| of_ball(|material| material.density)),
+            impactor.yield_strength.clone().or_else(|| of_ball(|material| material.yield_strength)),
             mass.cloned(),
             initial_gap.cloned(),
+            friction.cloned(),
         ];
         let numbers = PROPERTIES.into_iter().zip(given);
         Ok(Numbers(numbers.filter_map(|(name, value)| Some((name, value?))).collect()))
@@ -97,7 +110,10 @@ impl Numbers {
 
     /// The numbers as parameters; those that satisfy `wanted` can be set.
     pub fn parameters(&self, wanted: impl Fn(&str) -> bool) -> Vec<Parameter> {
-        let wanted = self.0.iter().filter(|(name, _)| ![DENSITY, IMPACTOR_DENSITY].contains(name) && wanted(name));
+        let wanted = self
+            .0
+            .iter()
+            .filter(|(name, _)| ![DENSITY, IMPACTOR_DENSITY, IMPACTOR_STRENGTH].contains(name) && wanted(name));
         wanted.map(|(name, value)| Parameter::shared(name, *value.get_ref(), true)).collect()
     }
 }
@@ -113,6 +129,7 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
 pub fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
     numbers.0.iter().try_for_each(|(name, value)| match *name {
         DENSITY | IMPACTOR_DENSITY => check_range((name, "kg/m^3"), owner, value, DENSITIES),
+        IMPACTOR_STRENGTH => check_range((name, "Pa"), owner, value, STRENGTHS),
         _ => check_limits(name, owner, value),
     })
 }

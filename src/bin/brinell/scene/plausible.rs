@@ -1,7 +1,7 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
-use super::Mistake;
 use super::file::{File, Impactor, Target};
+use super::{Mistake, softer};
 use crate::numbers::{plain, quantity};
 use std::ops::RangeInclusive;
 use toml::Spanned;
@@ -84,6 +84,7 @@ pub fn doubts(file: &File) -> Vec<Mistake> {
         let owner = format!("{}.", contact.name.get_ref());
         bodies(&owner, Some(&contact.impactor), Some(&contact.target));
     }
+    doubts.extend(softer::doubts(file));
     doubts
 }
 

@@ -100,12 +100,20 @@ pub struct InImpact {
 }
 
 /// The quasi-static hardening of a group.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuasiStatic {
     /// [Pa]
     pub yield_strength: f64,
     /// [Pa]
     pub hardening_modulus: f64,
+}
+
+/// The quasi-static hardening `given` by the scene, or that of a `line`.
+fn hardening_of(given: QuasiStatic, line: Option<Linear>) -> QuasiStatic {
+    line.map_or(given, |Linear { yield_strength, hardening_modulus, .. }| QuasiStatic {
+        yield_strength,
+        hardening_modulus,
+    })
 }
 
 impl Scene {
@@ -118,22 +126,33 @@ impl Scene {
     /// impact depend on the strength. The strain is Tabor's, `0.2 a/R` at the largest contact radius. The strain rate
     /// is this strain over the loading time. `None` beyond the range of the law.
     pub fn in_impact(&self, group: usize, impact: &Impact) -> Option<InImpact> {
+        self.in_impact_with(group, impact, self.quasi_static[group], self.rate)
+    }
+
+    /// The same with another quasi-static hardening and rate model.
+    fn in_impact_with(
+        &self,
+        group: usize,
+        impact: &Impact,
+        given: QuasiStatic,
+        rate: Option<Rate>,
+    ) -> Option<InImpact> {
         let own = |group: usize| self.contacts[group].own.iter().any(|own| own.name == "target.yield_strength");
         let line = |strain: f64| self.power_law.filter(|_| !own(group)).map(|law| law.up_to(strain));
         let (mut strain, mut factor, mut strain_rate) = (super::power_law::FIRST_STRAIN, 1.0, 0.0);
         for _ in 0..STEPS {
-            let prediction = self.with_strength(group, line(strain), factor).predict(impact)?;
+            let prediction = self.with_strength(group, hardening_of(given, line(strain)), factor).predict(impact)?;
             let radius = self.pair_of(group)?.radius;
             let next = TABOR * prediction.max_contact_radius / radius;
             strain_rate = next / prediction.loading_time;
-            let more = self.rate.map_or(1.0, |rate| rate.factor(strain_rate));
+            let more = rate.map_or(1.0, |rate| rate.factor(strain_rate));
             let change = (next / strain - 1.0).abs().max((more / factor - 1.0).abs());
             (strain, factor) = (next, more);
             if change < CLOSE {
                 break;
             }
         }
-        let QuasiStatic { yield_strength, hardening_modulus } = self.hardening_of(group, line(strain));
+        let QuasiStatic { yield_strength, hardening_modulus } = hardening_of(given, line(strain));
         Some(InImpact {
             yield_strength: factor * yield_strength,
             hardening_modulus: factor * hardening_modulus,
@@ -143,26 +162,33 @@ impl Scene {
         })
     }
 
-    /// The quasi-static hardening of `group`, or of a `line`.
-    fn hardening_of(&self, group: usize, line: Option<Linear>) -> QuasiStatic {
-        let given = self.quasi_static[group];
-        line.map_or(given, |Linear { yield_strength, hardening_modulus, .. }| QuasiStatic {
-            yield_strength,
-            hardening_modulus,
-        })
-    }
-
-    /// The contacts of `group` with `factor` times their strength or that of a `line`.
-    fn with_strength(&self, group: usize, line: Option<Linear>, factor: f64) -> AnyModel {
-        let QuasiStatic { yield_strength, hardening_modulus } = self.hardening_of(group, line);
+    /// The contacts of `group` with `factor` times a quasi-static hardening.
+    fn with_strength(&self, group: usize, hardening: QuasiStatic, factor: f64) -> AnyModel {
+        let QuasiStatic { yield_strength, hardening_modulus } = hardening;
         let model = self.model_of(group);
         let pair = Pair { yield_strength: factor * yield_strength, ..model.pair };
-        AnyModel::Elastoplastic(strengthened(&Model { pair, ..model }, factor * hardening_modulus))
+        self.with_loss(group, strengthened(&Model { pair, ..model }, factor * hardening_modulus))
+    }
+
+    /// The first contact under a slow load, with another quasi-static hardening.
+    pub fn model_with(&self, hardening: QuasiStatic) -> AnyModel {
+        self.with_strength(0, hardening, 1.0)
+    }
+
+    /// The first contact in an impact, with another quasi-static hardening and rate model. A power law stays as it is.
+    pub fn model_in_impact(&self, hardening: QuasiStatic, rate: Option<Rate>, impact: &Impact) -> Option<AnyModel> {
+        if self.power_law.is_none() && rate.is_none() {
+            return Some(self.model_with(hardening));
+        }
+        let found = self.in_impact_with(0, impact, hardening, rate)?;
+        let InImpact { yield_strength, hardening_modulus, .. } = found;
+        Some(self.with_strength(0, QuasiStatic { yield_strength, hardening_modulus }, 1.0))
     }
 
     /// The prediction of `impact` on the first contact with the straight line for another `strain`.
     pub fn predict_with_strain(&self, impact: &Impact, strain: f64, factor: f64) -> Option<Prediction> {
-        self.with_strength(0, self.power_law.map(|law| law.up_to(strain)), factor).predict(impact)
+        let line = self.power_law.map(|law| law.up_to(strain));
+        self.with_strength(0, hardening_of(self.quasi_static[0], line), factor).predict(impact)
     }
 
     /// The scene with the strengths that its targets have in its own impact, or all of them in the given one. `None`

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
 
 /// The documentation of a law; see `modelDescription/laws.toml`.
 #[derive(Debug, Deserialize)]
@@ -13,13 +14,14 @@ pub struct Law {
     _rust: IgnoredAny,
     #[serde(default, rename = "guarded")]
     _guarded: IgnoredAny,
-    /// The error of the tangential force, or the reason why there is none: for the Rust library. FMUs have no friction yet.
-    #[serde(default, rename = "friction_error")]
-    _friction_error: IgnoredAny,
-    #[serde(default, rename = "friction_error_of")]
-    _friction_error_of: IgnoredAny,
-    #[serde(default, rename = "no_friction")]
-    _no_friction: IgnoredAny,
+    /// Of an unloading law: largest error of the tangential force of one step that grows the dent, relative to Coulomb's
+    /// limit.
+    pub friction_error: Option<f64>,
+    /// The same for loading laws with another one.
+    #[serde(default)]
+    pub friction_error_of: BTreeMap<String, f64>,
+    /// Of an unloading law: the reason why it has no tangential force.
+    pub no_friction: Option<String>,
     /// Whether the law has a form for targets that harden.
     #[serde(default)]
     pub strengthened: bool,
@@ -58,6 +60,14 @@ pub struct Law {
     /// Constants that depend on each other, so that a scene cannot change them.
     #[serde(default)]
     pub fixed: Vec<String>,
+}
+
+impl Law {
+    /// Largest error of the tangential force of one step that grows the dent with this unloading law after the law
+    /// `loading`, relative to Coulomb's limit.
+    pub fn friction_error_after(&self, loading: &str) -> Option<f64> {
+        self.friction_error_of.get(loading).copied().or(self.friction_error)
+    }
 }
 
 /// The loading law for which an unloading law was made.

@@ -50,14 +50,14 @@ pub enum Verdict {
 
 /// Approximate number of cases; a law may omit a few.
 pub fn count(scene: &Scene, quick: bool) -> usize {
-    let motions = if scene.damped.is_some() { 0 } else { motions::count(quick) };
+    let motions = if scene.is_rate_dependent() { 0 } else { motions::count(quick) };
     impacts::count(scene) + motions
 }
 
 /// Runs all cases.
 pub fn measure(contact: &mut Contact, scene: &Scene, quick: bool, progress: &Progress) -> Vec<Case> {
     let mut cases = impacts::run(contact, scene, quick, progress);
-    if let (None, Some(bodies)) = (scene.damped, Bodies::of(scene, Change::default())) {
+    if let (false, Some(bodies)) = (scene.is_rate_dependent(), Bodies::of(scene, Change::default())) {
         cases.extend(motions::run(contact, &bodies, quick, progress));
     }
     cases
@@ -165,6 +165,9 @@ fn table(cases: &[Case]) -> Table {
     table
 }
 
+/// The title of the section.
+pub const TITLE: &str = "Stiff and extreme cases";
+
 /// Stiff and extreme cases.
 pub fn part(cases: &[Case]) -> Part {
     let judged = cases.iter().filter(|case| case.is_judged()).count();
@@ -174,7 +177,7 @@ pub fn part(cases: &[Case]) -> Part {
         words.push_str(&format!(" Failed: {}.", case.name));
     }
     Part {
-        title: "Stiff and extreme cases",
+        title: TITLE,
         words,
         figures: Vec::new(),
         switches: Vec::new(),

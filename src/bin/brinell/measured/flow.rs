@@ -1,0 +1,36 @@
+//! The target of a scene with another strength, hardening or rate constant.
+
+use crate::scene::{QuasiStatic, Rate, Scene};
+use brinell::contact::Loading;
+use brinell::contact::impact::Impact;
+
+/// The flow stress of a target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flow {
+    pub hardening: QuasiStatic,
+    pub rate: Option<Rate>,
+}
+
+impl Flow {
+    /// That of the first contact of `scene`; `None` if its law doesn't yield.
+    pub fn of(scene: &Scene) -> Option<Flow> {
+        let yields = scene.damped.is_none() && scene.loading.0 != "hertz";
+        let hardening = *scene.quasi_static.first().filter(|_| yields)?;
+        Some(Flow { hardening, rate: scene.rate })
+    }
+
+    /// Restitution of the first contact of `scene` at a closing speed [m/s]; `None` beyond the range of the law.
+    pub fn restitution(&self, scene: &Scene, speed: f64) -> Option<f64> {
+        let impact = Impact { mass: scene.impact_of(0).mass, speed };
+        scene.model_in_impact(self.hardening, self.rate, &impact)?.restitution(&impact)
+    }
+
+    /// Force [N] of a slow first loading of the first contact of `scene` to an indentation [m]; `None` beyond the range of the
+    /// law.
+    pub fn force(&self, scene: &Scene, indentation: f64) -> Option<f64> {
+        let model = scene.model_with(self.hardening);
+        let model = model.elastoplastic()?;
+        let force = model.loading.segment(&model.pair, indentation).force(indentation);
+        force.is_finite().then_some(force)
+    }
+}

@@ -1,0 +1,186 @@
+//! An oblique impact as text for people and as JSON for programs.
+
+use super::{METHOD, Outcome, Setting, one, unloading_of};
+use crate::laws::Choice;
+use crate::layout::{self, paragraph};
+use crate::numbers::{cell, quantity, significant};
+use crate::predict::PredictError;
+use crate::scene::Scene;
+use crate::table;
+use crate::validity;
+use brinell::contact::impact::Impact;
+use serde_json::{Map, Value, json};
+
+/// The meaning of the signs.
+const SIGNS: &str = "A positive spin moves the contact point of the ball as a positive tangential speed does; a ball that rolls \
+                     has the spin -v/R. The target is at rest and does not move.";
+
+/// One oblique impact with several laws.
+pub struct Answer<'a> {
+    scene: &'a Scene,
+    choices: &'a [Choice],
+    impact: Impact,
+    outcomes: Vec<Outcome>,
+}
+
+impl Answer<'_> {
+    /// The rebounds of `impact` with this `setting`.
+    ///
+    /// # Errors
+    /// [`PredictError`]
+    pub fn of<'a>(
+        scene: &'a Scene,
+        choices: &'a [Choice],
+        (impact, setting): (Impact, Setting),
+    ) -> Result<Answer<'a>, PredictError> {
+        let outcome = |choice| one(scene, choice, (impact, setting), &[]);
+        let outcomes = choices.iter().map(outcome).collect::<Result<_, _>>()?;
+        Ok(Answer { scene, choices, impact, outcomes })
+    }
+
+    /// Text for people.
+    pub fn text(&self) -> String {
+        let Some(first) = self.outcomes.first() else { return String::new() };
+        let by = match self.choices {
+            [choice] => format!("{}, ", choice.laws),
+            _ => String::new(),
+        };
+        let mut text = paragraph("", &format!("oblique impact of {}: {by}{}", self.with(first), METHOD));
+        text.push('\n');
+        text += &match (self.outcomes.as_slice(), self.choices) {
+            ([outcome], _) => single(outcome),
+            _ => self.rows(),
+        };
+        for (heading, words) in self.remarks() {
+            text.push('\n');
+            text += &paragraph(heading, &words);
+        }
+        text
+    }
+
+    /// The impact in words.
+    fn with(&self, outcome: &Outcome) -> String {
+        let Setting { angle, spin, coefficient, .. } = outcome.setting;
+        let spin = if spin == 0.0 { String::new() } else { format!(", with a spin of {}", quantity(spin, "rad/s")) };
+        format!(
+            "{} at {} and {angle} degrees from the normal{spin}, friction {coefficient}",
+            quantity(self.impact.mass, "kg"),
+            quantity(self.impact.speed, "m/s")
+        )
+    }
+
+    /// A row for each law.
+    fn rows(&self) -> String {
+        let head = ["law", "e_n", "e_t", "angle [deg]", "spin [rad/s]", "sliding"].map(String::from).to_vec();
+        let row = |(choice, outcome): (&Choice, &Outcome)| {
+            vec![
+                choice.laws.clone(),
+                cell(outcome.normal_restitution(), 1.0),
+                cell(outcome.tangential_restitution(), 1.0),
+                cell(outcome.angle(), 1.0),
+                cell(outcome.rebound.ball.spin, 1.0),
+                format!("{:.1} %", 100.0 * outcome.rebound.sliding_part),
+            ]
+        };
+        let rows: Vec<_> = [head].into_iter().chain(self.choices.iter().zip(&self.outcomes).map(row)).collect();
+        layout::table(&rows, 1, 2)
+    }
+
+    /// Warnings and notes, each with its heading.
+    fn remarks(&self) -> Vec<(&'static str, String)> {
+        let mut remarks: Vec<_> = self.warnings().into_iter().map(|words| ("warning: ", words)).collect();
+        remarks.push(("note: ", SIGNS.into()));
+        let yielding = self.choices.iter().zip(&self.outcomes).filter_map(|(choice, outcome)| {
+            let model = choice.model.elastoplastic()?;
+            let normal = Impact { mass: outcome.before.mass, speed: outcome.before.normal };
+            let prediction = choice.model.predict(&normal)?;
+            (!model.is_elastic_at(prediction.max_indentation)).then_some(choice)
+        });
+        let errors = yielding.filter_map(|choice| Some((error_of(choice)?, choice)));
+        if let Some((error, choice)) = errors.max_by(|one, other| one.0.total_cmp(&other.0)) {
+            remarks.push((
+                "note: ",
+                format!(
+                    "The target yields. This project knows no measurement of friction with yield; the springs are those of the dent. A \
+                     step that grows the dent has an error of the tangential force of at most {} of Coulomb's limit, with {}.",
+                    significant(error, 2),
+                    choice.laws
+                ),
+            ));
+        }
+        remarks
+    }
+
+    /// The limits of the laws that the normal impacts exceed.
+    fn warnings(&self) -> Vec<String> {
+        let mut all: Vec<String> = Vec::new();
+        for (choice, outcome) in self.choices.iter().zip(&self.outcomes) {
+            let speed = outcome.before.normal;
+            let Some(prediction) = choice.model.predict(&Impact { mass: outcome.before.mass, speed }) else { continue };
+            let density = self.scene.contacts[0].density;
+            for warning in validity::warnings(&choice.model.pair(), density, &prediction, speed) {
+                let warning = if self.choices.len() > 1 { format!("{}: {warning}", choice.laws) } else { warning };
+                if !all.contains(&warning) {
+                    all.push(warning);
+                }
+            }
+        }
+        all
+    }
+
+    /// JSON for programs.
+    pub fn json(&self) -> Value {
+        let law = |(choice, outcome): (&Choice, &Outcome)| {
+            let mut object = Map::new();
+            object.insert("law".into(), json!(choice.laws));
+            for (name, value, _) in outcome.quantities() {
+                object.insert(name.replace(' ', "_"), json!(value));
+            }
+            object.insert("slides_throughout".into(), json!(outcome.rebound.sliding_part > 0.999));
+            object.insert("contact_time".into(), json!(outcome.rebound.contact_time));
+            object.insert("stiffness_ratio".into(), json!(outcome.friction.stiffness_ratio));
+            Value::Object(object)
+        };
+        let laws: Value = self.choices.iter().zip(&self.outcomes).map(law).collect();
+        let first = self.outcomes.first();
+        json!({
+            "mass": self.impact.mass,
+            "speed": self.impact.speed,
+            "angle": first.map(|outcome| outcome.setting.angle),
+            "spin": first.map(|outcome| outcome.setting.spin),
+            "friction": first.map(|outcome| outcome.setting.coefficient),
+            "inertia": first.map(|outcome| outcome.before.inertia),
+            "warnings": self.warnings(),
+            "laws": laws,
+        })
+    }
+}
+
+/// All quantities of one law.
+fn single(outcome: &Outcome) -> String {
+    let ball = &outcome.rebound.ball;
+    let both = |speed: f64, restitution: f64, what: &str| {
+        format!("{} ({what} {})", quantity(speed, "m/s"), cell(restitution, 1.0))
+    };
+    let rows = [
+        ("rebound angle", format!("{} degrees from the normal", significant(outcome.angle(), 4))),
+        ("rebound speed", quantity(outcome.speed(), "m/s")),
+        ("along the normal", both(-ball.normal, outcome.normal_restitution(), "restitution")),
+        ("tangential, centre", both(ball.tangential, outcome.tangential_restitution(), "restitution e_t")),
+        ("tangential, contact point", both(ball.slip(), outcome.contact_point_restitution(), "restitution")),
+        ("spin", quantity(ball.spin, "rad/s")),
+        ("slip", outcome.words()),
+        ("largest tangential force", quantity(outcome.rebound.max_tangential_force, "N")),
+        ("friction work", quantity(outcome.rebound.friction_work, "J")),
+        ("energy lost in all", quantity(outcome.energy_lost(), "J")),
+        ("contact time", quantity(outcome.rebound.contact_time, "s")),
+    ];
+    let rows: Vec<_> = rows.into_iter().map(|(name, value)| vec![name.to_string(), value]).collect();
+    layout::table(&rows, 2, 2)
+}
+
+/// The error of friction with the laws of `choice`, as the table of laws gives it.
+fn error_of(choice: &Choice) -> Option<f64> {
+    let loading = choice.laws.split('/').next()?;
+    table::unloading_law(unloading_of(choice)?).friction_error_after(loading)
+}

@@ -1,0 +1,61 @@
+//! The table `[friction]`: whether the law of a scene supports it.
+
+use super::Mistake;
+use super::file::FrictionTable;
+use crate::table;
+use toml::Spanned;
+
+/// What of a scene has a part in its friction.
+pub struct Given<'a> {
+    /// The name of a law whose force depends on the rate.
+    pub damped: Option<&'a str>,
+    /// The name of the unloading law.
+    pub unloading: Option<&'a str>,
+    pub passivity_guard: bool,
+    /// Whether the law has a loss below yield.
+    pub has_loss: bool,
+    /// Whether the FMU moves the bodies itself.
+    pub knows_mass: bool,
+}
+
+/// Whether the scene has friction.
+pub fn check(table: Option<&Spanned<FrictionTable>>, given: &Given) -> Result<bool, Mistake> {
+    let Some(table) = table else { return Ok(false) };
+    let no = |message: String| Err(Mistake(table.span(), message));
+    if let Some(directions) = &table.get_ref().directions
+        && *directions.get_ref() != 1
+    {
+        let number = directions.get_ref();
+        let message = format!(
+            "friction.directions = {number} is not supported: allowed is 1, one tangential direction along which the bodies \
+             move to and fro"
+        );
+        return Err(Mistake(directions.span(), message));
+    }
+    if let Some(name) = given.damped {
+        return no(format!("[friction] needs a law whose force doesn't depend on the rate; that of {name} does"));
+    }
+    if let Some(name) = given.unloading
+        && let Some(reason) = &table::unloading_law(name).no_friction
+    {
+        let others = table::unloading_laws().into_iter().filter(|law| law.no_friction.is_none());
+        let others = others.map(|law| law.name.as_str()).collect::<Vec<_>>().join("`, `");
+        return no(format!("[friction] doesn't go with law.unloading = \"{name}\": {reason}; it goes with `{others}`"));
+    }
+    if given.passivity_guard {
+        return no(
+            "[friction] doesn't go with law.passivity_guard: how exact it is on guarded paths wasn't measured".into()
+        );
+    }
+    if given.has_loss {
+        return no("[friction] doesn't go with law.elastic_restitution or target.plate_thickness: the springs of the contact follow \
+                   a force without such losses; leave one of them out"
+            .into());
+    }
+    if given.knows_mass {
+        return no("[friction] doesn't go with [coupling] effective_mass: the tangential motion within a step would have to be \
+                   moved, too; leave one of them out"
+            .into());
+    }
+    Ok(true)
+}

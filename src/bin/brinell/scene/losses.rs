@@ -1,0 +1,159 @@
+//! Losses below yield: `law.elastic_restitution` and `target.plate_thickness`.
+
+use super::contacts::Contacts;
+use super::file::{File, Target};
+use super::{Mistake, Scene};
+use crate::model::AnyModel;
+use crate::numbers::quantity;
+use brinell::contact::Model;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::losses::{self, AnyLoss, Fitted, Plate, Waves};
+use brinell::contact::unloading::AnyUnloading;
+use std::ops::RangeInclusive;
+use toml::{Spanned, Value};
+
+/// A loss of a scene. Density and bodies are those of each contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Loss {
+    /// A damping for this restitution.
+    Fitted(f64),
+    /// Elastic waves in a half-space.
+    Waves,
+    /// A plate of this thickness [m].
+    Plate(f64),
+}
+
+/// Allowed restitutions.
+const RESTITUTIONS: RangeInclusive<f64> = 0.001..=1.0;
+
+/// Allowed thicknesses [m].
+const THICKNESSES: RangeInclusive<f64> = 1e-9..=1e6;
+
+/// The loss of the scene `file`; `damped` is the name of its law if that has a damping of its own.
+pub fn check(file: &File, contacts: &Contacts, damped: Option<&str>) -> Result<Option<Loss>, Mistake> {
+    let target = file.target.as_ref().map(Spanned::get_ref);
+    let thickness = target.and_then(|target| target.plate_thickness.as_ref());
+    let restitution = file.law.elastic_restitution.as_ref();
+    let (span, key, loss) = match (restitution, thickness) {
+        (None, None) => return Ok(None),
+        (Some(_), Some(thickness)) => {
+            let message =
+                "target.plate_thickness and law.elastic_restitution are two losses below yield: give one of them";
+            return Err(Mistake(thickness.span(), message.into()));
+        }
+        (Some(given), None) => (given.span(), "law.elastic_restitution", of_restitution(given)?),
+        (None, Some(given)) => (given.span(), "target.plate_thickness", of_thickness(given, target)?),
+    };
+    if let Some(name) = damped {
+        let message = format!("{key} has no effect on law.loading = \"{name}\", which has a damping of its own");
+        return Err(Mistake(span, message));
+    }
+    if loss.needs_density()
+        && let Some(index) = contacts.without_density()
+    {
+        let what = if loss == Loss::Waves { "law.elastic_restitution = \"waves\"" } else { key };
+        let message = contacts.said(index, &format!("{what} needs target.density, or a material"));
+        return Err(Mistake(span, message));
+    }
+    Ok(Some(loss))
+}
+
+fn of_restitution(given: &Spanned<Value>) -> Result<Loss, Mistake> {
+    let number = match given.get_ref() {
+        Value::Float(number) => *number,
+        Value::Integer(number) => *number as f64,
+        Value::String(text) if text == "waves" => return Ok(Loss::Waves),
+        other => {
+            let message =
+                format!("law.elastic_restitution = {other} is neither a number from 0.001 to 1 nor \"waves\"");
+            return Err(Mistake(given.span(), message));
+        }
+    };
+    if RESTITUTIONS.contains(&number) {
+        return Ok(Loss::Fitted(number));
+    }
+    let message =
+        format!("law.elastic_restitution = {number:?} is out of range: allowed is 0.001 to 1.0, or \"waves\"");
+    Err(Mistake(given.span(), message))
+}
+
+fn of_thickness(given: &Spanned<f64>, target: Option<&Target>) -> Result<Loss, Mistake> {
+    super::checks::check_range(("target.plate_thickness", "m"), "", given, THICKNESSES)?;
+    if let Some(radius) = target.and_then(|target| target.radius.as_ref()) {
+        let message = format!("target.radius = {:?} and target.plate_thickness: a plate is flat", radius.get_ref());
+        return Err(Mistake(radius.span(), message));
+    }
+    Ok(Loss::Plate(*given.get_ref()))
+}
+
+impl Loss {
+    fn needs_density(self) -> bool {
+        !matches!(self, Loss::Fitted(_))
+    }
+
+    /// The loss for a target of this density [kg/m^3].
+    pub fn of_density(self, density: f64) -> AnyLoss {
+        match self {
+            Loss::Fitted(restitution) => AnyLoss::Fitted(Fitted { restitution }),
+            Loss::Waves => AnyLoss::Waves(Waves { density }),
+            Loss::Plate(thickness) => AnyLoss::Plate(Plate { density, thickness }),
+        }
+    }
+
+    /// Its name.
+    pub fn name(self) -> String {
+        match self {
+            Loss::Fitted(restitution) => format!("a damping for a restitution of {restitution} below yield"),
+            Loss::Waves => "elastic waves in the target".into(),
+            Loss::Plate(thickness) => format!("a plate of {} that gives way", quantity(thickness, "m")),
+        }
+    }
+
+    /// Its description.
+    pub fn words(self) -> String {
+        match self {
+            Loss::Fitted(restitution) => format!(
+                "The force is F = F_s (1 + chi v/v0), with F_s from the laws above and the largest speed v0 since the contact \
+                 began. An impact that does not yield has the restitution {restitution}, at any speed and in any dent."
+            ),
+            Loss::Waves => "The target is a half-space that carries away elastic waves: F = F_s + kappa K_s^2 v, with F_s and its \
+                            stiffness K_s from the laws above, and kappa from the density and the moduli of the target (Hunter \
+                            1957, Reed 1985). No number is fitted."
+                .into(),
+            Loss::Plate(thickness) => format!(
+                "The target is a wide plate of {} that gives way at the speed alpha F (Zener 1941), with alpha from its density, \
+                 moduli and thickness: the rate of indentation is indentation_rate, the closing speed of the bodies, minus \
+                 alpha F. The power alpha F^2 counts as dissipated.",
+                quantity(thickness, "m")
+            ),
+        }
+    }
+
+    /// Whether the force depends on the rate at the same instant.
+    pub fn follows_rate(self) -> bool {
+        !matches!(self, Loss::Plate(_))
+    }
+}
+
+impl Scene {
+    /// Whether the force depends on the rate at the same instant.
+    pub fn follows_rate(&self) -> bool {
+        self.damped.is_some() || self.loss.is_some_and(Loss::follows_rate)
+    }
+
+    /// Whether the force depends on the speed of the motion at all.
+    pub fn is_rate_dependent(&self) -> bool {
+        self.damped.is_some() || self.loss.is_some()
+    }
+
+    /// The contact of `group` by an elastoplastic `model`, with the loss of the scene.
+    pub fn with_loss(&self, group: usize, model: Model<AnyLoading, AnyUnloading>) -> AnyModel {
+        match self.loss {
+            None => AnyModel::Elastoplastic(model),
+            Some(loss) => {
+                let loss = loss.of_density(self.contacts[group].density.unwrap_or(f64::NAN));
+                AnyModel::Lossy(losses::Model { plastic: model, loss })
+            }
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! The motion of bodies of known mass under a contact with losses, and of bodies that press on a plate.
+//!
+//! From event to event as without losses; between two events a pair of Runge-Kutta methods follows the motion. The heat is
+//! what the energy balance of the step leaves, so that the balance is exact whatever the errors of the integration are.
+
+use super::history::History;
+use super::runge_kutta::{Ended, State, Stretch};
+use super::{Damping, Loss, Model};
+use crate::contact::history::TooDeep;
+use crate::contact::loading::Loading;
+use crate::contact::motion::flight::Flight;
+use crate::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome};
+use crate::contact::numbers::largest;
+use crate::contact::piece::Piece;
+use crate::contact::unloading::Unloading;
+use libm::sqrt;
+
+/// The number of evaluations that one evaluation of a law without segments counts for.
+const COSTLY: u32 = 10;
+
+/// Largest number of events in a step.
+const MOST_EVENTS: u32 = MOST_EVALUATIONS / 10;
+
+/// The bodies during a step.
+pub(super) struct Bodies<'a, L, U, K> {
+    pub contact: History<K>,
+    model: &'a Model<L, U, K>,
+    inverse_mass: f64,
+    acceleration: f64,
+    /// Closing speed \[m/s\].
+    pub speed: f64,
+    /// Whether the indentation has just turned, and then where to.
+    turned: Option<bool>,
+    /// Distance by which the bodies have come closer in the step \[m\].
+    way: f64,
+    /// Distance by which the target has given way \[m\].
+    retreat: f64,
+    /// Energy that the target has carried away by giving way \[J\].
+    heat: f64,
+    /// Closing speed removed by the contact force so far \[m/s\].
+    taken: f64,
+    /// Time left \[s\].
+    left: f64,
+    /// The next step of the integration to try \[s\].
+    pub guess: f64,
+    /// Evaluations left.
+    evaluations: u32,
+    /// The largest indentation so far of a dent that was left behind \[m\].
+    deepest: f64,
+}
+
+impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
+    /// Bodies with this inverse mass \[1/kg\], acceleration \[m/s^2\] and closing speed \[m/s\], for `time` \[s\].
+    pub fn new(
+        contact: &History<K>,
+        model: &'a Model<L, U, K>,
+        (inverse_mass, acceleration, speed): (f64, f64, f64),
+        time: f64,
+    ) -> Result<Bodies<'a, L, U, K>, TooDeep> {
+        if let Some(&number) = [speed, time, acceleration].iter().find(|number| !number.is_finite()) {
+            return Err(TooDeep { indentation: number });
+        }
+        let evaluations = if model.plastic.is_segmented() { MOST_EVALUATIONS } else { MOST_EVALUATIONS / COSTLY };
+        Ok(Bodies {
+            contact: *contact,
+            model,
+            inverse_mass,
+            acceleration,
+            speed,
+            turned: None,
+            way: 0.0,
+            retreat: 0.0,
+            heat: 0.0,
+            taken: 0.0,
+            left: time,
+            guess: time,
+            evaluations,
+            deepest: 0.0,
+        })
+    }
+
+    fn indentation(&self) -> f64 {
+        self.contact.plastic.indentation()
+    }
+
+    /// Follows the motion to the end of the time.
+    ///
+    /// # Errors
+    /// [`NoMotion`].
+    pub fn run(&mut self) -> Result<(), NoMotion> {
+        for _ in 0..MOST_EVENTS {
+            if self.left <= 0.0 {
+                return Ok(());
+            }
+            if self.is_apart() { self.fly()? } else { self.press(&mut |_, _| ())? }
+        }
+        Err(NoMotion::TooLong)
+    }
+
+    fn surface(&self) -> f64 {
+        self.contact.plastic.residual_indentation(&self.model.plastic)
+    }
+
+    /// Whether there is no contact: the bodies are apart, or at the surface and not closing.
+    pub fn is_apart(&self) -> bool {
+        let (indentation, surface) = (self.indentation(), self.surface());
+        let closes = self.speed > 0.0 || (self.speed == 0.0 && self.acceleration > 0.0);
+        indentation < surface || (indentation == surface && !closes)
+    }
+
+    /// Puts the contact at `indentation` \[m\].
+    fn go_to(&mut self, indentation: f64, rising: bool) -> Result<(), TooDeep> {
+        self.contact.plastic.go_to(&self.model.plastic, indentation, rising)
+    }
+
+    /// Flight: until the bodies touch the surface, until a fresh surface forgets its dent, or until the end of the time.
+    fn fly(&mut self) -> Result<(), TooDeep> {
+        let (surface, indentation) = (self.surface(), self.indentation());
+        let flight = Flight { speed: self.speed, acceleration: self.acceleration };
+        let closing = flight.arrival(surface - indentation, self.left);
+        let end = closing.map_or(self.left, |arrival| arrival.time);
+        let forgets = History::<K>::forgets(&self.model.plastic) && indentation > 0.0;
+        let parting = if forgets { flight.reversed().arrival(indentation, end) } else { None };
+        self.turned = None;
+        if let Some(arrival) = parting {
+            self.deepest = largest(self.deepest, self.contact.plastic.max_indentation());
+            self.left -= arrival.time;
+            self.way -= indentation;
+            self.speed = -arrival.speed;
+            return self.go_to(0.0, false);
+        }
+        if let Some(arrival) = closing {
+            self.left -= arrival.time;
+            self.way += surface - indentation;
+            self.speed = arrival.speed;
+            // every contact has its own largest speed
+            self.contact.swiftest = self.speed;
+            return self.go_to(surface, true);
+        }
+        let way = flight.way(self.left);
+        let goal = indentation + way;
+        self.way += way;
+        self.speed = flight.speed_after(self.left);
+        self.left = 0.0;
+        // rounding must not turn a flight into a contact
+        self.go_to(if goal >= surface { surface } else { goal }, false)
+    }
+
+    /// Motion in contact: until the indentation turns, until the end of the smooth piece, or until the end of the time.
+    pub fn press(&mut self, watch: &mut dyn FnMut(&State, f64)) -> Result<(), NoMotion> {
+        let (start, surface) = (self.indentation(), self.surface());
+        let largest_so_far = self.contact.plastic.max_indentation();
+        let damping = Damping { swiftest: self.contact.swiftest, ..self.contact.damping_for(0.0) };
+        let below = Piece::at(&self.model.plastic, start, largest_so_far, false);
+        let rate = self.speed - damping.retreat(below.force(start));
+        let net = self.acceleration - below.force(start) * self.inverse_mass;
+        let rising = match self.turned {
+            Some(rising) => rising,
+            None if rate != 0.0 => rate > 0.0,
+            None => net > 0.0,
+        };
+        let piece = if rising && start >= largest_so_far {
+            Piece::at(&self.model.plastic, start, largest_so_far, true)
+        } else {
+            below
+        };
+        let (inverse_mass, acceleration) = (self.inverse_mass, self.acceleration);
+        let mut stretch = Stretch { piece: &piece, damping, inverse_mass, acceleration, start, surface, rising };
+        stretch.damping.swiftest = largest(stretch.damping.swiftest, libm::fabs(rate));
+        let (state, ended) = stretch.run(self.speed, self.left, &mut self.guess, &mut self.evaluations, watch);
+        let end = stretch.indentation(&state);
+        self.contact.swiftest = stretch.damping.swiftest;
+        self.taken += acceleration * state.time - (state.speed - self.speed);
+        self.left -= state.time;
+        (self.way, self.retreat) = (self.way + state.way, self.retreat + state.retreat);
+        self.heat += state.heat;
+        self.speed = state.speed;
+        self.turned = (ended == Ended::Turned).then_some(!rising);
+        match ended {
+            Ended::TooLong => return Err(NoMotion::TooLong),
+            Ended::AtBorder => self.go_to(if rising { piece.upper } else { piece.lower }, rising)?,
+            // rounding must not lead off the piece
+            _ => self.go_to(if end > piece.lower { end } else { piece.lower }, rising)?,
+        }
+        if ended == Ended::AtRest {
+            self.rest(&stretch, &state);
+        }
+        Ok(())
+    }
+
+    /// Bodies at rest stay where they are. On a plate they keep the speed at which it gives way to them.
+    fn rest(&mut self, stretch: &Stretch<L, U>, state: &State) {
+        let (force, _) = stretch.force_and_rate(state);
+        self.speed = stretch.damping.retreat(force);
+        self.way += self.speed * self.left;
+        self.retreat += self.speed * self.left;
+        self.heat += force * self.speed * self.left;
+        self.taken += self.acceleration * self.left;
+        self.left = 0.0;
+    }
+}
+
+/// Moves the contact through `step` \[s\] > 0, with the closing speed `speed` \[m/s\] at the start.
+///
+/// # Errors
+/// [`NoMotion`]; the history is then unchanged.
+pub fn follow<L: Loading, U: Unloading, K: Loss>(
+    history: &mut History<K>,
+    model: &Model<L, U, K>,
+    drive: &Drive,
+    speed: f64,
+    step: f64,
+) -> Result<Outcome, NoMotion> {
+    let Drive { mass, acceleration } = *drive;
+    let before = history.plastic.work(&model.plastic);
+    let mut bodies = Bodies::new(history, model, (1.0 / mass, acceleration, speed), step)?;
+    bodies.run()?;
+    let Bodies { contact: mut next, speed: end, way, taken, evaluations, deepest, .. } = bodies;
+    // v0^2 - v1^2 without loss of digits
+    let kinetic = 0.5 * (speed - end) * (speed + end);
+    let spent = mass * (kinetic + acceleration * way);
+    // bodies that stay apart spend nothing; the difference would be rounding
+    let heat = if taken == 0.0 { 0.0 } else { spent - (next.plastic.work(&model.plastic) - before) };
+    next.take(model, heat)?;
+    *history = next;
+    let most = if model.plastic.is_segmented() { MOST_EVALUATIONS } else { MOST_EVALUATIONS / COSTLY };
+    let deepest = largest(deepest, next.plastic.max_indentation());
+    Ok(Outcome { speed: end, taken: largest(taken, 0.0), evaluations: most.saturating_sub(evaluations), deepest })
+}
+
+/// The contact on a plate after `step` \[s\] of bodies that close at `rate` \[m/s\], and its impulse \[N.s\].
+///
+/// # Errors
+/// [`TooDeep`] outside the range of the law, and for a step that would take too many evaluations.
+pub(super) fn driven<L: Loading, U: Unloading, K: Loss>(
+    history: &History<K>,
+    model: &Model<L, U, K>,
+    rate: f64,
+    step: f64,
+) -> Result<(History<K>, f64), TooDeep> {
+    let mobility = history.damping_for(rate).retreat(1.0);
+    let mut bodies = Bodies::new(history, model, (0.0, 0.0, rate), step)?;
+    bodies.run().map_err(|reason| match reason {
+        NoMotion::TooDeep(deep) => deep,
+        NoMotion::TooLong => TooDeep { indentation: history.plastic.indentation() + rate * step },
+    })?;
+    let Bodies { contact: mut next, retreat, heat, .. } = bodies;
+    next.take(model, heat)?;
+    Ok((next, retreat / mobility))
+}
+
+/// A time that is short for the bodies of an impact \[s\]: a thousandth of that in which they move by `indentation` \[m\].
+pub(super) fn short_time(indentation: f64, speed: f64) -> f64 {
+    1e-3 * sqrt(indentation * indentation) / speed
+}

@@ -1,0 +1,219 @@
+//! Losses of a contact that does not yield, on top of any elastoplastic law. With them a ball comes to rest in its dent.
+//!
+//! | loss | force | parameter |
+//! |---|---|---|
+//! | [`Fitted`] | `F = F_s (1 + chi v/v0)` | a coefficient of restitution |
+//! | [`Waves`] | `F = F_s + kappa K_s^2 v` | density and moduli of the target: a half-space |
+//! | [`Plate`] | `F = F_s`, but the target yields at the speed `alpha F` | density, moduli and thickness of the target |
+//!
+//! `F_s` and `K_s` are force and stiffness of the elastoplastic law, `v` is the rate of indentation. The contact never
+//! pulls.
+
+pub mod bodies;
+mod held;
+pub mod history;
+pub mod impact;
+mod runge_kutta;
+
+pub use bodies::follow;
+pub use history::History;
+
+use super::damped::hunt_crossley::DampingFactor;
+use super::material::Pair;
+use super::numbers::{largest, quotient};
+use libm::{fabs, sqrt};
+
+/// The bodies in contact, their elastoplastic law, and its loss.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Model<L, U, K> {
+    /// The bodies and the elastoplastic law.
+    pub plastic: super::Model<L, U>,
+    /// The loss.
+    pub loss: K,
+}
+
+/// The form of a loss.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A damping in proportion to the force.
+    Proportional,
+    /// A damping in proportion to the square of the stiffness.
+    Radiation,
+    /// A target that gives way at a speed in proportion to the force.
+    Mobility,
+}
+
+/// A loss.
+pub trait Loss: Copy {
+    /// Whether the force depends on the rate at the same instant.
+    const FOLLOWS_RATE: bool;
+
+    /// The form of the loss.
+    fn form(&self) -> Form;
+
+    /// The factor of the form for these bodies: `chi` \[-\], `kappa` \[m.s/N\] or `alpha` \[m/(N.s)\].
+    fn factor(&self, pair: &Pair) -> f64;
+}
+
+/// A damping for a given restitution: `F = F_s (1 + chi v/v0)`.
+///
+/// `v0` is the largest speed of indentation, in either direction, since the contact began. In a free impact this is the
+/// closing speed at first touch. Without yield the restitution is then the given one, at any speed and in any dent. Because
+/// `v0` is never exceeded, the damping is at most `chi` times the elastic force.
+///
+/// `chi` is the [exact](DampingFactor::Exact) factor of Hunt and Crossley: their law holds for any elastic force, because
+/// speed and work determine each other.
+///
+/// Reference: K. H. Hunt, F. R. E. Crossley, *J. Appl. Mech.* 42 (1975) 440-445.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fitted {
+    /// Coefficient of restitution without yield, from 0.001 to 1.
+    pub restitution: f64,
+}
+
+impl Loss for Fitted {
+    const FOLLOWS_RATE: bool = true;
+
+    #[inline(always)]
+    fn form(&self) -> Form {
+        Form::Proportional
+    }
+
+    fn factor(&self, _pair: &Pair) -> f64 {
+        DampingFactor::Exact.chi(self.restitution)
+    }
+}
+
+/// The elastic waves that a half-space carries away: `F = F_s + kappa K_s^2 v`. No number is fitted.
+///
+/// A force `F(t)` on a small area of an elastic half-space radiates the power `kappa (dF/dt)^2`, with
+/// `kappa = Q(nu)/(rho c_s^3)` and the speed of shear waves `c_s`. To first order in `kappa`, the surface then moves as with
+/// a damping of `kappa K_s^2`. `Q` is the imaginary part of the surface displacement in Lamb's problem. Here it is a
+/// polynomial with an error of up to 0.25 % (`fit/fit_waves.py`).
+///
+/// Assumptions: the target is a half-space, so that no wave comes back; the contact is small compared with the waves, as in
+/// the theory of Hertz; the other body radiates nothing, as a compact ball does; and a yielding material radiates like an
+/// elastic one.
+///
+/// Reference: G. F. Miller, H. Pursey, *Proc. R. Soc. A* 223 (1954) 521-541, for the radiation; S. C. Hunter, *J. Mech.
+/// Phys. Solids* 5 (1957) 162-171, and J. Reed, *J. Phys. D* 18 (1985) 2329-2337, for the impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Waves {
+    /// Density of the target \[kg/m^3\] > 0.
+    pub density: f64,
+}
+
+/// The coefficients of `Q(nu)`, from `fit/fit_waves.py`.
+const RADIATION: [f64; 6] = [0.213974, -0.297563, 0.120823, 0.045239, 0.040769, 0.017964];
+
+impl Loss for Waves {
+    const FOLLOWS_RATE: bool = true;
+
+    #[inline(always)]
+    fn form(&self) -> Form {
+        Form::Radiation
+    }
+
+    fn factor(&self, pair: &Pair) -> f64 {
+        let nu = pair.poissons_ratio;
+        let number = RADIATION.iter().rev().fold(0.0, |sum, coefficient| sum * nu + coefficient);
+        let shear_speed = sqrt(pair.youngs_modulus / (2.0 * self.density * (1.0 + nu)));
+        number / (self.density * shear_speed * shear_speed * shear_speed)
+    }
+}
+
+/// A thin plate that the force sets in motion: the rate of indentation is the closing speed minus `alpha F`.
+///
+/// `alpha = sqrt(3 (1 - nu^2))/(4 h^2 sqrt(E rho))` is the mobility of an infinite plate at the point of the force. The plate
+/// carries away the power `alpha F^2`.
+///
+/// Assumptions: bending waves do not return during the impact, so the plate is wide; it is thin, so that the contact lasts
+/// longer than a wave needs to cross the thickness.
+///
+/// Reference: C. Zener, *Phys. Rev.* 59 (1941) 669-673.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plate {
+    /// Density of the plate \[kg/m^3\] > 0.
+    pub density: f64,
+    /// Its thickness \[m\] > 0.
+    pub thickness: f64,
+}
+
+impl Loss for Plate {
+    const FOLLOWS_RATE: bool = false;
+
+    #[inline(always)]
+    fn form(&self) -> Form {
+        Form::Mobility
+    }
+
+    fn factor(&self, pair: &Pair) -> f64 {
+        let nu = pair.poissons_ratio;
+        let inertia = sqrt(pair.youngs_modulus * self.density);
+        sqrt(3.0 * (1.0 - nu * nu)) / (4.0 * self.thickness * self.thickness * inertia)
+    }
+}
+
+/// Any of the losses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnyLoss {
+    /// [`Fitted`].
+    Fitted(Fitted),
+    /// [`Waves`].
+    Waves(Waves),
+    /// [`Plate`].
+    Plate(Plate),
+}
+
+impl Loss for AnyLoss {
+    const FOLLOWS_RATE: bool = true;
+
+    fn form(&self) -> Form {
+        match self {
+            AnyLoss::Fitted(loss) => loss.form(),
+            AnyLoss::Waves(loss) => loss.form(),
+            AnyLoss::Plate(loss) => loss.form(),
+        }
+    }
+
+    fn factor(&self, pair: &Pair) -> f64 {
+        match self {
+            AnyLoss::Fitted(loss) => loss.factor(pair),
+            AnyLoss::Waves(loss) => loss.factor(pair),
+            AnyLoss::Plate(loss) => loss.factor(pair),
+        }
+    }
+}
+
+/// A loss on given bodies, during a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Damping {
+    pub form: Form,
+    /// `chi`, `kappa` or `alpha`.
+    pub factor: f64,
+    /// The largest speed since the contact began \[m/s\].
+    pub swiftest: f64,
+}
+
+impl Damping {
+    /// `1 + chi v/v0` at `rate` \[m/s\], never negative.
+    pub fn gain(&self, rate: f64) -> f64 {
+        let fastest = largest(fabs(rate), self.swiftest);
+        let ratio = quotient(rate, fastest, fastest > 0.0, 0.0);
+        largest(1.0 + self.factor * ratio, 0.0)
+    }
+
+    /// The force \[N\] for the elastoplastic `force` \[N\] and `stiffness` \[N/m\] at `rate` \[m/s\].
+    pub fn force(&self, force: f64, stiffness: f64, rate: f64) -> f64 {
+        match self.form {
+            Form::Proportional => force * self.gain(rate),
+            Form::Radiation => largest(force + self.factor * stiffness * stiffness * rate, 0.0),
+            Form::Mobility => force,
+        }
+    }
+
+    /// The speed at which the target gives way to `force` \[N\], in m/s.
+    pub fn retreat(&self, force: f64) -> f64 {
+        if self.form == Form::Mobility { self.factor * force } else { 0.0 }
+    }
+}

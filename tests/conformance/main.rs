@@ -1,0 +1,128 @@
+//! The conformance suite: every function of FMI 2.0 co-simulation in every state, with every argument, for every kind of
+//! FMU.
+//!
+//! `table.rs` is the table of allowed calls of the standard as data; `checks/` has the checks. A library is loaded as an
+//! importer does it. Each check of an FMU runs in a separate process with a time limit, so a crash and a hang are findings
+//! like others.
+//!
+//! `cargo test --release --test conformance` checks the FMUs of all scenes. The units of every law are checked by
+//! `cargo test --release --test conformance -- --ignored every_law --nocapture`.
+#![cfg(all(target_os = "linux", target_env = "gnu"))]
+
+#[path = "../support/child.rs"]
+mod child;
+#[path = "../support/face.rs"]
+mod face;
+#[path = "../support/functions.rs"]
+mod functions;
+#[path = "../fuzz/judge.rs"]
+mod judge;
+#[path = "../support/targets.rs"]
+mod targets;
+#[path = "../support/unit.rs"]
+mod unit;
+
+mod checks;
+mod importer;
+mod table;
+
+use checks::CHECKS;
+use face::Face;
+use importer::CALLS;
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+/// The longest time for a check of an FMU, on a busy machine.
+const LIMIT: Duration = Duration::from_secs(60);
+
+/// The library; the place of the library whose model description applies to it, if it is another; the name of the check;
+/// the file for the number of calls.
+const LIBRARY: &str = "BRINELL_CONFORMANCE_LIBRARY";
+const PLACE: &str = "BRINELL_CONFORMANCE_PLACE";
+const CHECK: &str = "BRINELL_CONFORMANCE_CHECK";
+const COUNT: &str = "BRINELL_CONFORMANCE_COUNT";
+
+/// The process: makes one check, or all of them, of one FMU.
+#[test]
+#[ignore = "the tests below start it in processes of their own"]
+fn worker() {
+    let Ok(library) = env::var(LIBRARY) else { return };
+    let place = env::var(PLACE).unwrap_or_else(|_| library.clone());
+    let face = Face::of(Path::new(&library), Path::new(&place));
+    match env::var(CHECK) {
+        Ok(name) => {
+            let check = CHECKS.iter().find(|check| check.name == name);
+            (check.unwrap_or_else(|| panic!("no check {name:?}")).run)(&face);
+        }
+        Err(_) => CHECKS.iter().for_each(|check| (check.run)(&face)),
+    }
+    if let Ok(file) = env::var(COUNT) {
+        fs::write(file, CALLS.load(Ordering::Relaxed).to_string()).expect("the target folder can be written to");
+    }
+}
+
+/// Makes all checks of the FMU of each scene; returns the number of calls.
+///
+/// # Panics
+/// If any of them fails, with all failures.
+fn conform(scenes: &[PathBuf]) -> u64 {
+    let program = env::current_exe().expect("a test program");
+    let scratch = tempfile::tempdir().expect("a folder for temporary files");
+    let (log, count) = (scratch.path().join("log"), scratch.path().join("count"));
+    let (mut all, mut wrong) = (0, Vec::new());
+    for scene in scenes {
+        let name = scene.file_stem().expect("a name").to_string_lossy();
+        let library = unit::library(&unit::export(scene));
+        let mut made = 0;
+        for check in CHECKS {
+            let mut command: Command = child::worker(&program);
+            command.env(LIBRARY, &library).env(CHECK, check.name).env(COUNT, &count);
+            match child::run(&mut command, &log, LIMIT) {
+                Ok(()) => made += fs::read_to_string(&count).expect("the worker's").parse::<u64>().expect("a number"),
+                Err(failure) => wrong.push(format!("{name}, {}: {failure}", check.name)),
+            }
+        }
+        println!("{name}: {made} calls in {} checks", CHECKS.len());
+        all += made;
+    }
+    assert!(wrong.is_empty(), "{} checks fail:\n{}", wrong.len(), wrong.join("\n"));
+    println!("{all} calls, {} FMUs, {} checks", scenes.len(), CHECKS.len());
+    all
+}
+
+#[test]
+fn every_kind_of_fmu_does_what_the_standard_says() {
+    assert!(conform(&targets::scenes()) > 100_000);
+}
+
+/// Every function is in the table once.
+#[test]
+fn the_table_has_the_34_functions() {
+    let mut names: Vec<_> = table::ROWS.iter().map(|row| row.function).collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), 34);
+}
+
+/// The laws that an FMU can have, with the unloading laws that they were published with.
+fn laws() -> Vec<(String, Option<String>)> {
+    let output = Command::new(env!("CARGO_BIN_EXE_brinell")).args(["laws", "--json"]).output().expect("the program");
+    let all: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let text = |law: &serde_json::Value, key: &str| law[key].as_str().map(String::from);
+    let list = |kind: &str| all[kind].as_array().expect("a list of laws").clone();
+    let laws = list("loading").into_iter().chain(list("damped"));
+    laws.map(|law| (text(&law, "name").expect("a law has a name"), text(&law, "unloading"))).collect()
+}
+
+#[test]
+#[ignore = "it exports an FMU for each law: two minutes"]
+fn the_fmu_of_every_law_does_what_the_standard_says() {
+    let laws = laws();
+    assert!(laws.len() >= 35, "{laws:?}");
+    let scenes: Vec<_> = laws.iter().map(|(law, unloading)| targets::scene_of_law(law, unloading.as_deref())).collect();
+    conform(&scenes);
+}

@@ -1,0 +1,210 @@
+//! Deliberate mistakes, each of which the tests must find.
+//!
+//! `defects.toml` lists them. Each is made in a copy of the sources, the library of an FMU is built from it, and the
+//! cheapest test that must fail is run. If it passes, all other tests that load a library are run, too. A mistake that
+//! no test finds is a failure of this test, and so is one that no longer applies to the sources, or does not compile.
+//!
+//! `cargo test --release --test defects -- --ignored --nocapture` makes all of them;
+//! `BRINELL_DEFECTS=TEXT,TEXT` makes those with one of these texts in their names.
+#![cfg(all(target_os = "linux", target_env = "gnu"))]
+
+#[path = "../support/child.rs"]
+mod child;
+#[path = "../support/driver.rs"]
+mod driver;
+#[path = "../support/python.rs"]
+mod python;
+#[path = "../support/rebuilt.rs"]
+mod rebuilt;
+#[path = "../support/skips.rs"]
+mod skips;
+#[path = "../support/suites.rs"]
+mod suites;
+#[path = "../support/unit.rs"]
+mod unit;
+
+use driver::{arguments, has_valgrind, valgrind};
+use rebuilt::{Sources, Way};
+use std::collections::HashSet;
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use suites::{Subject, Suites};
+
+/// The longest time for a test of one library.
+const LIMIT: Duration = Duration::from_secs(120);
+
+/// Number of random scripts for a mistake that its own test has not found.
+const SCRIPTS: u64 = 1000;
+
+/// A mistake. The head of `defects.toml` explains the keys.
+struct Defect {
+    name: String,
+    file: String,
+    old: String,
+    new: String,
+    scene: String,
+    test: String,
+}
+
+fn defects() -> Vec<Defect> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/defects/defects.toml");
+    let table: toml::Table = fs::read_to_string(path).expect("the list").parse().expect("the list is well-formed");
+    let list = table["defect"].as_array().expect("a list of mistakes");
+    let text = |entry: &toml::Value, key: &str| {
+        entry.get(key).and_then(toml::Value::as_str).map(String::from).unwrap_or_default()
+    };
+    let read = |entry: &toml::Value| {
+        let [name, file, old, new, scene, test] =
+            ["name", "file", "old", "new", "scene", "test"].map(|key| text(entry, key));
+        Defect { name, file, old, new, scene, test }
+    };
+    list.iter().map(read).collect()
+}
+
+/// The tests.
+struct Tests {
+    suites: Suites,
+    sources: Sources,
+    /// The C program.
+    program: PathBuf,
+}
+
+impl Tests {
+    /// Runs a `test` on `library`, that of the FMU at `place`.
+    ///
+    /// # Errors
+    /// What it finds.
+    fn run(&self, test: &str, library: &Path, place: &Path) -> Result<(), String> {
+        let subject = Subject { library, place, environment: &[], limit: LIMIT };
+        match test.split_once(": ") {
+            Some(("conformance", check)) => self.suites.conform(&subject, Some(check)),
+            Some(("fuzz", count)) => self.suites.fuzz(&subject, count.parse().expect("a number of scripts")),
+            None => self.under_valgrind(test, library),
+            Some(_) => panic!("no test {test:?}"),
+        }
+    }
+
+    /// Runs the C program under a tool of valgrind.
+    fn under_valgrind(&self, tool: &str, library: &Path) -> Result<(), String> {
+        let mut command = valgrind(tool);
+        let mut arguments = arguments();
+        arguments[0] = library.to_str().expect("a path of plain characters").into();
+        command.arg(&self.program).args(arguments);
+        let log = self.program.with_extension("log");
+        child::run(&mut command, &log, Duration::from_secs(600)).map_err(|failure| failure.to_string())
+    }
+
+    /// Makes the mistake and returns the test that finds it.
+    ///
+    /// # Errors
+    /// Why none does.
+    fn find(&self, defect: &Defect) -> Result<String, String> {
+        if let Some(file) = defect.test.strip_prefix("test: ") {
+            let before = self.sources.replace(&defect.file, &defect.old, &defect.new)?;
+            let result = self.sources.test(file, "");
+            self.sources.restore(&defect.file, &before);
+            return match result {
+                Err(said) if said.contains("test result: FAILED") => Ok(defect.test.clone()),
+                Err(said) => Err(said),
+                Ok(()) => Err(format!("{} passes", defect.test)),
+            };
+        }
+        let scene = scene(&defect.scene);
+        let place = self.sources.use_scene(&scene);
+        let before = self.sources.replace(&defect.file, &defect.old, &defect.new)?;
+        let library = self.sources.library("defect", &Way::default());
+        self.sources.restore(&defect.file, &before);
+        let library = library?;
+        if self.run(&defect.test, &library, &place).is_err() {
+            return Ok(defect.test.clone());
+        }
+        let subject = Subject { library: &library, place: &place, environment: &[], limit: LIMIT };
+        if let Err(said) = self.suites.conform(&subject, None) {
+            return Ok(format!("conformance, not {}:\n{said}", defect.test));
+        }
+        match self.suites.fuzz(&subject, SCRIPTS) {
+            Err(said) => Ok(format!("fuzz, not {}:\n{said}", defect.test)),
+            Ok(()) => Err("no test finds it".into()),
+        }
+    }
+}
+
+/// The scene `name`: of the project, or of those of the suites.
+fn scene(name: &str) -> PathBuf {
+    if name == "fresh" {
+        return unit::write_scene(name, FRESH);
+    }
+    if name == "with regime" { driver::scene() } else { unit::scene(name) }
+}
+
+/// A contact that forgets its dents, with the energies.
+const FRESH: &str = "name = \"fresh\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\nsurface = \"fresh\"\n\
+                     [fmu]\noutputs = [\"indentation\", \"work\", \"elastic_energy\", \"dissipated_energy\"]\n";
+
+/// The tests pass without a mistake; otherwise they would find every one.
+fn assert_good_without_a_mistake(tests: &Tests, defects: &[&Defect]) {
+    let mut done = HashSet::new();
+    for defect in defects.iter().filter(|defect| done.insert((&defect.scene, &defect.test))) {
+        let result = match defect.test.strip_prefix("test: ") {
+            Some(file) => tests.sources.test(file, ""),
+            None => {
+                let place = tests.sources.use_scene(&scene(&defect.scene));
+                let name = format!("good_{}", defect.scene.replace(' ', "_"));
+                let library = tests.sources.library(&name, &Way::default());
+                library.and_then(|library| tests.run(&defect.test, &library, &place))
+            }
+        };
+        result.unwrap_or_else(|said| panic!("{} fails without a mistake, for {}: {said}", defect.test, defect.scene));
+    }
+}
+
+#[test]
+#[ignore = "it builds a library for each mistake: a quarter of an hour"]
+fn the_tests_find_every_deliberate_mistake() {
+    let wanted = env::var("BRINELL_DEFECTS").unwrap_or_default();
+    let all = defects();
+    let needs_valgrind = |defect: &Defect| ["memcheck", "helgrind"].contains(&&*defect.test);
+    let valgrind = has_valgrind();
+    let chosen: Vec<&Defect> =
+        all.iter().filter(|defect| wanted.split(',').any(|text| defect.name.contains(text))).collect();
+    let (made, skipped): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|defect| valgrind || !needs_valgrind(defect));
+    let program = driver::compile("driver-for-defects", &["-DNO_COUNTING"]);
+    let tests = Tests { suites: Suites::build(), sources: Sources::copied("defects"), program };
+    assert_good_without_a_mistake(&tests, &made);
+    let mut missed = Vec::new();
+    for defect in &made {
+        match tests.find(defect) {
+            Ok(test) => println!("found: {} ({test})", defect.name),
+            Err(reason) => {
+                println!("MISSED: {}: {reason}", defect.name);
+                missed.push(format!("{}: {reason}", defect.name));
+            }
+        }
+    }
+    for defect in &skipped {
+        println!("skipped: {}, since there is no valgrind", defect.name);
+    }
+    println!("{} of {} mistakes found", made.len() - missed.len(), made.len());
+    assert!(missed.is_empty(), "{} mistakes are not found:\n{}", missed.len(), missed.join("\n"));
+}
+
+/// The list is checked in every run; only the libraries take long.
+#[test]
+fn every_deliberate_mistake_applies_to_the_sources() {
+    let all = defects();
+    assert!(all.len() >= 30, "{} mistakes", all.len());
+    let mut names = HashSet::new();
+    for defect in &all {
+        assert!(names.insert(&defect.name), "{} is listed twice", defect.name);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&defect.file);
+        let text =
+            fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {}: {error}", defect.name, defect.file));
+        let count = text.matches(&defect.old).count();
+        assert_eq!(count, 1, "{}: {} has the text to replace {count} times", defect.name, defect.file);
+        assert_ne!(defect.old, defect.new, "{}", defect.name);
+        let is_test = ["conformance: ", "fuzz: ", "test: "].iter().any(|kind| defect.test.starts_with(kind));
+        assert!(is_test || ["memcheck", "helgrind"].contains(&&*defect.test), "{}: {}", defect.name, defect.test);
+    }
+}

@@ -1,0 +1,399 @@
+//! FMUs with friction, through the C interface.
+
+#[path = "support/loaded.rs"]
+mod loaded;
+#[path = "support/physics.rs"]
+mod physics;
+#[path = "support/unit.rs"]
+mod unit;
+
+use brinell::contact::tangential::{Friction, RoughContact, RoughModel};
+use brinell::contact::{Body, Contact, Model, Pair, Surface, loading, unloading};
+use loaded::{ERROR, Instance, OK, Unit, take_message};
+use physics::Random;
+use std::f64::consts::PI;
+
+const STEP: f64 = 1e-6;
+
+/// Outputs of the scene `oblique` that friction determines.
+const FRICTION: [&str; 7] = [
+    "tangential_force",
+    "mean_tangential_force",
+    "tangential_impulse",
+    "tangential_energy",
+    "friction_work",
+    "stick_radius",
+    "predicted_tangential_force",
+];
+
+/// The FMU of a scene file of the project.
+fn project(name: &str) -> Unit {
+    Unit::load(&unit::scene(name))
+}
+
+/// The FMU of mild steel on mild steel with friction and these laws.
+fn steel(name: &str, law: &str) -> Unit {
+    let outputs = "\"indentation\", \"work\", \"elastic_energy\", \"dissipated_energy\", \"mean_tangential_force\", \
+                   \"friction_work\", \"tangential_energy\", \"stick_radius\", \"contact_radius\", \"sliding\"";
+    let text = format!(
+        "name = \"{name}\"\n[impactor]\nradius = 5e-3\nmaterial = \"mild steel\"\n[target]\nmaterial = \"mild steel\"\n\
+         [law]\n{law}\n[friction]\ncoefficient = 0.3\n[fmu]\noutputs = [{outputs}]\n[impact]\nmass = 4e-3\nspeed = 1.0\n"
+    );
+    Unit::load(&unit::write_scene(name, &text))
+}
+
+const PLASTIC: &str = "loading = \"thornton\"\nunloading = \"thornton\"";
+
+/// Rates along the normal and in the tangential direction [m/s]: an indentation between -1 and 5 um.
+fn rates(seed: u64, length: usize) -> Vec<(f64, f64)> {
+    let mut random = Random(seed);
+    let mut indentation = 0.0;
+    (0..length)
+        .map(|_| {
+            let target = 6e-6 * random.next() - 1e-6;
+            let rate = (target - indentation) / STEP;
+            indentation = target;
+            (rate, 4.0 * (random.next() - 0.5))
+        })
+        .collect()
+}
+
+/// Sets both rates and makes a step.
+fn go(instance: &mut Instance, time: &mut f64, (normal, tangential): (f64, f64), step: f64) {
+    instance.set_one("indentation_rate", normal);
+    instance.set_one("tangential_rate", tangential);
+    assert_eq!(instance.step(*time, step), OK, "{}", instance.message());
+    *time += step;
+}
+
+/// The values of these outputs, as bits.
+fn bits(instance: &Instance, names: &[&str]) -> Vec<u64> {
+    names.iter().map(|name| instance.real(name).to_bits()).collect()
+}
+
+/// The contact of the scene `oblique`.
+fn oblique() -> RoughModel<loading::Hertz, unloading::ContactRadius> {
+    let ball = Body { radius: 2.5e-3, youngs_modulus: 380e9, poissons_ratio: 0.23 };
+    let glass = Body { radius: f64::INFINITY, youngs_modulus: 70e9, poissons_ratio: 0.25 };
+    let pair = Pair::new(&ball, &glass, f64::INFINITY).expect("a ball on a plane");
+    let friction = Friction::between(&ball, &glass, pair.modulus, 0.092);
+    let (loading, unloading) = (loading::Hertz, unloading::ContactRadius);
+    RoughModel { normal: Model { pair, loading, unloading, surface: Surface::Dented }, friction }
+}
+
+#[test]
+fn the_unit_gives_the_same_bits_as_the_library() {
+    let (unit, model) = (project("oblique"), oblique());
+    let mut instance = unit.ready();
+    let mut contact = RoughContact::<12>::start(&model, 0.0).expect("within range");
+    let mut time = 0.0;
+    for (normal, tangential) in rates(5, 200) {
+        go(&mut instance, &mut time, (normal, tangential), STEP);
+        contact.set_tangential_rate(tangential);
+        contact.step_held(normal, STEP, &model.normal.yield_point(), || model).expect("within range");
+        let predicted = contact.predicted_tangential_force(&model, normal, STEP).expect("within range");
+        let expected = [
+            contact.tangential_force(&model),
+            contact.mean_tangential_force(),
+            contact.tangential_impulse(),
+            contact.tangential_energy(&model),
+            contact.friction_work(&model),
+            contact.stick_radius(&model),
+            predicted,
+        ];
+        assert_eq!(bits(&instance, &FRICTION), expected.map(f64::to_bits));
+        assert_eq!(instance.integer("sliding"), contact.sliding() as i32);
+        assert_eq!(instance.real("tangential_rate").to_bits(), tangential.to_bits());
+    }
+}
+
+#[test]
+fn coulombs_bound_holds_and_friction_work_never_falls() {
+    for unit in [project("oblique"), steel("thornton_rough", PLASTIC)] {
+        let coefficient = unit.ready().real("friction.coefficient");
+        let (mut instance, mut time, mut lost) = (unit.ready(), 0.0, 0.0);
+        for pair in rates(6, 1000) {
+            go(&mut instance, &mut time, pair, STEP);
+            let (force, pull) = (instance.real("force"), instance.real("tangential_force"));
+            assert!(pull.abs() <= coefficient * force * (1.0 + 1e-12), "{pull:e} N at {force:e} N");
+            let now = instance.real("friction_work");
+            // merged segments may store slightly more or less energy
+            assert!(now >= lost - 1e-4 * now.abs() - 1e-15, "{now:e} after {lost:e}");
+            lost = now;
+        }
+        assert!(lost > 0.0);
+    }
+}
+
+#[test]
+fn both_signs_are_mirror_images_to_the_bit() {
+    for unit in [project("oblique"), steel("thornton_rough", PLASTIC)] {
+        let (mut one, mut other, [mut time, mut same]) = (unit.ready(), unit.ready(), [0.0; 2]);
+        for (normal, tangential) in rates(7, 300) {
+            go(&mut one, &mut time, (normal, tangential), STEP);
+            go(&mut other, &mut same, (normal, -tangential), STEP);
+            for (name, sign) in [("tangential_force", -1.0), ("mean_tangential_force", -1.0), ("friction_work", 1.0)] {
+                assert_eq!(one.real(name), sign * other.real(name), "{name}");
+            }
+            assert_eq!(one.integer("sliding"), other.integer("sliding"));
+            assert_eq!(bits(&one, &["force", "indentation"]), bits(&other, &["force", "indentation"]));
+        }
+    }
+}
+
+#[test]
+fn a_step_is_that_of_its_parts() {
+    // an elastic contact exactly; a dent that grows, as far as its law is exact
+    for (unit, tolerance, of_mean) in [
+        (project("oblique"), 2e-12, 2e-11),
+        (steel("thornton_rough", PLASTIC), 1e-9, 1e-6),
+        (steel("brinell_rough", "loading = \"brinell\""), 1e-3, 1e-2),
+    ] {
+        for parts in [2_u32, 7, 100, 1000] {
+            let (mut whole, mut cut, [mut time, mut same]) = (unit.ready(), unit.ready(), [0.0; 2]);
+            let coefficient = whole.real("friction.coefficient");
+            let (mut worst, mut worst_mean) = (0.0_f64, 0.0_f64);
+            for pair in rates(8, 12) {
+                go(&mut whole, &mut time, pair, STEP);
+                let mut mean = 0.0;
+                for _ in 0..parts {
+                    go(&mut cut, &mut same, pair, STEP / f64::from(parts));
+                    mean += cut.real("mean_tangential_force") / f64::from(parts);
+                }
+                let limit = coefficient * whole.real("force");
+                if limit > 0.0 {
+                    worst = worst.max((whole.real("tangential_force") - cut.real("tangential_force")).abs() / limit);
+                    worst_mean = worst_mean.max((whole.real("mean_tangential_force") - mean).abs() / limit);
+                }
+            }
+            println!("{parts} parts: {worst:.1e}, mean {worst_mean:.1e}");
+            assert!(worst <= tolerance && worst_mean <= of_mean, "{parts} parts: {worst:e} {worst_mean:e}");
+        }
+    }
+}
+
+#[test]
+fn nothing_happens_without_normal_contact() {
+    let unit = project("oblique");
+    let mut instance = unit.ready_with(&[("initial_gap", 1e-3)]);
+    let mut time = 0.0;
+    for tangential in [1.0, -1e3, 1e40, 0.0] {
+        go(&mut instance, &mut time, (0.0, tangential), STEP);
+        for name in FRICTION {
+            assert_eq!(instance.real(name), 0.0, "{name}");
+        }
+        assert_eq!(instance.integer("sliding"), 0);
+    }
+}
+
+#[test]
+fn a_tangential_motion_alone_slips_from_the_edge_until_the_contact_slides() {
+    let unit = project("oblique");
+    let model = oblique();
+    let mut instance = unit.ready_with(&[("initial_gap", -2e-6)]);
+    let (force, mut time, mut before) = (instance.real("force"), 0.0, 0.0);
+    let limit = 0.092 * force;
+    // Cattaneo and Mindlin: the displacement at which the contact slides is 3 mu F/(16 G* a)
+    let radius = (2.5e-3_f64 * 2e-6).sqrt();
+    let shear = model.friction.stiffness_ratio * model.normal.pair.modulus / 4.0;
+    let slide = 3.0 * limit / (16.0 * shear * radius);
+    for part in 1..=20 {
+        go(&mut instance, &mut time, (0.0, 0.1 * slide / STEP), STEP);
+        let pull = instance.real("tangential_force");
+        let part = 0.1 * f64::from(part);
+        let expected = limit * if part < 1.0 { 1.0 - (1.0 - part).powf(1.5) } else { 1.0 };
+        assert!((pull - expected).abs() <= 1e-12 * limit, "{part}: {pull:e} N, not {expected:e} N");
+        assert_eq!(instance.integer("sliding"), if part < 0.999 { 2 } else { 3 });
+        assert!(pull >= before && instance.real("force") == force);
+        before = pull;
+    }
+    assert_eq!(instance.real("stick_radius"), 0.0);
+}
+
+#[test]
+fn inputs_can_be_set_in_any_order_and_survive_parameters() {
+    let unit = project("oblique");
+    let mut instance = unit.instantiate();
+    // before initialization, and before a parameter that makes the contact anew
+    instance.set_one("tangential_rate", 0.4);
+    instance.set_one("indentation_rate", 0.5);
+    instance.set_one("friction.coefficient", 0.2);
+    instance.initialize();
+    let mut other = unit.ready_with(&[("friction.coefficient", 0.2)]);
+    let [one, two] = ["tangential_rate", "indentation_rate"].map(|name| other.real_of(name));
+    assert_eq!(other.set(&[two, one], &[0.5, 0.4]), OK);
+    assert_eq!((instance.step(0.0, STEP), other.step(0.0, STEP)), (OK, OK));
+    assert!(instance.real("tangential_force") > 0.0);
+    assert_eq!(bits(&instance, &FRICTION), bits(&other, &FRICTION));
+    // a rate holds until it is set again
+    assert_eq!(other.set(&[one], &[0.4]), OK);
+    assert_eq!((instance.step(STEP, STEP), other.step(STEP, STEP)), (OK, OK));
+    assert_eq!(bits(&instance, &FRICTION), bits(&other, &FRICTION));
+    instance.reset();
+    instance.initialize();
+    assert_eq!(instance.real("tangential_rate"), 0.0);
+    assert_eq!(instance.real("friction.coefficient"), 0.092);
+}
+
+#[test]
+fn a_rejected_set_changes_nothing() {
+    let unit = project("oblique");
+    for (value, said) in [
+        (f64::NAN, "tangential_rate = NaN is not finite"),
+        (f64::INFINITY, "tangential_rate = infinity is not finite"),
+        (-2e40, "tangential_rate = -2e40 is out of range: allowed is -1e40 to 1e40 m/s"),
+    ] {
+        let mut instance = unit.ready();
+        let references = ["indentation_rate", "tangential_rate"].map(|name| instance.real_of(name));
+        take_message();
+        assert_eq!(instance.set(&references, &[1.0, value]), ERROR);
+        let message = take_message();
+        assert!(message.contains(said), "{message}");
+        assert_eq!(instance.real("indentation_rate"), 0.0);
+    }
+    for (value, said) in [
+        (-1e-3, "friction.coefficient = -0.001 is out of range: allowed is 0 to 10"),
+        (10.1, "friction.coefficient = 10.1 is out of range: allowed is 0 to 10"),
+    ] {
+        let mut instance = unit.instantiate();
+        let reference = instance.real_of("friction.coefficient");
+        take_message();
+        assert_eq!(instance.set(&[reference], &[value]), ERROR);
+        let message = take_message();
+        assert!(message.contains(said), "{message}");
+    }
+}
+
+#[test]
+fn any_coefficient_gives_a_force_within_its_bound() {
+    let unit = project("oblique");
+    for coefficient in [0.0, 5e-324, 1e-200, 1e-100, 1e-50, 1e-12, 1e-3, 1.0, 10.0] {
+        let mut instance = unit.ready_with(&[("friction.coefficient", coefficient)]);
+        let mut time = 0.0;
+        for pair in rates(9, 200) {
+            go(&mut instance, &mut time, pair, STEP);
+            let (force, pull) = (instance.real("force"), instance.real("tangential_force"));
+            assert!(pull.abs() <= coefficient * force * (1.0 + 1e-12), "{coefficient:e}: {pull:e} N at {force:e} N");
+            for name in FRICTION {
+                assert!(instance.real(name).is_finite(), "{coefficient:e}: {name}");
+            }
+        }
+        if coefficient == 0.0 {
+            for name in FRICTION.into_iter().filter(|name| *name != "stick_radius") {
+                assert_eq!(instance.real(name), 0.0, "{name}");
+            }
+        } else if coefficient == 10.0 {
+            assert!(instance.integer("sliding") < 3, "a contact this rough does not slide here");
+        }
+    }
+}
+
+/// The ball after an impact at `degrees` from the normal, moved by the importer: tangential restitution and spin [rad/s].
+fn rebound(instance: &mut Instance, degrees: f64, step: f64) -> (f64, f64) {
+    let mass = 4.0 / 3.0 * PI * 2.5e-3_f64.powi(3) * 4000.0;
+    let angle = degrees.to_radians();
+    let (mut normal, mut tangential, mut spin) = (3.9 * angle.cos(), 3.9 * angle.sin(), 0.0);
+    let (before, mut time) = (tangential, 0.0);
+    loop {
+        go(instance, &mut time, (normal, tangential + spin * 2.5e-3), step);
+        let (force, pull) = (instance.real("force"), instance.real("tangential_force"));
+        if force == 0.0 && normal < 0.0 {
+            return (tangential / before, spin);
+        }
+        normal -= step * force / mass;
+        tangential -= step * pull / mass;
+        spin -= step * pull * 2.5e-3 / (0.4 * mass * 2.5e-3 * 2.5e-3);
+    }
+}
+
+#[test]
+fn rebounds_through_the_unit_agree_with_the_measurement() {
+    let unit = project("oblique");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/experiment/oblique_elastic.csv");
+    let text = std::fs::read_to_string(path).expect("a table of the project");
+    let (mut restitutions, mut spins) = (Vec::new(), Vec::new());
+    for row in text.lines().skip(1).map(|line| line.rsplit(',').collect::<Vec<_>>()) {
+        let number = |text: &str| text.parse::<f64>().expect("a number");
+        let (value, degrees, quantity) = (number(row[0]), number(row[1]), row[2]);
+        let of = match quantity {
+            "e_t" => &mut restitutions,
+            "omega" => &mut spins,
+            _ => continue,
+        };
+        let (restitution, spin) = rebound(&mut unit.ready(), degrees, 3e-8);
+        of.push(if quantity == "e_t" { restitution - value } else { -spin - value });
+    }
+    let rms = |errors: &[f64]| (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt();
+    println!("e_t {:.4} ({}), spin {:.1} rad/s ({})", rms(&restitutions), restitutions.len(), rms(&spins), spins.len());
+    assert!(restitutions.len() > 10 && rms(&restitutions) <= 0.02);
+    assert!(spins.len() > 10 && rms(&spins) <= 30.0);
+}
+
+#[test]
+fn contacts_have_friction_of_their_own() {
+    let unit = project("rough_contacts");
+    let mut instance = unit.ready();
+    let alone = |coefficient: f64| {
+        let text = std::fs::read_to_string(unit::scene("rough_contacts")).expect("a scene file");
+        let text = text
+            .split("[[contact]]")
+            .next()
+            .expect("a first part")
+            .replace("coefficient = 0.4", &format!("coefficient = {coefficient:?}"));
+        Unit::load(&unit::write_scene(&format!("alone_{}", (100.0 * coefficient) as u32), &text))
+    };
+    let (rough, smooth) = (alone(0.4), alone(0.05));
+    let (mut one, mut two, mut time, mut others) = (rough.ready(), smooth.ready(), 0.0, [0.0; 2]);
+    for (step, (normal, tangential)) in rates(11, 60).into_iter().enumerate() {
+        let back = -tangential;
+        instance.set_one("rough.indentation_rate", normal);
+        instance.set_one("smooth.tangential_rate", back);
+        instance.set_one("smooth.indentation_rate", normal);
+        instance.set_one("rough.tangential_rate", tangential);
+        instance.set_one("frictionless.indentation_rate", if step == 0 { 101.0 } else { normal });
+        instance.set_one("frictionless.tangential_rate", tangential);
+        assert_eq!(instance.step(time, STEP), OK, "{}", instance.message());
+        time += STEP;
+        go(&mut one, &mut others[0], (normal, tangential), STEP);
+        go(&mut two, &mut others[1], (normal, back), STEP);
+        for name in ["force", "tangential_force", "friction_work", "mean_force"] {
+            assert_eq!(instance.real(&format!("rough.{name}")).to_bits(), one.real(name).to_bits(), "rough.{name}");
+            assert_eq!(instance.real(&format!("smooth.{name}")).to_bits(), two.real(name).to_bits(), "smooth.{name}");
+        }
+        assert_eq!(instance.real("frictionless.tangential_force"), 0.0);
+        assert_eq!(instance.real("frictionless.friction_work"), 0.0);
+    }
+}
+
+#[test]
+fn the_energy_that_the_ball_loses_is_dissipated_and_friction_work() {
+    for (unit, tolerance) in
+        [(steel("thornton_rough", PLASTIC), 2e-3), (steel("brinell_rough", "loading = \"brinell\""), 2e-3)]
+    {
+        for degrees in [5.0_f64, 30.0, 60.0] {
+            let (mass, radius, step) = (4e-3, 5e-3, 1e-8);
+            let angle = degrees.to_radians();
+            let (mut normal, mut tangential, mut spin) = (angle.cos(), angle.sin(), 0.0);
+            let kinetic = |normal: f64, tangential: f64, spin: f64| {
+                0.5 * mass * (normal * normal + tangential * tangential + 0.4 * radius * radius * spin * spin)
+            };
+            let before = kinetic(normal, tangential, spin);
+            let (mut instance, mut time) = (unit.ready(), 0.0);
+            loop {
+                go(&mut instance, &mut time, (normal, tangential + radius * spin), step);
+                let (force, pull) = (instance.real("force"), instance.real("tangential_force"));
+                if force == 0.0 && normal < 0.0 {
+                    break;
+                }
+                normal -= step * force / mass;
+                tangential -= step * pull / mass;
+                spin -= step * pull * radius / (0.4 * mass * radius * radius);
+            }
+            let lost = instance.real("dissipated_energy") + instance.real("friction_work");
+            let balance = (kinetic(normal, tangential, spin) + lost) / before - 1.0;
+            println!("{degrees} degrees: {balance:.1e}");
+            assert!(balance.abs() < tolerance, "{degrees} degrees: {balance:e}");
+            assert_eq!(instance.real("tangential_energy"), 0.0);
+        }
+    }
+}
