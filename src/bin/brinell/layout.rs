@@ -16,6 +16,26 @@ pub fn paragraph(heading: &str, text: &str) -> String {
     format!("{}\n", if text.is_empty() { heading.trim_end() } else { &filled })
 }
 
+/// At most 80 characters of `text`, for a message.
+pub fn shortened(text: &str) -> String {
+    const MOST: usize = 80;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.into(),
+    }
+}
+
+/// `text` without its middle if it is very long, for a message that others have made.
+pub fn without_middle(text: &str) -> String {
+    const END: usize = 150;
+    let count = text.chars().count();
+    if count <= 2 * END {
+        return text.into();
+    }
+    let end = |index| text.char_indices().nth(index).map_or(text.len(), |(place, _)| place);
+    format!("{} ... {}", &text[..end(END)], &text[end(count - END)..])
+}
+
 /// Writes an error, a warning or progress to standard error. Lines are wrapped for people, and left alone for programs, which use
 /// `--json`.
 pub fn tell(message: &str) {

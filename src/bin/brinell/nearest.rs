@@ -1,5 +1,7 @@
 //! Suggestions for mistyped names.
 
+use crate::layout::shortened;
+
 /// Similarity (Jaro-Winkler) from which two names are considered the same.
 const SIMILAR: f64 = 0.8;
 
@@ -46,15 +48,6 @@ pub fn nearest_first<'a>(asked: &str, names: &[&'a str]) -> Vec<&'a str> {
     // equally near ones stay in their order
     rated.sort_by(|one, other| other.0.total_cmp(&one.0));
     rated.into_iter().map(|(_, name)| name).collect()
-}
-
-/// At most 80 characters of `text`, for a message.
-pub fn shortened(text: &str) -> String {
-    const MOST: usize = 80;
-    match text.char_indices().nth(MOST) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.into(),
-    }
 }
 
 /// The message about a name that does not exist, such as: unknown material `Mild Steel`; did you mean `mild steel`? Expected

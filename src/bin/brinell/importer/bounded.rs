@@ -1,6 +1,7 @@
 //! Unpacks untrusted archives with a bound on their size.
 
 use super::ImportError;
+use crate::layout::shortened;
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, Write};
 use std::path::Path;
@@ -49,7 +50,7 @@ pub fn unpack<R: Read + Seek>(archive: &mut ZipArchive<R>, folder: &Path) -> Res
             continue;
         }
         let Some(inside) = file.enclosed_name() else {
-            let name = String::from_utf8_lossy(file.name_raw()).into_owned();
+            let name = shortened(&String::from_utf8_lossy(file.name_raw()));
             return Err(ImportError::Unpack(io::Error::other(format!("the name {name:?} leads out of the archive"))));
         };
         let goal = folder.join(inside);

@@ -1,6 +1,7 @@
 //! The contents of a model description.
 
 use super::ImportError;
+use crate::layout::without_middle;
 use crate::xml;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::HashMap;
@@ -64,7 +65,7 @@ impl Description {
         let mut reader = quick_xml::Reader::from_reader(from);
         let mut description = Description::default();
         let (mut current, mut piece) = (None, Vec::new());
-        let wrong = |error: &dyn std::fmt::Display| ImportError::Xml(error.to_string());
+        let wrong = |error: &dyn std::fmt::Display| invalid(&error.to_string());
         loop {
             piece.clear();
             match reader.read_event_into(&mut piece).map_err(|error| wrong(&error))? {
@@ -152,10 +153,10 @@ fn check_lines(mut from: impl BufRead) -> Result<(), ImportError> {
 fn attributes(element: &BytesStart) -> Result<HashMap<String, String>, ImportError> {
     let mut map = HashMap::new();
     for attribute in element.attributes() {
-        let attribute = attribute.map_err(|error| ImportError::Xml(error.to_string()))?;
+        let attribute = attribute.map_err(|error| invalid(&error.to_string()))?;
         let name = attribute.key.as_ref().to_string();
         let value = attribute.normalized_value(quick_xml::XmlVersion::Implicit1_0);
-        let value = value.map_err(|error| ImportError::Xml(error.to_string()))?.into_owned();
+        let value = value.map_err(|error| invalid(&error.to_string()))?.into_owned();
         check_characters(&value)?;
         map.insert(name, value);
     }
@@ -168,5 +169,10 @@ fn check_characters(text: &str) -> Result<(), ImportError> {
 }
 
 fn not_xml(character: char, place: &str) -> ImportError {
-    ImportError::Xml(format!("the character {}{place} is none that XML can have", xml::name(character)))
+    invalid(&format!("the character {}{place} is none that XML can have", xml::name(character)))
+}
+
+/// The error with this `reason`, which may quote a long text.
+fn invalid(reason: &str) -> ImportError {
+    ImportError::Xml(without_middle(reason))
 }

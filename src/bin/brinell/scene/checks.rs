@@ -8,6 +8,7 @@ use super::laws;
 use super::losses;
 use super::numbers::IMPACTOR_DENSITY;
 use super::{Mistake, Parameter, QuasiStatic, Scene};
+use crate::layout::shortened;
 use crate::nearest::unknown;
 use crate::predict;
 use crate::table::{self, Causality, VARIABLES};
@@ -159,7 +160,8 @@ pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
         return Ok(text.clone());
     }
     let message = format!(
-        "name = {text:?} is not a C identifier: at most 100 letters, digits and `_`, and no digit at the beginning"
+        "name = {:?} is not a C identifier: at most 100 letters, digits and `_`, and no digit at the beginning",
+        shortened(text)
     );
     Err(Mistake(name.span(), message))
 }

@@ -10,13 +10,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// Good scenes with everything that the tables know.
-const SEEDS: [&str; 11] = [
+const SEEDS: [&str; 13] = [
     super::DEFAULT_SCENE,
     include_str!("../../../../scenes/coupled.toml"),
     include_str!("../../../../scenes/damped.toml"),
     include_str!("../../../../scenes/elastic.toml"),
     include_str!("../../../../scenes/everything.toml"),
     include_str!("../../../../scenes/mass_known.toml"),
+    include_str!("../../../../scenes/oblique.toml"),
+    include_str!("../../../../scenes/rough_contacts.toml"),
     include_str!("../../../../scenes/two_contacts.toml"),
     include_str!("../../../../scenes/wired.toml"),
     "name = \"a\"\nimpactor = { radius = 5e-3, material = \"tungsten carbide\" }\n[target]\nmaterial = \"mild steel\"\n\

@@ -1,6 +1,7 @@
 //! Translates the messages of the parser into the terms of the scene file.
 
-use crate::nearest::{nearest, one_of, shortened};
+use crate::layout::{shortened, without_middle};
+use crate::nearest::{nearest, one_of};
 use crate::table::VARIABLES;
 use crate::units;
 
@@ -57,7 +58,7 @@ pub fn words(message: &str, line: &str, meant: &str) -> String {
     let line = shortened(line);
     let message =
         message.replace("expected f64", "expected a number").replace("expected i64", "expected a whole number");
-    format!("{message} in `{line}`")
+    format!("{} in `{line}`", without_middle(&message))
 }
 
 /// The message about a missing key in the table that begins in `line`; without a line, in the file.
