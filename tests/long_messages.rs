@@ -46,8 +46,10 @@ fn a_typo_among_two_thousand_contacts_is_told_with_the_nearest_names() {
 #[test]
 fn a_wrong_connection_among_two_thousand_contacts_is_told_with_the_nearest_names() {
     let folder = two_thousand("");
-    let connection = "contact.bead_1234.forse=contact.bead_1.indentation_rate";
-    let refused = run(folder.path(), ["ssp", "beads.toml", "--connect", connection]).with_status(2);
+    run(folder.path(), ["export", &scene("steel_ball").display().to_string(), "-o", "other.fmu"]).with_status(0);
+    let connection = "contact.bead_1234.forse=other.indentation_rate";
+    let refused =
+        run(folder.path(), ["ssp", "beads.toml", "--with", "other.fmu", "--connect", connection]).with_status(2);
     short(&refused, &["no output `bead_1234.forse` of type Real", "bead_1234.force", "and 1980 more"]);
 }
 

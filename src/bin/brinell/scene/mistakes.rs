@@ -2,6 +2,7 @@
 
 use crate::layout::{shortened, without_middle};
 use crate::nearest::{nearest, one_of};
+use crate::numbers::exact;
 use crate::table::VARIABLES;
 use crate::units;
 
@@ -58,7 +59,16 @@ pub fn words(message: &str, line: &str, meant: &str) -> String {
     let line = shortened(line);
     let message =
         message.replace("expected f64", "expected a number").replace("expected i64", "expected a whole number");
-    format!("{} in `{line}`", without_middle(&message))
+    format!("{} in `{line}`", without_middle(&with_exact_number(&message)))
+}
+
+/// The `message` of the parser, which writes all digits of a number: 1e300 would have three hundred zeros.
+fn with_exact_number(message: &str) -> String {
+    let parts = message.split_once("floating point `").and_then(|(before, rest)| Some((before, rest.split_once('`')?)));
+    match parts.map(|(before, (digits, after))| (before, digits.parse(), after)) {
+        Some((before, Ok(number), after)) => format!("{before}floating point `{}`{after}", exact(number)),
+        _ => message.into(),
+    }
 }
 
 /// The message about a missing key in the table that begins in `line`; without a line, in the file.
