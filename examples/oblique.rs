@@ -27,7 +27,7 @@ fn main() {
     let inertia = 0.4 * mass * RADIUS * RADIUS;
 
     println!("angle_deg,e_t,omega,rebound_angle_centre");
-    for degrees in 1..=85 {
+    for degrees in 1..=88 {
         let angle = f64::from(degrees).to_radians();
         let (mut normal, mut tangential, mut spin) = (SPEED * angle.cos(), SPEED * angle.sin(), 0.0);
         let kinetic = |normal: f64, tangential: f64, spin: f64| {

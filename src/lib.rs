@@ -13,7 +13,7 @@
 //! result does not depend on how the time is divided into steps.
 //!
 //! # Validity
-//! The model is a quasi-static, frictionless normal contact of a paraboloid: `a/R` up to about 0.3, a contact time that is long
+//! The model is a quasi-static normal contact of a paraboloid, with friction on top: `a/R` up to about 0.3, a contact time that is long
 //! compared with the travel time of elastic waves, no hardening, no strain-rate effects. [`contact::validity`] gives the limits
 //! as numbers; an FMU logs a warning when it leaves them.
 //!

@@ -122,15 +122,16 @@ fn the_predicted_tangential_force_comes_true_and_follows_both_inputs() {
     }
 }
 
-/// The tangential force after curved motions of both rates, in this number of steps.
-fn curved(unit: &Unit, parts: u32) -> f64 {
+/// The tangential force relative to Coulomb's limit after curved motions of both rates, in this number of steps. `size` is
+/// that of the tangential rate [m/s].
+fn curved(unit: &Unit, size: f64, parts: u32) -> f64 {
     let mut instance = unit.ready();
     let total = 4e-6;
     let part = total / f64::from(parts);
     // rates over the fraction of the whole time: in and out along the normal, to and fro in the tangential direction
     let normal = |t: f64| [2.0 * (1.0 - 1.6 * t), -3.2 / total, 0.0];
     let tangential =
-        |t: f64| [0.3 * (1.0 - 4.0 * t + 3.0 * t * t), 0.3 * (-4.0 + 6.0 * t) / total, 1.8 / (total * total)];
+        |t: f64| [size * (1.0 - 4.0 * t + 3.0 * t * t), size * (-4.0 + 6.0 * t) / total, 6.0 * size / (total * total)];
     for step in 0..parts {
         let fraction = f64::from(step) / f64::from(parts);
         let ([rate, slope, bend_of], [slip, slip_slope, slip_bend]) = (normal(fraction), tangential(fraction));
@@ -139,20 +140,25 @@ fn curved(unit: &Unit, parts: u32) -> f64 {
         bend(&mut instance, [slope, slip_slope], [bend_of, slip_bend]);
         assert_eq!(instance.step(f64::from(step) * part, part), OK, "{}", instance.message());
     }
-    instance.real("tangential_force")
+    instance.real("tangential_force") / (0.092 * instance.real("force"))
 }
 
 #[test]
-fn curved_motions_of_both_rates_are_followed_to_second_order() {
+fn curved_motions_of_both_rates_are_exact_in_slip_and_of_second_order_in_stick() {
     let unit = oblique();
-    let exact = curved(&unit, 8192);
-    // Coulomb's limit at the end is 0.78 N
-    let errors = [4, 16, 64, 256].map(|parts| (curved(&unit, parts) - exact).abs() / 0.78);
-    println!("{exact:e} N; errors in 4, 16, 64, 256 steps: {errors:?}");
-    for pair in errors.windows(2).filter(|pair| pair[0] > 1e-5) {
-        assert!(pair[1] < 0.25 * pair[0], "{errors:?}");
+    for size in [0.02, 0.06, 0.1, 0.3] {
+        let exact = curved(&unit, size, 2048);
+        let errors = [1, 4, 16, 64, 256].map(|parts| (curved(&unit, size, parts) - exact).abs());
+        println!("{size} m/s: {exact:.4}; errors in 1, 4, 16, 64, 256 steps: {errors:?}");
+        if size == 0.3 {
+            // the contact slips from the first touch on
+            assert!(errors.iter().all(|error| *error < 1e-13), "{errors:?}");
+            continue;
+        }
+        assert!(errors[0] < 0.1 && errors[1] < 0.03 && errors[2] < 3e-3 && errors[4] < 1e-4, "{errors:?}");
+        // a factor of 16 each, down to the error of merged segments
+        assert!(errors[2] < 0.15 * errors[1] && errors[3] < 0.15 * errors[2], "{errors:?}");
     }
-    assert!(errors[3] < 1e-4, "{errors:?}");
 }
 
 #[test]
@@ -181,12 +187,10 @@ fn derivatives_apply_to_one_step() {
     for name in names {
         assert_eq!(instance.real(name).to_bits(), other.real(name).to_bits(), "{name}");
     }
+    // it was not for nothing
     let (mut held, _) = worked(&unit, (0.3, 0.1));
-    assert_eq!(held.set_derivatives(&[reference], 1, &[2e5]), OK);
     assert_eq!(held.step(time, STEP), OK);
-    held.set_one("tangential_rate", 0.1);
-    assert_eq!(held.step(time + STEP, STEP), OK);
-    assert_eq!(held.real("tangential_force").to_bits(), other.real("tangential_force").to_bits());
+    assert!((held.real("friction_work") / other.real("friction_work") - 1.0).abs() > 1e-3);
 }
 
 #[test]
@@ -213,6 +217,20 @@ fn a_saved_course_continues_with_the_same_bits() {
             assert_eq!(instance.real(name).to_bits(), copy.real(name).to_bits(), "{name}");
         }
     }
+}
+
+#[test]
+fn a_refused_step_changes_nothing() {
+    let unit = oblique();
+    let (mut instance, time) = worked(&unit, (0.3, 0.1));
+    let names = ["force", "tangential_force", "mean_tangential_force", "tangential_impulse", "friction_work"];
+    let before = names.map(|name| instance.real(name).to_bits());
+    bend(&mut instance, [1e150, 1e5], [0.0, 1e11]);
+    take_message();
+    assert_eq!(instance.step(time, STEP), ERROR);
+    let message = take_message();
+    assert!(message.contains("the indentation would become"), "{message}");
+    assert_eq!(names.map(|name| instance.real(name).to_bits()), before);
 }
 
 #[test]

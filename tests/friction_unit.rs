@@ -11,7 +11,6 @@ use brinell::contact::tangential::{Friction, RoughContact, RoughModel};
 use brinell::contact::{Body, Contact, Model, Pair, Surface, loading, unloading};
 use loaded::{ERROR, Instance, OK, Unit, take_message};
 use physics::Random;
-use std::f64::consts::PI;
 
 const STEP: f64 = 1e-6;
 
@@ -145,9 +144,9 @@ fn both_signs_are_mirror_images_to_the_bit() {
 fn a_step_is_that_of_its_parts() {
     // an elastic contact exactly; a dent that grows, as far as its law is exact
     for (unit, tolerance, of_mean) in [
-        (project("oblique"), 2e-12, 2e-11),
-        (steel("thornton_rough", PLASTIC), 1e-9, 1e-6),
-        (steel("brinell_rough", "loading = \"brinell\""), 1e-3, 1e-2),
+        (project("oblique"), 1e-13, 1e-12),
+        (steel("thornton_rough", PLASTIC), 1e-12, 1e-6),
+        (steel("brinell_rough", "loading = \"brinell\""), 5e-3, 5e-3),
     ] {
         for parts in [2_u32, 7, 100, 1000] {
             let (mut whole, mut cut, [mut time, mut same]) = (unit.ready(), unit.ready(), [0.0; 2]);
@@ -288,47 +287,6 @@ fn any_coefficient_gives_a_force_within_its_bound() {
     }
 }
 
-/// The ball after an impact at `degrees` from the normal, moved by the importer: tangential restitution and spin [rad/s].
-fn rebound(instance: &mut Instance, degrees: f64, step: f64) -> (f64, f64) {
-    let mass = 4.0 / 3.0 * PI * 2.5e-3_f64.powi(3) * 4000.0;
-    let angle = degrees.to_radians();
-    let (mut normal, mut tangential, mut spin) = (3.9 * angle.cos(), 3.9 * angle.sin(), 0.0);
-    let (before, mut time) = (tangential, 0.0);
-    loop {
-        go(instance, &mut time, (normal, tangential + spin * 2.5e-3), step);
-        let (force, pull) = (instance.real("force"), instance.real("tangential_force"));
-        if force == 0.0 && normal < 0.0 {
-            return (tangential / before, spin);
-        }
-        normal -= step * force / mass;
-        tangential -= step * pull / mass;
-        spin -= step * pull * 2.5e-3 / (0.4 * mass * 2.5e-3 * 2.5e-3);
-    }
-}
-
-#[test]
-fn rebounds_through_the_unit_agree_with_the_measurement() {
-    let unit = project("oblique");
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/experiment/oblique_elastic.csv");
-    let text = std::fs::read_to_string(path).expect("a table of the project");
-    let (mut restitutions, mut spins) = (Vec::new(), Vec::new());
-    for row in text.lines().skip(1).map(|line| line.rsplit(',').collect::<Vec<_>>()) {
-        let number = |text: &str| text.parse::<f64>().expect("a number");
-        let (value, degrees, quantity) = (number(row[0]), number(row[1]), row[2]);
-        let of = match quantity {
-            "e_t" => &mut restitutions,
-            "omega" => &mut spins,
-            _ => continue,
-        };
-        let (restitution, spin) = rebound(&mut unit.ready(), degrees, 3e-8);
-        of.push(if quantity == "e_t" { restitution - value } else { -spin - value });
-    }
-    let rms = |errors: &[f64]| (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt();
-    println!("e_t {:.4} ({}), spin {:.1} rad/s ({})", rms(&restitutions), restitutions.len(), rms(&spins), spins.len());
-    assert!(restitutions.len() > 10 && rms(&restitutions) <= 0.02);
-    assert!(spins.len() > 10 && rms(&spins) <= 30.0);
-}
-
 #[test]
 fn contacts_have_friction_of_their_own() {
     let unit = project("rough_contacts");
@@ -362,38 +320,5 @@ fn contacts_have_friction_of_their_own() {
         }
         assert_eq!(instance.real("frictionless.tangential_force"), 0.0);
         assert_eq!(instance.real("frictionless.friction_work"), 0.0);
-    }
-}
-
-#[test]
-fn the_energy_that_the_ball_loses_is_dissipated_and_friction_work() {
-    for (unit, tolerance) in
-        [(steel("thornton_rough", PLASTIC), 2e-3), (steel("brinell_rough", "loading = \"brinell\""), 2e-3)]
-    {
-        for degrees in [5.0_f64, 30.0, 60.0] {
-            let (mass, radius, step) = (4e-3, 5e-3, 1e-8);
-            let angle = degrees.to_radians();
-            let (mut normal, mut tangential, mut spin) = (angle.cos(), angle.sin(), 0.0);
-            let kinetic = |normal: f64, tangential: f64, spin: f64| {
-                0.5 * mass * (normal * normal + tangential * tangential + 0.4 * radius * radius * spin * spin)
-            };
-            let before = kinetic(normal, tangential, spin);
-            let (mut instance, mut time) = (unit.ready(), 0.0);
-            loop {
-                go(&mut instance, &mut time, (normal, tangential + radius * spin), step);
-                let (force, pull) = (instance.real("force"), instance.real("tangential_force"));
-                if force == 0.0 && normal < 0.0 {
-                    break;
-                }
-                normal -= step * force / mass;
-                tangential -= step * pull / mass;
-                spin -= step * pull * radius / (0.4 * mass * radius * radius);
-            }
-            let lost = instance.real("dissipated_energy") + instance.real("friction_work");
-            let balance = (kinetic(normal, tangential, spin) + lost) / before - 1.0;
-            println!("{degrees} degrees: {balance:.1e}");
-            assert!(balance.abs() < tolerance, "{degrees} degrees: {balance:e}");
-            assert_eq!(instance.real("tangential_energy"), 0.0);
-        }
     }
 }

@@ -160,6 +160,23 @@ fn every_platform_has_a_library_of_its_kind_with_the_same_guid() {
     }
 }
 
+/// Compilers translate loops over memory to other functions on each system; a standalone library has all of them.
+#[test]
+fn a_standalone_library_needs_nothing_on_any_platform() {
+    let Some(toolchain) = toolchain::toolchain() else { return };
+    for name in ["steel_ball", "everything"] {
+        let folder = empty_folder();
+        let text = fs::read_to_string(scene(name)).unwrap();
+        assert!(text.contains("\n[fmu]\n"), "{name}");
+        let path = folder.path().join("scene.toml");
+        fs::write(&path, text.replacen("\n[fmu]\n", "\n[fmu]\nstandalone = true\n", 1)).unwrap();
+        let path = path.to_str().unwrap();
+        let said = export(folder.path(), &toolchain, path, &["--platforms", "all", "--json"]).json();
+        assert_eq!(said["imports"], serde_json::json!([]), "{name}");
+        assert_eq!(said["libraries"].as_object().unwrap().len(), ALL.len(), "{name}");
+    }
+}
+
 #[test]
 fn all_platforms_at_once_are_those_made_apart_and_merged_bit_for_bit() {
     let Some(toolchain) = toolchain::toolchain() else { return };

@@ -67,6 +67,34 @@ pub unsafe extern "C" fn memset(to: *mut u8, value: i32, count: usize) -> *mut u
     to
 }
 
+/// Sets `count` bytes to zero: what compilers call on macOS on x86-64.
+#[cfg(any(test, target_vendor = "apple"))]
+#[cfg_attr(not(test), unsafe(no_mangle))]
+pub unsafe extern "C" fn __bzero(to: *mut u8, count: usize) {
+    // SAFETY: guaranteed by the caller.
+    unsafe { memset(to, 0, count) };
+}
+
+/// The same for macOS on arm64.
+#[cfg(any(test, target_vendor = "apple"))]
+#[cfg_attr(not(test), unsafe(no_mangle))]
+pub unsafe extern "C" fn bzero(to: *mut u8, count: usize) {
+    // SAFETY: guaranteed by the caller.
+    unsafe { memset(to, 0, count) };
+}
+
+/// Fills `count` bytes with the 16 bytes of `pattern`, again and again: what compilers call on macOS for a repeated number.
+#[cfg(any(test, target_vendor = "apple"))]
+#[cfg_attr(not(test), unsafe(no_mangle))]
+pub unsafe extern "C" fn memset_pattern16(to: *mut u8, pattern: *const u8, count: usize) {
+    let mut at = 0;
+    while at < count {
+        // SAFETY: `at < count`, and a pattern has 16 bytes.
+        unsafe { to.add(at).write(pattern.add(at % 16).read()) };
+        at += 1;
+    }
+}
+
 /// The difference of the first two bytes that differ, or 0.
 #[cfg_attr(not(test), unsafe(no_mangle))]
 pub unsafe extern "C" fn memcmp(one: *const u8, other: *const u8, count: usize) -> i32 {
@@ -102,7 +130,7 @@ pub unsafe extern "C" fn strlen(text: *const u8) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{bcmp, memcmp, memcpy, memmove, memset, strlen};
+    use super::{__bzero, bcmp, bzero, memcmp, memcpy, memmove, memset, memset_pattern16, strlen};
     use std::vec::Vec;
 
     /// longer than several words
@@ -133,6 +161,27 @@ mod tests {
                     expected[to..to + count].fill(0xff);
                     assert_eq!(set, expected, "memset of {count} at {to}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn the_functions_of_macos_fill_any_range() {
+        let pattern = bytes();
+        for count in 0..=35 {
+            for to in 0..=5 {
+                let mut filled = [bytes(), bytes(), bytes()];
+                let [zero, zero_too, repeated] = filled.each_mut().map(|bytes| bytes[to..].as_mut_ptr());
+                // SAFETY: `to + count` is at most LENGTH, and the pattern is longer than 16 bytes.
+                unsafe {
+                    __bzero(zero, count);
+                    bzero(zero_too, count);
+                    memset_pattern16(repeated, pattern.as_ptr(), count);
+                }
+                let [mut zeroed, mut expected] = [bytes(), bytes()];
+                zeroed[to..to + count].fill(0);
+                (0..count).for_each(|at| expected[to + at] = pattern[at % 16]);
+                assert_eq!(filled, [zeroed.clone(), zeroed, expected], "{count} bytes at {to}");
             }
         }
     }

@@ -119,6 +119,7 @@ impl<S: Scene> Instance<S> {
             }
         }
         let unfit = !matches!(phase, Phase::StepComplete | Phase::Terminated);
+        let sizes = words.clone();
         for (group, bodies) in self.settings.bodies.as_mut().iter_mut().enumerate() {
             let [radius, modulus] = load_numbers(&mut words)?;
             let (radius, modulus) = match pair_of::<S>(group, &values) {
@@ -139,7 +140,14 @@ impl<S: Scene> Instance<S> {
         let slots = histories.as_mut().iter_mut().zip(rates.as_mut());
         for (contact, (history_slot, rate_slot)) in slots.enumerate() {
             let group = S::group(contact);
-            let model = model_of::<S>(group, self.settings.bodies.as_ref().get(group)?, &values);
+            // in the first pass, these may be the bodies of a blank instance, for which the springs of a contact with friction
+            // can't be checked
+            let read = match S::Contact::HAS_FRICTION && !in_earnest {
+                true => Some(bodies_of::<S>(group, &values, sizes.clone())?),
+                false => None,
+            };
+            let bodies = read.as_ref().or(self.settings.bodies.as_ref().get(group))?;
+            let model = model_of::<S>(group, bodies, &values);
             let [rate] = load_numbers(&mut words)?;
             if f64::abs(rate) > FASTEST {
                 return None;
@@ -189,6 +197,16 @@ impl<S: Scene> Instance<S> {
         let inputs = [accelerations.as_ref().get(contact), masses.as_ref().get(contact)];
         inputs.into_iter().flatten().for_each(|input| store(input.to_bits()));
     }
+}
+
+/// The bodies of `group` with these parameters; where they do not fit together, of the radius and the modulus in `sizes`, the
+/// words of all groups.
+fn bodies_of<S: Scene>(group: usize, values: &S::Values, sizes: impl Iterator<Item = u64>) -> Option<BodiesOf<S>> {
+    let [radius, modulus] = match pair_of::<S>(group, values) {
+        Ok(pair) => [pair.radius, pair.modulus],
+        Err(_) => load_numbers(&mut sizes.skip(2 * group))?,
+    };
+    Some(Bodies { radius, modulus, ..Bodies::default() })
 }
 
 /// Writes the result of `load` to its slot, if the scene has one and this is `in_earnest`; `None` if `load` fails.

@@ -137,7 +137,7 @@ fn an_impossible_oblique_impact_is_rejected_with_the_reason() {
         (&["--angle", "NaN", "--friction", "0.1"], "angle = NaN must be"),
         (&["--spin", "inf", "--friction", "0.1"], "spin = inf rad/s must be finite"),
         (&["--angle", "1", "--friction", "11"], "friction = 11 is out of range: allowed is 0 to 10"),
-        (&["--angle", "1", "--friction", "-0.1"], "unexpected argument '-0'"),
+        (&["--angle", "1", "--friction", "-0.1"], "unexpected argument"),
         (&["--angle", "1", "--friction", "0.1", "--inertia", "0"], "inertia = 0 must be positive"),
         (&["--friction", "0.1", "--sweep", "angle=0:90"], "angle = 90 must be above -90"),
         (
@@ -230,5 +230,19 @@ fn loops_have_amplitudes_laws_and_reasons_for_refusals() {
     ] {
         let failed = run(arguments).with_status(2);
         assert!(failed.err.contains(words), "{arguments:?}: {}, not {words}", failed.err);
+    }
+}
+
+#[test]
+fn a_loss_below_yield_is_not_combined_with_friction_silently() {
+    let folder = empty_folder();
+    let text = KHARAZ.replace("friction = { coefficient = 0.092 }\n", "");
+    let text = text.replace("poissons_ratio = 0.25 }", "poissons_ratio = 0.25, yield_strength = 3e9 }");
+    let text = text.replace("loading = \"hertz\"", "loading = \"brinell\", elastic_restitution = 0.98");
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    for command in [&["predict", "--angle", "10"][..], &["curve", "--tangential"]] {
+        let all = [command[0], "scene.toml"].into_iter().chain(command[1..].iter().copied());
+        let failed = run(folder.path(), all.chain(["--friction", "0.1"])).with_status(2);
+        assert!(failed.err.contains("a loss below yield and friction can't be combined"), "{}", failed.err);
     }
 }

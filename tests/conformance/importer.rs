@@ -163,10 +163,17 @@ impl<'a> Importer<'a> {
     /// Sets all rates to `rate` [m/s] and makes a step, which must succeed.
     #[track_caller]
     pub fn press(&mut self, rate: f64) {
-        let rates = self.face.rates();
-        assert_eq!(self.set(&rates, &vec![rate; rates.len()]), OK, "{:?}", self.log);
+        self.set_rates(rate);
         assert_eq!(self.step(self.time, STEP), OK, "{:?}", self.log);
         self.time += STEP;
+    }
+
+    /// Sets all rates to `rate` [m/s], and those along the surface to half of it in the other direction.
+    #[track_caller]
+    pub fn set_rates(&self, rate: f64) {
+        for (references, rate) in [(&self.face.rates, rate), (&self.face.sideways, -0.5 * rate)] {
+            assert_eq!(self.set(references, &vec![rate; references.len()]), OK, "{:?}", self.log);
+        }
     }
 
     pub fn setup(&self, start: f64, stop: Option<f64>) -> c_int {
@@ -227,7 +234,10 @@ impl<'a> Importer<'a> {
         let mut integers = vec![-1; self.face.integers.len()];
         assert_eq!(self.get_integers(&self.face.integers, &mut integers), OK, "{:?}", self.log);
         assert!(reals.iter().all(|value| value.is_finite()), "{reals:?}");
-        assert!(integers.iter().all(|value| (0..=5).contains(value)), "{integers:?}");
+        let enumerations = self.face.variables.iter().filter(|variable| !variable.is_real);
+        for (variable, value) in enumerations.zip(&integers) {
+            assert!(variable.items.contains(value), "{} is {value}", variable.name);
+        }
         reals.iter().map(|value| value.to_bits()).chain(integers.iter().map(|value| *value as u64)).collect()
     }
 

@@ -1,5 +1,7 @@
 """A ball dropped from 0.5 m comes to rest with each loss below yield, and no energy gets lost on the way."""
 
+from pathlib import Path
+
 import pytest
 from unit import unit
 
@@ -8,7 +10,7 @@ LOSSES = ["fitted", "waves", "plate"]
 
 
 def follows_rate(name):
-    text = open(unit(name).folder + "/modelDescription.xml", encoding="utf-8").read()
+    text = (Path(unit(name).folder) / "modelDescription.xml").read_text(encoding="utf-8")
     outputs = text.split("<Outputs>")[1].split("</Outputs>")[0]
     reference = {v.name: i for i, v in enumerate(unit(name).description.modelVariables, 1)}
     force = next(line for line in outputs.split("<Unknown") if f'index="{reference["force"]}"' in line)

@@ -160,6 +160,9 @@ class Machine:
             byte, count = (second & 255, third) if name == "_memset" else (0, second)
             self.uc.mem_write(first, bytes([byte]) * count)
             result = first
+        elif name == "_memset_pattern16":
+            pattern = bytes(self.uc.mem_read(second, 16))
+            self.uc.mem_write(first, (pattern * (third // 16 + 1))[:third])
         elif name in ("_memcmp", "_bcmp"):
             one, other = (bytes(self.uc.mem_read(place, third)) for place in (first, second))
             result = ((one > other) - (one < other)) & 0xFFFFFFFF

@@ -19,6 +19,8 @@ pub struct Variable {
     pub start: Option<f64>,
     pub minimum: Option<f64>,
     pub maximum: Option<f64>,
+    /// The values of an enumeration.
+    pub items: Vec<i32>,
 }
 
 /// An FMU: its functions and its variables.
@@ -36,6 +38,9 @@ pub struct Face {
     pub inputs: Vec<u32>,
     pub outputs: Vec<u32>,
     pub parameters: Vec<u32>,
+    /// The rates of the contacts, which are the first inputs, and those along the surface, of contacts with friction.
+    pub rates: Vec<u32>,
+    pub sideways: Vec<u32>,
     /// Start values of Real variables.
     pub starts: HashMap<u32, f64>,
     /// Whether the contacts can yield.
@@ -54,8 +59,17 @@ fn number(element: &str, name: &str) -> Option<f64> {
     attribute(element, name).and_then(|text| text.parse().ok())
 }
 
+/// The values of each declared enumeration.
+fn enumerations(description: &str) -> HashMap<&str, Vec<i32>> {
+    let types = description.split("<SimpleType").skip(1).filter_map(|element| element.split("</SimpleType>").next());
+    let items = |element: &str| {
+        element.split("<Item").skip(1).filter_map(|item| attribute(item, "value")?.parse().ok()).collect()
+    };
+    types.filter_map(|element| Some((attribute(element, "name")?, items(element)))).collect()
+}
+
 impl Variable {
-    fn read(element: &str) -> Variable {
+    fn read(element: &str, types: &HashMap<&str, Vec<i32>>) -> Variable {
         let text = |name| attribute(element, name).unwrap_or_default().to_string();
         Variable {
             name: text("name"),
@@ -66,6 +80,7 @@ impl Variable {
             start: number(element, "start"),
             minimum: number(element, "min"),
             maximum: number(element, "max"),
+            items: attribute(element, "declaredType").and_then(|name| types.get(name)).cloned().unwrap_or_default(),
         }
     }
 }
@@ -81,10 +96,11 @@ impl Face {
         let root = place.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
         let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
         let guid = attribute(&description, "guid").expect("a GUID");
+        let types = enumerations(&description);
         let elements = description.split("<ScalarVariable").skip(1);
         let elements =
             elements.map(|element| element.split("</ScalarVariable>").next().expect("text has a first part"));
-        let variables: Vec<Variable> = elements.map(Variable::read).collect();
+        let variables: Vec<Variable> = elements.map(|element| Variable::read(element, &types)).collect();
         let categories = description.split("<Category").skip(1);
         let capabilities = description.split("<CoSimulation").nth(1).and_then(|rest| rest.split('>').next());
         let references = |wanted: &dyn Fn(&Variable) -> bool| -> Vec<u32> {
@@ -104,6 +120,8 @@ impl Face {
             parameters: references(&|variable| {
                 variable.is_real && !["input", "output"].contains(&&*variable.causality)
             }),
+            rates: references(&|variable| variable.name.rsplit('.').next() == Some("indentation_rate")),
+            sideways: references(&|variable| variable.name.rsplit('.').next() == Some("tangential_rate")),
             starts: reals().filter_map(|variable| Some((variable.reference, variable.start?))).collect(),
             yields: description.contains("yield_strength"),
             named: outputs().map(|variable| (variable.name.clone(), variable.reference)).collect(),
@@ -126,11 +144,5 @@ impl Face {
     /// Whether the FMU declares that it uses no memory of its importer.
     pub fn needs_no_memory(&self) -> bool {
         self.capability("canNotUseMemoryManagementFunctions") == "true"
-    }
-
-    /// The rates of the contacts, which are the first inputs.
-    pub fn rates(&self) -> Vec<u32> {
-        let rates = self.variables.iter().filter(|variable| variable.name.ends_with("indentation_rate"));
-        rates.map(|variable| variable.reference).collect()
     }
 }

@@ -21,7 +21,7 @@ BLUE, RED = "#0072b2", "#d55e00"
 # radius of the ball [m], coefficient of friction and speed [m/s], as in the example
 RADIUS, FRICTION, SPEED = 2.5e-3, 0.092, 3.9
 QUANTITIES = (
-    ("e_t", "tangential restitution", "{:.3f}"),
+    ("e_t", "tangential restitution", "{:.4f}"),
     ("omega", "spin [rad/s]", "{:.0f} rad/s"),
     ("rebound_angle_centre", "rebound angle [degrees]", "{:.2f} degrees"),
 )
@@ -59,11 +59,10 @@ def measured_slips():
 
 
 def interpolated(at, arguments, values):
-    """The value between those at the neighbouring arguments."""
-    for (low, high), (below, above) in zip(zip(arguments, arguments[1:]), zip(values, values[1:])):
-        if low <= at <= high:
-            return below + (above - below) * (at - low) / (high - low)
-    raise ValueError(f"{at} is outside of {arguments[0]} to {arguments[-1]}")
+    """The value between those at the neighbouring arguments, or beyond the two at an end, in a straight line."""
+    last = max(index for index in range(len(arguments) - 1) if index == 0 or arguments[index] <= at)
+    part = (at - arguments[last]) / (arguments[last + 1] - arguments[last])
+    return values[last] + part * (values[last + 1] - values[last])
 
 
 def rms(curve, points):
@@ -90,10 +89,10 @@ def main():
         draw(axis, curve, list(zip(*points)), ("angle of incidence [degrees]", label), words)
         axis.set(xlim=(0, 90))
     triples = zip(curves["angle_deg"], curves["e_t"], curves["omega"])
-    # beyond the angle of the last spin the slip is that of full sliding
-    slips = [slip(*triple) for triple in triples if triple[0] <= 75]
-    titles = "psi_1 = tan(angle)/mu", "psi_2 = slip after the impact / (mu v_n)"
-    draw(axes[3], tuple(zip(*slips)), tuple(measured_slips()), titles, "{:.2f}")
+    # farther on, the ball slides throughout
+    near = lambda slips: tuple(zip(*(pair for pair in slips if pair[0] < 20)))
+    titles = "psi_1 = tan(angle) / mu", "psi_2 = slip speed / (mu v_n)"
+    draw(axes[3], near(slip(*triple) for triple in triples), near(zip(*measured_slips())), titles, "{:.2f}")
     axes[0].legend(frameon=False)
     figure.savefig(FOLDER / "oblique.svg", metadata={"Date": None})
 

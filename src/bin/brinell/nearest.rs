@@ -33,7 +33,7 @@ const LISTED: usize = 60;
 const NEAREST: usize = 8;
 
 /// The names to choose from, in words; of many, those that are nearest to `asked`.
-pub fn choice<'a>(asked: &str, names: &[&'a str]) -> String {
+pub fn choice(asked: &str, names: &[&str]) -> String {
     if names.len() <= LISTED {
         return one_of(names);
     }

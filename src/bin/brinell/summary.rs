@@ -180,7 +180,6 @@ fn features(scene: &Scene) -> Vec<&'static str> {
     [
         (!scene.passivity_guard, "passivity guard"),
         (!scene.friction, "friction"),
-        (scene.damped.is_none() && scene.loss.is_none(), "losses below yield"),
         (!(dents && surface(Surface::Dented)), "surface that keeps its dents"),
         (!(dents && surface(Surface::Fresh)), "surface that is fresh at every contact"),
     ]

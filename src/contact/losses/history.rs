@@ -83,6 +83,11 @@ impl<K: Loss> History<K> {
         rate: f64,
         step: f64,
     ) -> Result<(History<K>, f64), TooDeep> {
+        // to the last bit like a short step
+        let mut flown = *self;
+        if flown.is_apart() && flown.plastic.advance_on_branch(rate * step) {
+            return Ok((flown, 0.0));
+        }
         if self.loss.form() == Form::Mobility {
             return bodies::driven(self, model, rate, step);
         }

@@ -43,6 +43,9 @@ const TOLERANCE: f64 = 1e-11;
 /// A distance by which the plate gives way, relative to the height, below which its digits do not count.
 const SMALL: f64 = 1e-4;
 
+/// Smaller errors count as this one.
+const LEAST: f64 = 1e-30;
+
 /// Distance from the balance of forces, relative to the height above the surface, at which bodies count as at rest.
 const REST: f64 = 1e-9;
 
@@ -137,7 +140,9 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         for cut in 0..MOST_CUTS {
             // the secant, with a bisection in every third cut
             let secant = low + (high - low) * quotient(-below, above - below, above > below, 0.5);
-            let middle = if cut % 3 == 2 { 0.5 * (low + high) } else { secant };
+            // the secant may have no room, where the stretch begins at its end
+            let useful = cut % 3 != 2 && secant > low && secant < high;
+            let middle = if useful { secant } else { 0.5 * (low + high) };
             if !(middle > low && middle < high) || high - low <= 4.0 * f64::EPSILON * step {
                 break;
             }
@@ -188,7 +193,7 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
             let Some(fewer) = left.checked_sub(STAGES.len() as u32) else { return (state, Ended::TooLong) };
             *left = fewer;
             let (next, error) = self.step(&state, step);
-            let factor = 0.9 * pow(TOLERANCE / (error + f64::MIN_POSITIVE), 0.2);
+            let factor = 0.9 * pow(TOLERANCE / largest(error, LEAST), 0.2);
             // written positively to reject NaN
             let accepted = error <= TOLERANCE;
             if !accepted {

@@ -81,7 +81,7 @@ pub fn are_those_of_the_course(face: &Face) {
 /// one step.
 pub fn of_inputs(face: &Face) {
     let can = face.capability("canInterpolateInputs") == "true";
-    let rates = face.rates();
+    let rates = &face.rates;
     for variable in some(face).into_iter().filter(|variable| variable.is_real) {
         for (order, value) in [(1, 0.0), (1, 5.0), (2, 0.0), (2, 5.0), (0, 1.0), (3, 1.0), (-1, 1.0), (c_int::MAX, 1.0)]
         {
@@ -115,10 +115,10 @@ pub fn of_inputs(face: &Face) {
         i.real(depth) - before
     };
     let all = vec![0.5; rates.len()];
-    assert_eq!(i.set(&rates, &all), OK);
+    assert_eq!(i.set(rates, &all), OK);
     let plain = advance(&mut i);
     let slope = 1e5;
-    for &rate in &rates {
+    for &rate in rates {
         assert_eq!(input_derivative(&i, rate, 1, slope), OK);
     }
     let curved = advance(&mut i);
@@ -132,7 +132,7 @@ pub fn of_inputs(face: &Face) {
 pub fn in_every_direction(face: &Face) {
     let outputs: Vec<_> = some(face).into_iter().filter(|variable| variable.causality == "output").collect();
     for variable in &outputs {
-        for &known in &face.rates()[..1] {
+        for known in face.rates.iter().copied().take(1).chain(face.sideways.iter().copied().take(1)) {
             let i = Importer::at(face, Phase::StepComplete);
             let (status, one) = directional(&i, variable.reference, known, 1.0);
             let (_, two) = directional(&i, variable.reference, known, -2.0);
@@ -146,6 +146,6 @@ pub fn in_every_direction(face: &Face) {
     }
     for unknown in [u32::MAX, face.largest_reference() + 1] {
         let i = Importer::at(face, Phase::StepComplete);
-        assert_eq!(directional(&i, unknown, face.rates()[0], 1.0).0, ERROR, "{unknown}");
+        assert_eq!(directional(&i, unknown, face.rates[0], 1.0).0, ERROR, "{unknown}");
     }
 }

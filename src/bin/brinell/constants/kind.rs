@@ -1,6 +1,7 @@
 //! The kind of a prebuilt library as Rust: the file `src/scene/kind.rs` of the library.
 
-use super::{DAMPED_MODEL, File, add_laws, follow, model_of, parts};
+use super::model::{DAMPED_MODEL, model_of};
+use super::{File, add_laws, follow, parts};
 use crate::scene::Scene;
 use crate::table::{Causality, Type, VARIABLES, Variable};
 use std::fmt::Write;

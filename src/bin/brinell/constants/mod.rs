@@ -2,14 +2,16 @@
 
 mod groups;
 pub mod kind;
+mod model;
 mod parameters;
 mod variables;
 
 use crate::plan::Plan;
-use crate::scene::{Coupling, Loss, Scene};
+use crate::scene::{Coupling, Scene};
 use brinell::contact::damped::AnyDamped;
 use std::fmt::Write;
 
+pub use model::MEMORY;
 pub use parameters::{parameters, start_value};
 
 /// The scene of the planned FMU as Rust, with the identification `guid`.
@@ -25,7 +27,7 @@ pub fn write(plan: &Plan, guid: &str) -> String {
     parameters::add_settable(&mut file, scene, entries);
     parameters::add_parameters(&mut file, scene);
     add_laws(&mut file, scene);
-    add_model(&mut file, scene);
+    model::add_model(&mut file, scene);
     groups::add_density(&mut file, scene);
     if scene.watches {
         file.add_method("impact_mass() -> f64", &literal(scene.impact.mass));
@@ -203,107 +205,18 @@ fn add_laws(file: &mut File, scene: &Scene) {
     let unloading = scene.unloading.map_or("ContactRadius".into(), |_| value_of(&scene.plain_unloading()));
     let unloading = add_law(file, "UNLOADING", "unloading", &unloading);
     let form = |kind: String, module: &str, has| if has { format!("{module}::Strengthened") } else { kind };
-    let [of_loading, of_unloading] = strengthened_forms(scene);
+    let [of_loading, of_unloading] = model::strengthened_forms(scene);
     let (loading, unloading) = (form(loading, "loading", of_loading), form(unloading, "unloading", of_unloading));
     let model = format!("Model<{loading}, {unloading}>");
     (file.model, file.contact) = match (scene.friction, scene.loss) {
         (true, _) => (format!("tangential::Rough{model}"), format!("tangential::RoughContact<{MEMORY}>")),
         (false, Some(loss)) => {
-            let kind = kind_of(loss);
+            let kind = model::kind_of(loss);
             let model = format!("losses::Model<{loading}, {unloading}, losses::{kind}>");
             (model, format!("losses::History<losses::{kind}>"))
         }
         (false, None) => (format!("contact::{model}"), "contact::History".into()),
     };
-}
-
-/// Number of segments in which the springs of a contact with friction remember its past.
-pub const MEMORY: usize = 12;
-
-/// The expressions of a model of each kind, from its laws.
-const DAMPED_MODEL: &str = "let (restitution, mass) = (value(Parameter::Restitution), value(Parameter::EffectiveMass));\n\
-                            damped::Model { pair, law: LAW, restitution, mass }";
-
-/// Whether the FMU needs the form of its loading law, and of its unloading law, for targets that harden and for their Poisson's
-/// ratio.
-fn strengthened_forms(scene: &Scene) -> [bool; 2] {
-    let unloads = scene.plain_unloading().strengthened(0.0).is_some();
-    [scene.is_strengthened(), scene.is_strengthened() && unloads]
-}
-
-/// The expression of a model by elastoplastic laws; `value` is one of the hardening modulus, `surface` of the surface.
-fn model_of(scene: &Scene, value: &str, surface: &str) -> String {
-    let [loading, unloading] = strengthened_forms(scene);
-    let law = |module: &str, constant: &str, has| match has {
-        true => format!("{module}::Strengthened {{ law: {constant}, hardening_modulus }}"),
-        false => constant.to_string(),
-    };
-    if !loading {
-        return format!("contact::Model {{ pair, loading: LOADING, unloading: UNLOADING, {surface} }}");
-    }
-    format!(
-        "let hardening_modulus = {value};\n\
-         contact::Model {{\n    pair,\n    loading: {},\n    unloading: {},\n    {surface},\n}}",
-        law("loading", "LOADING", true),
-        law("unloading", "UNLOADING", unloading)
-    )
-}
-
-/// The type of a loss.
-fn kind_of(loss: Loss) -> &'static str {
-    match loss {
-        Loss::Fitted(_) => "Fitted",
-        Loss::Waves => "Waves",
-        Loss::Plate(_) => "Plate",
-    }
-}
-
-/// The expression of a model with this `loss`, from that of its `plastic` part.
-fn with_loss(loss: Loss, plastic: &str) -> String {
-    let density = "density: Self::density(group).unwrap_or(f64::NAN)";
-    let fields = match loss {
-        Loss::Fitted(restitution) => format!("restitution: {}", literal(restitution)),
-        Loss::Waves => density.into(),
-        Loss::Plate(thickness) => format!("{density}, thickness: {}", literal(thickness)),
-    };
-    let (first, last) = plastic.split_once(";\n").unwrap_or(("", plastic));
-    let first = if first.is_empty() { String::new() } else { format!("{first};\n") };
-    // a fitted restitution is the same for all groups
-    let unused = if matches!(loss, Loss::Fitted(_)) { "let _ = group;\n" } else { "" };
-    let kind = kind_of(loss);
-    format!("{unused}{first}let plastic = {last};\nlosses::Model {{ plastic, loss: losses::{kind} {{ {fields} }} }}")
-}
-
-/// The model of a group.
-fn add_model(file: &mut File, scene: &Scene) {
-    if scene.damped.is_some() {
-        file.add_method(
-            "model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model",
-            &format!("let value = |which| Self::parameter(which, group, values);\n{DAMPED_MODEL}"),
-        );
-        return;
-    }
-    let (group, surface) = groups::surface(file, scene);
-    let needs_group = scene.is_strengthened() || scene.friction;
-    let group = if needs_group || scene.loss.is_some() { "group" } else { group };
-    let values = if needs_group { "values" } else { "_values" };
-    let hardening_modulus = "Self::parameter(Parameter::TargetHardeningModulus, group, values)";
-    let plastic = model_of(scene, hardening_modulus, &format!("surface: {surface}"));
-    let model = match scene.loss {
-        _ if scene.friction => with_friction(&plastic),
-        Some(loss) => with_loss(loss, &plastic),
-        None => plastic,
-    };
-    file.add_method(&format!("model(pair: Pair, {group}: usize, {values}: &Self::Values) -> Self::Model"), &model);
-}
-
-/// The expression of a model with friction, from that of its normal part.
-fn with_friction(normal: &str) -> String {
-    let normal = match normal.rsplit_once("contact::Model") {
-        Some((before, model)) => format!("{before}let normal = contact::Model{model};"),
-        None => normal.to_string(),
-    };
-    format!("{normal}\nwith_friction(normal, |which| Self::parameter(which, group, values))")
 }
 
 /// The Rust expression of a law: the Debug form of the enum that holds it, without the enum.

@@ -112,7 +112,7 @@ fn parse(text: &str, path: &Path) -> Result<Measured, MeasuredError> {
     let empty = |message| MeasuredError::Empty { path: path.into(), message };
     let (mut columns, mut points) = (None, Vec::new());
     for (index, record) in reader.records().enumerate() {
-        let line = |record: &StringRecord| record.position().map_or(index as u64 + 1, csv::Position::line);
+        let line = |record: &StringRecord| record.position().map_or(index as u64 + 1, |start| line_of(text, start));
         let record = record.map_err(|error| MeasuredError::Line {
             path: path.into(),
             line: error.position().map_or(index as u64 + 1, csv::Position::line),
@@ -139,6 +139,17 @@ fn parse(text: &str, path: &Path) -> Result<Measured, MeasuredError> {
         Quantity::Depth | Quantity::Force => Kind::Force,
     };
     Ok(Measured { kind, points })
+}
+
+/// The number of the line of a record that was read from this `start` on: blank lines and comments may precede it.
+fn line_of(text: &str, start: &csv::Position) -> u64 {
+    let start = start.byte() as usize;
+    let before = text.get(..start).unwrap_or_default().matches('\n').count();
+    let skipped = text.get(start..).unwrap_or_default().lines().take_while(|line| {
+        let line = line.trim();
+        line.is_empty() || line.starts_with('#')
+    });
+    (before + skipped.count() + 1) as u64
 }
 
 /// A line of the file.
@@ -275,6 +286,7 @@ mod tests {
                 "speed,restitution\n1,0.5\n\n2,1.2\n",
                 "m.csv:4, column 2: restitution = 1.2 must be above 0 and at most 1",
             ),
+            ("# one\r\nspeed,restitution\r\n\r\n# two\r\n1,0.5\r\n\r\n2,2\r\n", "m.csv:7, column 2: restitution = 2"),
             ("speed,restitution\n0,0.5\n", "m.csv:2, column 1: speed = 0 must be positive and finite"),
             ("speed,restitution\nNaN,0.5\n", "m.csv:2, column 1: speed = NaN must be positive"),
             ("speed,restitution\ninf,0.5\n", "m.csv:2, column 1: speed = inf must be positive"),

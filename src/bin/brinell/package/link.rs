@@ -26,7 +26,7 @@ targets:         [ x86_64-macos, arm64-macos ]
 install-name:    '/usr/lib/libSystem.B.dylib'
 exports:
   - targets:     [ x86_64-macos, arm64-macos ]
-    symbols:     [ _calloc, _free, _memcpy, _memmove, _memset, _memcmp, _bcmp, _bzero, ___bzero, _strlen, dyld_stub_binder ]
+    symbols:     [ _calloc, _free, _memcpy, _memmove, _memset, _memcmp, _bcmp, _bzero, ___bzero, _memset_pattern16, _strlen, dyld_stub_binder ]
 ...
 ",
 );
@@ -39,8 +39,9 @@ const ELF: [&str; 8] =
 const WINDOWS: [&str; 6] =
     ["/NOENTRY", "/NODEFAULTLIB", "/ALTERNATENAME:_fltused=__ImageBase", "/DEBUG:NONE", "/Brepro", "/OPT:REF,ICF"];
 
-/// The linker omits local symbols, because the file must not change after it is signed.
-const MACOS: [&str; 4] = ["-adhoc_codesign", "-lSystem", "-x", "-install_name"];
+/// The linker omits local symbols, those for debuggers, and the list of functions, because the file must not change after it
+/// is signed.
+const MACOS: [&str; 6] = ["-adhoc_codesign", "-lSystem", "-x", "-S", "-no_function_starts", "-install_name"];
 
 /// The input files of the linker.
 pub fn files() -> [(&'static str, &'static str); 2] {

@@ -75,9 +75,9 @@ impl Axis {
         Axis { name: "speed", unit: "m/s", from, to, count: None }
     }
 
-    /// Whether the values are spaced logarithmically: the range has a decade or more.
+    /// Whether the values are spaced logarithmically: the range has a decade or more, and is not one of angles.
     pub fn is_logarithmic(&self) -> bool {
-        self.from > 0.0 && self.to >= 10.0 * self.from
+        self.name != "angle" && self.from > 0.0 && self.to >= 10.0 * self.from
     }
 
     /// The values: the user's number of them, otherwise `usual`. They include both ends unchanged.

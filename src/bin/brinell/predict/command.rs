@@ -70,31 +70,6 @@ pub struct Arguments {
     pub restitution: Option<f64>,
 }
 
-impl Arguments {
-    /// The setting of an oblique impact, if one is asked for.
-    fn setting(&self, scene: &Scene, axes: &[Axis]) -> Result<Option<Setting>, WrongCall> {
-        let varied = |name: &str| axes.iter().find(|axis| axis.name == name).map(|axis| axis.from);
-        let is_oblique = [self.angle, self.spin].iter().any(Option::is_some);
-        if !is_oblique && varied("angle").is_none() && varied("spin").is_none() {
-            let idle = [("friction", self.friction.or(varied(oblique::FRICTION))), ("inertia", self.inertia)];
-            return match idle.iter().find(|(_, value)| value.is_some()) {
-                Some((name, _)) => Err(WrongCall::of(PredictError::NotOblique(name))),
-                None => Ok(None),
-            };
-        }
-        let coefficient = self.friction.or(varied(oblique::FRICTION)).or(scene.group_value(0, oblique::FRICTION));
-        let missing = || WrongCall::of(PredictError::NoCoefficient);
-        let setting = Setting {
-            angle: self.angle.or(varied("angle")).unwrap_or(0.0),
-            spin: self.spin.or(varied("spin")).unwrap_or(0.0),
-            coefficient: coefficient.ok_or_else(missing)?,
-            inertia: self.inertia,
-        };
-        setting.check().map_err(WrongCall::of)?;
-        Ok(Some(setting))
-    }
-}
-
 /// Runs the command.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let formats = ["csv", "svg", "html"];

@@ -54,8 +54,9 @@ pub const FUNCTIONS: [&str; 34] = [
 /// over memory.
 const FROM_C: [&str; 8] = ["calloc", "free", "memcpy", "memmove", "memset", "memcmp", "bcmp", "strlen"];
 
-/// Additional imports on macOS: `memset` to zero under its names there, and the function that binds the others.
-const FROM_MACOS: [&str; 3] = ["bzero", "__bzero", "dyld_stub_binder"];
+/// Additional imports on macOS: `memset` to zero under its names there, `memset` for a repeated number (macOS 10.5), and the
+/// function that binds the others.
+const FROM_MACOS: [&str; 4] = ["bzero", "__bzero", "memset_pattern16", "dyld_stub_binder"];
 
 /// Allowed imports on Windows.
 const FROM_KERNEL32: [&str; 3] = ["GetProcessHeap", "HeapAlloc", "HeapFree"];

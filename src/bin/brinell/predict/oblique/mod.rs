@@ -1,5 +1,6 @@
 //! `brinell predict --angle`: the rebound of a ball that hits a surface obliquely, with friction.
 
+mod asked;
 mod picture;
 mod sweep;
 mod text;
@@ -102,8 +103,10 @@ pub fn check_coefficient(value: f64) -> Result<(), PredictError> {
 
 /// The reason why the laws of `choice` have no friction.
 pub fn refusal(choice: &Choice) -> Option<String> {
-    if let AnyModel::Damped(_) = choice.model {
-        return Some("rate-dependent laws have none".into());
+    match choice.model {
+        AnyModel::Damped(_) => return Some("rate-dependent laws have none".into()),
+        AnyModel::Lossy(_) => return Some("a loss below yield and friction can't be combined".into()),
+        AnyModel::Elastoplastic(_) => {}
     }
     if choice.laws.ends_with(GUARDED) {
         return Some("with the passivity guard, its accuracy was not measured".into());

@@ -2,7 +2,7 @@
 
 use super::{Line, Oblique};
 use crate::numbers::{quantity, significant};
-use crate::plot::{Picture, Series, View};
+use crate::plot::{Picture, Series};
 use crate::report::data::{Table, number, text};
 use crate::report::{Figure, Part};
 
@@ -64,7 +64,7 @@ impl Oblique {
             series: self.lines.iter().map(line).collect(),
         };
         let caption = "Error of the tangential restitution over steps per contact".into();
-        Figure { name: "oblique-error", caption, svg: picture.labelled(480, 350, &View::default()), folded: false }
+        Figure { name: "oblique-error", caption, svg: picture.svg(640, 350), folded: false }
     }
 
     fn restitutions(&self) -> Figure {
@@ -79,7 +79,7 @@ impl Oblique {
             series: [line(PREDICTED, &self.predicted)].into_iter().chain(springs).collect(),
         };
         let caption = "Tangential restitution over the angle of incidence".into();
-        Figure { name: "oblique-angle", caption, svg: picture.labelled(480, 350, &View::default()), folded: false }
+        Figure { name: "oblique-angle", caption, svg: picture.svg(640, 350), folded: false }
     }
 
     fn error_table(&self) -> Table {
