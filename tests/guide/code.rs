@@ -96,8 +96,9 @@ impl Run {
     fn shell(&mut self, text: &str) {
         match text.trim() {
             // the program that cargo has built for the tests, and the tests themselves
-            "cargo run --release" => self.call(Command::new(env!("CARGO_BIN_EXE_brinell"))),
-            "cargo test --release" => {}
+            "cargo run --release" | "cargo run --release\ncargo test --release" => {
+                self.call(Command::new(env!("CARGO_BIN_EXE_brinell")))
+            }
             text => {
                 let mut bash = Command::new("bash");
                 bash.args(["-euo", "pipefail", "-c", text]);

@@ -98,12 +98,20 @@ fn first_above<const CORNERS: usize>(indentation: f64, corners: [f64; CORNERS]) 
     corners.into_iter().find(|&corner| indentation < corner).unwrap_or(LARGEST_INDENTATION)
 }
 
+/// More segments than a loading curve has.
+const MOST_SEGMENTS: u32 = 64;
+
 /// Work of a curve made of segments, from first contact to `indentation` \[J\]: the complete segments below it plus the last,
 /// partial one.
+///
+/// The number of segments is bounded: with bodies from a forged state, a segment may end where it begins.
 fn work_over_segments(law: &impl Loading, pair: &Pair, indentation: f64) -> f64 {
     let mut segment = law.segment(pair, 0.0);
     let mut work = 0.0;
-    while segment.upper < indentation {
+    for _ in 0..MOST_SEGMENTS {
+        if indentation <= segment.upper {
+            break;
+        }
         work += segment.work(segment.upper);
         segment = law.segment(pair, segment.upper);
     }
