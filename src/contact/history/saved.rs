@@ -16,14 +16,15 @@ impl History {
     }
 
     /// The history that [`History::save_words`] has stored; `None` if a word is not a finite number or not a regime, or if the
-    /// largest indentation is outside the range of the loading curve, along which the work would be summed for ever.
+    /// contact is, was or may come deeper than the loading curve goes, along which the work would be summed for ever.
     pub(super) fn of_words(words: &mut impl Iterator<Item = u64>) -> Option<History> {
         let [value, rest, max, lower, upper, origin, constant, linear, power, square, least, left] =
             load_numbers(words)?;
-        if !(0.0..=LARGEST_INDENTATION).contains(&max) {
+        let indentation = Sum { value, rest };
+        let deepest = indentation.total().max(upper);
+        if !(0.0..=LARGEST_INDENTATION).contains(&max) || deepest > LARGEST_INDENTATION {
             return None;
         }
-        let indentation = Sum { value, rest };
         let segment = Segment { lower, upper, origin, constant, linear, power, square };
         let (max_indentation, least_increment, left_behind) = (max, least, left);
         let regime = words.next()?;
