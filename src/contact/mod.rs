@@ -22,6 +22,7 @@
 //! | [`motion`] | the motion of bodies of known mass |
 //! | [`damped`] | rate-dependent laws, with a history of their own |
 //! | [`losses`] | losses below yield: damping, elastic waves, a plate that gives way |
+//! | [`rate`] | strain rate: the strength of an impact from its closing speed |
 //! | [`strength`] | hardening and Poisson's ratio as one effective strength |
 //! | [`tangential`] | friction: the tangential force of a contact |
 //! | [`validity`] | the range in which the laws are valid |
@@ -41,6 +42,7 @@ mod panel;
 pub mod path;
 pub mod piece;
 pub mod quadrature;
+pub mod rate;
 pub mod segment;
 pub mod strength;
 pub mod tangential;

@@ -134,6 +134,14 @@ impl History {
         Ok(())
     }
 
+    /// Makes a contact that has not yielded, and is apart, like one that was never touched.
+    pub(in crate::contact) fn forget_elastic(&mut self) {
+        self.max_indentation = 0.0;
+        self.least_increment = ANY;
+        self.regime = Regime::Apart;
+        self.segment = Segment::apart(FARTHEST, TOUCHING);
+    }
+
     /// Sets the `elastic` branch of a contact that has not yielded, below its `largest` indentation \[m\].
     #[inline(always)]
     fn spring(&mut self, elastic: Segment, largest: f64) {

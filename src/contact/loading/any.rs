@@ -49,4 +49,11 @@ impl Loading for AnyLoading {
     fn derived(&self, name: &str) -> Option<f64> {
         self.law().derived(name)
     }
+
+    fn strengthened_by(self, factor: f64) -> AnyLoading {
+        match self {
+            AnyLoading::StrengthenedBrinell(form) => AnyLoading::StrengthenedBrinell(form.strengthened_by(factor)),
+            law => law,
+        }
+    }
 }

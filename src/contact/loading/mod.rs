@@ -78,6 +78,14 @@ pub trait Loading {
     fn derived(&self, _name: &str) -> Option<f64> {
         None
     }
+
+    /// The law for a target whose hardening modulus is `factor` times as large. The yield strength is not part of a law.
+    fn strengthened_by(self, _factor: f64) -> Self
+    where
+        Self: Sized,
+    {
+        self
+    }
 }
 
 /// The line `f = ratio (2x - 1)` from `lower` to `upper` \[m\]. It is a constant pressure, `ratio` times the pressure at the

@@ -170,4 +170,8 @@ impl Loading for Strengthened {
     fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
         self.law.regime_in(self.yield_point(pair).indentation, indentation)
     }
+
+    fn strengthened_by(self, factor: f64) -> Strengthened {
+        Strengthened { hardening_modulus: factor * self.hardening_modulus, ..self }
+    }
 }

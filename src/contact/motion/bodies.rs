@@ -124,6 +124,13 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
         Ok(self.left > 0.0)
     }
 
+    /// The time left \[s\] of bodies that close at a new speed on a surface without a dent, which they have just reached.
+    pub fn before_touch(&self, is_new: &dyn Fn(f64) -> bool) -> Option<f64> {
+        let touches = self.indentation == 0.0 && self.speed > 0.0 && self.left > 0.0;
+        let found = touches && self.model.is_elastic_at(self.largest) && is_new(self.speed);
+        found.then_some(self.left)
+    }
+
     /// Ends the step, and updates the history.
     ///
     /// # Errors

@@ -104,6 +104,33 @@ pub fn follow<L: Loading, U: Unloading>(
     bodies.stop()
 }
 
+/// [`follow`] that ends early where the bodies are about to touch a surface without a dent at a closing speed that `is_new`
+/// accepts. Then it also returns the time left \[s\].
+///
+/// # Errors
+/// As for [`follow`].
+pub(in crate::contact) fn follow_to_touch<L: Loading, U: Unloading>(
+    history: &mut History,
+    model: &Model<L, U>,
+    drive: &Drive,
+    speed: f64,
+    step: f64,
+    is_new: &dyn Fn(f64) -> bool,
+) -> Result<(Outcome, Option<f64>), NoMotion> {
+    if let Some(outcome) = at_once(history, drive, speed, step) {
+        return Ok((outcome, None));
+    }
+    let mut bodies = Bodies::new(history, model, drive, speed, step)?;
+    loop {
+        if let Some(left) = bodies.before_touch(is_new) {
+            return Ok((bodies.stop()?, Some(left)));
+        }
+        if !bodies.go_on()? {
+            return Ok((bodies.stop()?, None));
+        }
+    }
+}
+
 /// The step of bodies that stay in flight or on one branch of the law, if it is short. Otherwise it changes nothing.
 fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f64) -> Option<Outcome> {
     let Drive { mass, acceleration } = *drive;

@@ -69,4 +69,11 @@ impl Unloading for AnyUnloading {
     fn work(&self, pair: &Pair, peak: &Peak, path: &Segment, indentation: f64) -> f64 {
         self.law().work(pair, peak, path, indentation)
     }
+
+    fn strengthened_by(self, factor: f64) -> AnyUnloading {
+        match self {
+            AnyUnloading::StrengthenedBrinell(form) => AnyUnloading::StrengthenedBrinell(form.strengthened_by(factor)),
+            law => law,
+        }
+    }
 }

@@ -68,6 +68,14 @@ pub trait Unloading {
     fn work(&self, _pair: &Pair, _peak: &Peak, path: &Segment, indentation: f64) -> f64 {
         path.work(indentation)
     }
+
+    /// The law for a target whose hardening modulus is `factor` times as large. The yield strength is not part of a law.
+    fn strengthened_by(self, _factor: f64) -> Self
+    where
+        Self: Sized,
+    {
+        self
+    }
 }
 
 /// The residual indentation \[m\] after an elastic `recovery` \[m\] from `peak`.

@@ -65,4 +65,8 @@ impl Unloading for Strengthened {
             None => self.law.contact_radius(pair, peak, path, indentation),
         }
     }
+
+    fn strengthened_by(self, factor: f64) -> Strengthened {
+        Strengthened { hardening_modulus: factor * self.hardening_modulus, ..self }
+    }
 }

@@ -1,0 +1,70 @@
+//! The motion of bodies of known mass: each first touch of a surface without a dent finds its strength.
+
+use super::{History, Model};
+use crate::contact::history::TooDeep;
+use crate::contact::impact::Impact;
+use crate::contact::loading::Loading;
+use crate::contact::motion::{Drive, NoMotion, Outcome, follow_to_touch};
+use crate::contact::numbers::largest;
+use crate::contact::unloading::Unloading;
+use libm::fabs;
+
+/// Largest number of impacts of different speeds in a step. Each takes some ten predictions.
+const MOST_IMPACTS: u32 = 1000;
+
+/// Speeds that differ by less, as a fraction, have the same strength: an elastic rebound returns with its speed but for
+/// rounding.
+const SAME: f64 = 1e-12;
+
+/// Moves the contact through `step` \[s\] > 0, with the closing speed `speed` \[m/s\] at the start. The strength is found
+/// where the bodies touch a surface without a dent, for a free impact of the closing speed. A dent keeps the strength that
+/// made it.
+///
+/// # Errors
+/// [`NoMotion`]; the history is then at an intermediate state.
+pub fn follow<L: Loading + Copy, U: Unloading + Copy>(
+    history: &mut History,
+    model: &Model<L, U>,
+    drive: &Drive,
+    speed: f64,
+    step: f64,
+) -> Result<Outcome, NoMotion> {
+    let mut whole = Outcome { speed, taken: 0.0, evaluations: 0, deepest: 0.0 };
+    let mut left = step;
+    for _ in 0..MOST_IMPACTS {
+        let present = model.at(history.factor);
+        let (known_speed, known_mass) = (history.speed, history.mass);
+        let is_new =
+            |speed: f64| drive.mass != known_mass || fabs(speed - known_speed) > SAME * largest(speed, known_speed);
+        let (outcome, rest) = follow_to_touch(&mut history.plastic, &present, drive, whole.speed, left, &is_new)?;
+        whole.speed = outcome.speed;
+        whole.taken += outcome.taken;
+        whole.evaluations = whole.evaluations.saturating_add(outcome.evaluations);
+        whole.deepest = largest(whole.deepest, outcome.deepest);
+        let Some(rest) = rest else { return Ok(whole) };
+        history.strengthen(model, &Impact { mass: drive.mass, speed: whole.speed })?;
+        left = rest;
+    }
+    Err(NoMotion::TooLong)
+}
+
+impl History {
+    /// Finds the strength of an `impact` that begins now, on a surface without a dent.
+    fn strengthen<L: Loading + Copy, U: Unloading + Copy>(
+        &mut self,
+        model: &Model<L, U>,
+        impact: &Impact,
+    ) -> Result<(), TooDeep> {
+        let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+        self.factor = match model.in_impact(impact) {
+            Some(found) => found.factor,
+            // an energy without its full precision: the impact is slower than any reference rate
+            None if energy < f64::MIN_POSITIVE => 1.0,
+            None => return Err(TooDeep { indentation: f64::INFINITY }),
+        };
+        (self.speed, self.mass) = (impact.speed, impact.mass);
+        // what another strength took elastically may be beyond the yield point of this one
+        self.plastic.forget_elastic();
+        Ok(())
+    }
+}

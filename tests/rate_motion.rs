@@ -1,0 +1,147 @@
+//! Bodies of known mass on a target whose strength depends on the strain rate, without FMI.
+
+use brinell::contact::impact::{self, Impact};
+use brinell::contact::loading::{self, AnyLoading, Loading};
+use brinell::contact::motion::Drive;
+use brinell::contact::rate::{self, History, Model, Rate};
+use brinell::contact::unloading::{self, AnyUnloading, Unloading};
+use brinell::contact::{self, Contact, Pair, Surface};
+
+const MASS: f64 = 4.11e-3;
+const RATES: [Rate; 2] = [Rate::JohnsonCook { c: 0.014, reference_rate: 1.0 }, Rate::CowperSymonds { d: 40.4, q: 5.0 }];
+
+fn pair() -> Pair {
+    Pair { radius: 5e-3, modulus: 115e9, yield_strength: 300e6, youngs_modulus: 210e9, poissons_ratio: 0.3 }
+}
+
+type Hard = (loading::Strengthened, unloading::Strengthened);
+
+fn hardening() -> Hard {
+    let modulus = 2e9;
+    (
+        loading::Strengthened { law: loading::Brinell::REFERENCE, hardening_modulus: modulus },
+        unloading::Strengthened { law: unloading::Brinell::REFERENCE, hardening_modulus: modulus },
+    )
+}
+
+fn model<L, U>((loading, unloading): (L, U), rate: Rate, surface: Surface) -> Model<L, U> {
+    Model { slow: contact::Model { pair: pair(), loading, unloading, surface }, rate }
+}
+
+/// Moves the bodies from `speed` in steps of `step` until they part; returns their closing speed then.
+fn bounce<L: Loading + Copy, U: Unloading + Copy>(
+    model: &Model<L, U>,
+    history: &mut History,
+    mut speed: f64,
+    step: f64,
+) -> f64 {
+    for _ in 0..1_000_000 {
+        let drive = Drive { mass: MASS, acceleration: 0.0 };
+        speed = rate::follow(history, model, &drive, speed, step).expect("within range").speed;
+        if speed < 0.0 && history.plastic().force() == 0.0 {
+            return speed;
+        }
+    }
+    panic!("the bodies do not part");
+}
+
+/// The restitution of an impact on a target of `factor` times the strength.
+fn restitution<L: Loading + Copy, U: Unloading + Copy>(model: &Model<L, U>, speed: f64) -> (f64, f64) {
+    let impact = Impact { mass: MASS, speed };
+    let found = model.in_impact(&impact).expect("within range");
+    assert!(found.steps < 60, "{found:?}");
+    (impact::restitution(&model.at(found.factor), &impact).expect("within range"), found.factor)
+}
+
+#[test]
+fn every_impact_has_the_strength_of_its_closing_speed() {
+    fn check<L: Loading + Copy, U: Unloading + Copy>(laws: (L, U)) {
+        for rate in RATES {
+            for speed in [0.01, 0.1, 1.0, 10.0, 100.0] {
+                let model = model((laws.0, laws.1), rate, Surface::Dented);
+                let (expected, factor) = restitution(&model, speed);
+                for step in [1e-6, 17e-6, 2e-3] {
+                    let mut history = History::start(&model, 0.3 * speed * step).unwrap();
+                    let found = -bounce(&model, &mut history, speed, step) / speed;
+                    assert!((found / expected - 1.0).abs() < 1e-11, "{rate:?} {speed} {step}: {found} {expected}");
+                    assert!(factor > 1.0);
+                    assert!((history.factor() / factor - 1.0).abs() < 1e-11, "{rate:?} {speed} {step}");
+                }
+            }
+        }
+    }
+    check(hardening());
+    check((loading::Brinell::REFERENCE, unloading::Brinell::REFERENCE));
+    let (loading, unloading) = hardening();
+    let any = AnyLoading::StrengthenedBrinell(loading);
+    check((any, AnyUnloading::StrengthenedBrinell(unloading)));
+    check((loading::Johnson::REFERENCE, unloading::HertzShift));
+}
+
+#[test]
+fn below_the_reference_rate_the_factor_is_one() {
+    let rate = Rate::JohnsonCook { c: 0.5, reference_rate: 1e8 };
+    let model = model(hardening(), rate, Surface::Dented);
+    let mut history = History::start(&model, 0.0).unwrap();
+    bounce(&model, &mut history, 20.0, 1e-5);
+    assert_eq!(history.factor(), 1.0);
+}
+
+#[test]
+fn a_dent_keeps_the_strength_that_made_it_and_a_fresh_surface_has_that_of_each_impact() {
+    for rate in RATES {
+        for (surface, keeps) in [(Surface::Dented, true), (Surface::Fresh, false)] {
+            for (first, second) in [(5.0, 0.3), (0.3, 5.0)] {
+                let model = model(hardening(), rate, surface);
+                let mut history = History::start(&model, 1e-6).unwrap();
+                bounce(&model, &mut history, first, 1e-5);
+                let made = history.factor();
+                // away beyond the original surface, and back
+                bounce(&model, &mut history, -1.0, 1e-3);
+                assert_eq!(history.factor(), made);
+                let before = history.dissipated_energy(&model);
+                let end = bounce(&model, &mut history, second, 1e-5);
+                assert_eq!(history.factor() == made, keeps, "{rate:?} {surface:?} {first} {second}");
+                let lost = 0.5 * MASS * (second * second - end * end);
+                let spent = history.dissipated_energy(&model) - before;
+                let scale = 0.5 * MASS * first.max(second).powi(2);
+                assert!((spent - lost).abs() < 1e-10 * scale, "{rate:?} {surface:?}: {spent} {lost}");
+                if !keeps {
+                    assert!((-end / second / restitution(&model, second).0 - 1.0).abs() < 1e-11);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn an_elastic_impact_makes_no_dent_for_a_slower_one() {
+    // a strength that grows fast: the first impact stays elastic, the second one is slower and yields earlier
+    let model = model(hardening(), Rate::CowperSymonds { d: 1e-6, q: 5.0 }, Surface::Dented);
+    let mut history = History::start(&model, 1e-6).unwrap();
+    for speed in [1.0, 0.1, 0.01] {
+        let end = bounce(&model, &mut history, speed, 1e-5);
+        assert!((end / -speed - 1.0).abs() < 1e-11, "{speed}: {end}");
+        assert!((history.factor() / restitution(&model, speed).1 - 1.0).abs() < 1e-11, "{speed}");
+        bounce(&model, &mut history, -1.0, 1e-3);
+    }
+}
+
+#[test]
+fn a_saved_contact_goes_on_to_the_same_bits() {
+    let model = model(hardening(), RATES[1], Surface::Fresh);
+    let drive = Drive { mass: MASS, acceleration: 9.81 };
+    let mut history = History::start(&model, 1e-5).unwrap();
+    let mut speed = 2.0;
+    for step in 0..400 {
+        let mut words = Vec::new();
+        Contact::<Model<loading::Strengthened, unloading::Strengthened>>::save(&history, &mut |word| words.push(word));
+        assert_eq!(words.len(), 16);
+        let mut copy: History = Contact::load(&mut words.iter().copied(), &model).expect("just saved");
+        assert_eq!(copy, history, "step {step}");
+        let one = rate::follow(&mut history, &model, &drive, speed, 5e-6).unwrap();
+        let other = rate::follow(&mut copy, &model, &drive, speed, 5e-6).unwrap();
+        assert_eq!((one, copy), (other, history), "step {step}");
+        speed = one.speed;
+    }
+}
