@@ -68,7 +68,12 @@ impl<'a, const N: usize> Cut<'a, N> {
     fn part(&mut self, slope: Vector, from: Point, to: Point) {
         let middle = (0.5 * (from.0 + to.0), times(0.5, add(from.1, 1.0, to.1)));
         if !self.apex.excludes(middle.0, middle.1) {
-            let vertex = Vertex::new(self.curve, from.0, self.moved(from), slope);
+            let ends = [from, to].map(|point| (point.0, self.moved(point)));
+            if ends != [from, to] {
+                let [start, end] = ends;
+                return self.line(start, end);
+            }
+            let vertex = Vertex::new(self.curve, from.0, from.1, slope);
             return self.left.extend(vertex, to.0, self.near());
         }
         let [start, between, end] = [from, middle, to].map(|point| (point.0, self.moved(point)));

@@ -12,9 +12,9 @@
 //! there.
 //!
 //! # Accuracy
-//! Motion along one line has the result of one direction, to rounding. If the direction of slip turns, the force is
-//! off by up to 2e-3 of `mu F` with sixteen segments, compared with many independent springs. A turning step that is
-//! divided into parts ends with another force of that accuracy.
+//! Motion along one line has the result of one direction, to rounding. If the direction of slip turns, sixteen segments
+//! differ from many independent springs by 0.01 of `mu F` over random histories, and by 0.022 if each step is divided
+//! into 64 parts. A rotated history changes the force by up to 3e-3: the choice of new vertices is discrete.
 //!
 //! # Limits
 //! The dent must not grow: the curve of the normal force stays the same. Otherwise as in one direction.

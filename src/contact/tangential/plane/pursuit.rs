@@ -1,5 +1,6 @@
 //! The exact motion of one spring on a straight way.
 
+use super::NEAR;
 use super::vector::{Vector, add, dot, length, times};
 use crate::contact::numbers::{largest, quotient, root, smallest};
 use libm::{exp, fabs, log1p};
@@ -74,7 +75,7 @@ impl Spring {
 /// `exp(-L ln(p1/p0)/(p1 - p0))` over the length `way` \[m\], with the limits `p0` and `p1` \[m\]; 0 if `p0` is 0.
 fn turn(way: f64, limit: f64, end_limit: f64) -> f64 {
     let change = quotient(end_limit - limit, limit, limit > 0.0, 0.0);
-    let rate = quotient(log1p(change), change, fabs(change) > CONSTANT, 1.0 - 0.5 * change);
-    let exponent = quotient(way, limit, limit > 0.0 && way < 1e3 * limit, 1e3) * rate;
+    let rate = quotient(log1p(largest(change, NEAR - 1.0)), change, fabs(change) > CONSTANT, 1.0 - 0.5 * change);
+    let exponent = quotient(way, limit, limit > 0.0 && way < 1e200 * limit, 1e200) * rate;
     exp(-smallest(exponent, 700.0))
 }

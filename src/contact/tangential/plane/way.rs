@@ -50,10 +50,10 @@ impl Way {
         self.tangential.map(|rate| quotient(rate, self.normal, self.normal > 0.0, 0.0))
     }
 
-    /// Direction of the tangential motion; zero if there is none.
+    /// Direction of the tangential motion; any direction if there is none.
     pub(super) fn direction(&self) -> Vector {
         let rate = length(self.tangential);
-        self.tangential.map(|component| quotient(component, rate, rate > 0.0, 0.0))
+        if rate > 0.0 { self.tangential.map(|part| quotient(part, rate, rate > 0.0, 0.0)) } else { [1.0, 0.0] }
     }
 
     /// The part of the way above the `surface` \[m\], for a way that ends above it.
