@@ -36,6 +36,7 @@ mod list;
 mod mean;
 mod merge;
 mod outputs;
+pub mod plane;
 mod rates;
 mod rough;
 mod saved;
