@@ -36,7 +36,6 @@ mod list;
 mod mean;
 mod merge;
 mod outputs;
-pub mod plane;
 mod rates;
 mod rough;
 mod saved;
