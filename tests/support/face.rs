@@ -45,6 +45,8 @@ pub struct Face {
     pub starts: HashMap<u32, f64>,
     /// Whether the contacts can yield.
     pub yields: bool,
+    /// Whether the law is passive: the dissipated energy never falls.
+    pub passive: bool,
     /// References of Real outputs by name.
     pub named: HashMap<String, u32>,
 }
@@ -124,6 +126,7 @@ impl Face {
             sideways: references(&|variable| variable.name.rsplit('.').next() == Some("tangential_rate")),
             starts: reals().filter_map(|variable| Some((variable.reference, variable.start?))).collect(),
             yields: description.contains("yield_strength"),
+            passive: true,
             named: outputs().map(|variable| (variable.name.clone(), variable.reference)).collect(),
             variables,
         };

@@ -63,7 +63,10 @@ fn work_of(face: &Face, prefix: &str) -> f64 {
         let (from, begin) = (i.real(indentation), i.real(force));
         assert_eq!(i.step(i.time, step), OK, "{:?}", i.log);
         i.time += step;
-        sum += 0.5 * (begin + i.real(force)) * (i.real(indentation) - from);
+        // a force that jumps at the touch has its value from the first moment on
+        let end = i.real(force);
+        let begin = if begin == 0.0 { end } else { begin };
+        sum += 0.5 * (begin + end) * (i.real(indentation) - from);
         largest = largest.max(sum);
         // the trapezoids of the first steps are a poor sum of a power
         let rest = if number < 100 { 0.0 } else { (i.real(work) - sum).abs() };
