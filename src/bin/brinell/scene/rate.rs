@@ -7,6 +7,7 @@ use super::{Mistake, Scene, checks};
 use crate::model::{AnyModel, strengthened};
 use crate::nearest::unknown;
 use brinell::contact::impact::{Impact, Prediction};
+pub use brinell::contact::rate::{Rate, STEPS};
 use brinell::contact::{Model, Pair};
 use serde::Serialize;
 use toml::Spanned;
@@ -14,40 +15,8 @@ use toml::Spanned;
 /// The names of the models in scenes.
 const MODELS: [&str; 2] = ["johnson-cook", "cowper-symonds"];
 
-/// Relative tolerance of the fixed point for factor and strain, and the largest number of iterations.
+/// Relative tolerance of the fixed point for factor and strain.
 const CLOSE: f64 = 1e-12;
-pub const STEPS: u32 = 200;
-
-/// Models of the flow stress over the strain rate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rate {
-    /// `1 + c ln(rate/reference)`; 1 below the reference rate.
-    ///
-    /// Reference: G. R. Johnson, W. H. Cook, *7th Int. Symp. on Ballistics*, The Hague 1983, 541-547.
-    JohnsonCook {
-        c: f64,
-        /// [1/s]
-        reference_rate: f64,
-    },
-    /// `1 + (rate/d)^(1/q)`.
-    ///
-    /// Reference: G. R. Cowper, P. S. Symonds, Brown University, Division of Applied Mathematics, report 28 (1957).
-    CowperSymonds {
-        /// [1/s]
-        d: f64,
-        q: f64,
-    },
-}
-
-impl Rate {
-    /// Flow stress at a strain rate [1/s] relative to the quasi-static one.
-    pub fn factor(&self, rate: f64) -> f64 {
-        match *self {
-            Rate::JohnsonCook { c, reference_rate } => 1.0 + c * libm::log(rate / reference_rate).max(0.0),
-            Rate::CowperSymonds { d, q } => 1.0 + libm::pow(rate / d, 1.0 / q),
-        }
-    }
-}
 
 /// The rate model of a scene.
 pub fn check(table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
