@@ -27,6 +27,7 @@ use card::Card;
 use choice::Choice;
 use data::Table;
 use measurement::Measurement;
+use oblique::Oblique;
 use peer::Peer;
 use precision::Plan;
 use progress::{Progress, Work};
@@ -187,6 +188,7 @@ impl Report {
         let choice = Choice::of(&lines, &stability);
         let mut advice = choice.sentences();
         advice.extend(stability.sentence());
+        advice.extend(oblique.as_ref().and_then(Oblique::sentence));
         advice.extend(not_for_several(scene));
         let mut recommendations = json!({ "ways": choice.json(), "impact": card.json });
         if let (Value::Object(all), Value::Object(stable)) = (&mut recommendations, stability.json()) {

@@ -31,6 +31,17 @@ impl Oblique {
         }
     }
 
+    /// The effect of friction on stable steps.
+    pub fn sentence(&self) -> Option<String> {
+        (self.frequency_ratio > 1.0).then(|| {
+            format!(
+                "These steps are for the normal motion. With friction the largest stable steps of a solid ball that sticks are {} \
+                 times shorter.",
+                significant(self.frequency_ratio, 2)
+            )
+        })
+    }
+
     /// The finding: how far the methods are off.
     fn words(&self) -> String {
         let last = |line: &Line| line.errors.last().map_or(f64::NAN, |(_, error)| *error);
