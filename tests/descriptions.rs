@@ -85,13 +85,16 @@ fn a_rate_dependent_fmu_without_derivatives_does_not_mention_them() {
 /// Stronge's law is above Hertz's just after yield, and returns more energy than it took.
 #[test]
 fn the_claim_that_dissipated_energy_never_falls_is_made_only_where_it_holds() {
-    let outputs = "fmu = { outputs = [\"dissipated_energy\", \"indentation\"] }\n";
+    let outputs = "fmu = { outputs = [\"dissipated_energy\", \"indentation\", \"residual_indentation\"] }\n";
     let makes_energy = scene("energy_made", &format!("{outputs}law = {{ loading = \"stronge\" }}\n"));
     let (xml, page) = texts(&makes_energy);
     for text in [variable(&xml, "dissipated_energy"), row(&page, "dissipated_energy")] {
         assert!(!text.contains("never falls") && text.contains("may be negative"), "{text}");
     }
     assert!(page.contains("return more energy than they took"), "{page}");
+    // its dents may be above the surface, which was declared impossible
+    let dent = variable(&xml, "residual_indentation");
+    assert!(!dent.contains(" min=") && dent.contains("above the original surface"), "{dent}");
     let unit = Unit::load(&makes_energy);
     let mut contact = unit.ready();
     contact.set_one("indentation_rate", 1e-3);
@@ -102,6 +105,9 @@ fn the_claim_that_dissipated_energy_never_falls_is_made_only_where_it_holds() {
     }
     assert!(least < 0.0, "the law makes energy: {least}");
 
+    let passive = scene("energy_balanced", &format!("{outputs}law = {{ loading = \"big-alabo\" }}\n"));
+    assert!(variable(&texts(&passive).0, "residual_indentation").contains(" min=\"0"), "no dent above the surface");
+    let outputs = "fmu = { outputs = [\"dissipated_energy\", \"indentation\"] }\n";
     for (name, law) in [("energy_kept", "loading = \"big-alabo\""), ("heat", "loading = \"tsuji\", restitution = 0.5")]
     {
         let (xml, page) = texts(&scene(name, &format!("{outputs}law = {{ {law} }}\n")));

@@ -103,7 +103,8 @@ impl Tests {
     fn find(&self, defect: &Defect) -> Result<String, String> {
         if let Some(file) = defect.test.strip_prefix("test: ") {
             let before = self.sources.replace(&defect.file, &defect.old, &defect.new)?;
-            let result = self.sources.test(file, "");
+            let (file, topic) = file.split_once(' ').unwrap_or((file, ""));
+            let result = self.sources.test(file, topic);
             self.sources.restore(&defect.file, &before);
             return match result {
                 Err(said) if said.contains("test result: FAILED") => Ok(defect.test.clone()),

@@ -32,6 +32,10 @@ pub fn check_values(face: &Face, values: &[f64], before: &Seen) -> Result<Seen, 
         if !value.is_finite() {
             return Err(format!("{name} is {value}"));
         }
+        let (minimum, maximum) = face.limits[reference];
+        if !(minimum <= value && value <= maximum) {
+            return Err(format!("{name} is {value:e}, but declared as {minimum:e} to {maximum:e}"));
+        }
     }
     let mut seen = Seen::default();
     for prefix in contacts(face) {
@@ -40,11 +44,15 @@ pub fn check_values(face: &Face, values: &[f64], before: &Seen) -> Result<Seen, 
         if force < 0.0 {
             return Err(format!("{prefix}force is {force:e} N"));
         }
+        // the dent of some laws is above the original surface, which is zero
+        let dent = value("residual_indentation").unwrap_or(0.0);
         if let Some(indentation) = value("indentation")
-            && indentation < 0.0
+            && indentation < dent
             && force != 0.0
         {
-            return Err(format!("{prefix}force is {force:e} N at an indentation of {indentation:e} m"));
+            return Err(format!(
+                "{prefix}force is {force:e} N at an indentation of {indentation:e} m, with a dent of {dent:e} m"
+            ));
         }
         if let Some(pull) = value("tangential_force")
             && pull.abs() > ROUGHEST * force * (1.0 + 1e-9)

@@ -47,6 +47,8 @@ pub struct Face {
     pub yields: bool,
     /// Whether the law is passive: the dissipated energy never falls.
     pub passive: bool,
+    /// Smallest and largest value of each Real variable, as declared; infinite if not.
+    pub limits: HashMap<u32, (f64, f64)>,
     /// References of Real outputs by name.
     pub named: HashMap<String, u32>,
 }
@@ -84,6 +86,12 @@ impl Variable {
             maximum: number(element, "max"),
             items: attribute(element, "declaredType").and_then(|name| types.get(name)).cloned().unwrap_or_default(),
         }
+    }
+}
+
+impl Variable {
+    fn limits(&self) -> (f64, f64) {
+        (self.minimum.unwrap_or(f64::NEG_INFINITY), self.maximum.unwrap_or(f64::INFINITY))
     }
 }
 
@@ -125,6 +133,7 @@ impl Face {
             rates: references(&|variable| variable.name.rsplit('.').next() == Some("indentation_rate")),
             sideways: references(&|variable| variable.name.rsplit('.').next() == Some("tangential_rate")),
             starts: reals().filter_map(|variable| Some((variable.reference, variable.start?))).collect(),
+            limits: reals().map(|variable| (variable.reference, variable.limits())).collect(),
             yields: description.contains("yield_strength"),
             passive: true,
             named: outputs().map(|variable| (variable.name.clone(), variable.reference)).collect(),

@@ -15,7 +15,7 @@ const FURTHER: [(&str, &str, &str, &str, &str); 3] = [
 const BODIES: &str = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
 
 /// Outputs that every law has.
-const OUTPUTS: &str = "[fmu]\noutputs = [\"indentation\", \"work\", \"elastic_energy\", \"dissipated_energy\", \
+const OUTPUTS: &str = "[fmu]\noutputs = [\"indentation\", \"residual_indentation\", \"work\", \"elastic_energy\", \"dissipated_energy\", \
                        \"impulse\", \"predicted_force\", \"regime\"]\n";
 
 /// Memory from the importer, and parameters of each contact of a group.

@@ -41,6 +41,19 @@ pub fn of(scene: &Scene) -> Energy {
     }
 }
 
+/// Whether the FMU of `scene`, whose laws have this `energy` balance, may leave a dent above the original surface. Other
+/// constants than the published ones may always do so where the laws are not passive.
+pub fn dents_above_surface(scene: &Scene, energy: Energy) -> bool {
+    energy != Energy::Passive && (!is_published(scene) || may_dent_above(scene.loading.0, scene.unloading))
+}
+
+/// Whether two laws with their published constants may leave a dent above the original surface, according to the table.
+fn may_dent_above(loading: &str, unloading: Option<(&str, AnyUnloading)>) -> bool {
+    let energy = table::loading_law(loading).energy.as_ref();
+    let listed = |name| energy.is_some_and(|energy| energy.dents_above_surface.iter().any(|other| other == name));
+    unloading.is_some_and(|(name, _)| listed(name))
+}
+
 /// The energy balance of the FMU of `scene`, in words.
 pub fn words(scene: &Scene) -> String {
     match of(scene) {

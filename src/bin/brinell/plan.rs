@@ -78,6 +78,7 @@ fn kinds(scene: &Scene, energy: Energy) -> Vec<Kind> {
         (Kind::Parallel, coupling.is_some_and(|coupling| coupling.parallel)),
         (Kind::AccelerationInput, coupling.is_some_and(|coupling| coupling.acceleration_input)),
         (Kind::MassKnown, coupling.is_some()),
+        (Kind::DentsAboveSurface, energy::dents_above_surface(scene, energy)),
         (Kind::MakesEnergy, matches!(energy, Energy::MayBeMade { .. })),
         (Kind::LosesLess, energy == Energy::Guarded),
     ];

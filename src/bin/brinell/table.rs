@@ -78,6 +78,8 @@ pub enum Kind {
     MassKnown,
     /// Its laws can return more energy than they took.
     MakesEnergy,
+    /// Its laws can leave a dent above the original surface.
+    DentsAboveSurface,
     /// Its laws dissipate less energy where the dent is deeper.
     LosesLess,
 }

@@ -95,6 +95,9 @@ pub struct MakesEnergy {
     pub restitution: f64,
     /// For targets with a Poisson's ratio below 0.
     pub auxetic_restitution: f64,
+    /// Unloading laws with which the dent may be above the original surface where it is not passive.
+    #[serde(default)]
+    pub dents_above_surface: Vec<String>,
     /// Unloading laws with which it is passive.
     pub passive: Vec<PassiveWith>,
 }

@@ -1,0 +1,138 @@
+//! A contact with friction behaves like every contact: steps on courses, momentum, prediction, saved states.
+
+use crate::friction::assert_close;
+use crate::physics::{Random, mild};
+use brinell::contact::path::Course;
+use brinell::contact::tangential::{Friction, RoughContact, RoughModel, Sliding, Springs};
+use brinell::contact::{Contact, History, loading, unloading};
+
+const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
+const STEP: f64 = 1e-6;
+
+type Model<L, U> = RoughModel<L, U>;
+type Elastic = Model<loading::Hertz, unloading::ContactRadius>;
+type Plastic = Model<loading::Brinell, unloading::Brinell>;
+type Rough = RoughContact<12>;
+
+fn model<L, U>(loading: L, unloading: U) -> Model<L, U> {
+    let surface = brinell::contact::Surface::Dented;
+    RoughModel { normal: brinell::contact::Model { pair: mild(), loading, unloading, surface }, friction: FRICTION }
+}
+
+fn elastic() -> Elastic {
+    model(loading::Hertz, unloading::ContactRadius)
+}
+
+fn plastic() -> Plastic {
+    model(loading::Brinell::REFERENCE, unloading::Brinell::REFERENCE)
+}
+
+/// Rates along the normal and in the tangential direction [m/s]: an indentation between -1 and 5 um.
+fn rates(seed: u64, length: usize) -> Vec<(f64, f64)> {
+    let mut random = Random(seed);
+    let mut indentation = 0.0;
+    (0..length)
+        .map(|_| {
+            let target = 6e-6 * random.next() - 1e-6;
+            let rate = (target - indentation) / STEP;
+            indentation = target;
+            (rate, 4.0 * (random.next() - 0.5))
+        })
+        .collect()
+}
+
+#[test]
+fn held_rates_give_the_same_bits_as_springs_advanced_by_hand() {
+    let model = plastic();
+    let mut contact = Rough::start(&model, 0.0).expect("within range");
+    let mut normal = History::start(&model.normal, 0.0).expect("within range");
+    let mut springs = Springs::<12>::start(&model, &normal);
+    for (rate, slip) in rates(1, 60) {
+        contact.set_tangential_rate(slip);
+        let predicted = contact.predicted_tangential_force(&model, rate, STEP).expect("within range");
+        let kept = <Rough as Contact<Plastic>>::kept(&model);
+        contact.step_held(rate, STEP, &kept, || model).expect("within range");
+        springs.advance(&mut normal, &model, (rate * STEP, slip * STEP), (rate, slip), false).expect("within range");
+        let force = springs.force(&FRICTION, normal.indentation());
+        assert_eq!(contact.tangential_force(&model).to_bits(), force.to_bits());
+        assert_eq!(predicted.to_bits(), force.to_bits());
+        assert_eq!(contact.normal(), &normal);
+        assert_eq!(contact.sliding() == Sliding::Apart, normal.force() == 0.0);
+        assert!(contact.stick_radius(&model) >= 0.0);
+    }
+}
+
+#[test]
+fn impulse_and_work_are_those_of_the_mean_force_and_friction_work_never_falls() {
+    let model = elastic();
+    let mut contact = Rough::start(&model, 0.0).expect("within range");
+    let (mut impulse, mut lost) = (0.0, 0.0_f64);
+    for (rate, slip) in rates(2, 400) {
+        contact.set_tangential_rate(slip);
+        Contact::step(&mut contact, &Course::held(rate), STEP, || model).expect("within range");
+        impulse += contact.mean_tangential_force() * STEP;
+        assert_close("impulse", contact.tangential_impulse(), impulse, 1e-4, 1e-12);
+        // merged segments may store slightly more or less energy
+        let now = contact.friction_work(&model);
+        assert!(now >= lost - 1e-4 * now.abs() - 1e-15, "{now:e} after {lost:e}");
+        lost = now;
+    }
+    assert!(lost > 0.0);
+}
+
+/// The tangential force after a course that reverses within the step, for this number of parts.
+fn behind_course(parts: u32) -> f64 {
+    let model = elastic();
+    let mut contact = RoughContact::<512>::start(&model, -2e-6).expect("within range");
+    contact.set_tangential_rate(0.1);
+    let part = STEP / f64::from(parts);
+    // in at 3 m/s, and out at 1 m/s
+    let mut course = Course { rate: 3.0, slope: -4.0 / STEP, bend: 0.0 };
+    for _ in 0..parts {
+        Contact::step(&mut contact, &course, part, || model).expect("within range");
+        course = course.after(part);
+    }
+    contact.tangential_force(&model)
+}
+
+#[test]
+fn a_course_is_followed_to_second_order_of_the_step() {
+    let exact = behind_course(4096);
+    let limit = 0.3 * plastic().normal.peak(3e-6).force;
+    let errors = [1, 4, 16, 64].map(|parts| (behind_course(parts) - exact).abs() / limit);
+    println!("{errors:?}");
+    assert!(errors[0] < 3e-2, "{errors:?}");
+    for pair in errors.windows(2) {
+        assert!(pair[1] < 0.15 * pair[0], "{errors:?}");
+    }
+}
+
+#[test]
+fn a_restored_contact_continues_with_the_same_bits() {
+    let model = plastic();
+    let mut contact = Rough::start(&model, 0.0).expect("within range");
+    for (rate, slip) in rates(3, 100) {
+        let mut words = Vec::new();
+        Contact::<Plastic>::save(&contact, &mut |word| words.push(word));
+        assert_eq!(words.len(), <Rough as Contact<Plastic>>::WORDS);
+        let mut other = <Rough as Contact<Plastic>>::load(&mut words.iter().copied(), &model).expect("a contact");
+        for contact in [&mut contact, &mut other] {
+            contact.set_tangential_rate(slip);
+            Contact::step(contact, &Course::held(rate), STEP, || model).expect("within range");
+        }
+        assert_eq!(contact.tangential_force(&model).to_bits(), other.tangential_force(&model).to_bits());
+        assert_eq!(contact.friction_work(&model).to_bits(), other.friction_work(&model).to_bits());
+        words.pop();
+        assert!(<Rough as Contact<Plastic>>::load(&mut words.into_iter(), &model).is_none(), "a word is missing");
+    }
+}
+
+#[test]
+fn a_rejected_step_leaves_the_contact_unchanged() {
+    let model = plastic();
+    let mut contact = Rough::start(&model, -1e-6).expect("within range");
+    contact.set_tangential_rate(1.0);
+    let before = contact;
+    Contact::step(&mut contact, &Course::held(1e200), 1.0, || model).expect_err("too deep");
+    assert_eq!(contact, before);
+}

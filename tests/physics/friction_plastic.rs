@@ -1,0 +1,141 @@
+//! The tangential force of yielding contacts, compared with tables from another program.
+
+use crate::friction::{Ball, Rebound, Row, assert_close, table};
+use crate::physics;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::tangential::{Friction, RoughModel, Springs};
+use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{History, Loading};
+
+const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
+
+type Model = RoughModel<AnyLoading, AnyUnloading>;
+
+/// The model of a case of the table, `loading/unloading`.
+fn model(case: &str) -> Model {
+    let (loading, unloading) = case.split_once('/').expect("two laws");
+    RoughModel { normal: physics::model(loading, unloading), friction: FRICTION }
+}
+
+/// A contact with its springs.
+struct Run<const N: usize, const LATTICE: bool> {
+    model: Model,
+    contact: History,
+    springs: Springs<N, LATTICE>,
+    /// Depths at which steps are divided [m].
+    cuts: Vec<f64>,
+}
+
+impl<const N: usize, const LATTICE: bool> Run<N, LATTICE> {
+    fn new(case: &str) -> Self {
+        let model = model(case);
+        let contact = History::start(&model.normal, 0.0).expect("within range");
+        // the paths of thornton don't depend on the contact radius
+        let cuts = if case == "big-alabo/contact-radius" { vec![radius_corner(&model)] } else { Vec::new() };
+        Run { springs: Springs::start(&model, &contact), model, contact, cuts }
+    }
+
+    fn step(&mut self, rise: f64, slip: f64) {
+        let from = self.contact.indentation();
+        let mut parts: Vec<f64> = self.cuts.iter().map(|cut| (cut - from) / rise).collect();
+        parts.retain(|&part| rise > 0.0 && part > 0.0 && part < 1.0);
+        parts.push(1.0);
+        let mut done = 0.0;
+        for part in parts {
+            let way = ((part - done) * rise, (part - done) * slip);
+            let Run { springs, contact, model, .. } = self;
+            springs.advance(contact, model, way, (rise, slip), false).expect("within range");
+            done = part;
+        }
+    }
+
+    fn pull(&self) -> f64 {
+        self.springs.force(&FRICTION, self.contact.indentation())
+    }
+}
+
+/// The corner of the contact radius of big-alabo [m], at which the table also divides its steps. The radius stays that
+/// of yield until force over pressure is a larger area.
+fn radius_corner(model: &Model) -> f64 {
+    let law = &model.normal;
+    let unit = law.yield_point().indentation;
+    let at_yield = law.loading.contact_radius(&law.pair, unit);
+    let (mut low, mut high) = (unit, 10.0 * unit);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        let grows = law.loading.contact_radius(&law.pair, middle) > at_yield * (1.0 + 1e-15);
+        *(if grows { &mut high } else { &mut low }) = middle;
+    }
+    low
+}
+
+/// The rows of the histories of one case.
+fn rows(case: &str) -> Vec<Row> {
+    table("plastic").into_iter().filter(|row| row.case == case).collect()
+}
+
+#[test]
+fn histories_through_yield_agree_with_the_forces_and_energies_of_the_table() {
+    for case in ["thornton/thornton", "big-alabo/contact-radius"] {
+        let mut run = Run::<512, false>::new(case);
+        for row in rows(case) {
+            run.step(row.get("d_delta"), row.get("d_s"));
+            let what = format!("{case}, row {}", row.get("row"));
+            let force = run.contact.force();
+            assert_close(&format!("{what}, force"), force, row.get("F"), row.get("F").max(1e-9), 1e-9);
+            let size = (FRICTION.coefficient * force).max(1e-9);
+            assert_close(&format!("{what}, tangential force"), run.pull(), row.get("T"), size, 1e-9);
+            let energy = run.springs.energy(&FRICTION, run.contact.indentation());
+            assert_close(&format!("{what}, energy"), energy, row.get("energy"), row.get("energy").max(1e-15), 1e-9);
+            assert_eq!(run.springs.segments(), row.get("segments").max(0.0) as usize, "{what}");
+        }
+    }
+}
+
+#[test]
+fn growth_in_steps_over_fixed_depths_comes_close_to_the_full_model() {
+    for (case, allowed) in [("thornton/thornton", 1e-12), ("big-alabo/contact-radius", 1e-2), ("brinell/brinell", 1e-2)]
+    {
+        let mut run = Run::<512, true>::new(case);
+        let mut worst = 0.0_f64;
+        for row in rows(case) {
+            run.step(row.get("d_delta"), row.get("d_s"));
+            let size = (FRICTION.coefficient * run.contact.force()).max(1e-9);
+            worst = worst.max((run.pull() - row.get("T_full_model")).abs() / size);
+        }
+        println!("{case}: {worst:.1e} of Coulomb's limit");
+        assert!(worst <= allowed, "{case}: {worst:e}");
+    }
+}
+
+fn impact<const N: usize>(case: &str, ball: Ball, step: f64) -> Rebound {
+    let mut run = Run::<N, false>::new(case);
+    ball.impact(step, |rise, slip| {
+        run.step(rise, slip);
+        let force = run.contact.force();
+        (force > 0.0).then(|| (force, run.pull()))
+    })
+}
+
+#[test]
+fn impacts_through_yield_agree_with_the_rebounds_of_the_table() {
+    let rows = table("impact");
+    let mut worst = 0.0_f64;
+    for row in rows.iter().filter(|row| row.case.contains('/')) {
+        let (degrees, limit) = (row.get("angle_deg_or_psi1"), row.get("limit"));
+        let tangential = degrees.to_radians().tan();
+        let ball = Ball { mass: 4.11e-3, radius: 5e-3, normal: 1.0, tangential, spin: 0.0 };
+        let found = match limit {
+            0.0 => impact::<512>(&row.case, ball, row.get("h")),
+            _ => impact::<12>(&row.case, ball, row.get("h")),
+        };
+        let what = format!("{}, {degrees} degrees, limit {limit}", row.case);
+        worst = worst.max((found.restitution.1 - row.get("e_t")).abs());
+        assert_eq!(found.steps, row.get("steps") as u32, "{what}");
+        assert_close(&format!("{what}, e_n"), found.restitution.0, row.get("e_n"), 1.0, 1e-12);
+        assert_close(&format!("{what}, e_t"), found.restitution.1, row.get("e_t"), 1.0, 1e-12);
+        let spin = row.get("omega");
+        assert_close(&format!("{what}, spin"), found.ball.spin, spin, spin, 1e-11);
+    }
+    println!("worst difference of e_t: {worst:.1e}");
+}

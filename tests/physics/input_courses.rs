@@ -1,0 +1,294 @@
+//! Steps along a course: number of evaluations of the law, exactness, and independence of the division into steps.
+
+use crate::physics::{Random, mild, model, unit};
+use brinell::contact::momentum::impulse;
+use brinell::contact::path::Course;
+use brinell::contact::{Contact, History, Loading, Model, Regime, Surface, Unloading, loading, unloading};
+use brinell::instance::Instance;
+use brinell::scene::{Real, exported::Exported};
+use std::cell::Cell;
+
+/// A claim about every law made of segments.
+trait Claim {
+    /// Checks a law with these names. A model whose laws are known at compile time follows its branches; one whose laws are not
+    /// is processed piece by piece.
+    fn check<L: Loading, U: Unloading>(&self, names: [&str; 2], model: &Model<L, U>);
+
+    fn check_all(&self) {
+        self.check_one(["hertz", "hertz"], loading::Hertz, unloading::OriginalRadius);
+        self.check_one(["big-alabo", "contact-radius"], loading::BigAlabo::REFERENCE, unloading::ContactRadius);
+        self.check_one(["big-alabo", "hertz-shift"], loading::BigAlabo::REFERENCE, unloading::HertzShift);
+        self.check_one(["brinell", "brinell"], loading::Brinell::REFERENCE, unloading::Brinell::REFERENCE);
+        self.check_one(["thornton", "thornton"], loading::Thornton::REFERENCE, unloading::Thornton);
+        let walton_braun = (loading::WaltonBraun::REFERENCE, unloading::WaltonBraun::REFERENCE);
+        self.check_one(["walton-braun", "walton-braun"], walton_braun.0, walton_braun.1);
+        self.check_one(["luding", "luding"], loading::Luding::REFERENCE, unloading::Luding::REFERENCE);
+    }
+
+    fn check_one<L: Loading, U: Unloading>(&self, names: [&str; 2], loading: L, unloading: U) {
+        let mut model = Model { pair: mild(), loading, unloading, surface: Surface::Dented };
+        assert!(model.is_segmented(), "{names:?}");
+        self.check(names, &model);
+        model.surface = Surface::Fresh;
+        self.check(names, &model);
+    }
+}
+
+/// A course of any size, which turns in half of the cases.
+fn any_course(random: &mut Random) -> Course {
+    let d_y = unit(&mild()).indentation;
+    let mut size = || (random.next() - 0.45) * 10f64.powf(3.0 * random.next() - 0.5) * d_y;
+    Course { rate: size(), slope: 4.0 * size(), bend: 12.0 * size() }
+}
+
+/// The part of a course from `time` on.
+fn part_of(course: &Course, time: f64) -> Course {
+    Course { rate: course.rate_after(time), slope: course.slope + course.bend * time, bend: course.bend }
+}
+
+/// A step along `course` by `contact`, its mean force, and the number of times that the model was requested.
+fn stepped<L: Loading, U: Unloading>(
+    contact: &mut History,
+    model: &Model<L, U>,
+    course: &Course,
+    step: f64,
+) -> (f64, u32) {
+    let asked = Cell::new(0);
+    let model = || {
+        asked.set(asked.get() + 1);
+        model
+    };
+    let (_, mean) = contact.step_with_mean_force(course, step, model).expect("within range");
+    (mean, asked.get())
+}
+
+/// The same without the mean force.
+fn asked<L: Loading, U: Unloading>(contact: &mut History, model: &Model<L, U>, course: &Course, step: f64) -> u32 {
+    let asked = Cell::new(0);
+    let model = || {
+        asked.set(asked.get() + 1);
+        model
+    };
+    contact.step(course, step, model).expect("within range");
+    asked.get()
+}
+
+#[test]
+fn a_course_that_keeps_its_direction_has_one_motion() {
+    let mut random = Random(21);
+    let mut kept = 0;
+    for _ in 0..20_000 {
+        let mut number = || (random.next() - 0.5) * 10f64.powf(4.0 * random.next() - 2.0);
+        let (course, step) = (Course { rate: number(), slope: number(), bend: number() }, number().abs());
+        let [first, second, third] = course.motions(step);
+        assert!(((first + second + third) - course.way(step)).abs() <= 1e-13 * (first.abs() + course.way(step).abs()));
+        let rates = (0..=64).map(|place| course.rate_after(f64::from(place) / 64.0 * step));
+        let (lowest, highest) = rates.fold((0.0, 0.0), |(low, high), rate| (rate.min(low), rate.max(high)));
+        if course.keeps_direction(step) {
+            kept += 1;
+            assert_eq!((second, third), (0.0, 0.0), "{course:?} over {step}");
+            // the end of a course that just comes to rest may be rounded to the other side
+            let rounding =
+                1e-14 * (course.rate.abs() + (course.slope * step).abs() + (course.bend * step * step).abs());
+            assert!(lowest >= -rounding || highest <= rounding, "{course:?} over {step}");
+        }
+    }
+    assert!(kept > 5000, "{kept} only");
+}
+
+/// A measure of the work without a clock: the law is evaluated only where a branch is left.
+#[test]
+fn the_law_is_evaluated_only_where_a_branch_is_left() {
+    let (loading, unloading) = (loading::BigAlabo::REFERENCE, unloading::ContactRadius);
+    let model = Model { pair: mild(), loading, unloading, surface: Surface::Dented };
+    let d_y = unit(&mild()).indentation;
+    let course = |way: f64| Course { rate: 1.25 * way, slope: -0.5 * way, bend: 0.0 };
+    // depth, distance, and number of requests of the model: without the mean force, and with it
+    let places = [
+        ("on a branch", [3.0, 0.1], 0, 1),
+        ("over a corner", [12.0, 4.0], 1, 2),
+        ("over two corners", [12.0, 90.0], 1, 3),
+        ("onto the way back", [150.0, -1.0], 1, 3),
+        ("off the surface", [150.0, -200.0], 1, 3),
+    ];
+    for (name, [depth, way], alone, with_mean) in places {
+        let start = History::start(&model, -depth * d_y).unwrap();
+        let (mut one, mut other) = (start, start);
+        assert_eq!(asked(&mut one, &model, &course(way * d_y), 1.0), alone, "{name}");
+        assert_eq!(stepped(&mut other, &model, &course(way * d_y), 1.0).1, with_mean, "{name}, with the mean force");
+        assert_eq!((one.force(), one.indentation()), (other.force(), other.indentation()), "{name}");
+        assert!(way < -2.0 || one.regime() != Regime::Apart, "{name}");
+    }
+    // a course that turns twice, during unloading
+    let mut contact = History::start(&model, -150.0 * d_y).unwrap();
+    contact.advance(&model, -5.0 * d_y).unwrap();
+    let turning = Course { rate: 0.1875 * d_y, slope: -d_y, bend: 2.0 * d_y };
+    assert!(turning.motions(1.0).iter().all(|motion| *motion != 0.0));
+    assert_eq!(asked(&mut contact, &model, &turning, 1.0), 0);
+}
+
+/// Powers of time and of `1 + time`, whose integrals are known: the force begins, ends, or is far from its start.
+#[test]
+fn the_impulse_of_a_power_is_exact() {
+    let (loading, unloading) = (loading::Hertz, unloading::OriginalRadius);
+    let model = Model { pair: mild(), loading, unloading, surface: Surface::Dented };
+    let d_y = unit(&mild()).indentation;
+    let check = |depth: f64, course: Course, mean: f64, what: &str| {
+        let history = History::start(&model, -depth).unwrap();
+        let found = impulse(&history, &model, &course, 1.0).unwrap();
+        let mean = model.pair.hertz_stiffness() * mean;
+        assert!((found / mean - 1.0).abs() < 3e-14, "{what}: {found:e} for {mean:e}");
+    };
+    for size in [1e-12, 1e-6, 1e-3, 1.0, 30.0].map(|size| size * d_y) {
+        let power = size.powf(1.5);
+        check(0.0, Course { rate: size, slope: 0.0, bend: 1e-300 }, power / 2.5, "t");
+        check(0.0, Course { rate: 0.0, slope: 2.0 * size, bend: 0.0 }, power / 4.0, "t^2");
+        check(0.0, Course { rate: 0.0, slope: 0.0, bend: 6.0 * size }, power / 5.5, "t^3");
+        check(size, Course { rate: -2.0 * size, slope: 2.0 * size, bend: 0.0 }, power / 4.0, "(1 - t)^2");
+        for part in [-1.0, -1.0 + 1e-9, -0.9, -0.3, -1e-3, -1e-9, 1e-9, 1e-3, 0.3, 3.0, 1e3, 1e9] {
+            // without cancellation
+            let mean = |power: f64| f64::exp_m1((power + 1.0) * f64::ln_1p(part)) / ((power + 1.0) * part);
+            let what = format!("{size:e} m, {part}");
+            let (one, two) = (part * size, part * part * size);
+            let square = Course { rate: 2.0 * one, slope: 2.0 * two, bend: 0.0 };
+            check(size, square, power * mean(3.0), &format!("square, {what}"));
+            let cube = Course { rate: 3.0 * one, slope: 6.0 * two, bend: 6.0 * two * part };
+            check(size, cube, power * mean(4.5), &format!("cube, {what}"));
+        }
+    }
+}
+
+/// Compares the impulse along the branches with that of the pieces of the law.
+struct AsByPieces;
+
+impl Claim for AsByPieces {
+    fn check<L: Loading, U: Unloading>(&self, [loading, unloading]: [&str; 2], segmented: &Model<L, U>) {
+        let mut pieces = match loading {
+            "hertz" => model(loading, "original-radius"),
+            _ => model(loading, unloading),
+        };
+        pieces.surface = segmented.surface;
+        let mut random = Random(33);
+        let (mut one, mut largest) = (History::start(segmented, 0.0).unwrap(), 0.0);
+        for case in 0..2000 {
+            let course = any_course(&mut random);
+            let mut other = one;
+            let (mean, _) = stepped(&mut one, segmented, &course, 1.0);
+            let (expected, _) = stepped(&mut other, &pieces, &course, 1.0);
+            largest = [one.force().abs(), expected.abs(), largest].into_iter().fold(0.0, f64::max);
+            let what = format!("{loading}, {unloading}, {:?}, {course:?}", segmented.surface);
+            assert!((mean - expected).abs() <= 1e-13 * largest, "{what}: {mean:e} for {expected:e}");
+            assert_eq!((one.indentation(), one.regime()), (other.indentation(), other.regime()), "{what}");
+            assert!((one.force() - other.force()).abs() <= 1e-13 * largest, "{what}");
+            if case % 50 == 0 {
+                (one, largest) = (History::start(segmented, 0.0).unwrap(), 0.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_impulse_along_branches_is_that_of_the_pieces_of_the_law() {
+    AsByPieces.check_all();
+}
+
+/// Compares one step with many.
+struct AsItsParts;
+
+impl Claim for AsItsParts {
+    fn check<L: Loading, U: Unloading>(&self, names: [&str; 2], model: &Model<L, U>) {
+        let d_y = unit(&mild()).indentation;
+        let mut random = Random(17);
+        for (case, parts) in [2, 3, 17, 1000, 2, 5, 40, 200].into_iter().enumerate() {
+            let course = any_course(&mut random);
+            let mut whole = History::start(model, -10f64.powf(case as f64 / 3.0) * d_y).unwrap();
+            let mut cut = whole;
+            let (mean, _) = stepped(&mut whole, model, &course, 1.0);
+            let (mut sum, mut largest) = (0.0, whole.force().abs());
+            for index in 0..parts {
+                let [from, to] = [index, index + 1].map(|place| f64::from(place) / f64::from(parts));
+                let (mean, _) = stepped(&mut cut, model, &part_of(&course, from), to - from);
+                sum += mean * (to - from);
+                largest = f64::max(largest, mean.abs());
+            }
+            let what = format!("{names:?}, {:?}, {course:?} in {parts} parts", model.surface);
+            // the ends of the parts have rounding errors relative to the largest distance
+            let ways = course.rate.abs() + course.slope.abs() + course.bend.abs();
+            let reached = 1e-14 * ways + 1e-15 * whole.max_indentation();
+            assert!((whole.indentation() - cut.indentation()).abs() <= reached, "{what}");
+            assert!((sum - mean).abs() <= 2e-13 * largest, "{what}: {mean:e} in one, {sum:e}");
+        }
+    }
+}
+
+#[test]
+fn a_step_along_a_course_is_that_of_its_parts_however_it_is_cut() {
+    AsItsParts.check_all();
+}
+
+fn ready() -> Instance<Exported> {
+    let mut instance = Instance::new().unwrap();
+    instance.set_experiment(0.0, None).unwrap();
+    instance.enter_initialization().unwrap();
+    instance.exit_initialization().unwrap();
+    instance
+}
+
+/// A derivative that was set before an instance was restored once reappeared in a later step.
+#[test]
+fn a_derivative_of_a_state_that_was_left_is_forgotten() {
+    for plainly in [false, true] {
+        let (plain, mut instance, mut expected) = (ready(), ready(), ready());
+        instance.set_input_derivative((Real::IndentationRate, 0), 1, 3e4);
+        instance.copy(&plain);
+        for instance in [&mut instance, &mut expected] {
+            instance.set_real((Real::IndentationRate, 0), 0.1);
+            match plainly {
+                true => assert!(instance.set_plain_derivatives([(2, 5e9)].into_iter())),
+                false => instance.set_input_derivative((Real::IndentationRate, 0), 2, 5e9),
+            }
+            instance.do_step(0.0, 1e-6).unwrap();
+        }
+        let [one, other] = [&instance, &expected].map(|instance| instance.real((Real::Indentation, 0)));
+        assert_eq!(one, other);
+    }
+}
+
+/// The fast functions of an instance set and reject the same as the others.
+#[test]
+fn quick_steps_with_derivatives_are_those_that_are_not() {
+    let mut random = Random(8);
+    let (mut quick, mut slow) = (ready(), ready());
+    for _ in 0..4000 {
+        let mut size = || (random.next() - 0.5) * 10f64.powf(4.0 * random.next() - 3.0);
+        let (rate, first, second) = (size(), size() * 1e6, size() * 1e13);
+        for instance in [&mut quick, &mut slow] {
+            instance.set_real((Real::IndentationRate, 0), rate);
+        }
+        assert!(quick.set_plain_derivatives([(1, first), (2, second)].into_iter()));
+        for (order, value) in [(1, first), (2, second)] {
+            slow.check_input_derivative((Real::IndentationRate, 0), order, value).unwrap();
+            slow.set_input_derivative((Real::IndentationRate, 0), order, value);
+        }
+        let time = quick.time();
+        slow.do_step(time, 1e-6).unwrap();
+        if !quick.do_course_step(time, 1e-6) && !quick.is_deep() {
+            quick.do_step(time, 1e-6).unwrap();
+        }
+        let words = |instance: &Instance<Exported>| {
+            let mut words = Vec::new();
+            instance.save(|word| words.push(word));
+            words
+        };
+        assert_eq!(words(&quick), words(&slow));
+        assert_eq!((quick.take_deep().is_some(), quick.is_deep()), (slow.take_deep().is_some(), slow.is_deep()));
+    }
+    for refused in [(0, 1.0), (3, 1.0), (-1, 1.0), (i32::MIN, 1.0), (1, f64::NAN), (2, f64::INFINITY)] {
+        let before = quick.real((Real::Indentation, 0));
+        assert!(!quick.set_plain_derivatives([(1, 7.0), refused].into_iter()), "{refused:?}");
+        quick.set_real((Real::IndentationRate, 0), 0.0);
+        let time = quick.time();
+        quick.do_step(time, 1e-6).unwrap();
+        assert_eq!(quick.real((Real::Indentation, 0)), before, "{refused:?}: none is set");
+    }
+}

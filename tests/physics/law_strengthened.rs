@@ -1,0 +1,379 @@
+//! The law `brinell` for targets that harden and for other Poisson's ratios, compared with the finite-element curves
+//! in `truth/materials/`.
+
+use crate::physics::{
+    AnyModel, MASS, Random, advance, corners, logarithmic, mild, model, pressed, random_bodies, unit,
+};
+use brinell::contact::impact::{Impact, Prediction, predict};
+use brinell::contact::strength::KNOTS;
+use brinell::contact::{Body, Contact, History, Loading, Model, Pair, Surface, Unloading, loading, unloading};
+use std::fs;
+use std::path::Path;
+
+/// A finite-element curve: Poisson's ratio, `H/E`, and the depths of its unloadings.
+struct Curve {
+    name: &'static str,
+    poissons_ratio: f64,
+    hardening: f64,
+    depths: &'static [&'static str],
+}
+
+const DEPTHS: [&str; 5] = ["3", "10", "30", "82.5", "200"];
+
+const CURVES: [Curve; 7] = [
+    Curve { name: "H0.005", poissons_ratio: 0.3, hardening: 0.005, depths: &DEPTHS },
+    Curve { name: "H0.02", poissons_ratio: 0.3, hardening: 0.02, depths: &DEPTHS },
+    Curve { name: "H0.05", poissons_ratio: 0.3, hardening: 0.05, depths: &DEPTHS },
+    Curve { name: "H0.1", poissons_ratio: 0.3, hardening: 0.1, depths: &DEPTHS },
+    Curve { name: "nu0.2", poissons_ratio: 0.2, hardening: 0.0, depths: &["10", "82.5"] },
+    Curve { name: "nu0.4", poissons_ratio: 0.4, hardening: 0.0, depths: &["10", "82.5"] },
+    Curve { name: "nu0.45", poissons_ratio: 0.45, hardening: 0.0, depths: &["10", "82.5"] },
+];
+
+fn read(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The first columns, as numbers, of the rows of a finite-element table that begin with `start`, without that.
+fn truth(name: &str, start: &str) -> Vec<Vec<f64>> {
+    let text = read(&format!("truth/materials/{name}.csv"));
+    let rows = text.lines().skip(1).filter_map(|line| line.strip_prefix(start));
+    rows.map(|row| row.split(',').map_while(|cell| cell.parse().ok()).collect()).collect()
+}
+
+/// The law `brinell` on bodies with this hardening modulus [Pa].
+fn strengthened(pair: Pair, hardening_modulus: f64) -> AnyModel {
+    let plain = AnyModel { pair, ..model("brinell", "brinell") };
+    AnyModel {
+        loading: plain.loading.strengthened(hardening_modulus).expect("brinell has such a form"),
+        unloading: plain.unloading.strengthened(hardening_modulus).expect("brinell has such a form"),
+        ..plain
+    }
+}
+
+/// A rigid sphere on a target like that of [`mild`], with this Poisson's ratio and `H/E`.
+fn on_steel(poissons_ratio: f64, hardening: f64) -> AnyModel {
+    let sphere = Body { radius: 0.005, youngs_modulus: f64::INFINITY, poissons_ratio: 0.3 };
+    let target = Body { radius: f64::INFINITY, youngs_modulus: 206e9, poissons_ratio };
+    strengthened(Pair::new(&sphere, &target, 300e6).unwrap(), hardening * 206e9)
+}
+
+impl Curve {
+    fn model(&self) -> AnyModel {
+        on_steel(self.poissons_ratio, self.hardening)
+    }
+
+    /// Indentation, force and contact radius, in units of the law without hardening.
+    fn loading(&self) -> Vec<[f64; 3]> {
+        let rows = truth(&format!("loading_{}", self.name), "");
+        assert!(rows.len() > 300, "the truth is complete");
+        let within = rows.iter().map(|row| [row[0], row[2], row[3]]).filter(|row| row[0] >= 1.2 && row[0] <= 500.0);
+        within.collect()
+    }
+
+    /// Indentation and force from the largest indentation downwards.
+    fn unloading(&self, depth: &str) -> Vec<[f64; 2]> {
+        let rows = truth(&format!("unloading_{}_from_{depth}", self.name), "unload,");
+        rows.iter().map(|row| [row[0], row[1]]).collect()
+    }
+
+    /// Work over these points, from the last one to the first.
+    fn work(points: &[[f64; 2]]) -> f64 {
+        points.windows(2).map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1])).sum::<f64>().abs()
+    }
+}
+
+fn force(model: &AnyModel, indentation: f64) -> f64 {
+    model.loading.segment(&model.pair, indentation).force(indentation)
+}
+
+#[test]
+fn the_loading_force_is_within_0_7_percent_of_every_curve() {
+    for curve in &CURVES {
+        let (model, unit) = (curve.model(), unit(&curve.model().pair));
+        for [x, expected, _] in curve.loading() {
+            let error = force(&model, x * unit.indentation) / unit.force / expected - 1.0;
+            assert!(error.abs() < 7e-3, "{} at x = {x}: {:.3} %", curve.name, 100.0 * error);
+        }
+    }
+}
+
+#[test]
+fn the_contact_radius_is_within_2_5_percent_of_every_curve() {
+    for curve in &CURVES {
+        let (model, unit) = (curve.model(), unit(&curve.model().pair));
+        for [x, _, expected] in curve.loading() {
+            let radius = model.loading.contact_radius(&model.pair, x * unit.indentation);
+            let error = radius / (model.pair.radius * unit.indentation).sqrt() / expected - 1.0;
+            assert!(error.abs() < 2.5e-2, "{} at x = {x}: {:.3} %", curve.name, 100.0 * error);
+        }
+    }
+}
+
+#[test]
+fn the_unloading_is_within_1_4_percent_of_the_largest_force_and_1_2_percent_up_to_five_hundredths() {
+    for curve in &CURVES {
+        let (model, unit) = (curve.model(), unit(&curve.model().pair));
+        let allowed = if curve.hardening > 0.05 { 1.4e-2 } else { 1.2e-2 };
+        for depth in curve.depths {
+            let points = curve.unloading(depth);
+            let [x_m, f_m] = points[0];
+            let mut history = pressed(&model, x_m * unit.indentation);
+            for [x, f] in points {
+                let step = x * unit.indentation - history.indentation();
+                advance(&mut history, &model, step);
+                let error = (history.force() / unit.force - f) / f_m;
+                assert!(error.abs() < allowed, "{} from {depth} at x = {x}: {:.3} %", curve.name, 100.0 * error);
+            }
+        }
+    }
+}
+
+/// The loading work of the finite-element curve: Hertz's law at the start, then trapezoids between its points.
+#[test]
+fn restitution_is_within_0_8_percent_and_the_dent_within_2_percent() {
+    for curve in &CURVES {
+        let (model, unit) = (curve.model(), unit(&curve.model().pair));
+        let loading = truth(&format!("loading_{}", curve.name), "");
+        for depth in curve.depths {
+            let back = curve.unloading(depth);
+            let [x_m, f_m] = back[0];
+            let before = loading.iter().map(|row| [row[0], row[2]]).filter(|row| row[0] < x_m);
+            let way: Vec<_> = before.chain([[x_m, f_m]]).collect();
+            let [x, f] = way[0];
+            let expected = (Curve::work(&back) / (Curve::work(&way) + 0.4 * x * f)).sqrt();
+            let largest = x_m * unit.indentation;
+            let work = model.loading.work(&model.pair, largest);
+            let error = (model.recovered_work(largest, largest) / work).sqrt() / expected - 1.0;
+            assert!(error.abs() < 8e-3, "restitution of {} from {depth}: {:.3} %", curve.name, 100.0 * error);
+            let dent = model.unloading_path(largest).lower / unit.indentation;
+            let error = dent / back[back.len() - 1][0] - 1.0;
+            assert!(error.abs() < 2e-2, "dent of {} from {depth}: {:.3} %", curve.name, 100.0 * error);
+        }
+    }
+}
+
+/// Results of the program that made the fit, with all its printed digits.
+#[test]
+fn the_law_equals_the_fitted_one() {
+    // nu, eta, k, phi, work, alpha, dent, g
+    let table = [
+        [0.3, 0.05, 1.5, 1.821616537, 1.099643996, 1.516327696, 5.246159327e-2, 6.465092304e-2],
+        [0.3, 0.05, 100.0, 5.036633536e2, 2.220634770e4, 1.597547754e2, 6.712352574e1, 5.610145028e-1],
+        [0.3, 0.05, 5000.0, 6.213437266e4, 1.445104194e8, 8.729663971e3, 4.390520162e3, 4.193907300e-1],
+        [0.2, 0.0, 10.0, 2.524004540e1, 1.075783004e2, 1.297324937e1, 3.940507722, 4.053861947e-1],
+        [0.45, 0.0, 600.0, 3.339378432e3, 9.438269103e5, 1.385550432e3, 5.224036115e2, 4.594975710e-1],
+        [0.4, 0.1, 100.0, 5.437730941e2, 2.364755195e4, 1.495129856e2, 6.404145740e1, 6.566850280e-1],
+        [0.4, 0.1, 600.0, 5.538085193e3, 1.446308931e6, 8.946495364e2, 4.564370046e2, 7.5e-1],
+    ];
+    for [ratio, eta, k, phi, work, alpha, dent, g] in table {
+        let pair = Pair { poissons_ratio: ratio, ..mild() };
+        let model = strengthened(pair, eta * pair.modulus);
+        let point = model.yield_point();
+        let largest = k * point.indentation;
+        let path = model.unloading_path(largest);
+        let radius = model.loading.contact_radius(&pair, largest);
+        let shape = -path.square * (path.upper - path.lower).powi(2) / force(&model, largest);
+        let pairs = [
+            ("phi", force(&model, largest) / point.force, phi),
+            ("work", model.loading.work(&pair, largest) / (point.force * point.indentation), work),
+            ("alpha", radius * radius / (pair.radius * point.indentation), alpha),
+            ("dent", path.lower / point.indentation, dent),
+            ("g", shape, g),
+        ];
+        for (name, got, expected) in pairs {
+            let error = (got - expected).abs() / expected;
+            assert!(error < 1e-9, "{name} at nu = {ratio}, eta = {eta}, k = {k}: {got} instead of {expected}");
+        }
+    }
+}
+
+#[test]
+fn the_constants_in_the_source_equal_those_of_the_fit() {
+    let written: serde_json::Value = serde_json::from_str(&read("fit/materials_law.json")).unwrap();
+    let source = read("src/contact/strength.rs");
+    let has = |line: &str| assert!(source.contains(line), "src/contact/strength.rs lacks {line}");
+    for (name, value) in written.as_object().unwrap() {
+        match value.as_f64() {
+            Some(value) if name == "largest_g" => has(&format!("const LARGEST_SHAPE: f64 = {value};")),
+            Some(value) => has(&format!("const {}: f64 = {value};", name.to_uppercase())),
+            None if name == "growth" => has(&format!("const GROWTH: [f64; 2] = {value};").replace(',', ", ")),
+            None => {
+                let knots: Vec<f64> = value.as_array().unwrap().iter().map(|knot| knot.as_f64().unwrap()).collect();
+                assert_eq!(knots, KNOTS);
+            }
+        }
+    }
+}
+
+/// Any bodies that an FMU accepts, with a hardening modulus from a millionth of `E*` to a million times `E*`, or none.
+fn random_materials(count: usize) -> impl Iterator<Item = AnyModel> {
+    let mut random = Random(7);
+    (0..count).map(move |index| {
+        let pair = random_bodies(&mut random);
+        let ratio = 10f64.powf(-6.0 + 12.0 * random.next());
+        strengthened(pair, if index % 5 == 0 { 0.0 } else { ratio * pair.modulus })
+    })
+}
+
+#[test]
+fn at_0_3_without_hardening_it_is_the_law_itself_bit_for_bit() {
+    let mut random = Random(3);
+    for _ in 0..40 {
+        let pair = Pair { poissons_ratio: 0.3, ..random_bodies(&mut random) };
+        let (plain, form) = (AnyModel { pair, ..model("brinell", "brinell") }, strengthened(pair, 0.0));
+        let unit = unit(&pair).indentation;
+        assert_eq!(plain.yield_point(), form.yield_point());
+        for largest in logarithmic(1e-3 * unit, 1e6 * unit, 60) {
+            let of = |model: &AnyModel| {
+                let radius = model.loading.contact_radius(&pair, largest);
+                let path = model.unloading_path(largest);
+                let middle = 0.5 * (path.lower + path.upper);
+                let on_path = pressed(model, largest);
+                let mut back = on_path;
+                advance(&mut back, model, middle - largest);
+                (
+                    [model.loading.segment(&pair, largest), path],
+                    [radius, back.contact_radius(model), model.loading.work(&pair, largest), back.force()],
+                    [model.loading.next_corner(&pair, largest), model.recovered_work(largest, middle)],
+                    model.loading.regime(&pair, largest),
+                )
+            };
+            assert_eq!(of(&plain), of(&form));
+        }
+    }
+}
+
+#[test]
+fn force_and_slope_are_continuous_at_every_knot_of_any_material() {
+    for model in random_materials(300) {
+        let all = corners(&model);
+        let expected = if model.pair.poissons_ratio == 0.3 { 8 } else { KNOTS.len() };
+        assert_eq!(all.len(), expected, "{model:?}");
+        for border in all {
+            let below = model.loading.segment(&model.pair, border.next_down().next_down());
+            let above = model.loading.segment(&model.pair, border);
+            assert!(below.upper == border && above.lower == border, "{border} is no knot: {below:?} {above:?}");
+            let (left, right) = (below.force(border), above.force(border));
+            assert!((left - right).abs() < 2e-14 * right, "force at {border:e} of {model:?}: {left:e} {right:e}");
+            let (left, right) = (below.stiffness(border), above.stiffness(border));
+            assert!((left - right).abs() < 2e-13 * right, "slope at {border:e} of {model:?}: {left:e} {right:e}");
+        }
+    }
+}
+
+#[test]
+fn no_material_returns_more_energy_than_it_received_and_a_deeper_dent_costs_more() {
+    for model in random_materials(300) {
+        let pair = &model.pair;
+        let unit = model.yield_point().indentation;
+        let (mut dent, mut lost) = (0.0, 0.0);
+        for largest in logarithmic(0.5 * unit, 1e7 * unit, 200) {
+            let work = model.loading.work(pair, largest);
+            let path = model.unloading_path(largest);
+            let more = work - model.recovered_work(largest, largest);
+            assert!(more >= lost - 1e-13 * work, "at {largest:e} of {model:?}: {more:e} after {lost:e} of {work:e}");
+            assert!(path.lower >= dent, "at {largest:e} of {model:?}: the dent falls");
+            let hertz = pair.hertz_stiffness() * largest.powf(1.5);
+            assert!(force(&model, largest) <= hertz * (1.0 + 1e-14), "at {largest:e} of {model:?}");
+            for part in [0.01, 0.3, 0.7, 0.99] {
+                let way = path.lower + part * (path.upper - path.lower);
+                let (back, there) = (path.force(way), force(&model, way));
+                assert!(back <= there * (1.0 + 1e-12) && back >= 0.0, "from {largest:e} at {way:e} of {model:?}");
+            }
+            (dent, lost) = (path.lower, lost.max(more));
+        }
+    }
+}
+
+#[test]
+fn many_steps_end_at_the_same_force_as_one() {
+    for model in random_materials(100) {
+        let unit = model.yield_point().indentation;
+        for (from, to) in [(0.3, 40.0), (1.5, 3e3), (700.0, 650.0), (90.0, 20.0)] {
+            let mut whole = pressed(&model, from * unit);
+            advance(&mut whole, &model, (to - from) * unit);
+            for steps in [2, 7, 1000] {
+                let mut split = pressed(&model, from * unit);
+                for _ in 0..steps {
+                    advance(&mut split, &model, (to - from) * unit / f64::from(steps));
+                }
+                let pairs = [
+                    (whole.force(), split.force(), whole.force()),
+                    (whole.work(&model), split.work(&model), whole.work(&model)),
+                    (whole.contact_radius(&model), split.contact_radius(&model), whole.contact_radius(&model)),
+                ];
+                for (one, other, size) in pairs {
+                    assert!(
+                        (one - other).abs() <= 1e-13 * size,
+                        "{from} to {to} in {steps} of {model:?}: {one:e} {other:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn work_is_the_integral_of_the_force() {
+    for model in random_materials(60) {
+        let unit = model.yield_point().indentation;
+        for x in [1.3, 4.0, 33.0, 700.0, 5e4] {
+            let (low, high) = (x * unit, 1.001 * x * unit);
+            let work = |d: f64| model.loading.work(&model.pair, d);
+            let middle = force(&model, 0.5 * (low + high));
+            let simpson = (high - low) / 6.0 * (force(&model, low) + 4.0 * middle + force(&model, high));
+            let error = (work(high) - work(low)) / simpson - 1.0;
+            assert!(error.abs() < 1e-9, "at {x} of {model:?}: {error:e}");
+        }
+    }
+}
+
+/// The hardening enters as `H/E*` of the pair; with a soft impactor the same hardening has a larger effect.
+#[test]
+fn an_elastic_impactor_enters_through_the_effective_modulus() {
+    let rigid = on_steel(0.3, 0.02);
+    let pair = Pair { modulus: 0.5 * rigid.pair.modulus, ..rigid.pair };
+    let soft = strengthened(pair, 0.5 * 0.02 * 206e9);
+    for k in [1.5, 20.0, 300.0] {
+        let of = |model: &AnyModel| {
+            let point = model.yield_point();
+            force(model, k * point.indentation) / point.force
+        };
+        assert!((of(&rigid) / of(&soft) - 1.0).abs() < 1e-13, "at {k}");
+    }
+}
+
+#[test]
+fn hardening_and_a_higher_poissons_ratio_make_an_impact_harder_and_its_dent_shallower() {
+    let impact = Impact { mass: MASS, speed: 2.0 };
+    let mut before: Option<Prediction> = None;
+    let materials = [(0.2, 0.0), (0.3, 0.0), (0.4, 0.0), (0.4, 0.01), (0.4, 0.05), (0.4, 0.1)];
+    for (ratio, hardening) in materials {
+        // the same effective modulus: only the plastic law differs
+        let pair = Pair { poissons_ratio: ratio, ..mild() };
+        let prediction = predict(&strengthened(pair, hardening * 206e9), &impact).expect("an ordinary impact");
+        if let Some(before) = before {
+            assert!(prediction.restitution > before.restitution && prediction.max_force > before.max_force);
+            assert!(prediction.residual_indentation < before.residual_indentation);
+        }
+        before = Some(prediction);
+    }
+}
+
+/// An FMU names its laws, without the enums that the other tests use.
+#[test]
+fn the_loading_law_also_combines_with_another_unloading_law() {
+    let pair = Pair { poissons_ratio: 0.4, ..mild() };
+    let law = loading::Strengthened { law: loading::Brinell::REFERENCE, hardening_modulus: 5e9 };
+    let model = Model { pair, loading: law, unloading: unloading::ContactRadius, surface: Surface::Dented };
+    const { assert!(!unloading::ContactRadius::SQUARES, "its path has no quadratic term, and that of the loading has") };
+    let mut history = History::start(&model, 0.0).unwrap();
+    let unit = model.yield_point().indentation;
+    for x in [0.5, 3.0, 50.0, 40.0, 45.0, 300.0] {
+        history.advance(&model, x * unit - history.indentation()).unwrap();
+        let shown = Contact::<Model<loading::Strengthened, unloading::ContactRadius>>::force(&history, 0.0);
+        assert_eq!(shown, history.force(), "at {x}");
+    }
+}

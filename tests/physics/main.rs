@@ -1,0 +1,45 @@
+//! The physics: laws, paths, motion, friction and losses, as called from Rust. Each file is a topic.
+//!
+//! `cargo test --release --test physics law_suite` runs one of them.
+
+#[path = "../support/friction.rs"]
+mod friction;
+#[path = "../support/physics.rs"]
+mod physics;
+#[path = "../support/printed.rs"]
+mod printed;
+
+mod corners;
+mod damped_laws;
+mod dents;
+mod ends_of_laws;
+mod friction_contact;
+mod friction_growth;
+mod friction_impact;
+mod friction_measured;
+mod friction_plastic;
+mod friction_properties;
+mod friction_tables;
+mod guard;
+mod input_courses;
+mod law_brinell;
+mod law_brizmer;
+mod law_johnson;
+mod law_luding;
+mod law_strengthened;
+mod law_suite;
+mod law_table;
+mod losses;
+mod momentum;
+mod motion;
+mod motion_cuts;
+mod motion_events;
+mod motion_extremes;
+mod paths;
+mod predictions;
+mod properties;
+mod published_laws;
+mod published_laws_fitted;
+mod rate_motion;
+mod reference_impacts;
+mod reference_values;

@@ -1,0 +1,146 @@
+//! The impulse of a step: exact for any course of the rate, across every corner of the law.
+
+use crate::physics::{AnyModel, Random, all_models, mild, model, unit};
+use brinell::contact::momentum::impulse;
+use brinell::contact::path::Course;
+use brinell::contact::{History, Surface};
+
+/// The impulse from many small steps, each with Simpson's rule, and the final contact.
+fn slowly(history: &History, model: &AnyModel, course: &Course, step: f64, parts: u32) -> (f64, History) {
+    let mut contact = *history;
+    let origin = history.indentation();
+    let part = step / f64::from(parts);
+    let mut sum = 0.0;
+    let mut force = contact.force();
+    let to = |time: f64, contact: &mut History| {
+        let increment = origin + course.way(time) - contact.indentation();
+        contact.advance(model, increment).expect("within range");
+        contact.force()
+    };
+    for index in 0..parts {
+        let middle = to((f64::from(index) + 0.5) * part, &mut contact);
+        let end = to(f64::from(index + 1) * part, &mut contact);
+        sum += part / 6.0 * (force + 4.0 * middle + end);
+        force = end;
+    }
+    (sum, contact)
+}
+
+#[test]
+fn the_impulse_is_the_integral_of_the_force_for_every_law_and_course() {
+    let d_y = unit(&mild()).indentation;
+    let mut random = Random(7);
+    for (name, model) in all_models(mild()) {
+        for surface in [Surface::Dented, Surface::Fresh] {
+            let model = AnyModel { surface, ..model };
+            let mut history = History::start(&model, 3.0 * d_y).unwrap();
+            for case in 0..12 {
+                let step = 1e-6;
+                let mut size = || (random.next() - 0.45) * 10f64.powf(3.0 * random.next()) * d_y;
+                let (rate, slope, bend) = (size() / step, size() / step / step, size() / step / step / step);
+                let course = match case % 3 {
+                    0 => Course::held(rate),
+                    1 => Course { rate, slope, bend: 0.0 },
+                    _ => Course { rate, slope, bend },
+                };
+                let exact = impulse(&history, &model, &course, step).unwrap();
+                let (sum, end) = slowly(&history, &model, &course, step, 4000);
+                let scale = step * [history.force(), end.force(), sum / step].into_iter().fold(1e-3, f64::max);
+                assert!((exact - sum).abs() < 2e-4 * scale, "{name}, {case}: {exact:e} instead of {sum:e}");
+                history = end;
+            }
+        }
+    }
+}
+
+#[test]
+fn with_the_rate_held_the_impulse_times_the_rate_is_the_work() {
+    let model = model("big-alabo", "contact-radius");
+    let d_y = unit(&mild()).indentation;
+    for (from, to) in [(0.0, 0.7), (0.0, 3.0), (0.3, 50.0), (20.0, 300.0), (1.0, 1.0 + 1e-9), (50.0, 50.0 + 1e-12)] {
+        let history = History::start(&model, -from * d_y).unwrap();
+        let way = (to - from) * d_y;
+        let exact = impulse(&history, &model, &Course::held(way / 1e-5), 1e-5).unwrap();
+        let mut after = history;
+        after.advance(&model, way).unwrap();
+        let work = after.work(&model) - history.work(&model);
+        // over a short distance the difference of the works cancels, but the impulse does not
+        let rounding = 4.0 * f64::EPSILON * after.work(&model) / work + 1e-14;
+        let moved = (after.indentation() - history.indentation()) / 1e-5;
+        assert!((exact * moved / work - 1.0).abs() < rounding, "from {from} to {to}: {exact:e}, {:e}", work / moved);
+    }
+}
+
+#[test]
+fn the_impulse_of_a_polynomial_is_that_of_its_parts() {
+    let model = model("brinell", "brinell");
+    let d_y = unit(&mild()).indentation;
+    let step = 1e-5;
+    // in, out beyond the surface, and in again, deeper
+    let course =
+        Course { rate: 60.0 * d_y / step, slope: -300.0 * d_y / step / step, bend: 700.0 * d_y / step / step / step };
+    let start = History::start(&model, 2.0 * d_y).unwrap();
+    let whole = impulse(&start, &model, &course, step).unwrap();
+    let mut sum = 0.0;
+    let mut contact = start;
+    let parts = 64;
+    for index in 0..parts {
+        let time = f64::from(index) * step / f64::from(parts);
+        let part =
+            Course { rate: course.rate_after(time), slope: course.slope + course.bend * time, bend: course.bend };
+        let length = step / f64::from(parts);
+        sum += impulse(&contact, &model, &part, length).unwrap();
+        for end in part.monotone_ends(length) {
+            let goal = start.indentation() + course.way(time + end);
+            contact.advance(&model, goal - contact.indentation()).unwrap();
+        }
+    }
+    assert!((sum / whole - 1.0).abs() < 1e-11, "{whole:e} in one step, {sum:e} in {parts}");
+}
+
+#[test]
+fn the_monotone_parts_of_a_course_end_where_the_rate_changes_its_sign() {
+    let ends = |rate, slope, bend| Course { rate, slope, bend }.monotone_ends(1.0);
+    assert_eq!(ends(1.0, 0.0, 0.0), [1.0; 3]);
+    assert_eq!(ends(1.0, -2.0, 0.0), [0.5, 1.0, 1.0]);
+    assert_eq!(ends(1.0, -0.5, 0.0), [1.0; 3], "the zero is behind the step");
+    assert_eq!(ends(-1.0, 0.0, 8.0), [0.5, 1.0, 1.0]);
+    // (t - 1/4)(t - 3/4)
+    assert_eq!(ends(0.1875, -1.0, 2.0), [0.25, 0.75, 1.0]);
+    // (t - 1/2)^2 touches zero
+    assert_eq!(ends(0.25, -1.0, 2.0), [1.0; 3]);
+    assert_eq!(ends(0.0, 1.0, 0.0), [1.0; 3]);
+}
+
+#[test]
+fn derivatives_of_the_force_are_those_of_its_course() {
+    let d_y = unit(&mild()).indentation;
+    for (name, model) in all_models(mild()) {
+        // loading in each region, and half-way through unloading
+        for (depth, back) in [(0.6, 0.0), (3.7, 0.0), (31.0, 0.0), (150.0, 0.0), (31.0, 0.3), (150.0, 0.2)] {
+            let mut history = History::start(&model, -depth * d_y).unwrap();
+            let recovery = depth * d_y - model.unloading_path(depth * d_y).lower;
+            history.advance(&model, -back * recovery).unwrap();
+            let sign = if back > 0.0 { -1.0 } else { 1.0 };
+            // to the branch in the direction of motion
+            history.advance(&model, sign * 1e-9 * d_y).unwrap();
+            let (rate, slope) = (sign * 0.7, 3e4);
+            let course = Course { rate, slope, bend: 0.0 };
+            let time = 1e-4 * if back > 0.0 { recovery } else { depth * d_y };
+            let force = |time: f64| {
+                let mut moved = history;
+                moved.advance(&model, course.way(time)).unwrap();
+                moved.force()
+            };
+            let forces = [force(0.0), force(time), force(2.0 * time), force(3.0 * time)];
+            let first = (-11.0 * forces[0] + 18.0 * forces[1] - 9.0 * forces[2] + 2.0 * forces[3]) / (6.0 * time);
+            let second = (2.0 * forces[0] - 5.0 * forces[1] + 4.0 * forces[2] - forces[3]) / (time * time);
+            let (stiffness, curvature) = (history.stiffness(), history.curvature(&model));
+            let exact = [stiffness * rate, curvature * rate * rate + stiffness * slope];
+            let scale = first.abs() + 1e-3 * forces[0] / time;
+            assert!((exact[0] - first).abs() < 1e-6 * scale, "{name} at {depth}, {back}: {} for {first}", exact[0]);
+            let scale = second.abs() + 0.01 * forces[0] / (time * time) * 1e-4 + scale * 1e3;
+            assert!((exact[1] - second).abs() < 1e-2 * scale, "{name} at {depth}, {back}: {} for {second}", exact[1]);
+        }
+    }
+}

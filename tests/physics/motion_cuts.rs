@@ -1,0 +1,129 @@
+//! A contact that knows the mass reaches the same state, however the time is divided into steps.
+
+use crate::physics::{AnyModel, Random, all_models, pair_of};
+use brinell::contact::impact::{Impact, predict};
+use brinell::contact::motion::{Drive, follow};
+use brinell::contact::{History, Surface};
+
+/// A motion to be divided into steps.
+#[derive(Debug)]
+struct Case {
+    model: AnyModel,
+    drive: Drive,
+    gap: f64,
+    speed: f64,
+    time: f64,
+}
+
+/// Its final state.
+#[derive(Clone, Copy, Debug)]
+struct State {
+    speed: f64,
+    indentation: f64,
+    max_indentation: f64,
+    dissipated: f64,
+    force: f64,
+    taken: f64,
+    turns: u32,
+}
+
+/// A log-uniform number from `low` to `high`.
+fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
+    low * (high / low).powf(random.next())
+}
+
+/// A body that touches a fresh surface or an earlier dent is driven there or pulled away, and touches it up to five times.
+fn draw(random: &mut Random, models: &[(String, AnyModel)]) -> Option<Case> {
+    let (_, model) = &models[(random.next() * models.len() as f64) as usize];
+    let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
+    let modulus = log_uniform(random, 1e8, 1e12);
+    let pair = pair_of(log_uniform(random, 1e-4, 1.0), modulus, modulus / log_uniform(random, 50.0, 1000.0));
+    let model = AnyModel { pair, surface, ..*model };
+    let mass = log_uniform(random, 1e-9, 1e3);
+    let yields = pair.yield_point(1.1);
+    let yield_speed = (0.8 * yields.force * yields.indentation / mass).sqrt();
+    let speed = yield_speed * log_uniform(random, 0.05, 30.0);
+    let prediction = predict(&model, &Impact { mass, speed })?;
+    let sign = if random.next() < 0.5 { 1.0 } else { -1.0 };
+    // from negligible beside the contact to so strong that the bodies cannot separate
+    let contact = prediction.contact_time();
+    let acceleration = sign * speed / contact * log_uniform(random, 1e-6, 1e3);
+    let flights = if sign > 0.0 { 2.0 * speed / acceleration } else { 0.0 };
+    let time = contact * 2.0 * random.next() + flights * 4.0 * random.next().powi(3);
+    let gap = if random.next() < 0.5 { 0.0 } else { -prediction.max_indentation * (random.next() - 0.5) };
+    Some(Case { model, drive: Drive { mass, acceleration }, gap, speed, time })
+}
+
+/// The state after all of the steps.
+fn run(case: &Case, steps: &[f64]) -> State {
+    let Case { model, drive, .. } = case;
+    let mut history = History::start(model, case.gap).expect("within range");
+    let (mut speed, mut max_indentation, mut taken, mut turns) = (case.speed, 0.0, 0.0, 0);
+    for &step in steps {
+        let outcome = follow(&mut history, model, drive, speed, step)
+            .unwrap_or_else(|fault| panic!("{case:?} in {} steps: {fault:?}", steps.len()));
+        turns += u32::from(speed > 0.0 && outcome.speed <= 0.0);
+        speed = outcome.speed;
+        taken += outcome.taken;
+        max_indentation = outcome.deepest.max(max_indentation);
+    }
+    let dissipated = history.dissipated_energy(model);
+    State {
+        speed,
+        indentation: history.indentation(),
+        max_indentation,
+        dissipated,
+        force: history.force(),
+        taken,
+        turns,
+    }
+}
+
+/// `time` [s] in `count` steps, equal or of any length.
+fn cut(random: &mut Random, time: f64, count: usize) -> Vec<f64> {
+    if random.next() < 0.5 {
+        return vec![time / count as f64; count];
+    }
+    let parts: Vec<f64> = (0..count).map(|_| log_uniform(random, 1e-3, 1.0)).collect();
+    let sum: f64 = parts.iter().sum();
+    parts.iter().map(|part| time * part / sum).collect()
+}
+
+/// The difference of two states, relative to the initial energy or to that from the other forces.
+fn difference(case: &Case, one: &State, other: &State) -> f64 {
+    let Drive { mass, acceleration } = case.drive;
+    let start = History::start(&case.model, case.gap).unwrap();
+    let kinetic = |speed: f64| 0.5 * mass * speed * speed;
+    let work = mass * acceleration.abs() * (one.indentation.abs() + one.max_indentation);
+    let energy = [kinetic(case.speed) + start.elastic_energy(&case.model), kinetic(one.speed), work]
+        .into_iter()
+        .fold(0.0, f64::max);
+    let peak = History::start(&case.model, -one.max_indentation).unwrap().force();
+    let by_speed = (kinetic(one.speed) - kinetic(other.speed)).abs();
+    let by_way = (mass * acceleration.abs() + one.force) * (one.indentation - other.indentation).abs();
+    let by_depth = peak * (one.max_indentation - other.max_indentation).abs();
+    let by_loss = (one.dissipated - other.dissipated).abs();
+    let impulse = mass * (one.taken - other.taken).abs() / one.taken.max(case.speed) * case.speed * case.speed;
+    [by_speed, by_way, by_depth, by_loss, impulse].into_iter().fold(0.0, f64::max) / energy
+}
+
+#[test]
+fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies() {
+    let models = all_models(pair_of(0.005, 2e11, 1e9));
+    let mut random = Random(11);
+    let (mut cases, mut turns) = (0, [0; 6]);
+    while cases < 500 {
+        let Some(case) = draw(&mut random, &models) else { continue };
+        let whole = run(&case, &[case.time]);
+        let count = log_uniform(&mut random, 2.0, 1001.0) as usize;
+        let steps = cut(&mut random, case.time, count);
+        let parts = run(&case, &steps);
+        // the rounding errors of many impacts add up
+        let Some(seen) = turns.get_mut(parts.turns as usize) else { continue };
+        *seen += 1;
+        let off = difference(&case, &whole, &parts);
+        assert!(off < 1e-11, "{case:?} in {count} steps is off by {off:e}: {whole:?} in one, {parts:?}");
+        cases += 1;
+    }
+    assert!(turns.iter().all(|&seen| seen > 0), "cases by their impacts: {turns:?}");
+}

@@ -1,0 +1,119 @@
+//! Predictions: the root of the energy balance, and the cost to find it.
+
+use crate::physics::{AnyModel, MASS, logarithmic, mild, model, unit};
+use brinell::contact::history::Regime;
+use brinell::contact::impact::{Impact, predict};
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::material::YieldPoint;
+use brinell::contact::unloading::ContactRadius;
+use brinell::contact::{Loading, Model, Pair, Segment, Surface};
+use std::cell::Cell;
+
+/// A law that counts the evaluations of its work.
+struct Counting<'a> {
+    law: AnyLoading,
+    works: &'a Cell<u32>,
+}
+
+impl Loading for Counting<'_> {
+    fn yield_point(&self, pair: &Pair) -> YieldPoint {
+        self.law.yield_point(pair)
+    }
+
+    fn segment(&self, pair: &Pair, indentation: f64) -> Segment {
+        self.law.segment(pair, indentation)
+    }
+
+    fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.law.next_corner(pair, indentation)
+    }
+
+    fn work(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.works.set(self.works.get() + 1);
+        self.law.work(pair, indentation)
+    }
+
+    fn work_between(&self, pair: &Pair, low: f64, high: f64) -> Option<f64> {
+        // the time of the loading evaluates no work, so that only the root is counted
+        Some(self.law.work_between(pair, low, high).unwrap_or(0.0))
+    }
+
+    fn contact_radius(&self, pair: &Pair, indentation: f64) -> f64 {
+        self.law.contact_radius(pair, indentation)
+    }
+
+    fn regime(&self, pair: &Pair, indentation: f64) -> Regime {
+        self.law.regime(pair, indentation)
+    }
+}
+
+#[test]
+fn the_largest_indentation_is_the_first_whose_work_exceeds_the_energy() {
+    for (name, loading) in AnyLoading::ALL {
+        let model = AnyModel { loading, ..model("hertz", "contact-radius") };
+        for speed in logarithmic(1e-30, 1e12, 211) {
+            let Some(prediction) = predict(&model, &Impact { mass: MASS, speed }) else {
+                panic!("{name} at {speed:e} m/s: no prediction")
+            };
+            let deepest = prediction.max_indentation;
+            let work = |d: f64| loading.work(&model.pair, d);
+            assert!(work(deepest) > prediction.energy, "{name} at {speed:e} m/s: {deepest:e} m is not deep enough");
+            assert!(
+                work(deepest.next_down()) <= prediction.energy,
+                "{name} at {speed:e} m/s: {deepest:e} m is too deep"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_prediction_asks_for_the_work_a_few_times_only() {
+    let mut most = (0, "");
+    for (name, law) in AnyLoading::ALL {
+        for speed in logarithmic(1e-6, 1e6, 121) {
+            let works = Cell::new(0);
+            let loading = Counting { law, works: &works };
+            let model = Model { pair: mild(), loading, unloading: ContactRadius, surface: Surface::Dented };
+            predict(&model, &Impact { mass: MASS, speed }).expect("an impact within range");
+            most = most.max((works.get(), name));
+        }
+    }
+    // bisection would need 64 for the root alone; some of these are for the time of each smooth piece
+    assert!(most.0 <= 32, "{most:?}");
+}
+
+#[test]
+fn the_work_between_two_indentations_is_the_difference_of_their_works() {
+    let mut compared = 0;
+    for (name, law) in AnyLoading::ALL {
+        let pair = mild();
+        for x in logarithmic(3.0, 1e5, 40) {
+            for part in [1e-3, 0.1, 0.9] {
+                let high = x * unit(&pair).indentation;
+                let low = high * (1.0 - part);
+                // never called across a corner
+                let corner = law.next_corner(&pair, low);
+                let Some(between) = law.work_between(&pair, low, high).filter(|_| corner >= high) else { continue };
+                let difference = law.work(&pair, high) - law.work(&pair, low);
+                let rounding = 1e-13 * law.work(&pair, high);
+                assert!((between - difference).abs() <= rounding, "{name} at {x}: {between:e}, not {difference:e}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared >= 200, "{compared}: two laws have integrals");
+}
+
+#[test]
+fn times_are_right_to_rounding_though_the_kinetic_energy_vanishes_at_the_turning_point() {
+    // Hertz's impact lasts (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10) d_m/v; the loading is half of it (mpmath, 30 digits)
+    let hertz = model("hertz", "contact-radius");
+    for speed in logarithmic(1e-6, 1e2, 9) {
+        let prediction = predict(&hertz, &Impact { mass: MASS, speed }).unwrap();
+        let half = 0.5 * 2.943_275_184_324_704_7 * prediction.max_indentation / speed;
+        for (name, time) in [("loading", prediction.loading_time), ("unloading", prediction.unloading_time)] {
+            let error = time / half - 1.0;
+            assert!(error.abs() < 1e-14, "{name} at {speed} m/s is off by {error:e}");
+        }
+    }
+}
