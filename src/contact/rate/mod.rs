@@ -23,7 +23,7 @@ use libm::{fabs, log, pow};
 pub const TABOR: f64 = 0.2;
 
 /// The initial strain of the search.
-const FIRST_STRAIN: f64 = 0.05;
+pub const FIRST_STRAIN: f64 = 0.05;
 
 /// Relative tolerance of the fixed point for factor and strain.
 const CLOSE: f64 = 1e-12;
