@@ -31,6 +31,15 @@ const CLOSE: f64 = 1e-12;
 /// Largest number of iterations.
 pub const STEPS: u32 = 200;
 
+/// Larger than the factor of any impact, but small enough that no strength overflows.
+const STRONGEST: f64 = 1e200;
+
+/// Whether a contact may have this strength, relative to the quasi-static one.
+fn is_factor(factor: f64) -> bool {
+    // a NaN is in no range
+    (1.0..=STRONGEST).contains(&factor)
+}
+
 /// Models of the flow stress over the strain rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rate {

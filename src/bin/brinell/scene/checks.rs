@@ -83,6 +83,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
             outputs.push(name.into());
         }
     }
+    let factors = vec![1.0; groups.len()];
     let mut scene = Scene {
         name,
         description,
@@ -98,6 +99,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         power_law: contacts.power_law,
         rate: contacts.rate,
         quasi_static: Vec::new(),
+        factors,
         coupling,
         friction,
         impact,

@@ -159,20 +159,33 @@ impl Scene {
         let impact = |group: usize| given.copied().unwrap_or_else(|| self.impact_of(group));
         let found = self.by_bodies(|group| self.in_impact(group, &impact(group)));
         let found: Vec<InImpact> = found.into_iter().collect::<Option<_>>()?;
-        let set = |parameters: &mut [super::Parameter], found: &InImpact| {
+        let finds = self.finds_strength();
+        let set = |parameters: &mut [super::Parameter], group: usize, found: &InImpact| {
+            let slow = hardening_of(self.quasi_static[group], found.line);
             for parameter in parameters {
                 match parameter.name {
+                    "target.yield_strength" if finds => parameter.value = slow.yield_strength,
+                    "target.hardening_modulus" if finds => parameter.value = slow.hardening_modulus,
                     "target.yield_strength" => parameter.value = found.yield_strength,
                     "target.hardening_modulus" => parameter.value = found.hardening_modulus,
                     _ => {}
                 }
             }
         };
-        set(&mut self.parameters, &found[0]);
-        for (group, found) in self.contacts.iter_mut().zip(&found) {
-            set(&mut group.own, found);
+        set(&mut self.parameters, 0, &found[0]);
+        for (group, contacts) in self.contacts.iter_mut().enumerate() {
+            set(&mut contacts.own, group, &found[group]);
+        }
+        if finds {
+            self.factors = found.iter().map(|found| found.factor).collect();
         }
         self.yield_strength = Some(found[0].yield_strength);
         Some(self)
+    }
+
+    /// Whether the unit finds the strength of its targets by itself, at the first touch of each impact: it knows the mass and
+    /// moves the bodies.
+    pub fn finds_strength(&self) -> bool {
+        self.rate.is_some() && self.coupling.is_some() && self.loss.is_none()
     }
 }
