@@ -80,6 +80,8 @@ pub enum Kind {
     MakesEnergy,
     /// Its laws dissipate less energy where the dent is deeper.
     LosesLess,
+    /// It finds the strength of each impact.
+    FindsStrength,
 }
 
 impl Variable {
