@@ -129,6 +129,8 @@ fn coupling(scene: &Scene) -> String {
     if let Some(coupling) = scene.coupling {
         let mass = if coupling.mass_input {
             "the input <code>effective_mass</code>"
+        } else if scene.damps_by_mass() {
+            "the parameter <code>effective_mass</code>"
         } else {
             "the parameter <code>effective_mass</code>, which may be set between steps"
         };

@@ -54,6 +54,9 @@ fn library_for(scene: &Scene) -> Result<Library, NeedsCompiler> {
                       strength for all";
         return Err(needs("target.rate", reason));
     }
+    if let (Some((name, _)), Some(_)) = (scene.damped, scene.coupling) {
+        return Err(needs("[coupling]", format!("prebuilt libraries with {name} don't move the bodies")));
+    }
     let laws = laws_of(scene)?;
     let library = Library::for_scene(laws, scene).expect("some kind has all outputs");
     let (published, kind) = (&library.scene, "the prebuilt library has the constants of the reference");
