@@ -86,6 +86,44 @@ fn a_dropped_ball_comes_to_rest_with_each_loss() {
     }
 }
 
+/// A ball that the FMU moves, on a target with this strain rate.
+fn with_rate(name: &str, target: &str, law: &str, more: &str) -> PathBuf {
+    let text = format!(
+        r#"
+name = "{name}"
+impactor = {{ radius = 5e-3 }}
+law = {{ loading = "{law}" }}
+impact = {{ mass = 4.11e-3, speed = 2.0 }}
+[target]
+material = "mild steel"
+{target}
+[fmu]
+outputs = ["max_indentation", "residual_indentation", "dissipated_energy", "closing_speed", "predicted_force"]
+[coupling]
+effective_mass = 4.11e-3
+{more}
+"#
+    );
+    write_scene(name, &text)
+}
+
+#[test]
+fn a_unit_that_knows_the_mass_finds_the_strength_of_each_impact() {
+    let johnson_cook = "rate = { model = \"johnson-cook\", c = 0.014, reference_rate = 1.0 }";
+    let cowper_symonds = "rate = { model = \"cowper-symonds\", d = 40.4, q = 5 }";
+    let inputs = "master = \"parallel\"\ninputs = [\"external_acceleration\", \"effective_mass\"]";
+    let two = "[[contact]]\nname = \"hard\"\ntarget = { yield_strength = 900e6 }\n[[contact]]\nname = \"soft\"\n";
+    let units = [
+        with_rate("parallel", cowper_symonds, "brinell", inputs),
+        with_rate("fresh", &format!("{cowper_symonds}\nhardening_modulus = 2e9\nsurface = \"fresh\""), "brinell", ""),
+        with_rate("two", johnson_cook, "big-alabo", two),
+    ];
+    pytest("test_strength_of_each_impact.py", &units);
+    for file in ["test_initial_values.py", "test_state_is_restored.py"] {
+        pytest(file, &units[..2]);
+    }
+}
+
 #[test]
 fn values_before_the_first_step_are_those_of_the_model_description() {
     pytest("test_initial_values.py", &plain_scenes());

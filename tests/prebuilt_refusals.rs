@@ -44,6 +44,15 @@ fn a_scene_that_needs_a_compiler_is_rejected_with_the_key_that_needs_it() {
         (law("loading_parameters = { fully_plastic = 80.0 }"), "law.loading_parameters: "),
         (law("unloading = \"contact-radius\"\npassivity_guard = true"), "law.passivity_guard: "),
         (scene("big-alabo", &[], "[friction]\ncoefficient = 0.3\n"), "[friction]: prebuilt libraries have no friction"),
+        (
+            scene(
+                "big-alabo",
+                &[],
+                "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n\
+                 rate = { model = \"cowper-symonds\", d = 40.4, q = 5 }\n[coupling]\neffective_mass = 4e-3\n",
+            ),
+            "target.rate: with [coupling] the strength is found at the first touch of each impact",
+        ),
         (law("elastic_restitution = 0.98"), "law.elastic_restitution: prebuilt libraries have no losses"),
         (
             scene("hunt-crossley/exact", &[], "[[contact]]\nname = \"a\"\n[[contact]]\nname = \"b\"\n"),

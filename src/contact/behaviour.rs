@@ -23,6 +23,9 @@ pub trait Contact<M>: Copy {
     /// Whether the contact has friction. The tangential rate is then a second input, which the contact itself keeps.
     const HAS_FRICTION: bool = false;
 
+    /// Whether the contact finds its strength at the first touch of each impact.
+    const FINDS_STRENGTH: bool = false;
+
     /// The part of the model that is worth caching while the bodies stay the same, because steps that leave their branch need
     /// it.
     type Kept: Copy + Default;
@@ -142,6 +145,10 @@ pub trait Contact<M>: Copy {
     /// The contact as it would be at another `indentation` \[m\] on its [smooth piece](Contact::smooth_piece). It serves to
     /// differentiate the outputs.
     fn moved_to(&self, model: &M, indentation: f64) -> Self;
+
+    /// Prepares a contact that may be touched in a step at constant `rate` \[m/s\], by bodies of this effective `mass` \[kg\]. It
+    /// has no effect on contacts of constant strength.
+    fn meet(&mut self, _model: &M, _mass: f64, _rate: f64) {}
 
     /// The course of the tangential rate over the next step \[m/s\]; zero without friction.
     fn tangential_course(&self) -> Course {

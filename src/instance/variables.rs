@@ -198,6 +198,9 @@ impl<S: Scene> Instance<S> {
         let mut next = history;
         next.set_tangential_course(&Course::held(self.tangential_end_of(contact).rate));
         let step = self.last_step();
+        if S::Contact::FINDS_STRENGTH {
+            next.meet(model, self.mass(contact), rate);
+        }
         let moved =
             next.short_step(rate * step) || next.step_held(rate, step, &S::Contact::kept(model), || *model).is_ok();
         Some(if moved { next } else { history })

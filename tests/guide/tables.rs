@@ -75,6 +75,7 @@ fn kinds() -> String {
                 "mass-known" => "that knows the mass",
                 "makes-energy" => "whose laws make energy",
                 "loses-less" => "whose laws lose less in a deeper dent",
+                "finds-strength" => "that knows the mass, with `rate`",
                 other => panic!("what is the kind {other}?"),
             };
             table += &row(&[&name, kind, text(instead, "description")]);

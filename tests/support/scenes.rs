@@ -8,6 +8,7 @@
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::motion::{Follow, follow};
+use brinell::contact::rate::{self, Rate};
 use brinell::contact::tangential::{Friction, RoughContact, RoughModel};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, Contact, History, Model, Pair, Surface};
@@ -38,6 +39,8 @@ pub struct Choice {
     pub initial_gap: f64,
     /// Coefficient of friction.
     pub friction: f64,
+    /// The strength over the strain rate, of [`Rated`] contacts.
+    pub rate: Rate,
 }
 
 impl Choice {
@@ -57,6 +60,7 @@ impl Choice {
             effective_mass: 4.11e-3,
             initial_gap: 0.0,
             friction: 0.3,
+            rate: Rate::CowperSymonds { d: 40.4, q: 5.0 },
         }
     }
 }
@@ -91,6 +95,9 @@ pub struct Elastoplastic;
 /// The same, moved by its mass, with the coupling `C`.
 pub struct Massive<C = Coupled>(PhantomData<C>);
 
+/// The same, with the strength of each impact.
+pub struct Rated<C = Coupled>(PhantomData<C>);
+
 /// The same with friction.
 pub struct Rough;
 
@@ -122,6 +129,18 @@ impl<C: Coupling> Kind for Massive<C> {
     const FOLLOW: Option<Follow<History, Self::Model>> = Some(follow);
     fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
         elastoplastic(pair)
+    }
+}
+
+impl<C: Coupling> Kind for Rated<C> {
+    type Model = rate::Model<AnyLoading, AnyUnloading>;
+    type Contact = rate::History;
+    type Course = Present;
+    type Coupling = C;
+    type Watch = Absent;
+    const FOLLOW: Option<Follow<rate::History, Self::Model>> = Some(rate::follow);
+    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
+        rate::Model { slow: elastoplastic(pair), rate: chosen().rate }
     }
 }
 

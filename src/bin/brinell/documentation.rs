@@ -11,6 +11,7 @@ use crate::parameters::{self, Constant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
 use crate::scene::{Loss, Parameter, Scene};
+use crate::strength_text;
 use crate::table::{self, Causality};
 use brinell::contact::impact::Prediction;
 use std::collections::BTreeSet;
@@ -59,6 +60,7 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
     if let Some(loss) = scene.loss {
         writeln!(page, "<h3>Loss below yield</h3>\n<p>{}</p>", escape(&loss.words()))?;
     }
+    strength_text::section(page, scene)?;
     if scene.unloading.is_some() {
         writeln!(page, "<p>{}</p>", escape(&energy::words(scene)))?;
     }
@@ -127,6 +129,8 @@ fn coupling(scene: &Scene) -> String {
     if let Some(coupling) = scene.coupling {
         let mass = if coupling.mass_input {
             "the input <code>effective_mass</code>"
+        } else if scene.damps_by_mass() {
+            "the parameter <code>effective_mass</code>"
         } else {
             "the parameter <code>effective_mass</code>, which may be set between steps"
         };

@@ -140,9 +140,10 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     entries
 }
 
-/// Whether the parameter `name` can also be set between steps: the mass of bodies that the FMU moves.
+/// Whether the parameter `name` can also be set between steps: the mass of bodies that the FMU moves, if the damping of its law
+/// doesn't follow from it.
 pub fn is_tunable(scene: &Scene, name: &str) -> bool {
-    name == "effective_mass" && scene.coupling.is_some()
+    name == "effective_mass" && scene.coupling.is_some() && !scene.damps_by_mass()
 }
 
 /// The start value of the input `variable` for the contacts of `group`.

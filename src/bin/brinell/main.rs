@@ -52,6 +52,7 @@ mod report;
 mod scene;
 mod signature;
 mod ssp;
+mod strength_text;
 mod summary;
 mod symbols;
 mod table;

@@ -81,6 +81,7 @@ fn kinds(scene: &Scene, energy: Energy) -> Vec<Kind> {
         (Kind::DentsAboveSurface, energy::dents_above_surface(scene, energy)),
         (Kind::MakesEnergy, matches!(energy, Energy::MayBeMade { .. })),
         (Kind::LosesLess, energy == Energy::Guarded),
+        (Kind::FindsStrength, scene.finds_strength()),
     ];
     kinds.into_iter().filter_map(|(kind, is)| is.then_some(kind)).collect()
 }

@@ -82,6 +82,8 @@ pub enum Kind {
     DentsAboveSurface,
     /// Its laws dissipate less energy where the dent is deeper.
     LosesLess,
+    /// It finds the strength of each impact.
+    FindsStrength,
 }
 
 impl Variable {

@@ -8,7 +8,7 @@
 pub mod history;
 pub mod impact;
 
-pub use history::History;
+pub use history::{History, follow};
 
 // for every law in modelDescription/laws.toml: `pub mod tsuji; pub use tsuji::Tsuji;` and so on; see build/laws.rs
 include!(concat!(env!("OUT_DIR"), "/damped_laws.rs"));

@@ -1,9 +1,10 @@
 //! A contact whose strength depends on the impact as a [`Contact`].
 
-use super::{History, Model};
+use super::{History, Model, is_factor};
 use crate::contact;
 use crate::contact::behaviour::Contact;
 use crate::contact::history::{self, Regime, TooDeep};
+use crate::contact::impact::Impact;
 use crate::contact::loading::Loading;
 use crate::contact::path::Course;
 use crate::contact::unloading::Unloading;
@@ -17,6 +18,8 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
     const FOLLOWS_RATE: bool = false;
     const DERIVATIVES: i32 = <history::History as Contact<Plastic<L, U>>>::DERIVATIVES;
     const WORDS: usize = <history::History as Contact<Plastic<L, U>>>::WORDS + 3;
+
+    const FINDS_STRENGTH: bool = true;
 
     /// Nothing: the motion finds what it needs.
     type Kept = ();
@@ -114,6 +117,10 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
         History { plastic: self.plastic.moved_to(&model.at(self.factor), indentation), ..*self }
     }
 
+    fn meet(&mut self, model: &Model<L, U>, mass: f64, rate: f64) {
+        History::meet(self, model, &Impact { mass, speed: rate });
+    }
+
     /// That of the target under a slow load, which is the smaller one.
     fn valid_depth(model: &Model<L, U>) -> f64 {
         model.slow.valid_depth()
@@ -131,7 +138,6 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
     fn load(words: &mut impl Iterator<Item = u64>, model: &Model<L, U>) -> Option<History> {
         let plastic = <history::History as Contact<Plastic<L, U>>>::load(words, &model.slow)?;
         let [factor, speed, mass] = load_numbers(words)?;
-        let is_strength = factor >= 1.0;
-        is_strength.then_some(History { plastic, factor, speed, mass })
+        is_factor(factor).then_some(History { plastic, factor, speed, mass })
     }
 }

@@ -1,16 +1,19 @@
 //! The motion of bodies of known mass: each first touch of a surface without a dent finds its strength.
 
-use super::{History, Model};
-use crate::contact::history::TooDeep;
+use super::{History, Model, is_factor};
+use crate::contact::history::{Regime, TooDeep};
 use crate::contact::impact::Impact;
 use crate::contact::loading::Loading;
-use crate::contact::motion::{Drive, NoMotion, Outcome, follow_to_touch};
+use crate::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follow_to_touch};
 use crate::contact::numbers::largest;
 use crate::contact::unloading::Unloading;
 use libm::fabs;
 
-/// Largest number of impacts of different speeds in a step. Each takes some ten predictions.
+/// Largest number of impacts of different speeds in a step.
 const MOST_IMPACTS: u32 = 1000;
+
+/// The number of evaluations that a prediction of an impact counts for.
+const PREDICTION: u32 = 200;
 
 /// Speeds that differ by less, as a fraction, have the same strength: an elastic rebound returns with its speed but for
 /// rounding.
@@ -42,29 +45,49 @@ pub fn follow<L: Loading + Copy, U: Unloading + Copy>(
         whole.evaluations = whole.evaluations.saturating_add(outcome.evaluations);
         whole.deepest = largest(whole.deepest, outcome.deepest);
         let Some(rest) = rest else { return Ok(whole) };
-        history.strengthen(model, &Impact { mass: drive.mass, speed: whole.speed })?;
+        let predictions = history.strengthen(model, &Impact { mass: drive.mass, speed: whole.speed })?;
+        whole.evaluations = whole.evaluations.saturating_add(PREDICTION * predictions);
+        if whole.evaluations > MOST_EVALUATIONS {
+            break;
+        }
         left = rest;
     }
     Err(NoMotion::TooLong)
 }
 
 impl History {
-    /// Finds the strength of an `impact` that begins now, on a surface without a dent.
+    /// Finds the strength of an `impact` that may begin within the next step, if the bodies are apart and the surface has no
+    /// dent. Where there is none, the strength does not change.
+    pub(super) fn meet<L: Loading + Copy, U: Unloading + Copy>(&mut self, model: &Model<L, U>, impact: &Impact) {
+        let is_apart = self.plastic.regime() == Regime::Apart && impact.speed > 0.0;
+        if is_apart && model.at(self.factor).is_elastic_at(self.plastic.max_indentation()) {
+            let before = *self;
+            if self.strengthen(model, impact).is_err() {
+                *self = before;
+            }
+        }
+    }
+
+    /// Finds the strength of an `impact` that begins now, on a surface without a dent. Returns the number of predictions.
     fn strengthen<L: Loading + Copy, U: Unloading + Copy>(
         &mut self,
         model: &Model<L, U>,
         impact: &Impact,
-    ) -> Result<(), TooDeep> {
+    ) -> Result<u32, TooDeep> {
         let energy = 0.5 * impact.mass * impact.speed * impact.speed;
-        self.factor = match model.in_impact(impact) {
-            Some(found) => found.factor,
+        let (factor, predictions) = match model.in_impact(impact) {
+            Some(found) => (found.factor, found.steps),
             // an energy without its full precision: the impact is slower than any reference rate
-            None if energy < f64::MIN_POSITIVE => 1.0,
+            None if energy < f64::MIN_POSITIVE => (1.0, 1),
             None => return Err(TooDeep { indentation: f64::INFINITY }),
         };
+        if !is_factor(factor) {
+            return Err(TooDeep { indentation: f64::INFINITY });
+        }
+        self.factor = factor;
         (self.speed, self.mass) = (impact.speed, impact.mass);
         // what another strength took elastically may be beyond the yield point of this one
         self.plastic.forget_elastic();
-        Ok(())
+        Ok(predictions)
     }
 }

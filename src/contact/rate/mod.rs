@@ -23,13 +23,22 @@ use libm::{fabs, log, pow};
 pub const TABOR: f64 = 0.2;
 
 /// The initial strain of the search.
-const FIRST_STRAIN: f64 = 0.05;
+pub const FIRST_STRAIN: f64 = 0.05;
 
 /// Relative tolerance of the fixed point for factor and strain.
 const CLOSE: f64 = 1e-12;
 
 /// Largest number of iterations.
 pub const STEPS: u32 = 200;
+
+/// Larger than the factor of any impact, but small enough that no strength overflows.
+const STRONGEST: f64 = 1e200;
+
+/// Whether a contact may have this strength, relative to the quasi-static one.
+fn is_factor(factor: f64) -> bool {
+    // a NaN is in no range
+    (1.0..=STRONGEST).contains(&factor)
+}
 
 /// Models of the flow stress over the strain rate.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -27,6 +27,7 @@ pub fn write(plan: &Plan, guid: &str) -> String {
     parameters::add_settable(&mut file, scene, entries);
     parameters::add_parameters(&mut file, scene);
     add_laws(&mut file, scene);
+    model::add_rate(&mut file, scene);
     model::add_model(&mut file, scene);
     groups::add_density(&mut file, scene);
     if scene.watches {
@@ -68,7 +69,7 @@ impl File {
         let guard = match plan.guard.as_ref().map(|guard| format!("the passivity guard {}", guard.words())) {
             Some(words) => format!(
                 "\n    const GUARD: Option<Guard<Self>> =\n        Some(Guard {{ words: {words:?}, acts: {}::History::is_held_back }});\n",
-                if scene.loss.is_some() { "losses" } else { "contact" }
+                history_module(scene)
             ),
             None => String::new(),
         };
@@ -145,11 +146,18 @@ fn uses(text: &str) -> String {
     };
     let mut contact = vec!["self", "Pair"];
     contact.extend(named(&["Surface", "damped", "loading", "losses"]));
+    contact.extend(named(&["rate::"]).iter().map(|_| "rate"));
     contact.extend(named(&["tangential::"]).iter().map(|_| "tangential"));
     contact.extend(named(&["unloading"]));
     let follow = match text.contains("Some(follow)") {
         true if text.contains("losses::") => {
             "use crate::contact::losses::follow;\nuse crate::contact::motion::Follow;\n"
+        }
+        true if text.contains("damped::") => {
+            "use crate::contact::damped::follow;\nuse crate::contact::motion::Follow;\n"
+        }
+        true if text.contains("rate::") => {
+            "use crate::contact::motion::Follow;\nuse crate::contact::rate::follow;\n"
         }
         true => "use crate::contact::motion::{Follow, follow};\n",
         false => "",
@@ -215,8 +223,20 @@ fn add_laws(file: &mut File, scene: &Scene) {
             let model = format!("losses::Model<{loading}, {unloading}, losses::{kind}>");
             (model, format!("losses::History<losses::{kind}>"))
         }
-        (false, None) => (format!("contact::{model}"), "contact::History".into()),
+        (false, None) => {
+            let module = history_module(scene);
+            (format!("{module}::{model}"), format!("{module}::History"))
+        }
     };
+}
+
+/// The module of the library with the history of an elastoplastic contact of `scene`.
+fn history_module(scene: &Scene) -> &'static str {
+    match scene.loss {
+        Some(_) => "losses",
+        None if scene.finds_strength() => "rate",
+        None => "contact",
+    }
 }
 
 /// The Rust expression of a law: the Debug form of the enum that holds it, without the enum.

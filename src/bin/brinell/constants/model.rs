@@ -1,7 +1,7 @@
 //! The model of a contact, as an expression.
 
 use super::{File, groups, literal};
-use crate::scene::{Loss, Scene};
+use crate::scene::{Loss, Rate, Scene};
 
 /// Number of segments in which the springs of a contact with friction remember its past.
 pub const MEMORY: usize = 12;
@@ -78,9 +78,29 @@ pub fn add_model(file: &mut File, scene: &Scene) {
     let model = match scene.loss {
         _ if scene.friction => with_friction(&plastic),
         Some(loss) => with_loss(loss, &plastic),
+        None if scene.finds_strength() => with_rate(&plastic),
         None => plastic,
     };
     file.add_method(&format!("model(pair: Pair, {group}: usize, {values}: &Self::Values) -> Self::Model"), &model);
+}
+
+/// The expression of a model whose strength depends on the impact, from that `slow` one.
+fn with_rate(slow: &str) -> String {
+    let (first, last) = slow.split_once(";\n").map_or((String::new(), slow), |(first, last)| (format!("{first};\n"), last));
+    format!("{first}let slow = {last};\nrate::Model {{ slow, rate: RATE }}")
+}
+
+/// Adds the model of the strain rate, if the unit finds the strength of each impact.
+pub fn add_rate(file: &mut File, scene: &Scene) {
+    let Some(rate) = scene.rate.filter(|_| scene.finds_strength()) else { return };
+    let (name, fields) = match rate {
+        Rate::JohnsonCook { c, reference_rate } => ("JohnsonCook", [("c", c), ("reference_rate", reference_rate)]),
+        Rate::CowperSymonds { d, q } => ("CowperSymonds", [("d", d), ("q", q)]),
+    };
+    let [one, other] = fields.map(|(field, value)| format!("{field}: {}", literal(value)));
+    file.add_item(&format!(
+        "/// The strength of the target over the strain rate.\nconst RATE: rate::Rate = rate::Rate::{name} {{ {one}, {other} }};\n"
+    ));
 }
 
 /// The expression of a model with friction, from that of its normal part.

@@ -49,6 +49,14 @@ fn library_for(scene: &Scene) -> Result<Library, NeedsCompiler> {
         let key = if loss.follows_rate() { "law.elastic_restitution" } else { "target.plate_thickness" };
         return Err(needs(key, "prebuilt libraries have no losses below yield"));
     }
+    if scene.finds_strength() {
+        let reason = "with [coupling] the strength is found at the first touch of each impact, and prebuilt libraries have one \
+                      strength for all";
+        return Err(needs("target.rate", reason));
+    }
+    if let (Some((name, _)), Some(_)) = (scene.damped, scene.coupling) {
+        return Err(needs("[coupling]", format!("prebuilt libraries with {name} don't move the bodies")));
+    }
     let laws = laws_of(scene)?;
     let library = Library::for_scene(laws, scene).expect("some kind has all outputs");
     let (published, kind) = (&library.scene, "the prebuilt library has the constants of the reference");

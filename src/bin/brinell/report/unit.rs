@@ -33,7 +33,8 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         let gap = parameters.iter().position(|parameter| parameter.name == "initial_gap").unwrap_or(parameters.len());
         parameters.insert(gap, Parameter::shared("effective_mass", value, true));
     }
-    Scene {
+    let has_own_strength = scene.contacts[0].own.iter().any(|own| own.name == "target.yield_strength");
+    let unit = Scene {
         name: scene.name.clone(),
         description: scene.description.clone(),
         parameters,
@@ -50,9 +51,10 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         loss: scene.loss,
         passivity_guard: scene.passivity_guard,
         yield_strength: scene.yield_strength,
-        power_law: scene.power_law,
+        power_law: scene.power_law.filter(|_| !has_own_strength),
         rate: scene.rate,
-        quasi_static: scene.quasi_static.clone(),
+        quasi_static: vec![scene.quasi_static[0]],
+        factors: vec![1.0],
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
         friction,
         impact: scene.impact_of(0),
@@ -62,7 +64,9 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         standalone: false,
         impact_is_assumed: scene.impact_is_assumed,
         text: scene.text.clone(),
-    }
+    };
+    // a unit with a mass finds the strength by itself, the others have it as a parameter
+    unit.with_strengths_for(None).expect("the scene has been predicted")
 }
 
 /// A contact in the hands of a co-simulation algorithm; it counts the calls.

@@ -14,7 +14,8 @@ impl Scene {
     pub fn pair_with(&self, group: usize, values: &[(&str, f64)]) -> Option<Pair> {
         let [impactor, target] = self.bodies_with(group, values);
         let other = values.iter().find(|(known, _)| *known == "target.yield_strength").map(|(_, value)| *value);
-        let strength = other.or_else(|| self.group_value(group, "target.yield_strength")).unwrap_or(f64::INFINITY);
+        let own = || self.group_value(group, "target.yield_strength").map(|strength| strength * self.factors[group]);
+        let strength = other.or_else(own).unwrap_or(f64::INFINITY);
         Pair::new(&impactor, &target, strength)
     }
 

@@ -46,7 +46,8 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         contacts.forget_strength();
     }
     let loss = losses::check(&file, &contacts, damped.map(|(name, _)| name))?;
-    let coupling = coupling::check(file.coupling.as_ref(), damped.map(|(name, _)| name))?;
+    let damps_by_mass = damped.filter(|(_, law)| law.needs_mass()).map(|(name, _)| name);
+    let coupling = coupling::check(file.coupling.as_ref(), damps_by_mass)?;
     let (coupling, known_mass) = coupling.unzip();
     let with_friction = friction::Given {
         damped: damped.map(|(name, _)| name),
@@ -83,6 +84,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
             outputs.push(name.into());
         }
     }
+    let factors = vec![1.0; groups.len()];
     let mut scene = Scene {
         name,
         description,
@@ -98,6 +100,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         power_law: contacts.power_law,
         rate: contacts.rate,
         quasi_static: Vec::new(),
+        factors,
         coupling,
         friction,
         impact,

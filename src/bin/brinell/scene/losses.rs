@@ -5,6 +5,7 @@ use super::file::{File, Target};
 use super::{Mistake, Scene};
 use crate::model::AnyModel;
 use crate::numbers::quantity;
+use brinell::contact::damped::Damped;
 use brinell::contact::Model;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::losses::{self, AnyLoss, Fitted, Plate, Waves};
@@ -144,6 +145,11 @@ impl Scene {
     /// Whether the force depends on the speed of the motion at all.
     pub fn is_rate_dependent(&self) -> bool {
         self.damped.is_some() || self.loss.is_some()
+    }
+
+    /// Whether the damping of its law follows from the mass.
+    pub fn damps_by_mass(&self) -> bool {
+        self.damped.is_some_and(|(_, law)| law.needs_mass())
     }
 
     /// The contact of `group` by an elastoplastic `model`, with the loss of the scene.

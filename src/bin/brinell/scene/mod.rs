@@ -61,6 +61,9 @@ pub struct Scene {
     pub rate: Option<Rate>,
     /// The hardening that the scene gives for each group; a power law or a rate puts another in its place.
     pub quasi_static: Vec<QuasiStatic>,
+    /// Factor on the strength of the targets of each group in the scene's impact, if the unit
+    /// [finds it](Scene::finds_strength); then it isn't part of the parameters.
+    pub factors: Vec<f64>,
     /// How the unit moves the bodies through a step by their mass, if it does.
     pub coupling: Option<Coupling>,
     /// Whether its contacts have friction.
@@ -270,9 +273,9 @@ impl Scene {
         guarded.unwrap_or(unloading)
     }
 
-    /// Hardening modulus of the target of `group` [Pa].
+    /// Hardening modulus of the target of `group` in the scene's impact [Pa].
     pub fn hardening_modulus(&self, group: usize) -> f64 {
-        self.group_value(group, "target.hardening_modulus").unwrap_or(0.0)
+        self.group_value(group, "target.hardening_modulus").unwrap_or(0.0) * self.factors[group]
     }
 
     /// Whether the FMU needs the form of its laws for targets that harden and for their Poisson's ratio: it has a hardening modulus,

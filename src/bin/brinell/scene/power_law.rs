@@ -2,16 +2,9 @@
 
 use super::Mistake;
 use super::file::PowerLawTable;
+use brinell::contact::rate::FIRST_STRAIN;
 use serde::Serialize;
 use toml::Spanned;
-
-/// Factor of Tabor's representative strain: strain over (contact radius over effective radius).
-///
-/// Reference: D. Tabor, *The Hardness of Metals*, Oxford 1951, chapter V.
-pub const TABOR: f64 = 0.2;
-
-/// The initial strain of the search.
-pub const FIRST_STRAIN: f64 = 0.05;
 
 /// The flow stress `sigma = K eps_p^n`.
 #[derive(Clone, Copy, Debug, PartialEq)]

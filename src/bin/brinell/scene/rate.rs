@@ -2,21 +2,18 @@
 
 use super::file::RateTable;
 use super::power_law::Linear;
-pub use super::power_law::TABOR;
 use super::{Mistake, Scene, checks};
 use crate::model::{AnyModel, strengthened};
 use crate::nearest::unknown;
 use brinell::contact::impact::{Impact, Prediction};
-pub use brinell::contact::rate::{Rate, STEPS};
+use brinell::contact::rate;
+pub use brinell::contact::rate::{Rate, STEPS, TABOR};
 use brinell::contact::{Model, Pair};
 use serde::Serialize;
 use toml::Spanned;
 
 /// The names of the models in scenes.
 const MODELS: [&str; 2] = ["johnson-cook", "cowper-symonds"];
-
-/// Relative tolerance of the fixed point for factor and strain.
-const CLOSE: f64 = 1e-12;
 
 /// The rate model of a scene.
 pub fn check(table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
@@ -108,19 +105,12 @@ impl Scene {
     ) -> Option<InImpact> {
         let own = |group: usize| self.contacts[group].own.iter().any(|own| own.name == "target.yield_strength");
         let line = |strain: f64| self.power_law.filter(|_| !own(group)).map(|law| law.up_to(strain));
-        let (mut strain, mut factor, mut strain_rate) = (super::power_law::FIRST_STRAIN, 1.0, 0.0);
-        for _ in 0..STEPS {
-            let prediction = self.with_strength(group, hardening_of(given, line(strain)), factor).predict(impact)?;
-            let radius = self.pair_of(group)?.radius;
-            let next = TABOR * prediction.max_contact_radius / radius;
-            strain_rate = next / prediction.loading_time;
-            let more = rate.map_or(1.0, |rate| rate.factor(strain_rate));
-            let change = (next / strain - 1.0).abs().max((more / factor - 1.0).abs());
-            (strain, factor) = (next, more);
-            if change < CLOSE {
-                break;
-            }
-        }
+        let predict = |strain: f64, factor: f64| {
+            self.with_strength(group, hardening_of(given, line(strain)), factor).predict(impact)
+        };
+        let radius = self.pair_of(group)?.radius;
+        let found = rate::in_impact(rate.as_ref(), radius, predict)?;
+        let rate::InImpact { strain, strain_rate, factor, .. } = found;
         let QuasiStatic { yield_strength, hardening_modulus } = hardening_of(given, line(strain));
         Some(InImpact {
             yield_strength: factor * yield_strength,
@@ -169,20 +159,33 @@ impl Scene {
         let impact = |group: usize| given.copied().unwrap_or_else(|| self.impact_of(group));
         let found = self.by_bodies(|group| self.in_impact(group, &impact(group)));
         let found: Vec<InImpact> = found.into_iter().collect::<Option<_>>()?;
-        let set = |parameters: &mut [super::Parameter], found: &InImpact| {
+        let finds = self.finds_strength();
+        let set = |parameters: &mut [super::Parameter], group: usize, found: &InImpact| {
+            let slow = hardening_of(self.quasi_static[group], found.line);
             for parameter in parameters {
                 match parameter.name {
+                    "target.yield_strength" if finds => parameter.value = slow.yield_strength,
+                    "target.hardening_modulus" if finds => parameter.value = slow.hardening_modulus,
                     "target.yield_strength" => parameter.value = found.yield_strength,
                     "target.hardening_modulus" => parameter.value = found.hardening_modulus,
                     _ => {}
                 }
             }
         };
-        set(&mut self.parameters, &found[0]);
-        for (group, found) in self.contacts.iter_mut().zip(&found) {
-            set(&mut group.own, found);
+        set(&mut self.parameters, 0, &found[0]);
+        for (group, contacts) in self.contacts.iter_mut().enumerate() {
+            set(&mut contacts.own, group, &found[group]);
+        }
+        if finds {
+            self.factors = found.iter().map(|found| found.factor).collect();
         }
         self.yield_strength = Some(found[0].yield_strength);
         Some(self)
+    }
+
+    /// Whether the unit finds the strength of its targets by itself, at the first touch of each impact: it knows the mass and
+    /// moves the bodies.
+    pub fn finds_strength(&self) -> bool {
+        self.rate.is_some() && self.coupling.is_some() && self.loss.is_none()
     }
 }

@@ -3,6 +3,9 @@
 mod behaviour;
 mod energy;
 mod impulse;
+mod motion;
+
+pub use motion::follow;
 
 use super::{Damped, Factors, Model};
 use crate::contact::behaviour::is_finite_at;

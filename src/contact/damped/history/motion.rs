@@ -1,0 +1,263 @@
+//! The motion of bodies of known mass under a rate-dependent law.
+//!
+//! From touch to separation, a pair of Runge-Kutta methods follows the motion; between contacts it is a parabola. The heat is
+//! what the energy balance of the step leaves, so that the balance is exact whatever the errors of the integration are.
+
+use super::{Damped, History, Sum, within};
+use crate::contact::damped::Model;
+use crate::contact::damped::impact::{ERROR, STAGES};
+use crate::contact::history::TooDeep;
+use crate::contact::motion::flight::Flight;
+use crate::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome};
+use crate::contact::numbers::{largest, quotient};
+use libm::{fabs, pow, sqrt};
+
+/// Largest error of a step of the integration, relative to the largest indentation and speed of the contact.
+const TOLERANCE: f64 = 1e-12;
+
+/// Smaller errors count as this one.
+const LEAST: f64 = 1e-30;
+
+/// The part of the contact's depth that a step may cover: no change of the force is passed over.
+const STRIDE: f64 = 0.25;
+
+/// Distance from the balance of forces, relative to the indentation, at which bodies count as at rest.
+const REST: f64 = 1e-9;
+
+/// Largest number of contacts and flights in a step.
+const MOST_EVENTS: u32 = MOST_EVALUATIONS / 10;
+
+/// Bisections that find an event in a step to its last digit.
+const HALVINGS: u32 = 60;
+
+/// Indentation \[m\] and closing speed \[m/s\].
+#[derive(Clone, Copy, Debug)]
+struct State {
+    depth: f64,
+    speed: f64,
+}
+
+/// The bodies during a step.
+struct Bodies<D> {
+    contact: History<D>,
+    inverse_mass: f64,
+    acceleration: f64,
+    state: State,
+    /// The largest indentation and speed of the present contact \[m, m/s\].
+    scale: State,
+    /// Whether there was a contact.
+    pressed: bool,
+    /// Distance by which the bodies have come closer \[m\].
+    way: f64,
+    /// Closing speed removed by the contact force so far \[m/s\].
+    taken: f64,
+    /// Time left \[s\].
+    left: f64,
+    /// The largest indentation so far of contacts that have ended \[m\].
+    deepest: f64,
+    evaluations: u32,
+}
+
+/// Moves the contact through `step` \[s\] > 0, with the closing speed `speed` \[m/s\] at the start.
+///
+/// # Errors
+/// [`NoMotion`]; the history is then unchanged.
+pub fn follow<D: Damped + Copy>(
+    history: &mut History<D>,
+    _model: &Model<D>,
+    drive: &Drive,
+    speed: f64,
+    step: f64,
+) -> Result<Outcome, NoMotion> {
+    let Drive { mass, acceleration } = *drive;
+    if let Some(&number) = [speed, step, acceleration].iter().find(|number| !number.is_finite()) {
+        return Err(TooDeep { indentation: number }.into());
+    }
+    let state = State { depth: history.indentation(), speed };
+    let mut bodies = Bodies {
+        contact: *history,
+        inverse_mass: 1.0 / mass,
+        acceleration,
+        state,
+        scale: State { depth: largest(state.depth, 0.0), speed: fabs(speed) },
+        pressed: false,
+        way: 0.0,
+        taken: 0.0,
+        left: step,
+        deepest: history.max_indentation(),
+        evaluations: 0,
+    };
+    let before = history.stored();
+    bodies.run()?;
+    let Bodies { contact: mut next, state: end, way, taken, evaluations, deepest, pressed, .. } = bodies;
+    // v0^2 - v1^2 without loss of digits
+    let spent = mass * (0.5 * (speed - end.speed) * (speed + end.speed) + acceleration * way);
+    // bodies that stay apart spend nothing; the difference would be rounding
+    let heat = if pressed { spent - (next.stored() - before) } else { 0.0 };
+    next.dissipated = next.dissipated.plus(heat);
+    let finite = next.stored() + next.dissipated.total() < f64::INFINITY && next.force(end.speed) < f64::INFINITY;
+    if !finite {
+        return Err(TooDeep { indentation: end.depth }.into());
+    }
+    *history = next;
+    let deepest = largest(deepest, next.max_indentation);
+    Ok(Outcome { speed: end.speed, taken: largest(taken, 0.0), evaluations, deepest })
+}
+
+impl<D: Damped + Copy> Bodies<D> {
+    fn run(&mut self) -> Result<(), NoMotion> {
+        for _ in 0..MOST_EVENTS {
+            if self.left <= 0.0 {
+                return Ok(());
+            }
+            let State { depth, speed } = self.state;
+            let closes = speed > 0.0 || (speed == 0.0 && self.acceleration > 0.0);
+            if depth < 0.0 || (depth == 0.0 && !closes) { self.fly()? } else { self.press()? }
+        }
+        Err(NoMotion::TooLong)
+    }
+
+    /// Puts the bodies into this state.
+    fn go_to(&mut self, state: State) -> Result<(), TooDeep> {
+        self.contact.indentation = Sum::new(within(state.depth)?);
+        self.contact.max_indentation = largest(self.contact.max_indentation, state.depth);
+        self.state = state;
+        Ok(())
+    }
+
+    /// Flight: until the bodies touch, or until the end of the step.
+    fn fly(&mut self) -> Result<(), TooDeep> {
+        let State { depth, speed } = self.state;
+        let flight = Flight { speed, acceleration: self.acceleration };
+        if let Some(arrival) = flight.arrival(-depth, self.left) {
+            self.left -= arrival.time;
+            self.way -= depth;
+            return self.go_to(State { depth: 0.0, speed: arrival.speed });
+        }
+        let (way, end) = (flight.way(self.left), flight.speed_after(self.left));
+        self.way += way;
+        self.left = 0.0;
+        let goal = depth + way;
+        // rounding must not turn a flight into a contact
+        self.go_to(State { depth: if goal > 0.0 { 0.0 } else { goal }, speed: end })
+    }
+
+    /// Contact: until the bodies separate, come to rest, or until the end of the step.
+    fn press(&mut self) -> Result<(), NoMotion> {
+        let State { depth, speed } = self.state;
+        if depth == 0.0 {
+            self.deepest = largest(self.deepest, self.contact.max_indentation);
+            self.contact.max_indentation = 0.0;
+            self.contact.touch_speed = if speed > 0.0 { speed } else { f64::INFINITY };
+            self.scale = State { depth: 0.0, speed };
+        } else if self.contact.touch_speed == f64::INFINITY && speed > 0.0 {
+            self.contact.touch_speed = speed;
+        }
+        self.pressed = true;
+        let mut guess = self.left;
+        while self.left > 0.0 {
+            let step = self.limited(guess);
+            self.evaluations += STAGES.len() as u32;
+            if self.evaluations > MOST_EVALUATIONS {
+                return Err(NoMotion::TooLong);
+            }
+            let (next, error) = self.stepped(step);
+            let factor = 0.9 * pow(TOLERANCE / largest(error, LEAST), 0.2);
+            // written positively to reject NaN
+            let accepted = error <= TOLERANCE;
+            if !accepted {
+                guess = step * if factor > 0.1 { factor } else { 0.1 };
+                if guess <= f64::MIN_POSITIVE {
+                    return Err(NoMotion::TooLong);
+                }
+                continue;
+            }
+            if self.state.speed > 0.0 && next.speed < 0.0 {
+                let (_, turning) = self.event(step, |state| state.speed <= 0.0);
+                self.contact.max_indentation = largest(self.contact.max_indentation, turning.depth);
+            }
+            if next.depth <= 0.0 && self.state.depth + next.depth < self.state.depth {
+                let (time, end) = self.event(step, |state| state.depth <= 0.0);
+                return Ok(self.pass(time, State { depth: 0.0, ..end })?);
+            }
+            self.pass(step, next)?;
+            if self.rests() {
+                self.taken += self.acceleration * self.left;
+                (self.state.speed, self.left) = (0.0, 0.0);
+                return Ok(());
+            }
+            guess = step * if factor < 5.0 { factor } else { 5.0 };
+        }
+        Ok(())
+    }
+
+    /// The time `guess` \[s\], but not beyond the end of the step, and not past a change of the force.
+    fn limited(&self, guess: f64) -> f64 {
+        let State { depth, speed } = self.scale;
+        let swift = speed + sqrt(depth * fabs(self.acceleration));
+        let longest = quotient(STRIDE * depth, swift, depth > 0.0 && swift > 0.0, f64::INFINITY);
+        let guess = if guess < longest { guess } else { longest };
+        if guess < self.left { guess } else { self.left }
+    }
+
+    /// Moves the bodies to `next`, `time` \[s\] later.
+    fn pass(&mut self, time: f64, next: State) -> Result<(), TooDeep> {
+        let State { depth, speed } = self.state;
+        self.left -= time;
+        self.way += next.depth - depth;
+        self.taken += self.acceleration * time - (next.speed - speed);
+        let scale = self.scale;
+        self.scale =
+            State { depth: largest(scale.depth, next.depth), speed: largest(scale.speed, fabs(next.speed)) };
+        self.go_to(next)
+    }
+
+    /// Acceleration of the bodies \[m/s^2\].
+    fn net(&self, state: &State) -> f64 {
+        let force = self.contact.sum_of_forces(largest(state.depth, 0.0), state.speed);
+        self.acceleration - largest(force, 0.0) * self.inverse_mass
+    }
+
+    /// The state after `step` \[s\], and its relative error.
+    fn stepped(&self, step: f64) -> (State, f64) {
+        let mut slopes = [State { depth: 0.0, speed: 0.0 }; 7];
+        let mut next = self.state;
+        for (stage, row) in STAGES.iter().enumerate() {
+            next = self.state;
+            for (weight, slope) in row.iter().zip(&slopes) {
+                next.depth += step * weight * slope.depth;
+                next.speed += step * weight * slope.speed;
+            }
+            if let Some(slope) = slopes.get_mut(stage) {
+                *slope = State { depth: next.speed, speed: self.net(&next) };
+            }
+        }
+        let mut error = State { depth: 0.0, speed: 0.0 };
+        for (weight, slope) in ERROR.iter().zip(&slopes) {
+            error.depth += step * weight * slope.depth;
+            error.speed += step * weight * slope.speed;
+        }
+        let relative = |error: f64, size: f64| quotient(fabs(error), size, size > 0.0, 0.0);
+        let depth = relative(error.depth, largest(self.scale.depth, fabs(next.depth)));
+        let speed = relative(error.speed, largest(self.scale.speed, fabs(next.speed)));
+        (next, largest(depth, speed))
+    }
+
+    /// The time within `step` \[s\] at which `happens` becomes true, and the state then. It must be true at the end.
+    fn event(&self, step: f64, happens: impl Fn(&State) -> bool) -> (f64, State) {
+        let (mut low, mut high) = (0.0, step);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            *(if happens(&self.stepped(middle).0) { &mut high } else { &mut low }) = middle;
+        }
+        (high, self.stepped(high).0)
+    }
+
+    /// Whether the bodies have come to rest: forces in balance, and too slow to move noticeably.
+    fn rests(&self) -> bool {
+        let State { depth, speed } = self.state;
+        let scale = self.contact.stiffness(0.0) * self.inverse_mass;
+        let is_balanced = fabs(self.net(&self.state)) <= REST * scale * depth;
+        is_balanced && scale > 0.0 && speed * speed <= REST * REST * scale * depth * depth
+    }
+}
