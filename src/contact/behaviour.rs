@@ -20,8 +20,12 @@ pub trait Contact<M>: Copy {
     /// The number of words in a saved contact.
     const WORDS: usize;
 
-    /// Whether the contact has friction. The tangential rate is then a second input, which the contact itself keeps.
-    const HAS_FRICTION: bool = false;
+    /// The number of tangential directions, zero without friction. The tangential rates are inputs, which the contact itself
+    /// keeps.
+    const DIRECTIONS: usize = 0;
+
+    /// Whether the contact has friction.
+    const HAS_FRICTION: bool = Self::DIRECTIONS > 0;
 
     /// Whether the contact finds its strength at the first touch of each impact.
     const FINDS_STRENGTH: bool = false;
@@ -150,17 +154,17 @@ pub trait Contact<M>: Copy {
     /// has no effect on contacts of constant strength.
     fn meet(&mut self, _model: &M, _mass: f64, _rate: f64) {}
 
-    /// The course of the tangential rate over the next step \[m/s\]; zero without friction.
-    fn tangential_course(&self) -> Course {
+    /// The course of the tangential rate in this direction over the next step \[m/s\]; zero without friction.
+    fn tangential_course(&self, _direction: usize) -> Course {
         Course::held(0.0)
     }
 
-    /// Sets the course of the tangential rate. Its derivatives apply to the next step, its rate until it is set again. It has
+    /// Sets the course of the tangential rate in this direction. Its derivatives apply to the next step, its rate until it is set again. It has
     /// no effect without friction.
-    fn set_tangential_course(&mut self, _course: &Course) {}
+    fn set_tangential_course(&mut self, _direction: usize, _course: &Course) {}
 
-    /// The course on which the tangential rate ended the last step \[m/s\].
-    fn tangential_end(&self) -> Course {
+    /// The course on which the tangential rate in this direction ended the last step \[m/s\].
+    fn tangential_end(&self, _direction: usize) -> Course {
         Course::held(0.0)
     }
 
@@ -170,8 +174,14 @@ pub trait Contact<M>: Copy {
     }
 
     /// First and second time derivative of a quantity of the friction, for motions that continue on these courses along the
-    /// normal and in the tangential direction.
-    fn tangential_derivatives(&self, _model: &M, _quantity: Quantity, _courses: &[Course; 2]) -> (f64, f64) {
+    /// normal and in the tangential directions.
+    fn tangential_derivatives(
+        &self,
+        _model: &M,
+        _quantity: Quantity,
+        _normal: &Course,
+        _tangential: &[Course; 2],
+    ) -> (f64, f64) {
         (f64::NAN, f64::NAN)
     }
 

@@ -156,7 +156,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         Fault::InputOutOfRange { .. } if !(<S::Coupling as Coupling>::Mass::IS_PRESENT || S::Contact::HAS_FRICTION) => {
             ""
         }
-        Fault::InputOutOfRange { input, value } if S::Contact::HAS_FRICTION && input == Real::TangentialRate => {
+        Fault::InputOutOfRange { input, value } if S::Contact::HAS_FRICTION && input.tangential_rate().is_some() => {
             *numbers = [value, -FASTEST, FASTEST];
             "tangential_rate = ~ is out of range: allowed is ~ to ~ m/s, also within a step with input derivatives"
         }

@@ -23,10 +23,11 @@ impl<S: Scene> Instance<S> {
         }
         let (inputs, name) = match variable {
             _ if !S::Contact::HAS_FRICTION => ("indentation_rate", "a derivative of indentation_rate"),
-            Real::TangentialRate => ("", "a derivative of tangential_rate"),
+            _ if variable.tangential_rate().is_some() => ("", "a derivative of tangential_rate"),
             _ => ("indentation_rate and tangential_rate", "a derivative of indentation_rate"),
         };
-        if variable != Real::IndentationRate && !(S::Contact::HAS_FRICTION && variable == Real::TangentialRate) {
+        let is_tangential = S::has_input(variable) && variable.tangential_rate().is_some();
+        if variable != Real::IndentationRate && !is_tangential {
             return Err(Fault::NoDerivative { of: inputs });
         }
         check_order(order, Self::INPUT_ORDER)?;
@@ -37,8 +38,10 @@ impl<S: Scene> Instance<S> {
     pub fn set_input_derivative(&mut self, (variable, contact): (Real, usize), order: i32, value: f64) {
         if value != 0.0 || self.clock.curved {
             self.curve();
-            if S::Contact::HAS_FRICTION && variable == Real::TangentialRate {
-                return self.set_tangential_derivative(contact, order, value);
+            if S::Contact::HAS_FRICTION
+                && let Some(direction) = variable.tangential_rate()
+            {
+                return self.set_tangential_derivative(contact, direction, order, value);
             }
             if let Some(curve) = self.contacts.curves.as_mut().get_mut(contact) {
                 *(if order == 1 { &mut curve.slope } else { &mut curve.bend }) = value;
@@ -122,8 +125,9 @@ impl<S: Scene> Instance<S> {
         // for a function of the indentation with these derivatives
         let by_time = |(first, second): (f64, f64)| (first * rate, second * rate * rate + first * slope);
         if let (true, Some(quantity)) = (S::Contact::HAS_FRICTION, variable.quantity()) {
-            let courses = [Course { rate, slope, bend: 0.0 }, self.tangential_end_of(contact)];
-            return Some(history.tangential_derivatives(&model, quantity, &courses));
+            let normal = Course { rate, slope, bend: 0.0 };
+            let tangential = [0, 1].map(|direction| self.tangential_end_of(contact, direction));
+            return Some(history.tangential_derivatives(&model, quantity, &normal, &tangential));
         }
         let along: fn(&S::Contact, &S::Model, f64) -> f64 = match variable {
             Real::Force => return Some(by_time((stiffness, history.curvature(&model, rate)))),
@@ -134,7 +138,10 @@ impl<S: Scene> Instance<S> {
             }
             Real::Work => return Some(work),
             Real::Impulse => return Some((force, stiffness * rate)),
-            Real::MeanForce | Real::PredictedForce | Real::PredictedTangentialForce => return Some((0.0, 0.0)),
+            Real::MeanForce
+            | Real::PredictedForce
+            | Real::PredictedTangentialForce
+            | Real::SecondPredictedTangentialForce => return Some((0.0, 0.0)),
             // the force changes with the distance
             Real::ClosingSpeed if Self::MOVES => return Some((slope, -stiffness * rate / self.mass(contact))),
             Real::ResidualIndentation => |contact, model, _| contact.residual_indentation(model),
@@ -171,9 +178,10 @@ impl<S: Scene> Instance<S> {
         Self::check_known(input)?;
         let derivative = match (contact == by, input) {
             (true, Real::IndentationRate) => self.by_own_input(variable, contact).unwrap_or(f64::NAN),
-            (true, Real::TangentialRate) if S::Contact::HAS_FRICTION => {
-                self.by_tangential_rate(variable, contact).unwrap_or(f64::NAN)
-            }
+            (true, input) if S::Contact::HAS_FRICTION => match input.tangential_rate() {
+                Some(direction) => self.by_tangential_rate(variable, contact, direction).unwrap_or(f64::NAN),
+                None => 0.0,
+            },
             _ => 0.0,
         };
         if derivative.is_finite() { Ok(derivative) } else { Err(Fault::DerivativeNotFinite) }
@@ -196,9 +204,10 @@ impl<S: Scene> Instance<S> {
         if variable == Real::PredictedForce {
             return self.prediction_by_input(contact, &model, rate);
         }
-        if S::Contact::HAS_FRICTION && variable == Real::PredictedTangentialForce {
-            let tangential = self.tangential_end_of(contact).rate;
-            let force = |rate| self.tangential_prediction_at(contact, (rate, tangential));
+        if S::Contact::HAS_FRICTION
+            && let Some(of) = variable.predicted_direction()
+        {
+            let force = |rate| self.tangential_prediction_at(contact, of, rate, None);
             return if self.clock.curved { Some(0.0) } else { slope_at(rate, force) };
         }
         if Self::MOVES && variable == Real::ClosingSpeed && self.phase() == Phase::Initialization {
@@ -235,25 +244,38 @@ impl<S: Scene> Instance<S> {
         slope_at(rate, |rate| Some(self.predicted(contact, model, rate)?.force(rate)))
     }
 
-    /// The derivative of `variable` with respect to the tangential rate of its `contact`: of the predicted tangential force
-    /// \[N.s/m\], otherwise zero.
-    fn by_tangential_rate(&self, variable: Real, contact: usize) -> Option<f64> {
-        if variable != Real::PredictedTangentialForce || self.clock.curved {
+    /// The derivative of `variable` with respect to the tangential rate of its `contact` in this `direction`: of the predicted
+    /// tangential force \[N.s/m\], otherwise zero.
+    fn by_tangential_rate(&self, variable: Real, contact: usize, direction: usize) -> Option<f64> {
+        let Some(of) = variable.predicted_direction() else { return Some(0.0) };
+        if self.clock.curved {
             return Some(0.0);
         }
         let rate = *self.rates().get(contact)?;
-        let force = |tangential| self.tangential_prediction_at(contact, (rate, tangential));
-        slope_at(self.tangential_end_of(contact).rate, force)
+        let force = |changed| self.tangential_prediction_at(contact, of, rate, Some((direction, changed)));
+        slope_at(self.tangential_end_of(contact, direction).rate, force)
     }
 
-    /// The predicted tangential force \[N\] of `contact` at these rates along the normal and in the tangential direction
-    /// \[m/s\].
-    fn tangential_prediction_at(&self, contact: usize, (rate, tangential): (f64, f64)) -> Option<f64> {
+    /// The predicted tangential force \[N\] of `contact` in the direction `of`, at this rate along the normal and with the
+    /// tangential rate of one direction `changed` \[m/s\].
+    fn tangential_prediction_at(
+        &self,
+        contact: usize,
+        of: usize,
+        rate: f64,
+        changed: Option<(usize, f64)>,
+    ) -> Option<f64> {
         let (mut next, model) = (*self.histories().get(contact)?, self.model(contact));
-        next.set_tangential_course(&Course::held(tangential));
+        for direction in 0..S::Contact::DIRECTIONS {
+            let held = match changed {
+                Some((other, rate)) if other == direction => rate,
+                _ => self.tangential_end_of(contact, direction).rate,
+            };
+            next.set_tangential_course(direction, &Course::held(held));
+        }
         // where the law ends, the state does not change
         let _ = next.step_held(rate, self.last_step(), &S::Contact::kept(&model), || model);
-        Some(next.tangential(&model, Quantity::Force))
+        Some(next.tangential(&model, Quantity::Force(of)))
     }
 }
 

@@ -153,8 +153,10 @@ impl<S: Scene> Instance<S> {
                 return None;
             }
             let history = S::Contact::load(&mut words, &model)?;
-            if f64::abs(history.tangential_course().rate) > FASTEST {
-                return None;
+            for direction in 0..S::Contact::DIRECTIONS {
+                if f64::abs(history.tangential_course(direction).rate) > FASTEST {
+                    return None;
+                }
             }
             let curve = if S::Course::IS_PRESENT { Curve::load(&mut words)? } else { Curve::default() };
             let momentum = if S::Momentum::IS_PRESENT { Momentum::load(&mut words)? } else { Momentum::default() };

@@ -170,10 +170,12 @@ impl<S: Scene> Instance<S> {
             bodies.take(&pair);
             let end = S::end(group);
             for slot in histories.by_ref().take(end - first) {
-                let tangential = slot.tangential_course();
+                let before = *slot;
                 *slot = history;
                 // inputs survive
-                slot.set_tangential_course(&tangential);
+                for direction in 0..S::Contact::DIRECTIONS {
+                    slot.set_tangential_course(direction, &before.tangential_course(direction));
+                }
             }
             first = end;
         }

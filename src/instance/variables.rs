@@ -17,12 +17,12 @@ impl<S: Scene> Instance<S> {
             Real::IndentationRate if value.abs() > FASTEST => Err(Fault::RateOutOfRange { rate: value }),
             Real::IndentationRate => self.histories().get(contact).map_or(Ok(()), |history| check_rate(history, value)),
             Real::Parameter(index) => self.check_parameter(index, value),
-            Real::TangentialRate if S::Contact::HAS_FRICTION && !value.is_finite() => {
-                Err(Fault::NotFinite { name: "tangential_rate", value })
-            }
-            Real::TangentialRate if S::Contact::HAS_FRICTION => check_tangential_rate(value),
-            _ if S::has_input(variable) => check_input(variable, value),
-            _ => Err(Fault::NotSettable),
+            _ if !S::has_input(variable) => Err(Fault::NotSettable),
+            _ if S::Contact::HAS_FRICTION && variable.tangential_rate().is_some() => match value.is_finite() {
+                true => check_tangential_rate(value),
+                false => Err(Fault::NotFinite { name: "tangential_rate", value }),
+            },
+            _ => check_input(variable, value),
         }
     }
 
@@ -37,8 +37,10 @@ impl<S: Scene> Instance<S> {
     /// Sets a variable to a `value` that [`Instance::check_real`] has accepted. Returns true for a parameter, which takes
     /// effect when [`Instance::parameters_are_set`] is called.
     pub fn set_real(&mut self, (variable, contact): (Real, usize), value: f64) -> bool {
-        if S::Contact::HAS_FRICTION && variable == Real::TangentialRate {
-            self.set_tangential_rate(contact, value);
+        if S::Contact::HAS_FRICTION
+            && let Some(direction) = variable.tangential_rate()
+        {
+            self.set_tangential_rate(contact, direction, value);
             return false;
         }
         let slot = match variable {
@@ -160,17 +162,25 @@ impl<S: Scene> Instance<S> {
             },
             Real::ExternalAcceleration if S::has_input(variable) => self.acceleration(contact, f64::NAN),
             Real::EffectiveMass if S::has_input(variable) => self.mass(contact),
-            Real::TangentialRate => history.tangential_course().rate,
-            Real::PredictedTangentialForce if S::Contact::HAS_FRICTION => {
-                self.predicted_tangential_force(contact, &model, rate)
+            Real::TangentialRate => history.tangential_course(0).rate,
+            Real::SecondTangentialRate => history.tangential_course(1).rate,
+            Real::PredictedTangentialForce | Real::SecondPredictedTangentialForce => {
+                match variable.predicted_direction() {
+                    Some(direction) if S::Contact::HAS_FRICTION => {
+                        self.predicted_tangential_force(contact, direction, &model, rate)
+                    }
+                    _ => f64::NAN,
+                }
             }
             Real::TangentialForce
+            | Real::SecondTangentialForce
             | Real::MeanTangentialForce
+            | Real::SecondMeanTangentialForce
             | Real::TangentialImpulse
+            | Real::SecondTangentialImpulse
             | Real::TangentialEnergy
             | Real::FrictionWork
-            | Real::StickRadius
-            | Real::PredictedTangentialForce => {
+            | Real::StickRadius => {
                 variable.quantity().map_or(f64::NAN, |quantity| history.tangential(&model, quantity))
             }
             Real::ClosingSpeed | Real::ExternalAcceleration | Real::EffectiveMass => f64::NAN,
@@ -196,7 +206,9 @@ impl<S: Scene> Instance<S> {
     pub(super) fn predicted(&self, contact: usize, model: &S::Model, rate: f64) -> Option<S::Contact> {
         let history = *self.histories().get(contact)?;
         let mut next = history;
-        next.set_tangential_course(&Course::held(self.tangential_end_of(contact).rate));
+        for direction in 0..S::Contact::DIRECTIONS {
+            next.set_tangential_course(direction, &Course::held(self.tangential_end_of(contact, direction).rate));
+        }
         let step = self.last_step();
         if S::Contact::FINDS_STRENGTH {
             next.meet(model, self.mass(contact), rate);

@@ -113,8 +113,7 @@ pub trait Scene: Sized {
         match variable {
             Real::ExternalAcceleration => <Self::Coupling as Coupling>::Acceleration::IS_PRESENT,
             Real::EffectiveMass => <Self::Coupling as Coupling>::Mass::IS_PRESENT,
-            Real::TangentialRate => Self::Contact::HAS_FRICTION,
-            _ => false,
+            _ => variable.tangential_rate().is_some_and(|direction| direction < Self::Contact::DIRECTIONS),
         }
     }
 

@@ -148,14 +148,24 @@ pub enum Real {
     ExternalAcceleration,
     /// Tangential rate, an input \[m/s\].
     TangentialRate,
+    /// Tangential rate in the second direction, an input \[m/s\].
+    SecondTangentialRate,
     /// Tangential force \[N\].
     TangentialForce,
+    /// Tangential force in the second direction \[N\].
+    SecondTangentialForce,
     /// Mean tangential force of the last step \[N\].
     MeanTangentialForce,
+    /// Mean tangential force of the last step in the second direction \[N\].
+    SecondMeanTangentialForce,
     /// Integral of the tangential force since the start \[N.s\].
     TangentialImpulse,
+    /// Integral of the tangential force in the second direction since the start \[N.s\].
+    SecondTangentialImpulse,
     /// Predicted tangential force at the end of the next step \[N\].
     PredictedTangentialForce,
+    /// Predicted tangential force in the second direction at the end of the next step \[N\].
+    SecondPredictedTangentialForce,
     /// Elastic energy of the tangential strain \[J\].
     TangentialEnergy,
     /// Energy lost by slip \[J\].
@@ -176,15 +186,39 @@ impl Real {
 
     /// Whether it is an input.
     pub fn is_input(self) -> bool {
-        matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::TangentialRate | Real::EffectiveMass)
+        matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::EffectiveMass)
+            || self.tangential_rate().is_some()
+    }
+
+    /// The direction of which it is the tangential rate, counted from 0.
+    #[inline(always)]
+    pub fn tangential_rate(self) -> Option<usize> {
+        match self {
+            Real::TangentialRate => Some(0),
+            Real::SecondTangentialRate => Some(1),
+            _ => None,
+        }
+    }
+
+    /// The direction of which it is the predicted tangential force, counted from 0.
+    #[inline(always)]
+    pub fn predicted_direction(self) -> Option<usize> {
+        match self {
+            Real::PredictedTangentialForce => Some(0),
+            Real::SecondPredictedTangentialForce => Some(1),
+            _ => None,
+        }
     }
 
     /// The quantity of the friction that it is, if its present value is one.
     pub fn quantity(self) -> Option<Quantity> {
         Some(match self {
-            Real::TangentialForce => Quantity::Force,
-            Real::MeanTangentialForce => Quantity::MeanForce,
-            Real::TangentialImpulse => Quantity::Impulse,
+            Real::TangentialForce => Quantity::Force(0),
+            Real::SecondTangentialForce => Quantity::Force(1),
+            Real::MeanTangentialForce => Quantity::MeanForce(0),
+            Real::SecondMeanTangentialForce => Quantity::MeanForce(1),
+            Real::TangentialImpulse => Quantity::Impulse(0),
+            Real::SecondTangentialImpulse => Quantity::Impulse(1),
             Real::TangentialEnergy => Quantity::Energy,
             Real::FrictionWork => Quantity::FrictionWork,
             Real::StickRadius => Quantity::StickRadius,

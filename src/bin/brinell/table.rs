@@ -33,6 +33,8 @@ pub struct Variable {
     /// Whether it belongs to FMUs with friction only.
     #[serde(default)]
     pub friction: bool,
+    /// The variable of which it is the second direction.
+    pub second_of: Option<String>,
     /// Whether an output belongs to a whole step, and changes at communication points only.
     #[serde(default)]
     pub held: bool,

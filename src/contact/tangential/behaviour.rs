@@ -1,6 +1,6 @@
 //! A contact with friction as a [`Contact`].
 
-use super::{Quantity, RoughContact, RoughModel, Sliding, Springs};
+use super::{Quantity, Rough, RoughModel, Shear, Sliding, SpringsOf};
 use crate::contact::Model;
 use crate::contact::behaviour::Contact;
 use crate::contact::history::{History, Regime, TooDeep};
@@ -12,31 +12,56 @@ use crate::contact::unloading::Unloading;
 use crate::contact::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 
-/// End times \[s\] of the parts of a step in which the contact either slips in one direction or sticks, as far as the
-/// rates alone show it; unsorted. They are the times at which the rate of the indentation is zero or as large as the
-/// tangential rate times `scale`. The last one is the end of the step.
-fn ends_of_parts(normal: &Course, tangential: &Course, scale: f64, step: f64) -> [[f64; 3]; 3] {
-    [0.0, scale, -scale].map(|scale| {
+/// Parts of a step in two directions with changing rates.
+const PARTS: usize = 8;
+
+/// More parts than a step can have.
+const MOST_PARTS: usize = 11;
+
+/// End times \[s\] of the parts of a step with changing rates, unsorted. The last one is the end of the step.
+///
+/// In one direction the contact either slips in one direction or sticks over each part, as far as the rates alone show it:
+/// the times at which the rate of the indentation is zero or as large as the tangential rate times `scale`. In two directions
+/// the way may turn all the time. The step is divided evenly, and where the rate of the indentation is zero.
+fn ends_of_parts<const D: usize>(
+    normal: &Course,
+    tangential: &[Course; D],
+    scale: f64,
+    step: f64,
+) -> [f64; MOST_PARTS] {
+    let mut ends = [step; MOST_PARTS];
+    let mut places = ends.iter_mut();
+    let mut add = |times: &[f64]| places.by_ref().zip(times).for_each(|(place, time)| *place = *time);
+    let [tangential] = tangential.as_slice() else {
+        let even = core::array::from_fn::<f64, PARTS, _>(|part| step * ((part + 1) as f64 / PARTS as f64));
+        add(&normal.monotone_ends(step));
+        add(&even);
+        return ends;
+    };
+    for scale in [0.0, scale, -scale] {
         let difference = Course {
             rate: normal.rate - scale * tangential.rate,
             slope: normal.slope - scale * tangential.slope,
             bend: normal.bend - scale * tangential.bend,
         };
-        difference.monotone_ends(step)
-    })
+        add(&difference.monotone_ends(step));
+    }
+    ends
 }
 
 /// The earliest of `ends` after `time` \[s\].
-fn next_of(ends: &[[f64; 3]; 3], time: f64) -> Option<f64> {
-    let behind = ends.as_flattened().iter().copied().filter(|&end| end > time);
+fn next_of(ends: &[f64; MOST_PARTS], time: f64) -> Option<f64> {
+    let behind = ends.iter().copied().filter(|&end| end > time);
     behind.reduce(|one, other| if other < one { other } else { one })
 }
 
-impl<L: Loading, U: Unloading, const N: usize> Contact<RoughModel<L, U>> for RoughContact<N> {
+impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Contact<RoughModel<L, U>>
+    for Rough<K, D, MEAN>
+{
     const FOLLOWS_RATE: bool = false;
     const DERIVATIVES: i32 = 2;
-    const WORDS: usize = 13 + Springs::<N>::WORDS + 10;
-    const HAS_FRICTION: bool = true;
+    const WORDS: usize = 13 + SpringsOf::<K, D, true>::WORDS + 8 * D + 2;
+    const DIRECTIONS: usize = D;
 
     /// Where the contact begins to yield.
     type Kept = YieldPoint;
@@ -47,9 +72,10 @@ impl<L: Loading, U: Unloading, const N: usize> Contact<RoughModel<L, U>> for Rou
 
     fn start(model: &RoughModel<L, U>, gap: f64) -> Result<Self, TooDeep> {
         let normal = History::start(&model.normal, gap)?;
-        let springs = Springs::start(model, &normal);
-        let (none, course) = (Sum::new(0.0), Course::held(0.0));
-        Ok(RoughContact { normal, springs, course, end: course, mean_force: 0.0, impulse: none, work: none })
+        let springs = SpringsOf::start(model, &normal);
+        let (none, courses) = (Sum::new(0.0), [Course::held(0.0); D]);
+        let (mean_force, impulse) = ([0.0; D], [none; D]);
+        Ok(Rough { normal, springs, courses, ends: courses, mean_force, impulse, work: none })
     }
 
     /// Always false: the springs follow each step.
@@ -72,29 +98,37 @@ impl<L: Loading, U: Unloading, const N: usize> Contact<RoughModel<L, U>> for Rou
     ) -> Result<f64, TooDeep> {
         let model = model();
         let model = model.borrow();
-        let tangential = self.course;
-        let is_held = course.is_held() && tangential.is_held();
+        let tangential = self.courses;
+        let is_held = course.is_held() && tangential.iter().all(Course::is_held);
         let ends = match is_held {
-            true => [[step; 3]; 3],
+            true => [step; MOST_PARTS],
             false => ends_of_parts(course, &tangential, model.friction.scale(), step),
         };
         let (mut moved, mut deepest, mut start) = (*self, 0.0, 0.0);
-        let (mut impulse, mut work) = (0.0, 0.0);
-        for _ in 0..ends.as_flattened().len() {
+        let (mut impulse, mut work) = ([0.0; D], 0.0);
+        for _ in 0..MOST_PARTS {
             let Some(end) = next_of(&ends, start) else { break };
-            let [increment, slip] = [course, &tangential].map(|course| course.way(end) - course.way(start));
+            let way = |course: &Course| course.way(end) - course.way(start);
+            let (increment, slip) = (way(course), tangential.map(|course| way(&course)));
             // within a divided step the ratio of the held rates is the same to the last bit
-            let rates = if is_held { (course.rate, tangential.rate) } else { (increment, slip) };
-            let mean = moved.springs.advance(&mut moved.normal, model, (increment, slip), rates, true)?;
-            impulse += mean * (end - start);
-            work += mean * slip;
+            let rates = if is_held { (course.rate, tangential.map(|course| course.rate)) } else { (increment, slip) };
+            let mean = moved.springs.advance_along(&mut moved.normal, model, (increment, slip), rates, MEAN)?;
+            for ((impulse, mean), slip) in impulse.iter_mut().zip(mean).zip(slip) {
+                *impulse += mean * (end - start);
+                work += mean * slip;
+            }
             deepest = largest(moved.normal.max_indentation(), deepest);
             start = end;
         }
-        moved.mean_force = impulse / step;
-        moved.impulse = moved.impulse.plus(impulse);
-        moved.work = moved.work.plus(work);
-        (moved.course, moved.end) = (Course::held(tangential.rate), Course { bend: 0.0, ..tangential.after(step) });
+        if MEAN {
+            moved.mean_force = impulse.map(|impulse| impulse / step);
+            for (sum, impulse) in moved.impulse.iter_mut().zip(impulse) {
+                *sum = sum.plus(impulse);
+            }
+            moved.work = moved.work.plus(work);
+        }
+        moved.courses = tangential.map(|course| Course::held(course.rate));
+        moved.ends = tangential.map(|course| Course { bend: 0.0, ..course.after(step) });
         *self = moved;
         Ok(deepest)
     }
@@ -182,26 +216,29 @@ impl<L: Loading, U: Unloading, const N: usize> Contact<RoughModel<L, U>> for Rou
 
     /// The springs stay as they are.
     fn moved_to(&self, model: &RoughModel<L, U>, indentation: f64) -> Self {
-        RoughContact { normal: self.normal.moved_to(&model.normal, indentation), ..*self }
+        Rough { normal: self.normal.moved_to(&model.normal, indentation), ..*self }
     }
 
-    fn tangential_course(&self) -> Course {
-        self.course
+    fn tangential_course(&self, direction: usize) -> Course {
+        self.courses.get(direction).copied().unwrap_or_default()
     }
 
-    fn set_tangential_course(&mut self, course: &Course) {
-        self.course = *course;
+    fn set_tangential_course(&mut self, direction: usize, course: &Course) {
+        if let Some(slot) = self.courses.get_mut(direction) {
+            *slot = *course;
+        }
     }
 
-    fn tangential_end(&self) -> Course {
-        self.end
+    fn tangential_end(&self, direction: usize) -> Course {
+        self.ends.get(direction).copied().unwrap_or_default()
     }
 
     fn tangential(&self, model: &RoughModel<L, U>, quantity: Quantity) -> f64 {
+        let of = |values: [f64; D], direction: usize| values.get(direction).copied().unwrap_or(f64::NAN);
         match quantity {
-            Quantity::Force => self.tangential_force(model),
-            Quantity::MeanForce => self.mean_tangential_force(),
-            Quantity::Impulse => self.tangential_impulse(),
+            Quantity::Force(direction) => of(self.tangential_forces(model), direction),
+            Quantity::MeanForce(direction) => of(self.mean_force, direction),
+            Quantity::Impulse(direction) => of(self.tangential_impulses(), direction),
             Quantity::Energy => self.tangential_energy(model),
             Quantity::FrictionWork => self.friction_work(model),
             Quantity::StickRadius => self.stick_radius(model),
@@ -212,13 +249,15 @@ impl<L: Loading, U: Unloading, const N: usize> Contact<RoughModel<L, U>> for Rou
         &self,
         model: &RoughModel<L, U>,
         quantity: Quantity,
-        courses: &[Course; 2],
+        normal: &Course,
+        tangential: &[Course; 2],
     ) -> (f64, f64) {
-        self.derivatives_of(model, quantity, courses)
+        let of = |direction: usize| tangential.get(direction).copied().unwrap_or_default();
+        self.derivatives_of(model, quantity, normal, &core::array::from_fn(of))
     }
 
     fn sliding(&self) -> Sliding {
-        RoughContact::sliding(self)
+        Rough::sliding(self)
     }
 
     fn valid_depth(model: &RoughModel<L, U>) -> f64 {
@@ -232,21 +271,32 @@ impl<L: Loading, U: Unloading, const N: usize> Contact<RoughModel<L, U>> for Rou
     fn save(&self, store: &mut impl FnMut(u64)) {
         Contact::<Model<L, U>>::save(&self.normal, store);
         self.springs.save(store);
-        let RoughContact { course, end, mean_force, impulse, work, .. } = self;
-        // the bend of the end is that of the course, which is over
-        let numbers = [course.rate, course.slope, course.bend, end.rate, end.slope, *mean_force];
-        store_numbers(&numbers, store);
-        store_numbers(&[impulse.value, impulse.rest, work.value, work.rest], store);
+        let Rough { courses, ends, mean_force, impulse, work, .. } = self;
+        for ((course, end), mean_force) in courses.iter().zip(ends).zip(mean_force) {
+            // the bend of the end is that of the course, which is over
+            store_numbers(&[course.rate, course.slope, course.bend, end.rate, end.slope, *mean_force], store);
+        }
+        for sum in impulse.iter().chain([work]) {
+            store_numbers(&[sum.value, sum.rest], store);
+        }
     }
 
     fn load(words: &mut impl Iterator<Item = u64>, model: &RoughModel<L, U>) -> Option<Self> {
         let normal = History::load(words, &model.normal)?;
-        let springs = Springs::load(words, model, &normal)?;
-        let [rate, slope, bend, end_rate, end_slope, mean_force] = load_numbers(words)?;
-        let [impulse, lost_impulse, work, lost_work] = load_numbers(words)?;
-        let course = Course { rate, slope, bend };
-        let end = Course { rate: end_rate, slope: end_slope, bend: 0.0 };
-        let (impulse, work) = (Sum { value: impulse, rest: lost_impulse }, Sum { value: work, rest: lost_work });
-        Some(RoughContact { normal, springs, course, end, mean_force, impulse, work })
+        let springs = SpringsOf::load(words, model, &normal)?;
+        let (mut courses, mut mean_force) = ([Course::default(); D], [0.0; D]);
+        let mut ends = courses;
+        for ((course, end), mean_force) in courses.iter_mut().zip(&mut ends).zip(&mut mean_force) {
+            let [rate, slope, bend, end_rate, end_slope, mean] = load_numbers(words)?;
+            *course = Course { rate, slope, bend };
+            *end = Course { rate: end_rate, slope: end_slope, bend: 0.0 };
+            *mean_force = mean;
+        }
+        let (mut impulse, mut work) = ([Sum::new(0.0); D], Sum::new(0.0));
+        for sum in impulse.iter_mut().chain([&mut work]) {
+            let [value, rest] = load_numbers(words)?;
+            *sum = Sum { value, rest };
+        }
+        Some(Rough { normal, springs, courses, ends, mean_force, impulse, work })
     }
 }

@@ -19,15 +19,15 @@ use libm::{ceil, fabs};
 
 /// Longest part of a path other than Hertz's curve whose image on a new path counts as straight, relative to the
 /// length of the path.
-const LONGEST: f64 = 0.25;
+pub(super) const LONGEST: f64 = 0.25;
 
 /// Whether `path` is Hertz's curve from its origin. The images of such paths are proportional to each other.
-fn is_hertzian(path: &Segment) -> bool {
+pub(super) fn is_hertzian(path: &Segment) -> bool {
     path.square == 0.0 && path.linear == 0.0
 }
 
 /// Height \[m\] on `path` where its stiffness is `stiffness` \[N/m\], but not below the surface.
-fn height_with(path: &Segment, stiffness: f64) -> f64 {
+pub(super) fn height_with(path: &Segment, stiffness: f64) -> f64 {
     let excess = stiffness - path.linear;
     // root of 2 c3 q^2 + 1.5 c2 q = excess, q = sqrt(z), in a form without cancellation
     let half = 1.5 * path.power;

@@ -36,17 +36,22 @@ pub mod impact;
 mod list;
 mod mean;
 mod merge;
+mod motion;
 mod outputs;
+pub mod plane;
 mod rates;
 mod rough;
 mod saved;
+mod shear;
 mod stuck;
 mod way;
 
-pub use contact::RoughContact;
+pub use contact::{PlaneContact, Rough, RoughContact};
 pub use list::{List, Vertex};
+pub use motion::Motion;
 pub use outputs::{Quantity, Sliding};
-pub use rough::{RoughModel, Springs};
+pub use rough::{PlaneSprings, RoughModel, Springs, SpringsOf};
+pub use shear::Shear;
 pub use stuck::Stuck;
 pub use way::Way;
 

@@ -20,12 +20,12 @@ pub enum Sliding {
 /// A quantity of the friction of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// Tangential force \[N\].
-    Force,
-    /// Mean tangential force of the last step \[N\].
-    MeanForce,
-    /// Integral of the tangential force over time since the start \[N.s\].
-    Impulse,
+    /// Tangential force in this direction, counted from 0 \[N\].
+    Force(usize),
+    /// Mean tangential force of the last step in this direction \[N\].
+    MeanForce(usize),
+    /// Integral of the tangential force in this direction over time since the start \[N.s\].
+    Impulse(usize),
     /// Elastic energy of the tangential strain \[J\].
     Energy,
     /// Energy lost by slip since the start \[J\].

@@ -1,6 +1,6 @@
 //! Time derivatives of the quantities of friction.
 
-use super::{Quantity, RoughContact, RoughModel};
+use super::{Quantity, Rough, RoughModel, Shear};
 use crate::contact::behaviour::Contact;
 use crate::contact::loading::Loading;
 use crate::contact::numbers::quotient;
@@ -15,32 +15,34 @@ const WIDTH: f64 = 1.0 / 8192.0;
 /// The longest trial step \[s\], for motions that are slower than any physical one.
 const LONGEST: f64 = 1e50;
 
-impl<const N: usize> RoughContact<N> {
-    /// First and second time derivative of `quantity`, for motions that continue on these `courses` along the normal and in
-    /// the tangential direction.
+impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
+    /// First and second time derivative of `quantity`, for motions that continue on these courses along the normal and in
+    /// the tangential directions.
     ///
-    /// Those of the force are exact, except on a dent that grows. All others result from three trial steps, as in
+    /// Those of the force in one direction are exact, except on a dent that grows. All others result from three trial steps, as in
     /// [`slopes`](crate::contact::behaviour::slopes): their relative errors are about 1e-9 (first) and 1e-5 (second
     /// derivative), if the branch of the law and the segments that slip remain the same.
     pub(super) fn derivatives_of<L: Loading, U: Unloading>(
         &self,
         model: &RoughModel<L, U>,
         quantity: Quantity,
-        courses: &[Course; 2],
+        normal: &Course,
+        tangential: &[Course; D],
     ) -> (f64, f64) {
-        let [normal, tangential] = courses;
-        let (rates, accelerations) = ((normal.rate, tangential.rate), (normal.slope, tangential.slope));
+        let rates = (normal.rate, tangential.map(|course| course.rate));
+        let accelerations = (normal.slope, tangential.map(|course| course.slope));
         let indentation = self.normal.indentation();
-        let force = || match self.springs.force_rates(&model.friction, indentation, rates, accelerations) {
-            Some(derivatives) => derivatives,
-            None => self.by_trial(model, Quantity::Force, courses),
+        let of = |values: [f64; D], direction: usize| values.get(direction).copied().unwrap_or(f64::NAN);
+        let force = |direction| match self.springs.force_rates(&model.friction, indentation, rates, accelerations) {
+            Some((first, second)) => (of(first, direction), of(second, direction)),
+            None => self.by_trial(model, Quantity::Force(direction), normal, tangential),
         };
         match quantity {
-            Quantity::MeanForce => (0.0, 0.0),
-            Quantity::Force => force(),
-            Quantity::Impulse => (self.tangential_force(model), force().0),
+            Quantity::MeanForce(_) => (0.0, 0.0),
+            Quantity::Force(direction) => force(direction),
+            Quantity::Impulse(direction) => (of(self.tangential_forces(model), direction), force(direction).0),
             Quantity::Energy | Quantity::FrictionWork | Quantity::StickRadius => {
-                self.by_trial(model, quantity, courses)
+                self.by_trial(model, quantity, normal, tangential)
             }
         }
     }
@@ -50,10 +52,12 @@ impl<const N: usize> RoughContact<N> {
         &self,
         model: &RoughModel<L, U>,
         quantity: Quantity,
-        [normal, tangential]: &[Course; 2],
+        normal: &Course,
+        tangential: &[Course; D],
     ) -> (f64, f64) {
         let indentation = self.normal.indentation();
-        let speed = fabs(normal.rate) + fabs(model.friction.scale() * tangential.rate);
+        let scale = model.friction.scale();
+        let speed = tangential.iter().fold(fabs(normal.rate), |sum, course| sum + fabs(scale * course.rate));
         if indentation <= 0.0 || speed == 0.0 {
             return (0.0, 0.0);
         }
@@ -67,7 +71,7 @@ impl<const N: usize> RoughContact<N> {
         let (mut first, mut second) = (0.0, 0.0);
         for (steps, of_first, of_second) in [(1.0, 18.0, -5.0), (2.0, -9.0, 4.0), (3.0, 2.0, -1.0)] {
             let mut moved = *self;
-            moved.course = *tangential;
+            moved.courses = *tangential;
             if moved.step(normal, steps * width, || model).is_err() {
                 return (f64::NAN, f64::NAN);
             }

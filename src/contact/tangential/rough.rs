@@ -1,7 +1,8 @@
 //! An elastoplastic contact with friction.
 
 use super::growth_steps::next_of_lattice;
-use super::{Friction, Sliding, Stuck, Way};
+use super::shear::{Rates, Shear, simpson};
+use super::{Friction, Motion, Sliding, Stuck, plane};
 use crate::contact::history::{History, TooDeep};
 use crate::contact::loading::Loading;
 use crate::contact::numbers::{quotient, smallest};
@@ -22,17 +23,23 @@ pub struct RoughModel<L, U> {
     pub friction: Friction,
 }
 
-/// The tangential part of a contact with friction: its springs, in a list of `N` segments, and their
-/// force-indentation curve. The normal contact is a separate value that does not know about friction.
+/// The tangential part of a contact with friction: its springs in `D` directions, and their force-indentation curve. The
+/// normal contact is a separate value that does not know about friction.
 ///
 /// With `LATTICE`, a growing dent is divided at fixed depths. The result then hardly depends on the time steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Springs<const N: usize, const LATTICE: bool = true> {
-    stuck: Stuck<N>,
+pub struct SpringsOf<K, const D: usize, const LATTICE: bool> {
+    stuck: K,
     /// The unloading path of the current dent, up to its largest indentation. Before yield: Hertz's curve up to the
     /// yield point.
     curve: Segment,
 }
+
+/// The springs of a contact in one direction, in a list of `N` segments.
+pub type Springs<const N: usize, const LATTICE: bool = true> = SpringsOf<Stuck<N>, 1, LATTICE>;
+
+/// The springs of a contact in two directions, in a list of `N` segments.
+pub type PlaneSprings<const N: usize, const LATTICE: bool = true> = SpringsOf<plane::Stuck<N>, 2, LATTICE>;
 
 impl<L: Loading, U: Unloading> RoughModel<L, U> {
     /// The unloading curve of a contact whose largest indentation was `largest` \[m\].
@@ -46,14 +53,7 @@ impl<L: Loading, U: Unloading> RoughModel<L, U> {
 }
 
 impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
-    /// The springs of a `contact` that has just started: no tangential displacement.
-    pub fn start<L: Loading, U: Unloading>(model: &RoughModel<L, U>, contact: &History) -> Self {
-        let curve = model.curve_below(contact.max_indentation());
-        Springs { stuck: Stuck::pressed(&curve, contact.indentation()), curve }
-    }
-
-    /// Moves a `contact` and its springs by `increment` along the normal and by `slip` in the tangential direction
-    /// \[m\]; `rates` are the two rates \[m/s\]. Returns the mean tangential force \[N\] if it `is_asked` for,
+    /// [`SpringsOf::advance_along`] in one direction. Returns the mean tangential force \[N\] if it `is_asked` for,
     /// otherwise 0.
     ///
     /// # Errors
@@ -67,26 +67,65 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
         rates: (f64, f64),
         is_asked: bool,
     ) -> Result<f64, TooDeep> {
+        let [mean] = self.advance_along(contact, model, (increment, [slip]), (rates.0, [rates.1]), is_asked)?;
+        Ok(mean)
+    }
+
+    /// Tangential force \[N\] at the current `indentation` \[m\].
+    pub fn force(&self, friction: &Friction, indentation: f64) -> f64 {
+        let [force] = self.forces(friction, indentation);
+        force
+    }
+}
+
+impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> {
+    /// The springs of a `contact` that has just started: no tangential displacement.
+    pub fn start<L: Loading, U: Unloading>(model: &RoughModel<L, U>, contact: &History) -> Self {
+        let curve = model.curve_below(contact.max_indentation());
+        SpringsOf { stuck: K::pressed(&curve, contact.indentation()), curve }
+    }
+
+    /// Moves a `contact` and its springs by `increment` along the normal and by `slip` in the tangential directions
+    /// \[m\]; `rates` are these rates \[m/s\]. Returns the mean tangential force \[N\] if it `is_asked` for,
+    /// otherwise 0.
+    ///
+    /// # Errors
+    /// [`TooDeep`] as for [`History::advance`]; the contact and the springs are then unchanged.
+    #[inline]
+    pub fn advance_along<L: Loading, U: Unloading>(
+        &mut self,
+        contact: &mut History,
+        model: &RoughModel<L, U>,
+        (increment, slip): (f64, [f64; D]),
+        rates: (f64, [f64; D]),
+        is_asked: bool,
+    ) -> Result<[f64; D], TooDeep> {
         let from = contact.indentation();
         contact.advance(&model.normal, increment)?;
         let to = contact.indentation();
         let scale = model.friction.scale();
-        let way = Way { from, to, shift: scale * slip, normal: rates.0, tangential: scale * rates.1 };
+        let scaled = |lengths: [f64; D]| lengths.map(|length| scale * length);
+        let way = Motion { from, to, shift: scaled(slip), normal: rates.0, tangential: scaled(rates.1) };
         let pull = self.follow(model, &way, is_asked);
         // a fresh surface forgets the dent once the bodies separate beyond the original surface
         if model.normal.surface == Surface::Fresh && from >= 0.0 && to < 0.0 {
             self.curve = model.curve_below(0.0);
         }
-        Ok(model.friction.coefficient * pull)
+        Ok(pull.map(|pull| model.friction.coefficient * pull))
     }
 
     /// Moves the springs along a `way` that the contact has completed: up to the growth of its dent, then over the
     /// pieces of the growth. Returns their mean force \[N\].
-    fn follow<L: Loading, U: Unloading>(&mut self, model: &RoughModel<L, U>, way: &Way, is_asked: bool) -> f64 {
+    fn follow<L: Loading, U: Unloading>(
+        &mut self,
+        model: &RoughModel<L, U>,
+        way: &Motion<D>,
+        is_asked: bool,
+    ) -> [f64; D] {
         if way.to <= self.curve.upper {
             return self.move_on_curve(way, is_asked);
         }
-        let (mut here, mut sum) = (way.from, 0.0);
+        let (mut here, mut sum) = (way.from, [0.0; D]);
         let rise = way.rise();
         for _ in 0..MOST_PIECES {
             if here >= way.to {
@@ -95,8 +134,11 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
             let grows = here >= self.curve.upper;
             let end = if grows { smallest(self.next_border(model, here), way.to) } else { self.curve.upper };
             let part = (end - here) / rise;
-            let piece = Way { from: here, to: end, shift: part * way.shift, ..*way };
-            sum += part * if grows { self.grow(model, &piece, is_asked) } else { self.move_on_curve(&piece, is_asked) };
+            let piece = Motion { from: here, to: end, shift: way.shift.map(|shift| part * shift), ..*way };
+            let mean = if grows { self.grow(model, &piece, is_asked) } else { self.move_on_curve(&piece, is_asked) };
+            for (sum, mean) in sum.iter_mut().zip(mean) {
+                *sum += part * mean;
+            }
             here = end;
         }
         sum
@@ -114,74 +156,67 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
 
     /// Moves the springs on a `way` along the current curve. Returns their mean force \[N\].
     #[inline]
-    fn move_on_curve(&mut self, way: &Way, is_asked: bool) -> f64 {
+    fn move_on_curve(&mut self, way: &Motion<D>, is_asked: bool) -> [f64; D] {
         let curve = self.curve;
-        if !is_asked {
-            self.stuck.settle(&curve, way);
-            return 0.0;
-        }
-        if self.stuck.is_within_cones() {
-            let mean = self.stuck.mean_pull(&curve, way);
-            self.stuck.advance(&curve, way);
-            return mean;
-        }
-        let part = way.part_above(curve.lower);
-        let way_down = if way.to < curve.lower { way.first_part(part) } else { *way };
-        let mean = self.by_simpson(&way_down, |springs, way| springs.stuck.settle(&curve, way));
+        let mean = if is_asked { self.stuck.mean_pull(&curve, way) } else { [0.0; D] };
         self.stuck.settle(&curve, way);
-        part * mean
+        mean
     }
 
     /// Moves the springs on a `way` with a growing dent. Returns their mean force \[N\].
-    fn grow<L: Loading, U: Unloading>(&mut self, model: &RoughModel<L, U>, way: &Way, is_asked: bool) -> f64 {
-        let step = |springs: &mut Self, way: &Way| {
+    fn grow<L: Loading, U: Unloading>(
+        &mut self,
+        model: &RoughModel<L, U>,
+        way: &Motion<D>,
+        is_asked: bool,
+    ) -> [f64; D] {
+        let step = |springs: &mut Self, way: &Motion<D>| {
             let new = model.curve_below(way.to);
             springs.stuck.grow(&springs.curve, &new, way);
             springs.curve = new;
         };
-        let mean = if is_asked { self.by_simpson(way, step) } else { 0.0 };
-        step(self, way);
-        mean
-    }
-
-    /// Mean force \[N\] over a `way` taken by `step`, by Simpson's rule. The middle point results from a step over
-    /// half of the way.
-    fn by_simpson(&self, way: &Way, step: impl Fn(&mut Self, &Way)) -> f64 {
-        let (mut middle, mut end) = (*self, *self);
-        let half = way.first_part(0.5);
+        if !is_asked {
+            step(self, way);
+            return [0.0; D];
+        }
+        // Simpson's rule: the middle point results from a step over half of the way
+        let (mut middle, start, half) = (*self, self.pull(way.from), way.first_part(0.5));
         step(&mut middle, &half);
-        step(&mut end, way);
-        (self.pull(way.from) + 4.0 * middle.pull(half.to) + end.pull(way.to)) / 6.0
+        step(self, way);
+        simpson(start, middle.pull(half.to), self.pull(way.to))
     }
 
     /// Tangential force divided by the coefficient of friction \[N\].
-    fn pull(&self, indentation: f64) -> f64 {
+    fn pull(&self, indentation: f64) -> [f64; D] {
         self.stuck.pull(&self.curve, indentation)
     }
 
     /// Tangential force \[N\] at the current `indentation` \[m\].
-    pub fn force(&self, friction: &Friction, indentation: f64) -> f64 {
-        friction.coefficient * self.pull(indentation)
+    pub fn forces(&self, friction: &Friction, indentation: f64) -> [f64; D] {
+        self.pull(indentation).map(|pull| friction.coefficient * pull)
     }
 
     /// First and second time derivative of the tangential force \[N/s, N/s^2\] for these `rates` \[m/s\] and
-    /// `accelerations` \[m/s^2\] along the normal and in the tangential direction, on the current curve. `None` if the
-    /// dent grows.
+    /// `accelerations` \[m/s^2\] along the normal and in the tangential directions, on the current curve. `None` if the
+    /// dent grows, and in two directions.
     pub fn force_rates(
         &self,
         friction: &Friction,
         indentation: f64,
-        rates: (f64, f64),
-        accelerations: (f64, f64),
-    ) -> Option<(f64, f64)> {
+        rates: (f64, [f64; D]),
+        accelerations: (f64, [f64; D]),
+    ) -> Option<Rates<D>> {
         if rates.0 > 0.0 && indentation >= self.curve.upper {
             return None;
         }
         let scale = friction.scale();
-        let way = Way { from: indentation, to: indentation, shift: 0.0, normal: rates.0, tangential: scale * rates.1 };
-        let accelerations = (accelerations.0, scale * accelerations.1);
-        let (first, second) = self.stuck.pull_rates(&self.curve, &way, accelerations);
-        Some((friction.coefficient * first, friction.coefficient * second))
+        let scaled = |lengths: [f64; D]| lengths.map(|length| scale * length);
+        let tangential = scaled(rates.1);
+        let way = Motion { from: indentation, to: indentation, shift: [0.0; D], normal: rates.0, tangential };
+        let accelerations = (accelerations.0, scaled(accelerations.1));
+        let (first, second) = self.stuck.pull_rates(&self.curve, &way, accelerations)?;
+        let force = |rates: [f64; D]| rates.map(|rate| friction.coefficient * rate);
+        Some((force(first), force(second)))
     }
 
     /// Stored tangential energy \[J\] at `indentation` \[m\].
@@ -209,20 +244,20 @@ impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
     }
 
     /// Number of words in the saved springs.
-    pub const WORDS: usize = Stuck::<N>::WORDS;
+    pub const WORDS: usize = K::WORDS;
 
-    /// Passes [`Springs::WORDS`] words to `store`.
+    /// Passes [`SpringsOf::WORDS`] words to `store`.
     pub fn save(&self, store: &mut impl FnMut(u64)) {
         self.stuck.save(store);
     }
 
-    /// The springs of a `contact` that [`Springs::save`] has stored; `None` if a word is not a finite number.
+    /// The springs of a `contact` that [`SpringsOf::save`] has stored; `None` if a word is not a finite number.
     pub fn load<L: Loading, U: Unloading>(
         words: &mut impl Iterator<Item = u64>,
         model: &RoughModel<L, U>,
         contact: &History,
     ) -> Option<Self> {
         let curve = model.curve_below(contact.max_indentation());
-        Some(Springs { stuck: Stuck::load(words, &curve)?, curve })
+        Some(SpringsOf { stuck: K::load(words, &curve)?, curve })
     }
 }

@@ -99,10 +99,15 @@ mod tests {
             ClosingSpeed,
             ExternalAcceleration,
             TangentialRate,
+            SecondTangentialRate,
             TangentialForce,
+            SecondTangentialForce,
             MeanTangentialForce,
+            SecondMeanTangentialForce,
             TangentialImpulse,
+            SecondTangentialImpulse,
             PredictedTangentialForce,
+            SecondPredictedTangentialForce,
             TangentialEnergy,
             FrictionWork,
             StickRadius,
@@ -126,10 +131,15 @@ mod tests {
             | ClosingSpeed
             | ExternalAcceleration
             | TangentialRate
+            | SecondTangentialRate
             | TangentialForce
+            | SecondTangentialForce
             | MeanTangentialForce
+            | SecondMeanTangentialForce
             | TangentialImpulse
+            | SecondTangentialImpulse
             | PredictedTangentialForce
+            | SecondPredictedTangentialForce
             | TangentialEnergy
             | FrictionWork
             | StickRadius

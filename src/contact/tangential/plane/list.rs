@@ -1,0 +1,154 @@
+//! The stuck offsets of a contact as a polyline of vectors.
+
+use super::merge::merge;
+use super::vector::{Vector, ZERO, add, difference, length};
+use crate::contact::segment::Segment;
+use crate::contact::tangential::SAME;
+
+/// A vertex of the polyline with the segment above it, which ends at the next vertex. The last segment ends at the
+/// current indentation and displacement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Height of the springs at the vertex: the indentation at which they touch \[m\].
+    pub height: f64,
+    /// Stuck offset of the vertex \[m\]: the scaled tangential displacement at which these springs are relaxed.
+    pub offset: [f64; 2],
+    /// d(offset)/d(height) of the segment. It may be longer than 1 where the direction of slip turns.
+    pub slope: [f64; 2],
+    /// Normal force of the curve at `height` \[N\].
+    pub force: f64,
+}
+
+impl Vertex {
+    const NONE: Vertex = Vertex { height: 0.0, offset: ZERO, slope: ZERO, force: 0.0 };
+
+    /// A vertex at `height` and `offset` \[m\] whose normal force is that of `curve`.
+    pub fn new(curve: &Segment, height: f64, offset: [f64; 2], slope: [f64; 2]) -> Vertex {
+        Vertex { height, offset, slope, force: curve.force(height) }
+    }
+
+    /// Offset on the segment, or on its extension, at `height` \[m\].
+    pub fn offset_at(&self, height: f64) -> [f64; 2] {
+        add(self.offset, height - self.height, self.slope)
+    }
+}
+
+/// The current point: indentation and scaled tangential displacement \[m\]. It is the apex of the cone of all springs
+/// that can stick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Apex {
+    pub indentation: f64,
+    pub displacement: Vector,
+}
+
+impl Apex {
+    /// How much a spring at `height` with this `offset` \[m\] is inside its limit \[m\]; negative outside.
+    pub(super) fn distance(&self, height: f64, offset: Vector) -> f64 {
+        self.indentation - height - length(difference(self.displacement, offset))
+    }
+}
+
+/// A polyline of at most `N` segments, from the lowest height to the highest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct List<const N: usize> {
+    count: usize,
+    vertices: [Vertex; N],
+}
+
+impl<const N: usize> List<N> {
+    /// No contact.
+    pub const EMPTY: List<N> = {
+        // a draft then has room for all parts of all segments
+        assert!(N >= 8);
+        List { count: 0, vertices: [Vertex::NONE; N] }
+    };
+
+    /// The vertices in ascending order of height.
+    #[inline(always)]
+    pub fn vertices(&self) -> &[Vertex] {
+        self.vertices.get(..self.count).unwrap_or(&[])
+    }
+
+    /// The highest segment.
+    pub fn last(&self) -> Option<&Vertex> {
+        self.vertices().last()
+    }
+
+    /// Replaces the slope of the highest segment.
+    pub(super) fn set_slope(&mut self, slope: Vector) {
+        if let Some(last) = self.vertices.get_mut(..self.count).and_then(<[Vertex]>::last_mut) {
+            last.slope = slope;
+        }
+    }
+
+    /// Adds a segment on top. A full list first merges two of its segments.
+    pub(super) fn push(&mut self, curve: &Segment, vertex: Vertex) {
+        if self.count >= N {
+            self.count = merge(&mut self.vertices, &vertex, curve);
+        }
+        self.add(vertex);
+    }
+
+    /// Adds a segment on top of a list that is not full.
+    pub(super) fn add(&mut self, vertex: Vertex) {
+        if let Some(slot) = self.vertices.get_mut(self.count) {
+            *slot = vertex;
+            self.count += 1;
+        }
+    }
+
+    /// Moves the origin of all offsets to `origin` \[m\].
+    pub(super) fn rebase(&mut self, origin: Vector) {
+        for vertex in self.vertices.iter_mut().take(self.count) {
+            vertex.offset = difference(vertex.offset, origin);
+        }
+    }
+}
+
+/// A polyline under construction, with room for all parts of the segments of a [`List`].
+pub(super) struct Draft<const N: usize> {
+    count: usize,
+    vertices: [[Vertex; N]; 8],
+}
+
+impl<const N: usize> Draft<N> {
+    /// An empty polyline.
+    pub(super) const EMPTY: Draft<N> = Draft { count: 0, vertices: [[Vertex::NONE; N]; 8] };
+
+    /// Whether segments may be divided further. The rest of the room is for those that follow.
+    pub(super) fn has_room(&self) -> bool {
+        self.count < 5 * N
+    }
+
+    /// Adds a segment, unless it continues the last one in a straight line.
+    pub(super) fn extend(&mut self, vertex: Vertex) {
+        let room = self.vertices.as_flattened_mut();
+        let last = self.count.checked_sub(1).and_then(|last| room.get(last));
+        if last.is_none_or(|last| length(difference(last.slope, vertex.slope)) > SAME)
+            && let Some(slot) = room.get_mut(self.count)
+        {
+            *slot = vertex;
+            self.count += 1;
+        }
+    }
+
+    /// The list of these segments; excess segments are merged.
+    pub(super) fn into_list(mut self, curve: &Segment) -> List<N> {
+        let room = self.vertices.as_flattened_mut();
+        while self.count > N
+            && let Some(([rest @ .., last], _)) = room.split_at_mut_checked(self.count)
+        {
+            let last = *last;
+            let left = merge(rest, &last, curve);
+            if let Some(slot) = room.get_mut(left) {
+                *slot = last;
+            }
+            self.count = left + 1;
+        }
+        let mut list = List::EMPTY;
+        for vertex in room.iter().take(self.count) {
+            list.add(*vertex);
+        }
+        list
+    }
+}

@@ -1,0 +1,193 @@
+//! What a contact with friction asks of its springs, in any number of tangential directions.
+
+use super::{Motion, Sliding, Stuck, Way, plane};
+use crate::contact::segment::Segment;
+
+/// First and second time derivative of a force in `D` directions \[N/s, N/s^2\].
+pub type Rates<const D: usize> = ([f64; D], [f64; D]);
+
+/// The springs of a contact in `D` tangential directions. All forces are divided by the coefficient of friction, all
+/// tangential lengths are [scaled](super::Friction::scale).
+pub trait Shear<const D: usize>: Copy {
+    /// Number of words in the saved springs.
+    const WORDS: usize;
+
+    /// A contact that is pressed in without tangential displacement, at `indentation` \[m\].
+    fn pressed(curve: &Segment, indentation: f64) -> Self;
+
+    /// Moves the contact on its way along `curve`.
+    fn settle(&mut self, curve: &Segment, way: &Motion<D>);
+
+    /// Moves the contact on its `way` along the loading curve, while its dent grows: from the end of the `old` path
+    /// to the end of the `new` one.
+    fn grow(&mut self, old: &Segment, new: &Segment, way: &Motion<D>);
+
+    /// Tangential force at the current `indentation` \[m\] \[N\].
+    fn pull(&self, curve: &Segment, indentation: f64) -> [f64; D];
+
+    /// Mean tangential force of a step on this `way` that is yet to come \[N\].
+    fn mean_pull(&self, curve: &Segment, way: &Motion<D>) -> [f64; D];
+
+    /// First and second time derivative of the tangential force, for the rates of a `way` that begins at the current position
+    /// and for these accelerations along the normal and in the tangential directions, if they have a closed form.
+    fn pull_rates(&self, curve: &Segment, way: &Motion<D>, accelerations: (f64, [f64; D])) -> Option<Rates<D>>;
+
+    /// Stored tangential energy at `indentation` \[m\], times `kappa/mu` \[J\].
+    fn energy(&self, curve: &Segment, indentation: f64) -> f64;
+
+    /// Slip state of the contact.
+    fn sliding(&self) -> Sliding;
+
+    /// Height \[m\] of the highest spring that sticks, for a contact at `indentation` \[m\].
+    fn stick_height(&self, indentation: f64) -> f64;
+
+    /// Number of segments in the list.
+    fn segments(&self) -> usize;
+
+    /// Passes the words of the springs to `store`.
+    fn save(&self, store: &mut impl FnMut(u64));
+
+    /// The springs that [`Shear::save`] has stored; `None` if a word is not a finite number.
+    fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Self>;
+}
+
+/// Mean of a force over a `way` by Simpson's rule, from its values at the start, in the middle and at the end.
+pub(super) fn simpson<const D: usize>(start: [f64; D], middle: [f64; D], end: [f64; D]) -> [f64; D] {
+    let mut mean = start;
+    for ((mean, middle), end) in mean.iter_mut().zip(middle).zip(end) {
+        *mean = (*mean + 4.0 * middle + end) / 6.0;
+    }
+    mean
+}
+
+impl Motion<1> {
+    /// The way in the only direction.
+    #[inline(always)]
+    fn way(&self) -> Way {
+        let ([shift], [tangential]) = (self.shift, self.tangential);
+        Way { from: self.from, to: self.to, shift, normal: self.normal, tangential }
+    }
+}
+
+impl<const N: usize> Shear<1> for Stuck<N> {
+    const WORDS: usize = Stuck::<N>::WORDS;
+
+    fn pressed(curve: &Segment, indentation: f64) -> Self {
+        Stuck::pressed(curve, indentation)
+    }
+
+    #[inline]
+    fn settle(&mut self, curve: &Segment, way: &Motion<1>) {
+        Stuck::settle(self, curve, &way.way());
+    }
+
+    fn grow(&mut self, old: &Segment, new: &Segment, way: &Motion<1>) {
+        Stuck::grow(self, old, new, &way.way());
+    }
+
+    #[inline]
+    fn pull(&self, curve: &Segment, indentation: f64) -> [f64; 1] {
+        [Stuck::pull(self, curve, indentation)]
+    }
+
+    #[inline]
+    fn mean_pull(&self, curve: &Segment, way: &Motion<1>) -> [f64; 1] {
+        if self.is_within_cones() {
+            return [Stuck::mean_pull(self, curve, &way.way())];
+        }
+        // Simpson's rule over the part of the way in contact
+        let part = way.part_above(curve.lower);
+        let way_down = if way.to < curve.lower { way.first_part(part) } else { *way };
+        let (mut middle, mut end, half) = (*self, *self, way_down.first_part(0.5));
+        Shear::settle(&mut middle, curve, &half);
+        Shear::settle(&mut end, curve, &way_down);
+        let at = |springs: &Self, indentation| Shear::pull(springs, curve, indentation);
+        simpson(at(self, way_down.from), at(&middle, half.to), at(&end, way_down.to)).map(|mean| part * mean)
+    }
+
+    fn pull_rates(
+        &self,
+        curve: &Segment,
+        way: &Motion<1>,
+        (normal, [tangential]): (f64, [f64; 1]),
+    ) -> Option<Rates<1>> {
+        let (first, second) = Stuck::pull_rates(self, curve, &way.way(), (normal, tangential));
+        Some(([first], [second]))
+    }
+
+    fn energy(&self, curve: &Segment, indentation: f64) -> f64 {
+        Stuck::energy(self, curve, indentation)
+    }
+
+    fn sliding(&self) -> Sliding {
+        Stuck::sliding(self)
+    }
+
+    fn stick_height(&self, indentation: f64) -> f64 {
+        Stuck::stick_height(self, indentation)
+    }
+
+    fn segments(&self) -> usize {
+        Stuck::segments(self)
+    }
+
+    fn save(&self, store: &mut impl FnMut(u64)) {
+        Stuck::save(self, store);
+    }
+
+    fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Self> {
+        Stuck::load(words, curve)
+    }
+}
+
+impl<const N: usize> Shear<2> for plane::Stuck<N> {
+    const WORDS: usize = plane::Stuck::<N>::WORDS;
+
+    fn pressed(curve: &Segment, indentation: f64) -> Self {
+        plane::Stuck::pressed(curve, indentation)
+    }
+
+    fn settle(&mut self, curve: &Segment, way: &Motion<2>) {
+        self.advance(curve, way);
+    }
+
+    fn grow(&mut self, old: &Segment, new: &Segment, way: &Motion<2>) {
+        plane::Stuck::grow(self, old, new, way);
+    }
+
+    fn pull(&self, curve: &Segment, indentation: f64) -> [f64; 2] {
+        plane::Stuck::pull(self, curve, indentation)
+    }
+
+    fn mean_pull(&self, curve: &Segment, way: &Motion<2>) -> [f64; 2] {
+        plane::Stuck::mean_pull(self, curve, way)
+    }
+
+    fn pull_rates(&self, _curve: &Segment, _way: &Motion<2>, _accelerations: (f64, [f64; 2])) -> Option<Rates<2>> {
+        None
+    }
+
+    fn energy(&self, curve: &Segment, indentation: f64) -> f64 {
+        plane::Stuck::energy(self, curve, indentation)
+    }
+
+    fn sliding(&self) -> Sliding {
+        plane::Stuck::sliding(self)
+    }
+
+    fn stick_height(&self, indentation: f64) -> f64 {
+        plane::Stuck::stick_height(self, indentation)
+    }
+
+    fn segments(&self) -> usize {
+        plane::Stuck::segments(self)
+    }
+
+    fn save(&self, store: &mut impl FnMut(u64)) {
+        plane::Stuck::save(self, store);
+    }
+
+    fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Self> {
+        plane::Stuck::load(words, curve)
+    }
+}

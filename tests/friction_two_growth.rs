@@ -1,0 +1,149 @@
+//! Friction in two directions on contacts that yield, for all pairs of laws that support friction.
+
+#[path = "support/friction.rs"]
+mod friction;
+#[path = "support/physics.rs"]
+mod physics;
+
+use brinell::contact::History;
+use brinell::contact::tangential::{Friction, PlaneSprings, RoughModel, Sliding, Springs};
+use brinell::contact::{loading::AnyLoading, unloading::AnyUnloading};
+use physics::{Random, all_models, is_passive, mild, unit};
+use std::f64::consts::PI;
+
+const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
+
+type Model = RoughModel<AnyLoading, AnyUnloading>;
+
+fn models() -> Vec<(String, Model)> {
+    let models = all_models(mild()).into_iter().filter(|(name, model)| {
+        let unloading = name.rsplit(' ').next().expect("a law's name");
+        is_passive(model) && physics::laws::entry("unloading", unloading).get("no_friction").is_none()
+    });
+    models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION })).collect()
+}
+
+/// The allowed error of friction in one direction for the pair of laws called `name`, relative to Coulomb's limit.
+fn allowed(name: &str) -> f64 {
+    let (loading, unloading) = name.split_once(" with ").expect("two laws");
+    let entry = physics::laws::entry("unloading", unloading);
+    let of_pair = entry.get("friction_error_of").and_then(|errors| errors.get(loading));
+    let error = of_pair.or(entry.get("friction_error")).and_then(|error| error.as_float());
+    error.unwrap_or_else(|| panic!("{unloading} has an error of friction"))
+}
+
+/// Steps along the normal and in the surface [m]: up to about a hundred yield indentations, with separations.
+fn history(seed: u64, length: usize) -> Vec<(f64, f64)> {
+    let mut random = Random(seed);
+    let unit = unit(&mild()).indentation;
+    let deepest = unit * 10f64.powf(0.3 + 2.2 * random.next());
+    let mut indentation: f64 = 0.0;
+    let step = |_| {
+        let mut size =
+            || 0.5 * deepest * 10f64.powf(-3.0 * random.next()) * if random.next() < 0.5 { -1.0 } else { 1.0 };
+        let (mut rise, slip) = (size(), 0.4 * size());
+        if indentation + rise > deepest || indentation + rise < -0.1 * deepest {
+            rise = -rise;
+        }
+        indentation += rise;
+        (rise, slip)
+    };
+    (0..length).map(step).collect()
+}
+
+struct Run<const N: usize> {
+    contact: History,
+    springs: PlaneSprings<N>,
+}
+
+impl<const N: usize> Run<N> {
+    fn new(model: &Model) -> Run<N> {
+        let contact = History::start(&model.normal, 0.0).expect("within range");
+        Run { contact, springs: PlaneSprings::start(model, &contact) }
+    }
+
+    /// One step, divided into `parts`. Returns the work of the tangential force.
+    fn step(&mut self, model: &Model, (rise, slip): (f64, [f64; 2]), parts: u32) -> f64 {
+        let part = 1.0 / f64::from(parts);
+        let mut work = 0.0;
+        for _ in 0..parts {
+            let way = (rise * part, slip.map(|slip| slip * part));
+            let mean = self.springs.advance_along(&mut self.contact, model, way, (rise, slip), true);
+            let [mean, other] = mean.expect("within range");
+            work += mean * way.1[0] + other * way.1[1];
+        }
+        work
+    }
+
+    fn pull(&self) -> [f64; 2] {
+        self.springs.forces(&FRICTION, self.contact.indentation())
+    }
+
+    fn energy(&self) -> f64 {
+        self.springs.energy(&FRICTION, self.contact.indentation())
+    }
+}
+
+/// A direction that turns in most steps.
+fn turning(seed: u64) -> impl FnMut(f64) -> [f64; 2] {
+    let mut random = Random(seed);
+    move |slip| {
+        let (sine, cosine) = (2.0 * PI * random.next()).sin_cos();
+        [slip * cosine, slip * sine]
+    }
+}
+
+#[test]
+fn motion_along_one_line_is_that_of_one_direction() {
+    for (name, model) in models() {
+        let mut worst = 0.0_f64;
+        for seed in 0..16 {
+            let angle: f64 = [0.0, 0.5 * PI, PI, 0.3, 2.0, 4.0, 5.5, 1e-9][seed as usize % 8];
+            let (sine, cosine) = angle.sin_cos();
+            let mut run = Run::<64>::new(&model);
+            let mut contact = History::start(&model.normal, 0.0).expect("within range");
+            let mut line = Springs::<64>::start(&model, &contact);
+            let mut largest = 0.0_f64;
+            for (rise, slip) in history(seed, 15) {
+                run.step(&model, (rise, [slip * cosine, slip * sine]), 1);
+                line.advance(&mut contact, &model, (rise, slip), (rise, slip), true).expect("within range");
+                largest = largest.max(FRICTION.coefficient * contact.force());
+                let ([x, y], expected) = (run.pull(), line.force(&FRICTION, contact.indentation()));
+                worst = worst.max((x - expected * cosine).hypot(y - expected * sine) / largest.max(1e-30));
+            }
+        }
+        println!("{name}: {worst:.1e}");
+        // where limits fall while the dent grows, a segment may be cut in another place
+        assert!(worst <= 1e-12 || worst <= allowed(&name).max(1e-6), "{name}: {worst:e}");
+    }
+}
+
+#[test]
+fn the_force_keeps_coulombs_bound_and_friction_dissipates_energy_however_the_motion_turns() {
+    for (name, model) in models() {
+        let (mut excess, mut gain, mut divided) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for seed in 100..104 {
+            let (mut run, mut fine) = (Run::<16>::new(&model), Run::<16>::new(&model));
+            let (mut lost, mut most, mut scale, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+            let mut turn = turning(seed);
+            for (rise, slip) in history(seed, 30) {
+                let (before, slip) = (run.energy(), turn(slip));
+                lost += run.step(&model, (rise, slip), 4) - (run.energy() - before);
+                fine.step(&model, (rise, slip), 40);
+                let force = run.contact.force();
+                largest = largest.max(force);
+                let ratio = model.friction.coefficient / model.friction.scale();
+                scale = scale.max(ratio * run.contact.elastic_energy(&model.normal));
+                let ([x, y], [u, v]) = (run.pull(), fine.pull());
+                excess = excess.max((x.hypot(y) - 0.3 * force) / (0.3 * largest).max(1e-30));
+                divided = divided.max((x - u).hypot(y - v) / (0.3 * largest).max(1e-30));
+                most = most.max(lost);
+                gain = gain.max((most - lost) / scale.max(1e-30));
+                assert!(run.energy() >= -1e-12 * scale, "{name}, seed {seed}: {:e}", run.energy());
+                assert_eq!(run.springs.sliding() == Sliding::Apart, force == 0.0, "{name}, seed {seed}");
+            }
+        }
+        println!("{name}: above Coulomb {excess:.1e}, friction work falls by {gain:.1e}, in 40 parts {divided:.1e}");
+        assert!(excess <= 1e-12 && gain <= 1e-2 && divided <= allowed(&name).max(2e-3), "{name}");
+    }
+}
