@@ -207,8 +207,7 @@ impl<D: Damped + Copy> Bodies<D> {
         self.way += next.depth - depth;
         self.taken += self.acceleration * time - (next.speed - speed);
         let scale = self.scale;
-        self.scale =
-            State { depth: largest(scale.depth, next.depth), speed: largest(scale.speed, fabs(next.speed)) };
+        self.scale = State { depth: largest(scale.depth, next.depth), speed: largest(scale.speed, fabs(next.speed)) };
         self.go_to(next)
     }
 
