@@ -118,7 +118,8 @@ fn environment(
 
 fn pip(interpreter: &Path) -> Command {
     let mut command = Command::new(interpreter);
-    command.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    // modules are compiled when a test imports them; most never are
+    command.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile"]);
     command
 }
 

@@ -82,7 +82,8 @@ pub fn plain_scenes() -> Vec<PathBuf> {
 
 /// A scene file that a test writes itself.
 pub fn write_scene(name: &str, text: &str) -> PathBuf {
-    let folder = folder().join("scenes");
+    // two tests may give the same name to different scenes
+    let folder = folder().join("scenes").join(hash_of(&[text.as_bytes()]));
     fs::create_dir_all(&folder).expect("the target folder can be written to");
     let path = folder.join(name).with_extension("toml");
     // another test may be reading the same scene: it is written atomically

@@ -1,15 +1,11 @@
 //! The texts of an FMU in its model description and on its documentation page must be true for its kind.
 
-#[path = "support/loaded.rs"]
-mod loaded;
-#[path = "support/unit.rs"]
-mod unit;
-
-use loaded::{OK, Unit};
+use crate::loaded::{OK, Unit};
+use crate::unit;
+use crate::unit::write_scene;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use unit::write_scene;
 
 /// A scene of a steel ball with these additional lines.
 fn scene(name: &str, more: &str) -> PathBuf {

@@ -1,14 +1,8 @@
 //! Derivatives of the inputs and outputs of FMUs with friction, and states with them.
 
-#[path = "support/loaded.rs"]
-mod loaded;
-#[path = "support/physics.rs"]
-mod physics;
-#[path = "support/unit.rs"]
-mod unit;
-
-use loaded::{ERROR, Instance, OK, Unit, take_message};
-use physics::Random;
+use crate::loaded::{ERROR, Instance, OK, Unit, take_message};
+use crate::physics::Random;
+use crate::unit;
 
 const STEP: f64 = 1e-6;
 

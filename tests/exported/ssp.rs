@@ -1,11 +1,8 @@
 //! `brinell ssp` from the user's point of view; tests/fmpy/test_ssp.py examines the packages.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/unit.rs"]
-mod unit;
-
-use command::{Run, assert_same, contents, empty_folder, run, scene};
+use crate::command;
+use crate::command::{Run, assert_same, contents, empty_folder, run, scene};
+use crate::unit;
 use std::fs;
 use std::path::Path;
 

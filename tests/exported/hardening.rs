@@ -1,13 +1,8 @@
 //! Scenes with a target that hardens or has a Poisson's ratio other than 0.3: rejected settings, the contents of the
 //! FMU, and its agreement with the predictions.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/refusal.rs"]
-mod refusal;
-
-use command::{empty_folder, run};
-use refusal::refused_text;
+use crate::command::{empty_folder, run};
+use crate::refusal::refused_text;
 use std::fs;
 use std::path::Path;
 

@@ -1,12 +1,7 @@
 //! Scenes with a target whose strength depends on the strain rate.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/refusal.rs"]
-mod refusal;
-
-use command::{empty_folder, run};
-use refusal::refused_text;
+use crate::command::{empty_folder, run};
+use crate::refusal::refused_text;
 use serde_json::Value;
 use std::fs;
 

@@ -1,12 +1,8 @@
 //! `brinell check` on files that are not FMUs and on modified FMUs: it ends with status 1 and an error message.
 #![cfg(target_os = "linux")]
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/unit.rs"]
-mod unit;
-
-use command::{Run, empty_folder, run};
+use crate::command::{Run, empty_folder, run};
+use crate::unit;
 use std::fs;
 use std::path::Path;
 use std::process::Command;

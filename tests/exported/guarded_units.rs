@@ -1,9 +1,7 @@
 //! FMUs with the passivity guard: their texts, and their agreement with the prediction.
 
-#[path = "support/command.rs"]
-mod command;
-
-use command::{empty_folder, run};
+use crate::command;
+use crate::command::{empty_folder, run};
 use std::fs;
 use std::path::Path;
 

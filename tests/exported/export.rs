@@ -1,11 +1,7 @@
 //! The command line from the user's point of view: exit status, results, the FMU and its library.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/unit.rs"]
-mod unit;
-
-use command::{assert_same, contents, empty_folder, exported, run, scene};
+use crate::command::{assert_same, contents, empty_folder, exported, run, scene};
+use crate::unit;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs;

@@ -1,16 +1,10 @@
 //! FMUs with friction, through the C interface.
 
-#[path = "support/loaded.rs"]
-mod loaded;
-#[path = "support/physics.rs"]
-mod physics;
-#[path = "support/unit.rs"]
-mod unit;
-
+use crate::loaded::{ERROR, Instance, OK, Unit, take_message};
+use crate::physics::Random;
+use crate::unit;
 use brinell::contact::tangential::{Friction, RoughContact, RoughModel};
 use brinell::contact::{Body, Contact, Model, Pair, Surface, loading, unloading};
-use loaded::{ERROR, Instance, OK, Unit, take_message};
-use physics::Random;
 
 const STEP: f64 = 1e-6;
 

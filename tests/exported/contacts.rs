@@ -1,9 +1,6 @@
 //! Scenes with several contacts: the bodies of each contact.
 
-#[path = "support/command.rs"]
-mod command;
-
-use command::{empty_folder, run};
+use crate::command::{empty_folder, run};
 use serde_json::Value;
 use std::fs;
 

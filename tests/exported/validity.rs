@@ -1,15 +1,11 @@
 //! The valid range of the laws, and the messages of the program about an impact beyond.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/physics.rs"]
-mod physics;
-
+use crate::command;
+use crate::command::{empty_folder, run};
+use crate::physics::{AnyModel, all_models, mild, pair_of};
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, largest_speed};
 use brinell::contact::{Contact, History, Loading};
-use command::{empty_folder, run};
-use physics::{AnyModel, all_models, mild, pair_of};
 use std::fs;
 use std::process::Command;
 

@@ -1,9 +1,6 @@
 //! `predict --restitution`: the inverse problem gives every speed and yield strength that explains a rebound.
 
-#[path = "support/command.rs"]
-mod command;
-
-use command::{empty_folder, run, scene};
+use crate::command::{empty_folder, run, scene};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

@@ -1,11 +1,8 @@
 //! `brinell merge`: FMUs of one scene are joined, others are rejected.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/unit.rs"]
-mod unit;
-
-use command::{Run, contents, empty_folder, output, run};
+use crate::command;
+use crate::command::{Run, contents, empty_folder, output, run};
+use crate::unit;
 use std::fs;
 use std::path::Path;
 use std::process::Command;

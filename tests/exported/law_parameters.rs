@@ -1,17 +1,11 @@
 //! The constants of the laws: as data, in a scene, and in an exported FMU.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/laws.rs"]
-#[allow(dead_code)] // each test file uses a part of it
-mod laws;
-
+use crate::command::{empty_folder, run};
+use crate::physics::laws::{self, text};
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::{AnyLoading, Power};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, Loading, Pair};
-use command::{empty_folder, run};
-use laws::text;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;

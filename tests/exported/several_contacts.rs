@@ -2,14 +2,9 @@
 //! it is addressed; either all of them move or none.
 #![cfg(target_os = "linux")]
 
-#[path = "support/loaded.rs"]
-mod loaded;
-#[path = "support/unit.rs"]
-mod unit;
-
-use loaded::{ERROR, Instance, OK, Unit};
+use crate::loaded::{ERROR, Instance, OK, Unit};
+use crate::unit::write_scene;
 use std::fmt::Write;
-use unit::write_scene;
 
 /// Step size of the simulations [s].
 const STEP: f64 = 1e-6;

@@ -1,16 +1,14 @@
 //! Passivity of the laws: the table of laws describes it for all bodies that an FMU accepts.
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/physics.rs"]
-mod physics;
-
+use crate::command::{empty_folder, run};
+use crate::physics;
+use crate::physics::laws::{entries, entry, text};
+use crate::physics::{
+    AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit,
+};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model, Pair, Surface};
-use command::{empty_folder, run};
-use physics::laws::{entries, entry, text};
-use physics::{AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit};
 use std::fs;
 
 /// A surplus up to this fraction of the work is attributed to rounding and to the integrals.

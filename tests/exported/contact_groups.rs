@@ -1,9 +1,6 @@
 //! FMUs with several contacts: the summary of an export, and their check.
 
-#[path = "support/command.rs"]
-mod command;
-
-use command::{empty_folder, run};
+use crate::command::{empty_folder, run};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};

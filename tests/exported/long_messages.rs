@@ -1,10 +1,7 @@
 //! Messages about FMUs of thousands of contacts and about numbers of hundreds of digits: they stay short.
 #![cfg(target_os = "linux")]
 
-#[path = "support/command.rs"]
-mod command;
-
-use command::{Run, empty_folder, output, run, scene};
+use crate::command::{Run, empty_folder, output, run, scene};
 use std::fs;
 use std::path::Path;
 use std::process::Command;

@@ -2,13 +2,8 @@
 //! the last bit.
 #![cfg(target_os = "linux")]
 
-#[path = "support/loaded.rs"]
-mod loaded;
-#[path = "support/unit.rs"]
-mod unit;
-
-use loaded::{ERROR, Instance, OK, Unit};
-use unit::write_scene;
+use crate::loaded::{ERROR, Instance, OK, Unit};
+use crate::unit::write_scene;
 
 const BODIES: &str = "impactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n";
 const OUTPUTS: [&str; 4] = ["force", "indentation", "dissipated_energy", "mean_force"];

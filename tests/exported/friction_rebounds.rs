@@ -1,11 +1,7 @@
 //! Oblique impacts of a ball that the importer moves and turns, through the C interface of FMUs with friction.
 
-#[path = "support/loaded.rs"]
-mod loaded;
-#[path = "support/unit.rs"]
-mod unit;
-
-use loaded::{Instance, OK, Unit};
+use crate::loaded::{Instance, OK, Unit};
+use crate::unit;
 use std::f64::consts::PI;
 
 /// The FMU of mild steel on mild steel with friction and these laws.

@@ -3,12 +3,8 @@
 //! Each test also examines the same scene with a yield strength, so that a search that never finds anything is noticed.
 #![cfg(target_os = "linux")]
 
-#[path = "support/command.rs"]
-mod command;
-#[path = "support/unit.rs"]
-mod unit;
-
-use command::{empty_folder, run};
+use crate::command::{empty_folder, run};
+use crate::unit;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

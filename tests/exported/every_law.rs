@@ -1,9 +1,6 @@
 //! Every law in an exported FMU.
 
-#[path = "support/command.rs"]
-mod command;
-
-use command::{empty_folder, run};
+use crate::command::{empty_folder, run};
 use std::fs;
 
 #[test]

@@ -1,0 +1,37 @@
+//! Exported FMUs, and the program that exports them. Each file is a topic.
+//!
+//! `cargo test --release --test exported every_law` runs one of them.
+
+#[path = "../support/command.rs"]
+mod command;
+#[path = "../support/loaded.rs"]
+mod loaded;
+#[path = "../support/physics.rs"]
+mod physics;
+#[path = "../support/refusal.rs"]
+mod refusal;
+#[path = "../support/unit.rs"]
+mod unit;
+
+mod bad_units;
+mod contact_groups;
+mod contacts;
+mod descriptions;
+mod elastic_unit;
+mod every_law;
+mod export;
+mod friction_derivatives;
+mod friction_rebounds;
+mod friction_unit;
+mod guarded_units;
+mod hardening;
+mod law_energy;
+mod law_parameters;
+mod long_messages;
+mod merge;
+mod parameters_per_contact;
+mod rebounds;
+mod several_contacts;
+mod ssp;
+mod strain_rate;
+mod validity;
