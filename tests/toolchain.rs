@@ -8,8 +8,12 @@ mod skips;
 
 use command::{Run, brinell, contents, empty_folder, output};
 use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Arc, Mutex};
+use std::thread;
 use tempfile::TempDir;
 
 /// A mirror, and the folder for the toolchain.
@@ -85,10 +89,13 @@ impl Mirror {
     }
 
     fn toolchain(&self, more: &[&str]) -> Run {
+        self.toolchain_from(&format!("file://{}", self.path("mirror").display()), more)
+    }
+
+    fn toolchain_from(&self, mirror: &str, more: &[&str]) -> Run {
         let mut command = brinell(self.folder.path());
-        command
-            .args(["toolchain", "--folder", "tc", "--mirror"])
-            .arg(format!("file://{}", self.path("mirror").display()));
+        // a server on this machine is not behind a proxy
+        command.env("no_proxy", "*").args(["toolchain", "--folder", "tc", "--mirror", mirror]);
         output(command.args(more))
     }
 }
@@ -183,6 +190,56 @@ fn a_download_goes_on_where_it_stopped() {
     fs::write(&package, &other).unwrap();
     mirror.toolchain(&[]).with_status(0);
     assert_eq!(files(&mirror.path("tc")), layout());
+}
+
+/// Serves the files of `folder` over HTTP, each byte range as it is asked for. The first answer about the file `breaks` ends in the
+/// middle. Returns the address, and the ranges that were asked for.
+fn serve(folder: PathBuf, breaks: &'static str) -> (String, Arc<Mutex<Vec<(String, usize)>>>) {
+    let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
+    let address = format!("http://{}", listener.local_addr().unwrap());
+    let asked = Arc::new(Mutex::new(Vec::new()));
+    let list = Arc::clone(&asked);
+    thread::spawn(move || {
+        for stream in listener.incoming() {
+            let mut stream = stream.expect("a connection");
+            let lines: Vec<String> =
+                BufReader::new(&stream).lines().map_while(Result::ok).take_while(|line| !line.is_empty()).collect();
+            let path = lines[0].split(' ').nth(1).expect("a request").trim_start_matches('/').to_string();
+            let range =
+                lines.iter().find_map(|line| line.strip_prefix("Range: bytes=")?.strip_suffix('-')?.parse().ok());
+            let bytes = fs::read(folder.join(&path)).expect("a file of the mirror");
+            let from: usize = range.unwrap_or(0);
+            let is_first = !list.lock().unwrap().iter().any(|(known, _)| *known == path);
+            list.lock().unwrap().push((path.clone(), from));
+            let (status, rest) = (if range.is_some() { "206 Partial Content" } else { "200 OK" }, &bytes[from..]);
+            let head = format!(
+                "HTTP/1.1 {status}\r\nContent-Length: {}\r\nContent-Range: bytes {from}-{}/{}\r\nConnection: close\r\n\r\n",
+                rest.len(),
+                bytes.len() - 1,
+                bytes.len()
+            );
+            let sent = if is_first && path.ends_with(breaks) { rest.len() / 2 } else { rest.len() };
+            let _ = stream.write_all(head.as_bytes()).and_then(|()| stream.write_all(&rest[..sent]));
+        }
+    });
+    (address, asked)
+}
+
+#[test]
+fn after_a_broken_connection_the_message_says_how_much_is_there_and_the_next_call_asks_for_the_rest() {
+    let Some(mirror) = Mirror::new() else { return };
+    let broken = "pool/libstd-rust-web-1.99.deb";
+    let size = fs::metadata(mirror.package("libstd-rust-web-1.99")).unwrap().len() as usize;
+    let (address, asked) = serve(mirror.path("mirror"), broken);
+    let said = mirror.toolchain_from(&address, &[]).with_status(1);
+    let progress = format!("{} of {size} bytes are there, and the same command goes on", size / 2);
+    assert!(said.err.contains(broken) && said.err.contains(&progress), "{progress}: {said:#?}");
+    mirror.toolchain_from(&address, &[]).with_status(0);
+    assert_eq!(files(&mirror.path("tc")), layout());
+    let asked = asked.lock().unwrap();
+    let of = |path: &str| asked.iter().filter(|(known, _)| known == path).map(|(_, from)| *from).collect::<Vec<_>>();
+    assert_eq!(of(broken), [0, size / 2], "the second call asks for the second half");
+    assert_eq!(of("pool/rustc-web.deb"), [0], "what is complete is not asked for again");
 }
 
 #[test]

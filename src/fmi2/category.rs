@@ -72,7 +72,7 @@ impl Category {
     /// `name` is null-terminated.
     pub unsafe fn bits(name: fmi2String) -> Option<u8> {
         // SAFETY: guaranteed by the caller.
-        let is = |own| unsafe { is_same(name, own) };
+        let is = |own: &str| unsafe { is_same(name, own.as_bytes()) };
         if is("logStatusDiscard") {
             Some(DISCARD)
         } else if is("logStatusError") {

@@ -33,11 +33,11 @@ fn contact_name<S: Scene>(text: &mut Text, contact: usize) -> &mut Text {
 
 /// Writes `template`, replacing each `@` by the next of `words` and each `~` by the next of `numbers`.
 #[inline(never)]
-fn fill(text: &mut Text, template: &str, words: [&str; 2], numbers: [f64; 3]) {
+fn fill(text: &mut Text, template: &str, words: [&[u8]; 2], numbers: [f64; 3]) {
     let (mut words, mut numbers) = (words.iter(), numbers.iter());
     for &byte in template.as_bytes() {
         match byte {
-            b'@' => text.string(words.next().copied().unwrap_or("")),
+            b'@' => text.bytes(words.next().copied().unwrap_or_default()),
             b'~' => text.number(numbers.next().copied().unwrap_or(f64::NAN)),
             plain => text.byte(plain),
         };
@@ -52,13 +52,13 @@ const _: () = assert!(LARGEST_RADIUS_RATIO == 0.3 && LARGEST_SPEED_RATIO == 0.01
 /// It is filled field by field. A complete value for each case would double the code size.
 struct Message {
     template: &'static str,
-    words: [&'static str; 2],
+    words: [&'static [u8]; 2],
     numbers: [f64; 3],
     contact: Option<usize>,
 }
 
 impl Message {
-    const BLANK: Message = Message { template: "", words: [""; 2], numbers: [0.0; 3], contact: None };
+    const BLANK: Message = Message { template: "", words: [b""; 2], numbers: [0.0; 3], contact: None };
 
     fn write<S: Scene>(&self, text: &mut Text) {
         if let Some(contact) = self.contact {
@@ -91,11 +91,11 @@ pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
         }
         Complaint::BadInstance { reason } => reason,
         Complaint::OutOfOrder { phase } => {
-            message.words[0] = phase_name(phase);
+            message.words[0] = phase_name(phase).as_bytes();
             "not allowed @"
         }
         Complaint::NullPointer { argument } => {
-            message.words[0] = argument;
+            message.words[0] = argument.as_bytes();
             "the argument @ is null"
         }
         Complaint::UnknownReference { kind, reference } => {
@@ -112,7 +112,7 @@ pub fn describe<S: Scene>(text: &mut Text, complaint: &Complaint) {
             "unknown log category: there are logStatusWarning, logStatusDiscard, logStatusError, logAll"
         }
         Complaint::BadState { reason } => {
-            message.words[0] = reason;
+            message.words[0] = reason.as_bytes();
             "the FMU state can't be used: @"
         }
         Complaint::NoMemory => "out of memory",
@@ -127,11 +127,11 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
     match fault {
         Fault::NotSettable => "an output can't be set",
         Fault::FixedParameter { index } => {
-            words[0] = S::settable(index).map_or("", |(settable, _)| settable.name);
+            words[0] = S::settable(index).map_or(b"", |(settable, _)| settable.name);
             "the parameter @ can't be set after initialization"
         }
         Fault::NotFinite { name, value } => {
-            (words[0], numbers[0]) = (name, value);
+            (words[0], numbers[0]) = (name.as_bytes(), value);
             "@ = ~ is not finite"
         }
         Fault::RateOutOfRange { rate } => {
@@ -207,7 +207,7 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             }
         }
         Fault::NoDerivative { of } => {
-            words[0] = of;
+            words[0] = of.as_bytes();
             "only derivatives of @ exist"
         }
         Fault::DerivativeNotFinite => "the derivative is not finite",
@@ -218,7 +218,10 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         Fault::NoInputDerivatives if S::has_input(Real::ExternalAcceleration) => {
             "inputs of this FMU have no derivatives: external_acceleration is the input for the acceleration"
         }
-        Fault::NoInputDerivatives => "inputs of this FMU have no derivatives: its law depends on the rate",
+        Fault::NoInputDerivatives if S::Contact::FOLLOWS_RATE => {
+            "inputs of this FMU have no derivatives: its law depends on the rate"
+        }
+        Fault::NoInputDerivatives => "inputs of this FMU have no derivatives: its scene has input_derivatives = false",
     }
 }
 

@@ -2,27 +2,24 @@
 
 use super::abi::*;
 use super::complaint::Complaint;
-use super::component::{call, object};
+use super::component::{Component, call};
+use super::handle::Handle;
 use super::order::{self, Function};
-use crate::instance::Instance;
 use crate::scene::Scene;
+use core::ffi::c_void;
 
-/// Writes the `answer` if there is one.
+/// Checks a question for a status: fmi2OK if there is an answer, which the caller then writes to `value`.
 ///
 /// # Safety
-/// The caller's component and pointer.
-unsafe fn status<S: Scene, T: Copy>(
-    c: fmi2Component,
-    function: Function,
-    value: *mut T,
-    answer: impl FnOnce(&Instance<S>) -> Option<T>,
-) -> fmi2Status {
+/// The caller's component.
+#[inline(never)]
+unsafe fn check<S: Scene>(c: fmi2Component, function: Function, value: *mut c_void, is_known: bool) -> fmi2Status {
     // SAFETY: guaranteed by the caller.
     unsafe {
-        call::<S>(c, function, |component| {
-            let value = object(value, "value")?;
-            *value = answer(&component.instance).ok_or(Complaint::Unavailable)?;
-            Ok(())
+        call::<S>(c, function, |_| match is_known {
+            _ if value.is_null() => Err(Complaint::NullPointer { argument: "value" }),
+            true => Ok(()),
+            false => Err(Complaint::Unavailable),
         })
     }
 }
@@ -33,7 +30,13 @@ unsafe fn status<S: Scene, T: Copy>(
 /// See [the module](super#safety).
 pub unsafe fn get_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Status) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
-    unsafe { status::<S, _>(c, order::GET_STATUS, value, |_| (s == fmi2DoStepStatus).then_some(fmi2OK)) }
+    unsafe {
+        let status = check::<S>(c, order::GET_STATUS, value.cast(), s == fmi2DoStepStatus);
+        if status == fmi2OK {
+            *value = fmi2OK;
+        }
+        status
+    }
 }
 
 /// For fmi2LastSuccessfulTime: the end of the last step.
@@ -43,9 +46,13 @@ pub unsafe fn get_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *
 pub unsafe fn get_real_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Real) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
     unsafe {
-        status::<S, _>(c, order::GET_REAL_STATUS, value, |instance| {
-            (s == fmi2LastSuccessfulTime).then_some(instance.time())
-        })
+        let status = check::<S>(c, order::GET_REAL_STATUS, value.cast(), s == fmi2LastSuccessfulTime);
+        if status == fmi2OK
+            && let Some(component) = Component::<S>::behind(c)
+        {
+            *value = component.instance.time();
+        }
+        status
     }
 }
 
@@ -56,7 +63,7 @@ pub unsafe fn get_real_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, val
 pub unsafe fn get_integer_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Integer) -> fmi2Status {
     let _ = s;
     // SAFETY: the caller's component and pointer.
-    unsafe { status::<S, _>(c, order::GET_INTEGER_STATUS, value, |_| None) }
+    unsafe { check::<S>(c, order::GET_INTEGER_STATUS, value.cast(), false) }
 }
 
 /// For fmi2Terminated: false, because the FMU never ends the simulation itself.
@@ -65,7 +72,13 @@ pub unsafe fn get_integer_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, 
 /// See [the module](super#safety).
 pub unsafe fn get_boolean_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2Boolean) -> fmi2Status {
     // SAFETY: the caller's component and pointer.
-    unsafe { status::<S, _>(c, order::GET_BOOLEAN_STATUS, value, |_| (s == fmi2Terminated).then_some(fmi2False)) }
+    unsafe {
+        let status = check::<S>(c, order::GET_BOOLEAN_STATUS, value.cast(), s == fmi2Terminated);
+        if status == fmi2OK {
+            *value = fmi2False;
+        }
+        status
+    }
 }
 
 /// There is no status of this type: no step is ever pending.
@@ -75,5 +88,5 @@ pub unsafe fn get_boolean_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, 
 pub unsafe fn get_string_status<S: Scene>(c: fmi2Component, s: fmi2StatusKind, value: *mut fmi2String) -> fmi2Status {
     let _ = s;
     // SAFETY: the caller's component and pointer.
-    unsafe { status::<S, _>(c, order::GET_STRING_STATUS, value, |_| None) }
+    unsafe { check::<S>(c, order::GET_STRING_STATUS, value.cast(), false) }
 }

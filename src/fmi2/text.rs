@@ -8,8 +8,8 @@ use core::ffi::c_char;
 /// # Safety
 /// `text` is null-terminated.
 #[inline(never)]
-pub unsafe fn is_same(text: *const c_char, own: &str) -> bool {
-    let mut bytes = own.bytes().chain([0]).enumerate();
+pub unsafe fn is_same(text: *const c_char, own: &[u8]) -> bool {
+    let mut bytes = own.iter().copied().chain([0]).enumerate();
     // SAFETY: there is a next byte if all bytes before were equal to those of `own`, and not the terminating 0.
     bytes.all(|(place, byte)| unsafe { *text.add(place) } as u8 == byte)
 }
@@ -51,11 +51,16 @@ impl Text {
         self.bytes.as_ptr().cast()
     }
 
-    /// Appends `text`; what does not fit is cut off. `%` and `#` are doubled, because they are special to printf and to the
-    /// importer's logger (FMI 2.0.5, section 2.1.5).
-    #[inline(never)]
+    /// Appends `text`; what does not fit is cut off.
     pub fn string(&mut self, text: &str) -> &mut Text {
-        for &byte in text.as_bytes() {
+        self.bytes(text.as_bytes())
+    }
+
+    /// Appends a `text` in UTF-8; what does not fit is cut off. `%` and `#` are doubled, because they are special to printf and
+    /// to the importer's logger (FMI 2.0.5, section 2.1.5).
+    #[inline(never)]
+    pub fn bytes(&mut self, text: &[u8]) -> &mut Text {
+        for &byte in text {
             if byte == b'%' || byte == b'#' {
                 self.byte(byte);
             }

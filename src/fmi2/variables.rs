@@ -186,7 +186,7 @@ unsafe fn set_any_real<S: Scene>(
             }
             let mut parameters = false;
             for (&value, &reference) in values.iter().zip(references) {
-                parameters |= component.instance.set_real(real::<S>(reference)?, value);
+                parameters |= component.instance.set_real(any_real::<S>(reference)?, value);
             }
             if parameters {
                 component.instance.parameters_are_set();

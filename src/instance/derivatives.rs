@@ -16,7 +16,8 @@ impl<S: Scene> Instance<S> {
     ///
     /// # Errors
     /// [`Fault::NoDerivative`] for another variable, [`Fault::DerivativeOrder`], [`Fault::NotFinite`];
-    /// [`Fault::NoInputDerivatives`] for a rate-dependent law, and where the acceleration is an input.
+    /// [`Fault::NoInputDerivatives`] for a rate-dependent law, where the acceleration is an input, and where the scene doesn't want
+    /// them.
     pub fn check_input_derivative(&self, (variable, _): (Real, usize), order: i32, value: f64) -> Result<(), Fault> {
         if !S::Course::IS_PRESENT || S::has_input(Real::ExternalAcceleration) {
             return Err(Fault::NoInputDerivatives);
@@ -200,9 +201,8 @@ impl<S: Scene> Instance<S> {
     fn by_own_input(&self, variable: Real, contact: usize) -> Option<f64> {
         let history = self.histories().get(contact)?;
         let rate = *self.rates().get(contact)?;
-        let model = self.model(contact);
         if variable == Real::PredictedForce {
-            return self.prediction_by_input(contact, &model, rate);
+            return self.prediction_by_input(contact, &self.model(contact), rate);
         }
         if S::Contact::HAS_FRICTION
             && let Some(of) = variable.predicted_direction()
@@ -216,7 +216,7 @@ impl<S: Scene> Instance<S> {
         if !S::Contact::FOLLOWS_RATE {
             return Some(0.0);
         }
-        let damping = history.damping(rate);
+        let (damping, model) = (history.damping(rate), self.model(contact));
         let radius = history.contact_radius(&model);
         Some(match variable {
             Real::Force => damping,

@@ -116,7 +116,8 @@ pub enum Fault {
     DerivativeNotFinite,
     /// A derivative with respect to a variable that is not the input.
     NotAnInput,
-    /// Inputs of this scene have no derivatives: its law depends on the rate, or the acceleration is a separate input.
+    /// Inputs of this scene have no derivatives: its law depends on the rate, the acceleration is a separate input, or the scene
+    /// doesn't want them.
     NoInputDerivatives,
 }
 

@@ -20,11 +20,11 @@ const GROUPS: usize = 1;
 
 /// The parameters that can be set.
 static SETTABLE: [Settable; 5] = [
-    Settable { name: "impactor.radius", unit: "m", minimum: 1e-12, maximum: 1e9 },
-    Settable { name: "target.youngs_modulus", unit: "Pa", minimum: 1.0, maximum: 1e18 },
-    Settable { name: "target.poissons_ratio", unit: "", minimum: -0.99, maximum: 0.5 },
-    Settable { name: "target.yield_strength", unit: "Pa", minimum: 1e-9, maximum: 1e18 },
-    Settable { name: "initial_gap", unit: "m", minimum: -1e6, maximum: 1e6 },
+    Settable { name: "impactor.radius".as_bytes(), unit: "m".as_bytes(), minimum: 1e-12, maximum: 1e9 },
+    Settable { name: "target.youngs_modulus".as_bytes(), unit: "Pa".as_bytes(), minimum: 1.0, maximum: 1e18 },
+    Settable { name: "target.poissons_ratio".as_bytes(), unit: "".as_bytes(), minimum: -0.99, maximum: 0.5 },
+    Settable { name: "target.yield_strength".as_bytes(), unit: "Pa".as_bytes(), minimum: 1e-9, maximum: 1e18 },
+    Settable { name: "initial_gap".as_bytes(), unit: "m".as_bytes(), minimum: -1e6, maximum: 1e6 },
 ];
 
 /// The loading law with its constants.
@@ -57,8 +57,8 @@ impl Scene for Exported {
     type Coupling = Absent;
     type Watch = Absent;
 
-    fn guid() -> &'static str {
-        GUID
+    fn guid() -> &'static [u8] {
+        GUID.as_bytes()
     }
 
     fn identity() -> u64 {

@@ -33,7 +33,7 @@ impl Kind for Library {
     type Course = Present;
     type Prediction = Absent;
     type Coupling = Absent;
-    type Watch = Present;
+    type Watch = Absent;
 
     const LIBRARY: u64 = identity_of(MADE_FROM);
 

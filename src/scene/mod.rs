@@ -43,7 +43,7 @@ pub trait Scene: Sized {
     type Forces: Presence;
     /// Whether an output needs the momentum of a step.
     type Momentum: Presence;
-    /// Whether the input may have derivatives. Contacts whose force depends on the rate have none.
+    /// Whether the input may have derivatives. Contacts whose force depends on the rate have none; others may do without.
     type Course: Presence;
     /// Whether an output predicts the force at the end of the next step.
     type Prediction: Presence;
@@ -64,8 +64,8 @@ pub trait Scene: Sized {
     /// The number of groups.
     const GROUPS: usize = <Self::Groups<u8> as Store<u8>>::LENGTH;
 
-    /// The GUID of the model description of the scene.
-    fn guid() -> &'static str;
+    /// The GUID of the model description of the scene, in UTF-8.
+    fn guid() -> &'static [u8];
 
     /// A number that identifies the scene in saved states; no other scene has it.
     fn identity() -> u64;

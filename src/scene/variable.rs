@@ -39,10 +39,10 @@ impl Parameter {
 /// A parameter of the scene that can be set, with its limits.
 #[derive(Clone, Copy, Debug)]
 pub struct Settable {
-    /// Name of the variable.
-    pub name: &'static str,
-    /// Unit; empty if there is none.
-    pub unit: &'static str,
+    /// Name of the variable, in UTF-8.
+    pub name: &'static [u8],
+    /// Unit, in UTF-8; empty if there is none.
+    pub unit: &'static [u8],
     /// Smallest value allowed.
     pub minimum: f64,
     /// Largest value allowed.

@@ -30,6 +30,15 @@ fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
 }
 
 #[test]
+fn input_derivatives_where_the_fmu_cannot_choose_are_refused_with_the_reason() {
+    let coupled = "[coupling]\neffective_mass = 4e-3\n[fmu]\ninput_derivatives = §false\n";
+    refused_with(coupled, &["fmu.input_derivatives = false", "[coupling] needs them", "leave this key out"]);
+    let damped = "[law]\nloading = \"tsuji\"\nrestitution = 0.5\n[fmu]\ninput_derivatives = §true\n";
+    refused_with(damped, &["fmu.input_derivatives = true", "depends on the rate", "leave this key out"]);
+    refused_with("[fmu]\ninput_derivatives = §\"no\"\n", &["boolean"]);
+}
+
+#[test]
 fn a_softer_impactor_is_refused() {
     refused(
         "radius = 5e-3",

@@ -1,6 +1,6 @@
 //! The texts of an FMU in its model description and on its documentation page must be true for its kind.
 
-use crate::loaded::{OK, Unit};
+use crate::loaded::{ERROR, OK, Unit};
 use crate::unit;
 use crate::unit::write_scene;
 use std::collections::BTreeSet;
@@ -76,6 +76,49 @@ fn a_rate_dependent_fmu_without_derivatives_does_not_mention_them() {
     assert!(rate.contains("held over a step\"") && !xml.contains("derivative are set"), "{rate}");
     assert!(!page.contains("fmi2SetRealInputDerivatives") && page.contains("follows the rate at the same instant"));
     assert!(variable(&xml, "effective_mass").contains("for which the damping of the law is designed"), "{xml}");
+}
+
+/// They are a tenth of the library. The rest of the FMU is the same.
+#[test]
+fn an_fmu_without_input_derivatives_is_smaller_steps_as_others_do_and_names_the_key() {
+    let outputs = "fmu = { outputs = [\"dissipated_energy\", \"residual_indentation\"]";
+    let [with, without] = [("derivatives", ""), ("no_derivatives", ", input_derivatives = false")]
+        .map(|(name, more)| scene(name, &format!("{outputs}{more} }}\n")));
+    let (xml, page) = texts(&without);
+    assert!(
+        xml.contains(" canInterpolateInputs=\"false\"") && xml.contains(" maxOutputDerivativeOrder=\"2\""),
+        "{xml}"
+    );
+    for text in [variable(&xml, "indentation_rate"), &page] {
+        assert!(text.contains("held over a step") && !text.contains("olynomial in time"), "{text}");
+    }
+    assert!(!page.contains("fmi2SetRealInputDerivatives"), "{page}");
+    let size = |scene: &Path| fs::metadata(unit::library(&unit::export(scene))).unwrap().len();
+    assert!(size(&without) + 3000 < size(&with), "{} and {}", size(&without), size(&with));
+    let [with, without] = [with, without].map(|scene| Unit::load(&scene));
+    let [mut one, mut other] = [with.ready(), without.ready()];
+    for step in 0..300 {
+        let (time, rate) = (f64::from(step) * 1e-6, (f64::from(step) * 0.05).sin() * 10f64.powi(step % 4 - 3));
+        for contact in [&mut one, &mut other] {
+            contact.set_one("indentation_rate", rate);
+            assert_eq!(contact.step(time, 1e-6), OK);
+        }
+        for name in ["force", "dissipated_energy", "residual_indentation"] {
+            assert_eq!(one.real(name).to_bits(), other.real(name).to_bits(), "{name} in step {step}");
+            let mut slopes = [[0.0]; 2];
+            for (contact, slope) in [&one, &other].into_iter().zip(&mut slopes) {
+                assert_eq!(contact.output_derivatives(&[contact.real_of(name)], 2, slope), OK);
+            }
+            assert_eq!(slopes[0], slopes[1], "{name} in step {step}");
+        }
+    }
+    let rate = other.real_of("indentation_rate");
+    assert_eq!(other.set_derivatives(&[rate], 1, &[1.0]), ERROR);
+    assert!(
+        other.message().ends_with("have no derivatives: its scene has input_derivatives = false"),
+        "{}",
+        other.message()
+    );
 }
 
 /// Stronge's law is above Hertz's just after yield, and returns more energy than it took.

@@ -176,9 +176,9 @@ pub struct Chosen<K, const N: usize, M = Absent>(PhantomData<(K, M)>);
 type Kept = Absent;
 
 static SETTABLE: [Settable; 3] = [
-    Settable { name: "impactor.radius", unit: "m", minimum: 1e-12, maximum: 1e9 },
-    Settable { name: "target.yield_strength", unit: "Pa", minimum: 1e-9, maximum: 1e18 },
-    Settable { name: "initial_gap", unit: "m", minimum: -1e6, maximum: 1e6 },
+    Settable { name: b"impactor.radius", unit: b"m", minimum: 1e-12, maximum: 1e9 },
+    Settable { name: b"target.yield_strength", unit: b"Pa", minimum: 1e-9, maximum: 1e18 },
+    Settable { name: b"initial_gap", unit: b"m", minimum: -1e6, maximum: 1e6 },
 ];
 
 /// Every Real output, in the order of their references.
@@ -223,8 +223,8 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Watch = K::Watch;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
 
-    fn guid() -> &'static str {
-        "a scene of the tests"
+    fn guid() -> &'static [u8] {
+        b"a scene of the tests"
     }
 
     fn identity() -> u64 {

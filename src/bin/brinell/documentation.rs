@@ -164,6 +164,9 @@ fn coupling(scene: &Scene) -> String {
         "The rate is held over a step, and the law is followed exactly: the result does not depend on how time is divided. The \
          force follows the rate at the same instant: set the rate again before you read the force, or solve that loop."
             .into()
+    } else if !scene.input_derivatives {
+        "The rate is held over a step. The law is followed exactly: the result does not depend on how time is divided."
+            .into()
     } else {
         "The rate is held over a step, or is a polynomial in time if its first and second derivative are set \
          (<code>fmi2SetRealInputDerivatives</code>, for one step). The law is followed exactly: the result does not depend on how \

@@ -75,6 +75,7 @@ fn kinds(scene: &Scene, energy: Energy) -> Vec<Kind> {
     let heats = scene.loss.is_some() && coupling.is_none() && energy == Energy::Passive;
     let kinds = [
         (Kind::RateDependent, scene.damped.is_some() || heats),
+        (Kind::HeldInputs, !scene.input_derivatives),
         (Kind::Parallel, coupling.is_some_and(|coupling| coupling.parallel)),
         (Kind::AccelerationInput, coupling.is_some_and(|coupling| coupling.acceleration_input)),
         (Kind::MassKnown, coupling.is_some()),

@@ -72,6 +72,8 @@ pub struct Instead {
 pub enum Kind {
     /// The force depends on the rate.
     RateDependent,
+    /// Its inputs have no derivatives, as the scene wants it.
+    HeldInputs,
     /// The FMU knows the mass, and its importer steps all FMUs at once.
     Parallel,
     /// The FMU knows the mass, and has an input for the acceleration.

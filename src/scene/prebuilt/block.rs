@@ -161,16 +161,10 @@ impl Data {
         parameter < Parameter::COUNT && self.settable >> parameter & 1 != 0
     }
 
-    /// The GUID.
-    pub fn guid(&self) -> &str {
-        core::str::from_utf8(&self.guid).unwrap_or_default()
-    }
-
     /// The text with this index; empty after the last one.
     #[inline(never)]
-    pub fn text(&self, place: usize) -> &str {
-        let text = self.texts.split(|&byte| byte == 0).nth(place).unwrap_or_default();
-        core::str::from_utf8(text).unwrap_or_default()
+    pub fn text(&self, place: usize) -> &[u8] {
+        self.texts.split(|&byte| byte == 0).nth(place).unwrap_or_default()
     }
 
     /// The words of the data as they lie in memory.

@@ -85,8 +85,8 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
         B::block().check(B::words(), K::LIBRARY)
     }
 
-    fn guid() -> &'static str {
-        B::block().data.guid()
+    fn guid() -> &'static [u8] {
+        &B::block().data.guid
     }
 
     #[inline]

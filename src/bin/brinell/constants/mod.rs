@@ -21,7 +21,7 @@ pub fn write(plan: &Plan, guid: &str) -> String {
     file.add_item(&format!(
         "/// Identification that the model description and the binary share.\nconst GUID: &str = {guid:?};\n"
     ));
-    file.add_method("guid() -> &'static str", "GUID");
+    file.add_method("guid() -> &'static [u8]", "GUID.as_bytes()");
     file.add_method("identity() -> u64", "const { identity_of(GUID) }");
     groups::add_groups(&mut file, scene);
     parameters::add_settable(&mut file, scene, entries);
@@ -128,7 +128,7 @@ fn parts(scene: &Scene) -> String {
 
 /// Whether the input may have derivatives. In a scene that moves its bodies, its derivative is their acceleration.
 pub fn has_course(scene: &Scene) -> bool {
-    !scene.is_rate_dependent() || scene.coupling.is_some()
+    scene.input_derivatives && !scene.is_rate_dependent() || scene.coupling.is_some()
 }
 
 /// The function that moves the bodies, if the scene moves them.

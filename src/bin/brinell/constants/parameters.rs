@@ -36,7 +36,7 @@ pub fn add_settable(file: &mut File, scene: &Scene, entries: &[Entry]) {
         let [minimum, maximum] = [variable.minimum, variable.maximum].map(number);
         write!(
             table,
-            "\n    Settable {{ name: {:?}, unit: {unit:?}, minimum: {minimum}, maximum: {maximum} }},",
+            "\n    Settable {{ name: {:?}.as_bytes(), unit: {unit:?}.as_bytes(), minimum: {minimum}, maximum: {maximum} }},",
             // with several values, the contact is named before
             if entry.count == 1 { entry.name(0) } else { variable.name.clone() }
         )

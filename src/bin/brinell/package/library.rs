@@ -40,6 +40,20 @@ const LIBRARY: [&str; 6] = [
     "-Clto=fat",
 ];
 
+/// Additional options of prebuilt libraries. LLVM does not promise to keep its own options; a prebuilt library is compiled by a
+/// compiler that is known, an FMU by any. Without these optimizations, which copy code or keep values in more registers, a
+/// compressed library is 1 % smaller.
+const PREBUILT: [&str; 4] = [
+    "--cfg=feature=\"prebuilt\"",
+    "-Cllvm-args=--disable-machine-licm",
+    "-Cllvm-args=--enable-pre=false",
+    "-Cllvm-args=--inline-threshold=60",
+];
+
+/// Another one for arm64 Linux: code in the order of the source compresses better by 2 %. For macOS, which has another model of
+/// its processors, it doesn't.
+const IN_ORDER_OF_SOURCE: &str = "-Cllvm-args=--enable-misched=false";
+
 /// Number of contacts from which the loops are optimized for speed instead of size.
 const MANY_CONTACTS: usize = 16;
 
@@ -83,10 +97,13 @@ impl Source<'_> {
     }
 
     /// Additional arguments of the compiler.
-    fn arguments(&self) -> &'static [&'static str] {
+    fn arguments(&self, target: &Target) -> Vec<&'static str> {
         match self {
-            Source::Scene { .. } => &[],
-            Source::Kind { .. } => &["--cfg=feature=\"prebuilt\""],
+            Source::Scene { .. } => Vec::new(),
+            Source::Kind { .. } if target.triple.starts_with("aarch64-unknown-linux") => {
+                [PREBUILT.as_slice(), &[IN_ORDER_OF_SOURCE]].concat()
+            }
+            Source::Kind { .. } => PREBUILT.to_vec(),
         }
     }
 }
@@ -207,13 +224,15 @@ impl Build<'_> {
         let library = format!("{}.{}", source.name(), target.system.extension());
         let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library].map(String::from);
         let standalone = source.is_standalone().then_some(&STANDALONE);
+        let compressed = matches!(source, Source::Kind { .. });
         let arguments = optimized
             .iter()
             .chain(&LIBRARY)
             .chain(standalone)
-            .chain(source.arguments())
-            .map(|argument| (*argument).to_string());
-        let arguments = arguments.chain(link::arguments(target, linker, &library, &objects)).chain(named);
+            .copied()
+            .chain(source.arguments(target))
+            .map(String::from);
+        let arguments = arguments.chain(link::arguments(target, linker, &library, &objects, compressed)).chain(named);
         rustc.run(folder, arguments, &link::variables(target, folder))?;
         let library = folder.join(library);
         Ok(fs::read(&library).map_err(FileError::at(&library))?)

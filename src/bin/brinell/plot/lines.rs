@@ -94,7 +94,7 @@ fn write_line(text: &mut String, line: &Line) -> std::fmt::Result {
     for place in line.pieces.iter().flatten().step_by(if line.dots { 1 } else { every }) {
         // points without a marker also show their values
         let (radius, seen) = if has_markers { (22, "") } else { (48, " fill-opacity=\"0\"") };
-        let (x, y) = (label(&place.value.0), label(&place.value.1));
+        let (x, y) = (short(place.value.0), short(place.value.1));
         write!(
             text,
             "<circle cx=\"{}\" cy=\"{}\" r=\"{radius}\" stroke=\"none\"{seen}><title>{name}: {x}, {y}</title></circle>",
@@ -102,6 +102,11 @@ fn write_line(text: &mut String, line: &Line) -> std::fmt::Result {
         )?;
     }
     writeln!(text, "</g>")
+}
+
+/// A value to hover over, with four digits.
+fn short(value: f64) -> String {
+    label(&format!("{value:.3e}").parse().expect("a number"))
 }
 
 /// The points of a line without redundant ones: those closer than a pixel and a half to the one before, except ends

@@ -16,6 +16,10 @@ pub struct Kind {
     outputs: Outputs,
     /// `None` if the library doesn't know the mass.
     master: Option<Master>,
+    /// Whether it can warn of unstable steps.
+    watches: bool,
+    /// Whether its inputs can have derivatives.
+    input_derivatives: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -31,23 +35,58 @@ enum Outputs {
 }
 
 /// The kinds, in ascending order of cost. `impulse` and `mean_force` are computed in every step; all other outputs
-/// only when they are read.
-pub const KINDS: [Kind; 5] = [
+/// only when they are read. The first two are for FMUs of many platforms, which are sent around: they lack what a scene can do
+/// without.
+pub const KINDS: [Kind; 6] = [
+    Kind {
+        name: "least",
+        outputs: Outputs::These(&["indentation", "residual_indentation", "dissipated_energy"]),
+        master: None,
+        watches: false,
+        input_derivatives: false,
+    },
     Kind {
         name: "force",
         outputs: Outputs::These(&["indentation", "residual_indentation", "dissipated_energy"]),
         master: None,
+        watches: false,
+        input_derivatives: true,
     },
-    Kind { name: "state", outputs: Outputs::AllBut(&["impulse", "mean_force", "closing_speed"]), master: None },
-    Kind { name: "everything", outputs: Outputs::AllBut(&["closing_speed"]), master: None },
-    Kind { name: "serial", outputs: Outputs::AllBut(&[]), master: Some(Master::Serial) },
-    Kind { name: "parallel", outputs: Outputs::AllBut(&[]), master: Some(Master::Parallel) },
+    Kind {
+        name: "state",
+        outputs: Outputs::AllBut(&["impulse", "mean_force", "closing_speed"]),
+        master: None,
+        watches: true,
+        input_derivatives: true,
+    },
+    Kind {
+        name: "everything",
+        outputs: Outputs::AllBut(&["closing_speed"]),
+        master: None,
+        watches: true,
+        input_derivatives: true,
+    },
+    Kind {
+        name: "serial",
+        outputs: Outputs::AllBut(&[]),
+        master: Some(Master::Serial),
+        watches: false,
+        input_derivatives: true,
+    },
+    Kind {
+        name: "parallel",
+        outputs: Outputs::AllBut(&[]),
+        master: Some(Master::Parallel),
+        watches: false,
+        input_derivatives: true,
+    },
 ];
 
 impl Kind {
-    /// Whether this kind has libraries with rate-dependent laws. These laws don't support a known mass.
+    /// Whether this kind has libraries with rate-dependent laws. These laws don't support a known mass, and never have
+    /// derivatives of their input.
     fn goes_with_damped(&self) -> bool {
-        self.master.is_none()
+        self.master.is_none() && self.input_derivatives
     }
 
     fn has_output(&self, name: &str) -> bool {
@@ -65,13 +104,17 @@ impl Kind {
         names.filter(|name| *name != "force" && self.has_output(name))
     }
 
-    /// Whether a library of this kind has all outputs and inputs of `scene`.
+    /// Whether a library of this kind has all that `scene` requests.
     fn takes(&self, scene: &Scene) -> bool {
         let master = scene.coupling.map(|Coupling { parallel, .. }| match parallel {
             true => Master::Parallel,
             false => Master::Serial,
         });
-        master == self.master && scene.outputs.iter().all(|output| self.has_output(output))
+        let watches = self.watches || !scene.watches;
+        let derivatives = self.input_derivatives || !constants::has_course(scene);
+        let laws = !scene.is_rate_dependent() || self.goes_with_damped();
+        let has_features = laws && master == self.master && watches && derivatives;
+        has_features && scene.outputs.iter().all(|output| self.has_output(output))
     }
 }
 
@@ -133,9 +176,11 @@ pub struct Library {
 impl Library {
     fn new(laws: Laws, kind: &'static Kind) -> Library {
         let outputs = kind.outputs().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+        let derivatives = if kind.input_derivatives { "" } else { "input_derivatives = false\n" };
         let mut text = format!(
             "name = \"prebuilt\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[fmu]\n\
-             outputs = [{outputs}]\n[impact]\nmass = 4e-3\nspeed = 1.0\n{}",
+             outputs = [{outputs}]\n{derivatives}[impact]\nmass = 4e-3\nspeed = 1.0\nwatch = {}\n{}",
+            kind.watches,
             laws.table()
         );
         if let Some(master) = kind.master {

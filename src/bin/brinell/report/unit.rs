@@ -59,6 +59,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         friction,
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],
+        input_derivatives: true,
         watches: false,
         structured_names: false,
         standalone: false,

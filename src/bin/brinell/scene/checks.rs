@@ -58,6 +58,9 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     };
     let friction = friction::check(file.friction.as_ref(), &with_friction)?;
     contacts.check_friction()?;
+    let follows_rate = damped.is_some() || loss.is_some();
+    let input_derivatives =
+        check_input_derivatives(file.fmu.input_derivatives.as_ref(), coupling.is_some(), follows_rate)?;
     let impact = check_impact(file.impact.as_ref(), known_mass.as_ref(), &contacts)?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
     predict::check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
@@ -110,6 +113,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
             && damped.is_none()
             && loss.is_none()
             && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
+        input_derivatives,
         structured_names: file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
         standalone: file.fmu.standalone == Some(true),
         impact_is_assumed: file.impact.is_none(),
@@ -234,6 +238,21 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
         socket.get_ref()
     );
     Err(Mistake(socket.span(), message))
+}
+
+/// Whether the inputs may have derivatives, as far as the law allows.
+fn check_input_derivatives(
+    asked: Option<&Spanned<bool>>,
+    knows_mass: bool,
+    follows_rate: bool,
+) -> Result<bool, Mistake> {
+    let Some(asked) = asked else { return Ok(true) };
+    let reason = match *asked.get_ref() {
+        false if knows_mass => "an FMU with [coupling] needs them to move the bodies; leave this key out",
+        true if follows_rate && !knows_mass => "a law that depends on the rate allows none; leave this key out",
+        wanted => return Ok(wanted),
+    };
+    Err(Mistake(asked.span(), format!("fmu.input_derivatives = {}: {reason}", asked.get_ref())))
 }
 
 /// The message about an impact for which the law cannot be evaluated.

@@ -108,6 +108,7 @@ pub struct Fmu {
     pub parameters: Option<Vec<Spanned<String>>>,
     pub initial_gap: Option<Spanned<f64>>,
     pub standalone: Option<bool>,
+    pub input_derivatives: Option<Spanned<bool>>,
 }
 
 /// The naming convention of variables for importers.

@@ -75,6 +75,8 @@ pub struct Scene {
     pub impact_is_assumed: bool,
     /// Whether the FMU warns of steps that are unstable with the mass of the impact.
     pub watches: bool,
+    /// Whether the inputs may have derivatives, as far as the law allows.
+    pub input_derivatives: bool,
     /// Whether the names of variables are declared as structured instead of flat.
     pub structured_names: bool,
     /// Whether the library needs nothing from its process, and takes memory from its importer.

@@ -73,7 +73,7 @@ impl Source<'_> {
             let part = file.with_extension("part");
             let there = || fs::metadata(&part).map_or(0, |metadata| metadata.len());
             if there() < package.size {
-                curl(&url, &part, &progress)?;
+                curl(&url, &part, &progress).map_err(|error| with_progress(error, there(), package.size))?;
             }
             let found = hash(&part).map_err(FileError::at(&part))?;
             if found != package.sha256 {
@@ -115,7 +115,17 @@ fn curl(url: &str, file: &Path, progress: impl Fn(u64)) -> Result<(), ToolchainE
         let _ = stderr.read_to_string(&mut said);
     }
     let said = said.lines().last().unwrap_or("curl says nothing").trim().to_string();
-    Err(ToolchainError::Download { url: url.into(), said })
+    Err(ToolchainError::Download { url: url.into(), said, progress: String::new() })
+}
+
+/// The `error`, which says of a download how many of its bytes are there.
+fn with_progress(error: ToolchainError, there: u64, size: u64) -> ToolchainError {
+    match error {
+        ToolchainError::Download { url, said, .. } => {
+            ToolchainError::Download { url, said, progress: format!("{there} of {size} bytes are there, and ") }
+        }
+        other => other,
+    }
 }
 
 /// SHA-256 of a file, in hexadecimal digits.

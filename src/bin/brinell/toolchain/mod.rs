@@ -32,8 +32,8 @@ pub enum ToolchainError {
     System(String),
     #[error("curl can't be started ({0}): the toolchain is downloaded by curl, which your system has a package of")]
     NoCurl(std::io::Error),
-    #[error("{url} can't be downloaded ({said}); the same command goes on where this one stopped")]
-    Download { url: String, said: String },
+    #[error("{url} can't be downloaded ({said}); {progress}the same command goes on where this one stopped")]
+    Download { url: String, said: String, progress: String },
     #[error("{url} is damaged: {found}, where the index of the packages has {wanted}; it was removed")]
     Damaged { url: String, found: String, wanted: String },
     #[error("the index of the packages has no {0}: the project's page may have a newer version of this program")]
