@@ -55,6 +55,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         quasi_static: scene.quasi_static.clone(),
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
         friction,
+        directions: usize::from(friction),
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],
         watches: false,
