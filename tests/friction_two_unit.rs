@@ -105,7 +105,7 @@ fn the_unit_gives_the_same_bits_as_the_library() {
 fn motion_along_one_line_has_the_forces_of_a_unit_with_one_direction() {
     for (name, law) in [("elastic", ELASTIC), ("plastic", PLASTIC)] {
         let line = unit_of(&format!("line_{name}"), law, "", "");
-        let plane = unit_of(&format!("plane_{name}"), law, "directions = 2", "");
+        let plane = unit_of(&format!("two_{name}"), law, "directions = 2", "");
         for turn in 0..8 {
             let (sine, cosine) = (0.25 * PI * f64::from(turn) + 0.1).sin_cos();
             let (mut one, mut two, [mut time, mut same]) = (line.ready(), plane.ready(), [0.0; 2]);

@@ -3,6 +3,8 @@
 use crate::html::escape;
 use crate::scene::Scene;
 use crate::table;
+use brinell::contact::Body;
+use brinell::contact::tangential::Friction;
 use std::fmt::Write;
 
 /// Writes the section about the friction of `scene`, if it has any.
@@ -57,13 +59,26 @@ const IN_TWO: [&str; 2] = [
      eight straight parts. Derivatives of the tangential force are from trial steps.",
 ];
 
-const STABILITY: &str = "For a free solid ball, the tangential frequency is up to 1.7 times the normal one, if the importer moves the \
-                         ball: the longest stable step is shorter by this factor than along the normal.";
+/// How much the stable step shrinks.
+fn stability(scene: &Scene) -> String {
+    let body = |name: &str| Body {
+        radius: f64::INFINITY,
+        youngs_modulus: scene.group_value(0, &format!("{name}.youngs_modulus")).unwrap_or(f64::INFINITY),
+        poissons_ratio: scene.group_value(0, &format!("{name}.poissons_ratio")).unwrap_or(0.0),
+    };
+    let friction = Friction::between(&body("impactor"), &body("target"), scene.model().pair.modulus, 1.0);
+    // v + omega R of a solid ball has the inertia 2/7 m
+    let ratio = (3.5 * friction.stiffness_ratio).sqrt();
+    format!(
+        "A solid ball that the importer moves and turns freely has a tangential frequency of {ratio:.2} times the normal one. Its \
+         longest stable step is shorter by this factor; the warning of unstable steps looks at the normal motion only."
+    )
+}
 
 /// The accuracy of the tangential force, in sentences.
 fn accuracy(scene: &Scene) -> Vec<String> {
     let mut items: Vec<String> = if scene.directions > 1 { &IN_TWO } else { &IN_ONE }.map(Into::into).into();
-    items.push(STABILITY.into());
+    items.push(stability(scene));
     if let Some((name, _)) = scene.unloading {
         let error = table::unloading_law(name).friction_error_after(scene.loading.0);
         if let Some(error) = error {
