@@ -23,6 +23,12 @@ fn the_fmu_converges_to_the_predicted_rebound_and_a_single_spring_does_not() {
     assert!(unit[6] < 1e-3 && unit[6] < 0.2 * unit[4] && unit[4] < 0.2 * unit[2], "{unit:?}");
     assert!(*errors("single spring").last().unwrap() > 0.05);
     assert!(*errors("single spring, rescaled").last().unwrap() > 0.02);
+    // the frequency of the tangential motion: sqrt(7/2 4 G*/E*)
+    let summary = data["summary"].to_string();
+    assert!(summary.contains("stable steps of a solid ball that sticks are 1.7 times shorter"), "{summary}");
+    // an FMU with friction can't know the mass
+    assert!(!summary.contains("knows the mass"), "{summary}");
+    assert!(rows(&data, "limits").iter().all(|row| !row["way"].as_str().unwrap_or_default().starts_with("mass known")));
     let page = fs::read_to_string(folder.path().join("report/index.html")).unwrap();
     assert!(page.contains("Oblique impacts") && page.contains("oblique-angle.svg"));
 }

@@ -3,7 +3,7 @@
 use crate::package::Way;
 use crate::platform::{self, Platform};
 use crate::prebuilt;
-use crate::{check, hardness, law_list, new, predict, report, units};
+use crate::{check, curve, hardness, law_list, new, predict, report};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -56,7 +56,7 @@ pub enum Command {
     /// Predict a Brinell test: dent and hardness; or find the yield strength from HBW
     Hardness(hardness::command::Arguments),
     /// Draw or tabulate one cycle of loading, unloading and reloading
-    Curve(CurveArguments),
+    Curve(curve::Arguments),
     /// Measure the FMU of a scene: errors, run times, stability, laws; on one page
     Report(report::Arguments),
     /// List the laws with their error against finite elements, or show one law
@@ -201,32 +201,4 @@ pub struct PrebuildArguments {
     pub kinds: Vec<String>,
     #[command(flatten)]
     pub platforms: PlatformArguments,
-}
-
-#[derive(clap::Args)]
-#[command(next_line_help = true)]
-pub struct CurveArguments {
-    /// The scene file
-    pub scene: PathBuf,
-    /// Write the curve with all digits: .csv or .svg [default: print a short table]
-    #[arg(short, long)]
-    pub output: Option<PathBuf>,
-    /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
-    #[arg(long, value_delimiter = ',')]
-    pub laws: Vec<String>,
-    /// Largest indentation [m] [default: that of the scene's impact]
-    #[arg(long, value_parser = units::lengths)]
-    pub to: Option<f64>,
-    /// Add the finite-element loading curve as dots to the picture
-    #[arg(long)]
-    pub truth: bool,
-    /// Draw loops of the tangential force instead, with the indentation --to held
-    #[arg(long, conflicts_with = "truth")]
-    pub tangential: bool,
-    /// Coefficient of friction of the loops [default: the scene's]
-    #[arg(long, requires = "tangential")]
-    pub friction: Option<f64>,
-    /// Amplitudes of the loops [m] [default: 0.3, 0.6, 0.9 and 1.2 of that at which the contact slides]
-    #[arg(long, value_delimiter = ',', value_parser = units::lengths, requires = "tangential")]
-    pub amplitude: Vec<f64>,
 }

@@ -1,6 +1,5 @@
 //! `brinell curve`: force, radius, pressure and energies along a path of loading, unloading and reloading.
 
-use crate::arguments::CurveArguments;
 use crate::columns::{Column, Columns};
 use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
@@ -11,14 +10,14 @@ use crate::predict::oblique;
 use crate::scene::Scene;
 use crate::tangential_curve::{Loops, Wanted};
 use crate::wrong_call::WrongCall;
-use crate::{predict, truth};
+use crate::{predict, truth, units};
 use brinell::contact::damped::{self, AnyDamped, Damped};
 use brinell::contact::impact::Impact;
 use brinell::contact::{History, Loading, TooDeep};
 use serde_json::json;
 use std::error::Error;
 use std::f64::consts::PI;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Number of points on each branch of the path.
 const POINTS: u32 = 200;
@@ -26,8 +25,37 @@ const POINTS: u32 = 200;
 /// Number of rows of the table in a terminal: four for each branch, and the end.
 const TABLE_ROWS: usize = 17;
 
+/// The arguments of `brinell curve`.
+#[derive(clap::Args)]
+#[command(next_line_help = true)]
+pub struct Arguments {
+    /// The scene file
+    pub scene: PathBuf,
+    /// Write the curve with all digits: .csv or .svg [default: print a short table]
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
+    #[arg(long, value_delimiter = ',')]
+    pub laws: Vec<String>,
+    /// Largest indentation [m] [default: that of the scene's impact]
+    #[arg(long, value_parser = units::lengths)]
+    pub to: Option<f64>,
+    /// Add the finite-element loading curve as dots to the picture
+    #[arg(long)]
+    pub truth: bool,
+    /// Draw loops of the tangential force instead, with the indentation --to held
+    #[arg(long, conflicts_with = "truth")]
+    pub tangential: bool,
+    /// Coefficient of friction of the loops [default: the scene's]
+    #[arg(long, requires = "tangential")]
+    pub friction: Option<f64>,
+    /// Amplitudes of the loops [m] [default: 0.3, 0.6, 0.9 and 1.2 of that at which the contact slides]
+    #[arg(long, value_delimiter = ',', value_parser = units::lengths, requires = "tangential")]
+    pub amplitude: Vec<f64>,
+}
+
 /// The command: draws or tabulates the curve for these arguments.
-pub fn run(arguments: &CurveArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
+pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let output = arguments.output.as_deref();
     let format = ending(output, &["csv", "svg"]).map_err(WrongCall)?;
     if let Some(path) = output {
@@ -61,7 +89,7 @@ fn tangential(
     scene: &Scene,
     choices: &[Choice],
     held: f64,
-    arguments: &CurveArguments,
+    arguments: &Arguments,
     (output, format): (Option<&Path>, &str),
     as_json: bool,
 ) -> Result<(), Box<dyn Error>> {

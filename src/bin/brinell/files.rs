@@ -1,24 +1,10 @@
 //! Reading and writing of files for the user.
 
+pub use crate::file_error::FileError;
 use crate::interrupt::{self, Folder};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-
-/// A file that cannot be read or written.
-#[derive(Debug, thiserror::Error)]
-#[error("{path}: {source}", path = path.display())]
-pub struct FileError {
-    pub path: PathBuf,
-    pub source: io::Error,
-}
-
-impl FileError {
-    /// For `map_err`: the error at `path`.
-    pub fn at(path: &Path) -> impl Fn(io::Error) -> FileError {
-        move |source| FileError { path: path.into(), source }
-    }
-}
 
 /// Writes a temporary file and renames it. The target is never incomplete. A symbolic link is kept, and the file it points to is
 /// written. A device or a pipe is written to, not replaced. A new file gets the permissions of the umask.

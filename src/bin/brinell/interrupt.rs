@@ -3,7 +3,7 @@
 //! Temporary files and child processes are registered here while they exist. The handler stops the children and
 //! removes the files. It keeps the register locked, so nothing new can appear while the process ends.
 
-use crate::files::FileError;
+use crate::file_error::FileError;
 use shared_child::SharedChild;
 use std::io::{self, Read};
 use std::ops::Deref;

@@ -12,6 +12,7 @@ mod documentation;
 mod energy;
 mod experiment;
 mod export;
+mod file_error;
 mod files;
 mod friction_text;
 mod guard;

@@ -9,8 +9,9 @@
 //! with `x^2` linear in the largest indentation (`thornton`). It is lower if a straight line over the old heights is
 //! curved over the new ones. There is no measured reference for friction on a contact that has yielded.
 
+use super::cone::{Cone, Point};
 use super::list::{Draft, Vertex};
-use super::{List, SAME, Stuck, Way};
+use super::{List, Stuck, Way};
 use crate::contact::numbers::{largest, quotient, root};
 use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
@@ -19,9 +20,6 @@ use libm::{ceil, fabs};
 /// Longest part of a path other than Hertz's curve whose image on a new path counts as straight, relative to the
 /// length of the path.
 pub(super) const LONGEST: f64 = 0.25;
-
-/// Height and offset of a point of the polyline \[m\].
-type Point = (f64, f64);
 
 /// Whether `path` is Hertz's curve from its origin. The images of such paths are proportional to each other.
 pub(super) fn is_hertzian(path: &Segment) -> bool {
@@ -115,7 +113,7 @@ impl<const N: usize> Stuck<N> {
 
     /// Takes over the segments that `cut` has kept on `curve`, up to `indentation` \[m\].
     fn take(&mut self, cut: Cut<N>, curve: &Segment, indentation: f64) {
-        self.list = cut.left.into_list(curve);
+        self.list = cut.left.into_list(curve, &cut.cone);
         if let [only] = self.list.vertices()
             && fabs(only.slope) == 1.0
         {
@@ -131,14 +129,13 @@ impl<const N: usize> Stuck<N> {
 /// The part of a polyline that the cone of a point keeps, segment by segment from the lowest one.
 struct Cut<'a, const N: usize> {
     curve: &'a Segment,
-    indentation: f64,
-    displacement: f64,
+    cone: Cone,
     left: Draft<N>,
 }
 
 impl<const N: usize> Cut<'_, N> {
     fn new(curve: &Segment, indentation: f64, displacement: f64) -> Cut<'_, N> {
-        Cut { curve, indentation, displacement, left: Draft::EMPTY }
+        Cut { curve, cone: Cone { displacement, indentation }, left: Draft::EMPTY }
     }
 
     /// Adds the segment between two points.
@@ -151,8 +148,11 @@ impl<const N: usize> Cut<'_, N> {
 
     /// Adds the part below the present indentation of a segment of this `slope` between two points.
     fn segment(&mut self, from: Point, to: Point, slope: f64) {
-        let to =
-            if to.0 > self.indentation { (self.indentation, from.1 + slope * (self.indentation - from.0)) } else { to };
+        let to = if to.0 > self.cone.indentation {
+            (self.cone.indentation, from.1 + slope * (self.cone.indentation - from.0))
+        } else {
+            to
+        };
         if to.0 > from.0 {
             let [first, second] = [1.0, -1.0].map(|sign| self.crossing(sign, from, to));
             let (low, high) = if first < second { (first, second) } else { (second, first) };
@@ -171,26 +171,18 @@ impl<const N: usize> Cut<'_, N> {
         let (mut offset, mut kept) = (from.1 + slope * (height - from.0), slope);
         let middle = from.0 + 0.5 * (start + end) * rise;
         for sign in [1.0, -1.0] {
-            if self.is_outside(self.distance(sign, (middle, from.1 + slope * (middle - from.0)))) {
-                (offset, kept) = (self.displacement - sign * (self.indentation - height), sign);
+            let distance = self.cone.distance(sign, (middle, from.1 + slope * (middle - from.0)));
+            if self.cone.is_outside(distance) {
+                (offset, kept) = (self.cone.displacement - sign * (self.cone.indentation - height), sign);
             }
         }
-        self.left.extend(self.curve, Vertex::new(self.curve, height, offset, kept));
-    }
-
-    /// Distance of a point from one side of the cone \[m\]; positive inside.
-    fn distance(&self, sign: f64, (height, offset): Point) -> f64 {
-        sign * (offset - self.displacement) + self.indentation - height
-    }
-
-    fn is_outside(&self, distance: f64) -> bool {
-        distance < -SAME * self.indentation
+        self.left.extend(self.curve, &self.cone, Vertex::new(self.curve, height, offset, kept));
     }
 
     /// Where a segment crosses one side of the cone, as a fraction of its length; 1 without a crossing.
     fn crossing(&self, sign: f64, from: Point, to: Point) -> f64 {
-        let (start, end) = (self.distance(sign, from), self.distance(sign, to));
-        let crosses = self.is_outside(start) != self.is_outside(end);
+        let (start, end) = (self.cone.distance(sign, from), self.cone.distance(sign, to));
+        let crosses = self.cone.is_outside(start) != self.cone.is_outside(end);
         let part = quotient(start, start - end, crosses && start != end, 1.0);
         if part > 0.0 && part < 1.0 { part } else { 1.0 }
     }

@@ -4,6 +4,7 @@ use crate::contact::segment::Segment;
 use libm::fabs;
 
 use super::SAME;
+use super::cone::Cone;
 use super::merge::merge;
 
 /// A vertex of the polyline with the segment above it, which ends at the next vertex. The last segment ends at the
@@ -93,7 +94,7 @@ impl<const N: usize> List<N> {
     /// Adds a segment on top. In a full list it first merges two segments, along the `curve` of the normal force.
     #[inline]
     pub fn push(&mut self, curve: &Segment, vertex: Vertex) {
-        push(&mut self.vertices, &mut self.count, curve, vertex);
+        push(&mut self.vertices, &mut self.count, curve, None, vertex);
     }
 
     /// Whether no slope is steeper than that of slipping springs. The cone of a point then cuts the top off the
@@ -103,11 +104,12 @@ impl<const N: usize> List<N> {
     }
 }
 
-/// Adds a segment above the `count` others in `room`; if `room` is full, it first merges two of them.
+/// Adds a segment above the `count` others in `room`; if `room` is full, it first merges two of them. A growing dent
+/// has a `cone`.
 #[inline(always)]
-fn push(room: &mut [Vertex], count: &mut usize, curve: &Segment, mut vertex: Vertex) {
+fn push(room: &mut [Vertex], count: &mut usize, curve: &Segment, cone: Option<&Cone>, mut vertex: Vertex) {
     if *count >= room.len() {
-        *count = merge(room, &vertex, curve);
+        *count = merge(room, &vertex, curve, cone);
     }
     let last = count.checked_sub(1).and_then(|last| room.get(last));
     vertex.below = last.map_or(0.0, |last| last.pull_up_to(vertex.force));
@@ -128,23 +130,23 @@ impl<const N: usize> Draft<N> {
     pub(super) const EMPTY: Draft<N> = Draft { count: 0, vertices: [[Vertex::NONE; N]; 4] };
 
     /// Adds a segment on top, unless it continues the last one in a straight line.
-    pub(super) fn extend(&mut self, curve: &Segment, vertex: Vertex) {
+    pub(super) fn extend(&mut self, curve: &Segment, cone: &Cone, vertex: Vertex) {
         let room = self.vertices.as_flattened_mut();
         let last = self.count.checked_sub(1).and_then(|last| room.get(last));
         if last.is_none_or(|last| fabs(last.slope - vertex.slope) > SAME) {
-            push(room, &mut self.count, curve, vertex);
+            push(room, &mut self.count, curve, Some(cone), vertex);
         }
     }
 
     /// The list of these segments; excess segments are merged.
-    pub(super) fn into_list(mut self, curve: &Segment) -> List<N> {
+    pub(super) fn into_list(mut self, curve: &Segment, cone: &Cone) -> List<N> {
         let room = self.vertices.as_flattened_mut();
         while self.count > N
             && let Some(([rest @ .., last], _)) = room.split_at_mut_checked(self.count)
         {
             let last = *last;
-            self.count = merge(rest, &last, curve);
-            push(room, &mut self.count, curve, last);
+            self.count = merge(rest, &last, curve, Some(cone));
+            push(room, &mut self.count, curve, Some(cone), last);
         }
         let mut list = List::EMPTY;
         for vertex in room.iter().take(self.count) {

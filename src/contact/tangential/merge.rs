@@ -1,7 +1,8 @@
 //! Merges three segments of a full list into two.
 
+use super::cone::Cone;
 use super::list::Vertex;
-use crate::contact::numbers::{largest, quotient};
+use crate::contact::numbers::quotient;
 use crate::contact::segment::Segment;
 use libm::fabs;
 
@@ -46,12 +47,12 @@ fn choose(list: &[Vertex], end: &Vertex) -> Choice {
 /// Removes one segment of a full `list` whose last segment ends at `end`. Returns the number of remaining segments.
 ///
 /// Three neighbours become two that meet halfway between the inner vertices. Their slopes follow from two conditions:
-/// the ends and the tangential force stay the same. A slope must not be steeper than any of the three and than that
-/// of slipping springs. Otherwise the inner vertex that matters less is dropped, and the force changes by its
-/// [`area`].
+/// the ends and the tangential force stay the same. On a constant curve, no slope may be steeper than that of slipping
+/// springs. In a growing dent slopes can be steeper; there the new vertex has to be inside the `cone`. Otherwise the
+/// inner vertex that matters less is dropped, and the force changes by its [`area`].
 #[cold]
 #[inline(never)]
-pub fn merge(list: &mut [Vertex], end: &Vertex, curve: &Segment) -> usize {
+pub(super) fn merge(list: &mut [Vertex], end: &Vertex, curve: &Segment, cone: Option<&Cone>) -> usize {
     let Choice { first, upper_matters_less } = choose(list, end);
     let next = list.get(first + 3).unwrap_or(end);
     let (next_height, next_force) = (next.height, next.force);
@@ -73,10 +74,13 @@ pub fn merge(list: &mut [Vertex], end: &Vertex, curve: &Segment) -> usize {
     let exists = determinant > 0.0;
     let slope = quotient(shift * upper_force - pull * upper, determinant, exists, f64::INFINITY);
     let slope_above = quotient(lower * pull - lower_force * shift, determinant, exists, f64::INFINITY);
-    let steepest = largest(fabs(low.slope), largest(fabs(one.slope), largest(fabs(two.slope), 1.0)));
-    let removed = if fabs(slope) <= steepest && fabs(slope_above) <= steepest {
+    let offset = low.offset + slope * lower;
+    let fits = match cone {
+        Some(cone) => exists && cone.holds((middle, offset)),
+        None => fabs(slope) <= 1.0 && fabs(slope_above) <= 1.0,
+    };
+    let removed = if fits {
         low.slope = slope;
-        let offset = low.offset + slope * lower;
         *one = Vertex { height: middle, offset, slope: slope_above, force: middle_force, below: 0.0 };
         first + 2
     } else if upper_matters_less {

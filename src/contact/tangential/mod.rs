@@ -28,6 +28,7 @@
 //! - M. A. Krasnosel'skii, A. V. Pokrovskii, *Systems with Hysteresis*, 1989: the play operator.
 
 mod behaviour;
+mod cone;
 mod contact;
 mod growth;
 mod growth_steps;

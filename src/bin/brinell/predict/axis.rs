@@ -1,7 +1,7 @@
 //! The varied quantity of a sweep: a quantity of the impact, or a parameter of the scene.
 
+use super::constants;
 use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_height};
-use super::{constants, oblique};
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::nearest::{nearest, one_of};
@@ -25,6 +25,9 @@ pub struct Axis {
 
 /// The quantities of an impact, with their units.
 const OF_IMPACT: [(&str, &str); 4] = [("speed", "m/s"), ("mass", "kg"), ("energy", "J"), ("drop_height", "m")];
+
+/// Those that only oblique impacts have.
+pub const OF_OBLIQUE_IMPACT: [(&str, &str); 2] = [("angle", "deg"), ("spin", "rad/s")];
 
 /// Parameters that only some laws have, whether or not a scene contains them.
 const HARDENING: &str = "target.hardening_modulus";
@@ -104,7 +107,7 @@ impl Axis {
 fn find(name: &str) -> Result<(&'static str, &'static str), String> {
     let parameters = VARIABLES.iter().filter(|variable| variable.causality == Causality::Parameter);
     let parameters = parameters.map(|variable| (variable.name.as_str(), variable.unit.as_deref().unwrap_or("")));
-    let known: Vec<_> = OF_IMPACT.into_iter().chain(oblique::QUANTITIES).chain(parameters).collect();
+    let known: Vec<_> = OF_IMPACT.into_iter().chain(OF_OBLIQUE_IMPACT).chain(parameters).collect();
     let constants: Vec<_> = constants::names().collect();
     let found = known.iter().chain(&constants).find(|(known, _)| *known == name);
     let names: Vec<_> = known.iter().map(|(name, _)| *name).filter(|name| !WITHOUT_EFFECT.contains(name)).collect();

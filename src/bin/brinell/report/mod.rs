@@ -27,6 +27,7 @@ use card::Card;
 use choice::Choice;
 use data::Table;
 use measurement::Measurement;
+use oblique::Oblique;
 use peer::Peer;
 use precision::Plan;
 use progress::{Progress, Work};
@@ -101,6 +102,8 @@ pub struct Report {
     pub card: Card,
     /// The recommended coupling, in sentences.
     pub advice: Vec<String>,
+    /// The findings about the user's own measurement.
+    measured: Vec<String>,
     /// The recommended coupling, as a table.
     pub choice: String,
     recommendations: Value,
@@ -187,6 +190,7 @@ impl Report {
         let choice = Choice::of(&lines, &stability);
         let mut advice = choice.sentences();
         advice.extend(stability.sentence());
+        advice.extend(oblique.as_ref().and_then(Oblique::sentence));
         advice.extend(not_for_several(scene));
         let mut recommendations = json!({ "ways": choice.json(), "impact": card.json });
         if let (Value::Object(all), Value::Object(stable)) = (&mut recommendations, stability.json()) {
@@ -199,24 +203,32 @@ impl Report {
         if let Some(measurement) = measurement {
             // what the user asked for comes first
             parts.insert(0, measurement.part(&alone));
-            advice.extend(measurement.sentences());
         }
-        let all_right = !cases.iter().any(extremes::Case::has_failed);
-        Ok(Report { name: scene.name.clone(), choice: choice.html(), card, advice, recommendations, parts, all_right })
+        Ok(Report {
+            name: scene.name.clone(),
+            card,
+            advice,
+            measured: measurement.map(Measurement::sentences).unwrap_or_default(),
+            choice: choice.html(),
+            recommendations,
+            parts,
+            all_right: !cases.iter().any(extremes::Case::has_failed),
+        })
     }
 
     /// The outcome and the recommendation, for a terminal.
     fn lines(&self) -> Vec<String> {
         let outcome = self.card.outcome.iter().map(|(name, value)| format!("{name:<26} {value}"));
         let warnings = self.card.warnings.iter().map(|warning| format!("Outside the law's validity: {warning}."));
-        let sentences = self.card.trust.iter().chain(&self.advice).cloned();
+        let sentences = self.card.trust.iter().chain(&self.advice).chain(&self.measured).cloned();
         let cases = self.parts.iter().find(|part| part.title == extremes::TITLE).map(|part| part.words.clone());
         outcome.chain([String::new()]).chain(sentences).chain(warnings).chain(cases).collect()
     }
 
     /// All tables as one document.
     pub fn json(&self) -> Value {
-        let sentences: Vec<_> = self.card.trust.iter().chain(&self.card.warnings).chain(&self.advice).collect();
+        let sentences: Vec<_> =
+            self.card.trust.iter().chain(&self.card.warnings).chain(&self.advice).chain(&self.measured).collect();
         let mut document = json!({ "scene": self.name, "summary": sentences, "use": self.recommendations });
         for table in self.parts.iter().flat_map(|part| &part.tables) {
             document[table.name] = table.json();

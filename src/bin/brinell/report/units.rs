@@ -21,7 +21,8 @@ struct Loaded {
     archive: Archive,
 }
 
-/// The FMUs for `scene`. An FMU whose force follows the rate has no input derivatives and can't know the mass.
+/// The FMUs for `scene`. An FMU whose force follows the rate has no input derivatives and can't know the mass. One with
+/// friction can't know the mass either.
 fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
     let all = [
         (Needs::Force, "the FMU"),
@@ -32,7 +33,9 @@ fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
         (Needs::Friction, "the FMU with friction"),
     ];
     let (damped, friction) = (scene.is_rate_dependent(), scene.friction);
+    let knows_mass = |needs: Needs| matches!(needs, Needs::Mass | Needs::LateMass);
     let all = all.into_iter().filter(move |(needs, _)| friction || *needs != Needs::Friction);
+    let all = all.filter(move |(needs, _)| !(friction && knows_mass(*needs)));
     all.filter(move |(needs, _)| !damped || matches!(needs, Needs::Force | Needs::PredictedForce))
 }
 

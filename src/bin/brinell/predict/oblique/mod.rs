@@ -8,7 +8,7 @@ mod text;
 pub use sweep::Sweep;
 pub use text::Answer;
 
-use super::axis::{Axis, varied};
+use super::axis::{Axis, OF_OBLIQUE_IMPACT, varied};
 use super::{PredictError, positive};
 use crate::laws::Choice;
 use crate::model::AnyModel;
@@ -28,9 +28,6 @@ pub const METHOD: &str = "computed with the springs of the contact in a thousand
 
 /// Moment of inertia of a solid sphere over `m R^2`.
 const SOLID_SPHERE: f64 = 0.4;
-
-/// Quantities of a sweep that only oblique impacts have, with their units.
-pub const QUANTITIES: [(&str, &str); 2] = [("angle", "deg"), ("spin", "rad/s")];
 
 /// What makes an impact oblique.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +85,7 @@ const GUARDED: &str = " guarded";
 
 /// Whether the quantity `name` belongs to oblique impacts only.
 pub fn is_quantity(name: &str) -> bool {
-    name == FRICTION || QUANTITIES.iter().any(|(known, _)| *known == name)
+    name == FRICTION || OF_OBLIQUE_IMPACT.iter().any(|(known, _)| *known == name)
 }
 
 /// Rejects a coefficient of friction that no scene can have.

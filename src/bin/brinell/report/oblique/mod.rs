@@ -60,6 +60,8 @@ struct Line {
 /// The measurements.
 pub struct Oblique {
     coefficient: f64,
+    /// Frequency of the tangential motion of a sticking ball over that of its normal motion.
+    frequency_ratio: f64,
     /// Angles of the errors [degrees].
     angles: [f64; 3],
     speed: f64,
@@ -103,7 +105,15 @@ pub fn measure(scene: &Scene, contact: Option<&mut Contact>, most: u32) -> Resul
         lines.push(Line { name, errors, restitutions });
     }
     let predicted = all.iter().map(|outcome| (outcome.setting.angle, outcome.tangential_restitution())).collect();
-    Ok(Some(Oblique { coefficient, angles, speed: scene.impact.speed, predicted, lines }))
+    let frequency_ratio = exact.first().map_or(f64::NAN, frequency_ratio);
+    Ok(Some(Oblique { coefficient, frequency_ratio, angles, speed: scene.impact.speed, predicted, lines }))
+}
+
+/// Frequency of the tangential motion of a sticking ball over that of its normal motion: `sqrt(4 G*/E* m/m_t)`, with
+/// `1/m_t = 1/m + R^2/I` at the contact point.
+fn frequency_ratio(outcome: &Outcome) -> f64 {
+    let Ball { mass, inertia, radius, .. } = outcome.before;
+    (outcome.friction.stiffness_ratio * (1.0 + mass * radius * radius / inertia)).sqrt()
 }
 
 /// The prediction of the scene's impact at this angle [degrees].

@@ -22,13 +22,24 @@ impl Oblique {
                  The master steps the contact first, then the ball with its new forces. Errors are differences of the tangential \
                  restitution of the centre from <code>brinell predict --angle</code>, root mean square over the angles. A single \
                  spring has the stiffness 8 G* a and Coulomb's limit, as in discrete-element codes; rescaled, its force falls in \
-                 unloading with the contact radius. No measurement of friction with yield is known; for an elastic contact the \
+                 unloading with the contact radius. Below some 1e-5 the bounded memory of the FMU limits its error. No measurement of friction with yield is known; for an elastic contact the \
                  guide compares both with measured rebounds.",
                 quantity(self.speed, "m/s"),
                 self.angles.map(|angle| significant(angle, 3)).join(", ")
             ),
             tables: vec![self.error_table(), self.angle_table()],
         }
+    }
+
+    /// The effect of friction on stable steps.
+    pub fn sentence(&self) -> Option<String> {
+        (self.frequency_ratio > 1.0).then(|| {
+            format!(
+                "These steps are for the normal motion. With friction the largest stable steps of a solid ball that sticks are {} \
+                 times shorter.",
+                significant(self.frequency_ratio, 2)
+            )
+        })
     }
 
     /// The finding: how far the methods are off.
