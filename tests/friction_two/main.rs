@@ -242,3 +242,28 @@ fn damaged_words_are_rejected() {
         assert!(load(&damaged).is_none(), "word {place}");
     }
 }
+
+/// Words that no contact has saved, but whose numbers are finite.
+#[test]
+fn forged_springs_end_their_steps() {
+    let mut random = Random(31);
+    for _ in 0..2000 {
+        let mut any = || {
+            let size = 10f64.powf(40.0 * random.next() - 30.0);
+            if random.next() < 0.5 { size } else { -size }
+        };
+        let mut words: Vec<u64> = (0..Stuck::<16>::WORDS).map(|_| any().to_bits()).collect();
+        words[5] = (any().abs().to_bits() >> 7) % 17;
+        let mut run = Run::<16>::new();
+        run.indentation = 1e-5;
+        run.stuck = Stuck::load(&mut words.into_iter(), &run.curve).expect("finite numbers");
+        for step in any_sizes(5, 6) {
+            run.divided(step, 2, |run| assert!(run.stuck.segments() <= 16));
+        }
+        // a new contact has forgotten it
+        run.step((-1e-4, [0.0; 2]));
+        run.indentation = -1e-6;
+        run.step((2e-6, [1e-6, 0.0]));
+        assert!(length(run.pull()) <= run.force() * (1.0 + 1e-12));
+    }
+}
