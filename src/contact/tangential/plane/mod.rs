@@ -8,8 +8,8 @@
 //! A spring moves exactly on a straight way: it sticks up to its limit, and then slips on a pursuit curve (see
 //! `pursuit`). A spring that is inside the cone of the end point has not slipped on the way, because the cone is convex. The
 //! vertices of the polyline move like this; between them it stays straight. Where springs turn, a part of a segment is halved
-//! until it is short ([`SPACING`]) and almost straight ([`BEND`]). A vertex on a straight segment costs no accuracy, and
-//! without it the many small turns of a slow rotation would never be noticed. A full list [merges](merge) vertices that
+//! until it is short (`SPACING`) and almost straight (`BEND`). A vertex on a straight segment costs no accuracy, and
+//! without it the many small turns of a slow rotation would never be noticed. A full list merges vertices that
 //! matter least, and keeps the force.
 //!
 //! # Accuracy
