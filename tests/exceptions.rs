@@ -11,12 +11,13 @@ use brinell::contact::{Contact, Surface};
 use brinell::instance::Instance;
 use brinell::scene::{Present, Real, Scene};
 use physics::{Random, all_models, mild};
-use scenes::{Choice, Chosen, Damped, Elastoplastic, FRICTIONS, Massive, OUTPUTS, Rough, choose, words};
+use scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, Rough, RoughPlane, choose, frictions, words};
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Present>;
 type MassiveOne = Chosen<Massive, 1, Present>;
 type RoughOne = Chosen<Rough, 1, Present>;
+type RoughPlaneOne = Chosen<RoughPlane, 1, Present>;
 type DampedOne = Chosen<Damped, 1, Present>;
 
 const INVALID: i32 = 1;
@@ -76,8 +77,12 @@ fn live<S: Scene>(name: &str) {
                 quiet(|| what("derivative"), || instance.check_input_derivative(variable, 1, acceleration));
                 instance.set_input_derivative((Real::IndentationRate, contact), 1, acceleration);
             }
-            if S::Contact::HAS_FRICTION {
-                let (variable, slip) = ((Real::TangentialRate, contact), special[(3 * step + 1) % special.len()]);
+            for (direction, input) in [Real::TangentialRate, Real::SecondTangentialRate].into_iter().enumerate() {
+                if direction >= S::Contact::DIRECTIONS {
+                    break;
+                }
+                let slip = special[((3 + 2 * direction) * step + 1) % special.len()];
+                let variable = (input, contact);
                 quiet(|| what("tangential set"), || instance.check_real(variable, slip));
                 instance.set_real(variable, slip);
                 if step % 5 == 0 {
@@ -87,8 +92,7 @@ fn live<S: Scene>(name: &str) {
         }
         let time = instance.time();
         quiet(|| what("step"), || instance.do_step(time, length));
-        let frictions = if S::Contact::HAS_FRICTION { &FRICTIONS[..] } else { &[] };
-        for &output in OUTPUTS.iter().chain(frictions) {
+        for output in OUTPUTS.into_iter().chain(frictions::<S>()) {
             for contact in 0..S::CONTACTS {
                 let (_, flags) = raised(|| instance.real((output, contact)));
                 assert_eq!(flags, 0, "{}", what(&format!("{output:?}")));
@@ -149,6 +153,7 @@ fn instances_with_friction_raise_none() {
             let choice = Choice { friction, ..Choice::of(model.loading, model.unloading) };
             choose(choice);
             live::<RoughOne>(&format!("{name}, friction {friction:e}"));
+            live::<RoughPlaneOne>(&format!("{name}, friction {friction:e} in two directions"));
             choose(Choice { surface: Surface::Fresh, initial_gap: -3e-5, ..choice });
             live::<RoughOne>(&format!("{name}, friction {friction:e}, fresh"));
         }

@@ -166,6 +166,7 @@ fn damaged_and_foreign_states_are_refused() {
 #[test]
 fn a_free_ball_rebounds_obliquely_as_in_the_table() {
     pytest("test_friction.py", &[scene("oblique"), scene("steel_ball")]);
+    pytest("test_friction_in_two_directions.py", &[scene("two_directions")]);
 }
 
 #[test]

@@ -16,7 +16,7 @@ use brinell::scene::exported::Exported;
 use brinell::scene::{Coupled, Present, Real, Scene};
 use physics::{Random, all_models, mild};
 use scenes::{
-    Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, Rough, choose, outputs, ready, set_rate,
+    Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, Rough, RoughPlane, choose, outputs, ready, set_rate,
     set_tangential_rate, words,
 };
 
@@ -26,6 +26,8 @@ type DampedOne = Chosen<Damped, 1, Present>;
 type DampedSeveral = Chosen<Damped, 3, Present>;
 type RoughOne = Chosen<Rough, 1, Present>;
 type RoughSeveral = Chosen<Rough, 3, Present>;
+type RoughPlaneOne = Chosen<RoughPlane, 1, Present>;
+type RoughPlaneSeveral = Chosen<RoughPlane, 3, Present>;
 type MassiveOne = Chosen<Massive, 1, Present>;
 type MassiveSeveral = Chosen<Massive, 2, Present>;
 type ParallelOne = Chosen<Massive<Coupled<Present>>, 1, Present>;
@@ -104,6 +106,8 @@ fn instances_of_every_kind_run_copy_save_and_reset_to_the_bit() {
         behaves::<WiredSeveral>(&name);
         behaves::<RoughOne>(&name);
         behaves::<RoughSeveral>(&name);
+        behaves::<RoughPlaneOne>(&name);
+        behaves::<RoughPlaneSeveral>(&name);
     }
     for (name, damped) in AnyDamped::ALL {
         choose(Choice { damped, ..some_pairings()[0].1 });

@@ -28,6 +28,7 @@ fn scenes() -> Vec<PathBuf> {
         scene("mass_known"),
         scene("oblique"),
         scene("rough_contacts"),
+        scene("two_directions"),
         with("regime", "[fmu]\noutputs = [\"indentation\", \"regime\"]"),
         with("two", &format!("[fmu]\noutputs = {OUTPUTS}\n[coupling]\neffective_mass = 4e-3\n{two}")),
         with("row", "[fmu]\noutputs = [\"indentation\", \"regime\"]\n[[contact]]\nname = \"bead\"\ncount = 3"),

@@ -192,9 +192,12 @@ fn a_download_goes_on_where_it_stopped() {
     assert_eq!(files(&mirror.path("tc")), layout());
 }
 
+/// The files that were asked for, and the first byte of each.
+type Requests = Arc<Mutex<Vec<(String, usize)>>>;
+
 /// Serves the files of `folder` over HTTP, each byte range as it is asked for. The first answer about the file `breaks` ends in the
-/// middle. Returns the address, and the ranges that were asked for.
-fn serve(folder: PathBuf, breaks: &'static str) -> (String, Arc<Mutex<Vec<(String, usize)>>>) {
+/// middle. Returns the address and the requests.
+fn serve(folder: PathBuf, breaks: &'static str) -> (String, Requests) {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a free port");
     let address = format!("http://{}", listener.local_addr().unwrap());
     let asked = Arc::new(Mutex::new(Vec::new()));

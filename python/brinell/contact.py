@@ -218,7 +218,8 @@ class Contact:
 
         `tangential_rate` [m/s] is the relative tangential speed of the two contact points, and
         `tangential_acceleration` [m/s^2] its time derivative, if the scene has friction. A rate
-        that is not given keeps its value. `tangential_force` is then the force along it.
+        that is not given keeps its value. `tangential_force` is then the force along it. With
+        two tangential directions, both are pairs of numbers.
 
         An FMU with several contacts takes a sequence of one number for each contact (the mass may
         be one number for all), and returns an array of forces. Which force: see `Contact`.

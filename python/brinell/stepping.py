@@ -23,8 +23,8 @@ class Stepping:
         self._rate_references = variables.references(variables.rates)
         self._rates = (c_double * count)()
         self._external = variables.references(variables.every("external_acceleration"))
-        self._tangential = variables.references(variables.every("tangential_rate"))
-        self._tangential_values = (c_double * count)()
+        self._tangential = variables.references(variables.components("tangential_rate"))
+        self._tangential_values = (c_double * len(self._tangential))()
         # orders 1 of all contacts, then orders 2
         self._twice = variables.references(variables.rates * 2)
         self._orders = (c_int * (2 * count))(*[1] * count, *[2] * count)
@@ -135,8 +135,9 @@ class Stepping:
         self, rate: Numbers | None, acceleration: Numbers | None
     ) -> list[tuple[str, tuple[Any, ...]]]:
         """Return the calls that set the tangential rates and their derivatives."""
-        references, count = self._tangential, self._count
-        if len(references) == 0:
+        references = self._tangential
+        count = len(references)
+        if count == 0:
             name, value = ("tangential_rate", rate)
             if rate is None:
                 name, value = ("tangential_acceleration", acceleration)
@@ -146,24 +147,40 @@ class Stepping:
         calls: list[tuple[str, tuple[Any, ...]]] = []
         if rate is not None:
             # the FMU keeps the values until they are set again
-            self._fill(self._tangential_values, 0, "tangential_rate", rate)
+            self._fill_tangential(self._tangential_values, "tangential_rate", rate)
             calls.append(("SetReal", (references, count, self._tangential_values)))
         if acceleration is not None:
             values = (c_double * count)()
-            self._fill(values, 0, "tangential_acceleration", acceleration)
+            self._fill_tangential(values, "tangential_acceleration", acceleration)
             orders = (c_int * count)(*[1] * count)
             calls.append(("SetRealInputDerivatives", (references, count, orders, values)))
         return calls
 
+    def _fill_tangential(self, array: Any, name: str, values: Any) -> None:
+        """One number for each contact, or two with two tangential directions."""
+        if len(array) == self._count:
+            self._fill(array, 0, name, values)
+            return
+        shapes = [(self._count, 2), (2,)] if self._count == 1 else [(self._count, 2)]
+        if isinstance(values, str | bytes) or np.shape(values) not in shapes:
+            one = "two numbers are needed, one for each tangential direction"
+            all_of_them = f"{self._count} pairs of numbers are needed, one pair for each contact"
+            raise TypeError(f"{name} = {values!r}: {one if self._count == 1 else all_of_them}")
+        array[:] = [number(name, value) for value in np.ravel(values).tolist()]
+
     def tangential_force(self, instance: Instance) -> Any:
-        """The tangential force [N] of each contact that belongs to the force of the last step."""
+        """The tangential force [N] of each contact that belongs to the force of the last step; an
+        array of its two components with two tangential directions."""
         name = "mean_tangential_force" if self._was_mean else "tangential_force"
-        names = self._variables.every(name)
+        names = self._variables.components(name)
         if not names:
             raise self._variables.unknown("output", name, self._variables.outputs)
-        values = (c_double * self._count)()
-        instance.call("GetReal", self._variables.references(names), self._count, values)
-        return values[0] if self._count == 1 else np.array(values)
+        count = self._count
+        values = (c_double * len(names))()
+        instance.call("GetReal", self._variables.references(names), len(names), values)
+        if len(names) == count:
+            return values[0] if count == 1 else np.array(values)
+        return np.array(values) if count == 1 else np.reshape(values, (count, 2))
 
     def _follow(self, instance: Instance, h: float, gap: Numbers) -> None:
         """Contacts that cannot touch within the step end it where those of the engine do: a

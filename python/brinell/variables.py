@@ -58,6 +58,12 @@ class Variables:
         names = [f"{contact}.{name}" if contact else name for contact in self.contacts]
         return names if all(name in self._all for name in names) else []
 
+    def components(self, name: str) -> list[str]:
+        """The variable `name` of each contact, or its components `name[1]` and `name[2]`, those of
+        one contact behind each other; empty if a contact lacks it."""
+        whole, parts = self.every(name), (self.every(f"{name}[1]"), self.every(f"{name}[2]"))
+        return whole or [it for both in zip(*parts, strict=True) for it in both]
+
     def owners(self, name: str, causality: str | None = None) -> list[str]:
         """All variables with this name, with or without the name of a contact or group in front."""
         return [

@@ -14,12 +14,22 @@ fn a_coefficient_of_friction_out_of_range_is_refused() {
 }
 
 #[test]
-fn a_second_tangential_direction_is_refused() {
-    for number in ["0", "2", "-1", "3"] {
+fn a_number_of_tangential_directions_other_than_one_and_two_is_refused() {
+    for number in ["0", "-1", "3", "1000000"] {
         refused_with(
             &format!("[friction]\ncoefficient = 0.3\ndirections = §{number}"),
-            &[&format!("friction.directions = {number} is not supported"), "allowed is 1"],
+            &[&format!("friction.directions = {number} is out of range"), "allowed are 1", "and 2"],
         );
+    }
+    refused_with("[friction]\ncoefficient = 0.3\ndirections = §1.5", &["directions", "1.5", "whole number"]);
+}
+
+#[test]
+fn outputs_are_named_without_their_component() {
+    for output in ["tangential_force[1]", "mean_tangential_force[2]"] {
+        let text = format!("[friction]\ncoefficient = 0.3\ndirections = 2\n[fmu]\noutputs = [§\"{output}\"]");
+        let name = &output[..output.len() - 3];
+        refused_with(&text, &[&format!("the output {output} has no index here"), &format!("`{name}` is enough")]);
     }
 }
 

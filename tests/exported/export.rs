@@ -52,7 +52,7 @@ fn every_scene_is_exported_and_agrees_with_its_prediction() {
         // a rate-dependent law leaves no dent to compare; friction adds tangential restitution, spin and friction work
         let rows = match unit {
             "damped.fmu" => 4,
-            "oblique.fmu" | "rough_contacts.fmu" => 8,
+            "oblique.fmu" | "rough_contacts.fmu" | "two_directions.fmu" => 8,
             _ => 5,
         };
         let contacts = check["contacts"].as_array().cloned().unwrap_or_else(|| vec![check.clone()]);

@@ -20,8 +20,11 @@ const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1
 /// A list that is hardly ever full.
 const UNBOUNDED: usize = 512;
 
+/// Makes the steps of a history from its seed and length.
+type History = fn(u64, usize) -> Vec<Step>;
+
 /// The kinds of histories.
-const KINDS: [(&str, fn(u64, usize) -> Vec<Step>); 3] =
+const KINDS: [(&str, History); 3] =
     [("like the table", like_the_table), ("any sizes", any_sizes), ("circles", circles)];
 
 #[test]
@@ -68,7 +71,7 @@ fn the_springs_agree_with_more_springs_and_with_small_parts() {
 /// The largest and the root mean square difference between lists and springs over these `seeds`, relative to the force, with
 /// steps in each of these `parts`. Contacts shallower than 1e-6 m, with few springs, are left out.
 fn errors<const N: usize, const P: usize>(
-    history: fn(u64, usize) -> Vec<Step>,
+    history: History,
     seeds: std::ops::Range<u64>,
     parts: [u32; P],
 ) -> [(f64, f64); P] {
@@ -155,7 +158,7 @@ fn motion_along_one_line_has_the_force_and_energy_of_one_direction() {
 
 /// The largest excess over Coulomb's bound, and the largest friction work below zero relative to the largest energy, if
 /// each step is divided into `parts`.
-fn bounds<const N: usize>(history: fn(u64, usize) -> Vec<Step>, parts: u32) -> (f64, f64) {
+fn bounds<const N: usize>(history: History, parts: u32) -> (f64, f64) {
     let scale = hertz(MODULUS, RADIUS).work(DEEPEST);
     let (mut excess, mut gain) = (0.0_f64, 0.0_f64);
     for seed in 100..(if N > 16 { 104 } else { 130 }) {
@@ -237,5 +240,30 @@ fn damaged_words_are_rejected() {
         let mut damaged = words.clone();
         damaged[place] = word;
         assert!(load(&damaged).is_none(), "word {place}");
+    }
+}
+
+/// Words that no contact has saved, but whose numbers are finite.
+#[test]
+fn forged_springs_end_their_steps() {
+    let mut random = Random(31);
+    for _ in 0..2000 {
+        let mut any = || {
+            let size = 10f64.powf(40.0 * random.next() - 30.0);
+            if random.next() < 0.5 { size } else { -size }
+        };
+        let mut words: Vec<u64> = (0..Stuck::<16>::WORDS).map(|_| any().to_bits()).collect();
+        words[5] = (any().abs().to_bits() >> 7) % 17;
+        let mut run = Run::<16>::new();
+        run.indentation = 1e-5;
+        run.stuck = Stuck::load(&mut words.into_iter(), &run.curve).expect("finite numbers");
+        for step in any_sizes(5, 6) {
+            run.divided(step, 2, |run| assert!(run.stuck.segments() <= 16));
+        }
+        // a new contact has forgotten it
+        run.step((-1e-4, [0.0; 2]));
+        run.indentation = -1e-6;
+        run.step((2e-6, [1e-6, 0.0]));
+        assert!(length(run.pull()) <= run.force() * (1.0 + 1e-12));
     }
 }

@@ -54,7 +54,9 @@ pub fn check_values(face: &Face, values: &[f64], before: &Seen) -> Result<Seen, 
                 "{prefix}force is {force:e} N at an indentation of {indentation:e} m, with a dent of {dent:e} m"
             ));
         }
-        if let Some(pull) = value("tangential_force")
+        let components = ["tangential_force", "tangential_force[1]", "tangential_force[2]"].map(value);
+        let pull = components.into_iter().flatten().reduce(f64::hypot);
+        if let Some(pull) = pull
             && pull.abs() > ROUGHEST * force * (1.0 + 1e-9)
         {
             return Err(format!("{prefix}tangential_force is {pull:e} N at a force of {force:e} N"));
@@ -94,6 +96,7 @@ const OF_FRICTION: [&str; 4] = ["tangential_force", "tangential_energy", "fricti
 /// The first variable that differs.
 pub fn same_values(face: &Face, whole: &[f64], pieces: &[f64]) -> Result<(), String> {
     for (name, reference) in &face.named {
+        let name = name.trim_end_matches(['[', ']', '1', '2']);
         if OF_THE_STEP.iter().any(|other| name.ends_with(other)) {
             continue;
         }

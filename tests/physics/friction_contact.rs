@@ -63,6 +63,24 @@ fn held_rates_give_the_same_bits_as_springs_advanced_by_hand() {
 }
 
 #[test]
+fn a_contact_without_mean_force_has_the_same_forces_and_computes_no_mean() {
+    let model = plastic();
+    let mut contact = Rough::start(&model, 0.0).expect("within range");
+    let mut other = RoughContact::<12, false>::start(&model, 0.0).expect("within range");
+    let kept = <Rough as Contact<Plastic>>::kept(&model);
+    for (rate, slip) in rates(3, 100) {
+        contact.set_tangential_rate(slip);
+        other.set_tangential_rate(slip);
+        contact.step_held(rate, STEP, &kept, || model).expect("within range");
+        other.step_held(rate, STEP, &kept, || model).expect("within range");
+        assert_eq!(other.tangential_force(&model).to_bits(), contact.tangential_force(&model).to_bits());
+        assert_eq!(other.tangential_energy(&model).to_bits(), contact.tangential_energy(&model).to_bits());
+        assert_eq!([other.mean_tangential_force(), other.tangential_impulse()], [0.0; 2]);
+    }
+    assert!(contact.tangential_impulse() != 0.0);
+}
+
+#[test]
 fn impulse_and_work_are_those_of_the_mean_force_and_friction_work_never_falls() {
     let model = elastic();
     let mut contact = Rough::start(&model, 0.0).expect("within range");

@@ -131,7 +131,9 @@ impl Face {
                 variable.is_real && !["input", "output"].contains(&&*variable.causality)
             }),
             rates: references(&|variable| variable.name.rsplit('.').next() == Some("indentation_rate")),
-            sideways: references(&|variable| variable.name.rsplit('.').next() == Some("tangential_rate")),
+            sideways: references(&|variable| {
+                variable.name.rsplit('.').next().is_some_and(|name| name.starts_with("tangential_rate"))
+            }),
             starts: reals().filter_map(|variable| Some((variable.reference, variable.start?))).collect(),
             limits: reals().map(|variable| (variable.reference, variable.limits())).collect(),
             yields: description.contains("yield_strength"),

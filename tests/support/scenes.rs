@@ -9,7 +9,7 @@ use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::motion::{Follow, follow};
 use brinell::contact::rate::{self, Rate};
-use brinell::contact::tangential::{Friction, RoughContact, RoughModel};
+use brinell::contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, Contact, History, Model, Pair, Surface};
 use brinell::instance::Instance;
@@ -101,6 +101,9 @@ pub struct Rated<C = Coupled>(PhantomData<C>);
 /// The same with friction.
 pub struct Rough;
 
+/// The same with friction in two directions.
+pub struct RoughPlane;
+
 /// A rate-dependent law.
 pub struct Damped;
 
@@ -155,6 +158,17 @@ impl Kind for Rough {
         let target = Body { youngs_modulus: pair.youngs_modulus, poissons_ratio: pair.poissons_ratio, ..rigid };
         let friction = Friction::between(&rigid, &target, pair.modulus, chosen().friction);
         RoughModel { normal: elastoplastic(pair), friction }
+    }
+}
+
+impl Kind for RoughPlane {
+    type Model = <Rough as Kind>::Model;
+    type Contact = PlaneContact<16>;
+    type Course = Present;
+    type Coupling = Absent;
+    type Watch = Present;
+    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
+        Rough::model(pair, restitution, mass)
     }
 }
 
@@ -318,11 +332,25 @@ pub fn set_rate<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64)
     instance.set_real(variable, rate);
 }
 
-/// Sets the tangential rate of `contact` [m/s], which must be accepted.
+/// Sets the tangential rate of `contact` [m/s], which must be accepted; with two directions, another one in the second.
 pub fn set_tangential_rate<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64) {
-    let variable = (Real::TangentialRate, contact);
-    instance.check_real(variable, rate).expect("the rate is allowed");
-    instance.set_real(variable, rate);
+    let both = [(Real::TangentialRate, rate), (Real::SecondTangentialRate, 0.7 * (rate * rate - 0.5))];
+    for (input, rate) in both.into_iter().take(S::Contact::DIRECTIONS) {
+        instance.check_real((input, contact), rate).expect("the rate is allowed");
+        instance.set_real((input, contact), rate);
+    }
+}
+
+/// The outputs of friction that a contact has.
+pub fn frictions<S: Scene>() -> impl Iterator<Item = Real> {
+    let second = [
+        Real::SecondTangentialForce,
+        Real::SecondMeanTangentialForce,
+        Real::SecondTangentialImpulse,
+        Real::SecondPredictedTangentialForce,
+    ];
+    let first = FRICTIONS.into_iter().filter(|_| S::Contact::DIRECTIONS > 0);
+    first.chain(second.into_iter().filter(|_| S::Contact::DIRECTIONS > 1))
 }
 
 /// Every Real output of every contact, and the regimes.
@@ -330,14 +358,14 @@ pub fn outputs<S: Scene>(instance: &Instance<S>) -> Vec<f64> {
     let contacts = 0..S::CONTACTS;
     let reals = contacts.clone().flat_map(|contact| OUTPUTS.map(|output| (output, contact)));
     let shown = |output: Real| {
-        let momentum =
-            matches!(output, Real::Impulse | Real::MeanForce | Real::PredictedForce | Real::PredictedTangentialForce);
+        let momentum = matches!(output, Real::Impulse | Real::MeanForce | Real::PredictedForce)
+            || output.predicted_direction().is_some();
         S::Momentum::IS_PRESENT || !momentum
     };
     let mut all: Vec<f64> =
         reals.filter(|(output, _)| shown(*output)).map(|variable| instance.real(variable)).collect();
     if S::Contact::HAS_FRICTION {
-        let frictions = contacts.clone().flat_map(|contact| FRICTIONS.map(|output| (output, contact)));
+        let frictions = contacts.clone().flat_map(|contact| frictions::<S>().map(move |output| (output, contact)));
         all.extend(frictions.filter(|(output, _)| shown(*output)).map(|variable| instance.real(variable)));
         all.extend(contacts.clone().map(|contact| f64::from(instance.integer((Integer::Sliding, contact)))));
     }

@@ -1,4 +1,4 @@
-"""Draws oblique.svg beside this file: measured oblique rebounds, and computed ones.
+"""Draws oblique.svg beside this file: measured oblique rebounds, those of finite elements, and computed ones.
 
     pip install matplotlib
     python docs/guide/pictures/oblique.py
@@ -17,7 +17,7 @@ from matplotlib import pyplot
 
 FOLDER = Path(__file__).parent
 PROJECT = FOLDER.parents[2]
-BLUE, RED = "#0072b2", "#d55e00"
+BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
 # radius of the ball [m], coefficient of friction and speed [m/s], as in the example
 RADIUS, FRICTION, SPEED = 2.5e-3, 0.092, 3.9
 QUANTITIES = (
@@ -28,11 +28,11 @@ QUANTITIES = (
 
 
 def computed():
-    """The columns of the table that the example prints."""
+    """The columns of the two tables that the example prints."""
     command = ["cargo", "run", "--quiet", "--release", "--example", "oblique", "--no-default-features"]
     text = subprocess.run(command, cwd=PROJECT, check=True, capture_output=True, text=True).stdout
-    rows = list(csv.DictReader(io.StringIO(text)))
-    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+    tables = [list(csv.DictReader(io.StringIO(table))) for table in text.split("\n\n")]
+    return [{name: [float(row[name]) for row in rows] for name in rows[0]} for rows in tables]
 
 
 def rows(quantity):
@@ -58,6 +58,13 @@ def measured_slips():
     return zip(*found)
 
 
+def slips_by_finite_elements():
+    """Maw's numbers of Chung and Ooi's finite elements."""
+    with (PROJECT / "experiment/oblique_elastic_finite_elements.csv").open() as file:
+        found = [row for row in csv.DictReader(file) if row["quantity"] == "psi2"]
+    return [[float(row[name]) for row in found] for name in ("psi1", "value")]
+
+
 def interpolated(at, arguments, values):
     """The value between those at the neighbouring arguments, or beyond the two at an end, in a straight line."""
     last = max(index for index in range(len(arguments) - 1) if index == 0 or arguments[index] <= at)
@@ -81,7 +88,7 @@ def draw(axis, curve, points, titles, words):
 
 def main():
     pyplot.rcParams.update({"svg.hashsalt": "brinell", "svg.fonttype": "none", "font.size": 9, "axes.titlesize": 9})
-    curves = computed()
+    curves, equal_bodies = computed()
     figure, axes = pyplot.subplots(1, 4, figsize=(12, 3.1), layout="constrained")
     for axis, (quantity, label, words) in zip(axes, QUANTITIES):
         points = [column[1:] for column in rows(quantity)]
@@ -93,6 +100,10 @@ def main():
     near = lambda slips: tuple(zip(*(pair for pair in slips if pair[0] < 20)))
     titles = "psi_1 = tan(angle) / mu", "psi_2 = slip speed / (mu v_n)"
     draw(axes[3], near(slip(*triple) for triple in triples), near(zip(*measured_slips())), titles, "{:.2f}")
+    curve, points = (equal_bodies["psi_1"], equal_bodies["psi_2"]), slips_by_finite_elements()
+    axes[3].plot(*curve, "--", color=GREEN, label="computed, equal bodies")
+    axes[3].plot(*points, "x", markersize=3.5, color=GREEN, label=f"finite elements, rms {rms(curve, points):.2f}")
+    axes[3].legend(frameon=False, fontsize=7)
     axes[0].legend(frameon=False)
     figure.savefig(FOLDER / "oblique.svg", metadata={"Date": None})
 

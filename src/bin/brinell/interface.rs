@@ -28,11 +28,13 @@ pub struct Entry<'a> {
     /// Reference of the input on which the first variable depends at the same instant; the second variable depends on the next
     /// input, and so on.
     pub follows: Option<usize>,
-    /// Reference of the tangential rate on which the first variable depends at the same instant.
-    pub follows_tangential: Option<usize>,
+    /// References of the tangential rates on which the first variable depends at the same instant.
+    pub follows_tangential: Vec<usize>,
     /// The same as for `follows` before the first step.
     pub follows_at_start: Option<usize>,
     pub nominal: Option<f64>,
+    /// Whether it is the first of two directions.
+    is_first: bool,
 }
 
 /// A parameter on which an output of a contact depends.
@@ -55,10 +57,15 @@ impl Entry<'_> {
     pub fn name(&self, index: usize) -> String {
         let name = &self.variable.name;
         match self.group {
-            Some(group) if self.per_contact => format!("{}{name}", group.prefix(index)),
+            Some(group) if self.per_contact => format!("{}{}", group.prefix(index), self.component()),
             Some(group) => group.variable(name),
             None => name.clone(),
         }
+    }
+
+    /// The name of the variable of one contact: with its index, if it is the component of a vector.
+    pub fn component(&self) -> String {
+        format!("{}{}", self.variable.name, if self.is_first { "[1]" } else { "" })
     }
 
     /// One name for all of the variables: `contact[1..1000].force`.
@@ -75,13 +82,19 @@ impl Entry<'_> {
 pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     let shown = |variable: &&'static Variable| match variable.causality {
         Causality::Input => variable.name == "indentation_rate" || scene.has_input(&variable.name),
-        Causality::Output => variable.name == "force" || scene.outputs.contains(&variable.name),
+        Causality::Output => match &variable.second_of {
+            Some(first) => scene.directions > 1 && scene.outputs.contains(first),
+            None => variable.name == "force" || scene.outputs.contains(&variable.name),
+        },
         Causality::Parameter => false,
     };
     let shown: Vec<_> = VARIABLES.iter().filter(shown).collect();
     let parameters = Parameters::of(scene, shown.len() * scene.contact_count());
     let nominals = nominal::of(scene);
-    let tangential_rates = shown.iter().position(|variable| variable.name == "tangential_rate");
+    let tangential_rates: Vec<_> = ["tangential_rate", "tangential_rate[2]"]
+        .iter()
+        .filter_map(|name| shown.iter().position(|variable| variable.name == *name))
+        .collect();
     let mut entries = Vec::new();
     let mut reference = 0;
     for variable in shown {
@@ -113,10 +126,13 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
                 dependencies: parameters.of_group(index, depends),
                 follows: follows.then_some(first),
                 follows_tangential: tangential_rates
+                    .iter()
                     .filter(|_| variable.follows_tangential_rate)
-                    .map(|place| place * scene.contact_count() + first),
+                    .map(|place| place * scene.contact_count() + first)
+                    .collect(),
                 follows_at_start: follows_at_start.then_some(first),
                 nominal: nominals[index].get(variable),
+                is_first: scene.directions > 1 && has_second(variable),
             });
             reference += group.len();
             first += group.len();
@@ -133,11 +149,17 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
         start: Some(settable.parameter.value),
         dependencies: Vec::new(),
         follows: None,
-        follows_tangential: None,
+        follows_tangential: Vec::new(),
+        is_first: false,
         follows_at_start: None,
         nominal: None,
     }));
     entries
+}
+
+/// Whether `variable` has a second direction.
+fn has_second(variable: &Variable) -> bool {
+    VARIABLES.iter().any(|other| other.second_of.as_ref() == Some(&variable.name))
 }
 
 /// Whether the parameter `name` can also be set between steps: the mass of bodies that the FMU moves, if the damping of its law

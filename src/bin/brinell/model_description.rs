@@ -216,8 +216,8 @@ fn structure(xml: &mut Xml<'_>, entries: &[Entry]) -> io::Result<()> {
     xml.create_element("ModelStructure").write_inner_content(|xml| {
         xml.create_element("Outputs").write_inner_content(|xml| {
             for (entry, index) in outputs() {
-                let inputs = [entry.follows, entry.follows_tangential];
-                let inputs: Vec<_> = inputs.into_iter().flatten().map(|first| first + index).collect();
+                let inputs = entry.follows.iter().chain(&entry.follows_tangential);
+                let inputs: Vec<_> = inputs.map(|first| first + index).collect();
                 unknown(xml, entry.reference + index, &inputs)?;
             }
             Ok(())

@@ -35,7 +35,10 @@ impl Summary<'_> {
         let scene = plan.scene;
         let parameters = scene.parameters.iter().chain(scene.contacts.iter().flat_map(|group| &group.own));
         // without friction, its variables are not listed one by one
-        let exists = |name: &&str| scene.friction || !table::variable(name).friction;
+        let exists = |name: &&str| {
+            let variable = table::variable(name);
+            (scene.friction || !variable.friction) && (scene.directions > 1 || variable.second_of.is_none())
+        };
         let absent = of_kind(Causality::Parameter).filter(|name| !parameters.clone().any(|other| other.name == *name));
         let absent = absent.filter(exists);
         let outputs = of_kind(Causality::Output).filter(|name| !shows(plan, name)).filter(exists);
@@ -55,8 +58,8 @@ impl Summary<'_> {
         for entry in &self.plan.variables {
             let name = match entry.variable.causality {
                 Causality::Parameter => entry.label(),
-                _ if named => format!("*.{}", entry.variable.name),
-                _ => entry.variable.name.clone(),
+                _ if named => format!("*.{}", entry.component()),
+                _ => entry.component(),
             };
             if names.last() != Some(&name) {
                 names.push(name);

@@ -38,6 +38,7 @@ mod mean;
 mod merge;
 mod motion;
 mod outputs;
+mod parts;
 pub mod plane;
 mod rates;
 mod rough;

@@ -11,6 +11,10 @@ use brinell::contact::tangential::{RoughContact, RoughModel};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::scene::with_friction;
 
+/// The tangential variables of FMUs with one and with two directions: what is behind their names, and the component of the
+/// motion, which is along one line.
+const DIRECTIONS: [&[(&str, f64)]; 2] = [&[("", 1.0)], &[("[1]", 0.8), ("[2]", -0.6)]];
+
 /// The angle of incidence, from the normal [degrees].
 const ANGLE: f64 = 30.0;
 
@@ -83,24 +87,18 @@ pub fn compare(
     let radius = scene.group_value(group, "impactor.radius").unwrap_or(f64::NAN);
     let ball = Ball { mass, normal: speed * cosine, tangential: speed * sine, spin: 0.0 };
     let Some(expected) = by_library(scene, group, ball, step) else { return Ok(Vec::new()) };
-    let simulated = by_unit(instance, description, &scene.contacts[group].prefix(0), ball, (gap, step))?;
-    let row = |quantity, unit, predicted: f64, simulated: f64, scale: f64| Row {
-        quantity,
-        unit,
-        predicted,
-        simulated,
-        difference: (simulated - predicted) / scale,
-    };
+    let directions = &DIRECTIONS[scene.directions.min(2) - 1];
+    let simulated = by_unit(instance, description, &scene.contacts[group].prefix(0), directions, ball, (gap, step))?;
     let energy = 0.5 * mass * speed * speed;
     let (one, other) = (&expected, &simulated);
     let restitution = |rebound: &Rebound| rebound.ball.tangential / ball.tangential;
     let spin = |rebound: &Rebound| rebound.ball.spin / radius;
     let mut rows = vec![
-        row("tangential restitution", "", restitution(one), restitution(other), 1.0),
-        row("spin", "rad/s", spin(one), spin(other), speed / radius),
+        Row::new("tangential restitution", "", restitution(one), restitution(other), 1.0),
+        Row::new("spin", "rad/s", spin(one), spin(other), speed / radius),
     ];
     if other.friction_work.is_finite() {
-        rows.push(row("friction work", "J", one.friction_work, other.friction_work, energy));
+        rows.push(Row::new("friction work", "J", one.friction_work, other.friction_work, energy));
     }
     Ok(rows)
 }
@@ -110,12 +108,16 @@ fn by_unit(
     instance: &mut Instance,
     description: &Description,
     prefix: &str,
+    directions: &[(&str, f64)],
     ball: Ball,
     (gap, step): (f64, f64),
 ) -> Result<Rebound, ImportError> {
     let real = |name: &str| description.real(&format!("{prefix}{name}"));
-    let (rate, tangential_rate) = (real("indentation_rate")?, real("tangential_rate")?);
-    let (force, pull) = (real("force")?, real("tangential_force")?);
+    let (rate, force) = (real("indentation_rate")?, real("force")?);
+    let tangential = directions.iter().map(|(index, component)| {
+        Ok((real(&format!("tangential_rate{index}"))?, real(&format!("tangential_force{index}"))?, *component))
+    });
+    let tangential = tangential.collect::<Result<Vec<_>, ImportError>>()?;
     let work = real("friction_work").ok();
     let mut time = 0.0;
     if gap > 0.0 {
@@ -125,10 +127,16 @@ fn by_unit(
     }
     let rebound = ball.impact(step, |normal, slip| {
         instance.set_real(rate, normal)?;
-        instance.set_real(tangential_rate, slip)?;
+        for &(rate, _, component) in &tangential {
+            instance.set_real(rate, component * slip)?;
+        }
         instance.do_step(time, step)?;
         time += step;
-        Ok::<_, ImportError>((instance.real(force)?, instance.real(pull)?))
+        let mut pull = 0.0;
+        for &(_, force, component) in &tangential {
+            pull += component * instance.real(force)?;
+        }
+        Ok::<_, ImportError>((instance.real(force)?, pull))
     })?;
     let friction_work = work.map_or(Ok(f64::NAN), |work| instance.real(work))?;
     let ball = rebound.ok_or(ImportError::Endless { steps: MOST_STEPS })?;

@@ -43,6 +43,13 @@ pub struct Row {
     pub difference: f64,
 }
 
+impl Row {
+    /// A row whose difference is relative to `scale`.
+    pub fn new(quantity: &'static str, unit: &'static str, predicted: f64, simulated: f64, scale: f64) -> Row {
+        Row { quantity, unit, predicted, simulated, difference: (simulated - predicted) / scale }
+    }
+}
+
 impl Trial {
     /// The impact on the first contact of `group`; all others are at rest.
     pub fn run(
@@ -139,22 +146,15 @@ fn forces(instance: &mut Instance, contacts: &[(String, u32)]) -> Result<Vec<u64
 }
 
 fn compare(predicted: &Prediction, simulated: &Simulated) -> Vec<Row> {
-    let row = |quantity, unit, predicted: f64, simulated: f64, scale: f64| Row {
-        quantity,
-        unit,
-        predicted,
-        simulated,
-        difference: (simulated - predicted) / scale,
-    };
     let Prediction { max_indentation, max_force, residual_indentation, restitution, .. } = *predicted;
     let contact_time = predicted.contact_time();
     vec![
-        row("largest force", "N", max_force, simulated.max_force, max_force),
-        row("largest indentation", "m", max_indentation, simulated.max_indentation, max_indentation),
+        Row::new("largest force", "N", max_force, simulated.max_force, max_force),
+        Row::new("largest indentation", "m", max_indentation, simulated.max_indentation, max_indentation),
         // a dent may be zero, so its error is relative to the largest indentation
-        row("dent", "m", residual_indentation, simulated.residual_indentation, max_indentation),
-        row("restitution", "", restitution, simulated.restitution, restitution),
-        row("contact time", "s", contact_time, simulated.contact_time, contact_time),
+        Row::new("dent", "m", residual_indentation, simulated.residual_indentation, max_indentation),
+        Row::new("restitution", "", restitution, simulated.restitution, restitution),
+        Row::new("contact time", "s", contact_time, simulated.contact_time, contact_time),
     ]
 }
 

@@ -11,7 +11,7 @@ use crate::scene::{Coupling, Scene};
 use brinell::contact::damped::AnyDamped;
 use std::fmt::Write;
 
-pub use model::MEMORY;
+pub use model::{MEMORY, PLANE_MEMORY};
 pub use parameters::{parameters, start_value};
 
 /// The scene of the planned FMU as Rust, with the identification `guid`.
@@ -215,7 +215,7 @@ fn add_laws(file: &mut File, scene: &Scene) {
     let (loading, unloading) = (form(loading, "loading", of_loading), form(unloading, "unloading", of_unloading));
     let model = format!("Model<{loading}, {unloading}>");
     (file.model, file.contact) = match (scene.friction, scene.loss) {
-        (true, _) => (format!("tangential::Rough{model}"), format!("tangential::RoughContact<{MEMORY}>")),
+        (true, _) => (format!("tangential::Rough{model}"), rough_contact(scene)),
         (false, Some(loss)) => {
             let kind = model::kind_of(loss);
             let model = format!("losses::Model<{loading}, {unloading}, losses::{kind}>");
@@ -235,6 +235,17 @@ fn history_module(scene: &Scene) -> &'static str {
         None if scene.finds_strength() => "rate",
         None => "contact",
     }
+}
+
+/// The type of a contact with friction. The mean tangential force is computed only if an output needs it.
+fn rough_contact(scene: &Scene) -> String {
+    let needs_mean = ["mean_tangential_force", "tangential_impulse", "friction_work"];
+    let mean = scene.outputs.iter().any(|output| needs_mean.contains(&output.as_str()));
+    let (kind, memory) = match scene.directions {
+        2 => ("PlaneContact", PLANE_MEMORY),
+        _ => ("RoughContact", MEMORY),
+    };
+    format!("tangential::{kind}<{memory}, {mean}>")
 }
 
 /// The Rust expression of a law: the Debug form of the enum that holds it, without the enum.

@@ -3,8 +3,11 @@
 use super::{File, groups, literal};
 use crate::scene::{Loss, Rate, Scene};
 
-/// Number of segments in which the springs of a contact with friction remember its past.
+/// Number of segments in which the springs of a contact with friction in one direction remember its past.
 pub const MEMORY: usize = 12;
+
+/// The same for two directions.
+pub const PLANE_MEMORY: usize = 16;
 
 /// The expressions of a model of each kind, from its laws.
 pub const DAMPED_MODEL: &str = "let (restitution, mass) = (value(Parameter::Restitution), value(Parameter::EffectiveMass));\n\

@@ -57,6 +57,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         factors: vec![1.0],
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
         friction,
+        directions: usize::from(friction),
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],
         input_derivatives: true,

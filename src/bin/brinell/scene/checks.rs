@@ -56,7 +56,8 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         has_loss: loss.is_some(),
         knows_mass: coupling.is_some(),
     };
-    let friction = friction::check(file.friction.as_ref(), &with_friction)?;
+    let directions = friction::check(file.friction.as_ref(), &with_friction)?;
+    let friction = directions > 0;
     contacts.check_friction()?;
     let follows_rate = damped.is_some() || loss.is_some();
     let input_derivatives =
@@ -106,6 +107,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         factors,
         coupling,
         friction,
+        directions,
         impact,
         predictions: Vec::new(),
         // for an importer that moves the mass itself, with a law that has a stable step size
@@ -114,7 +116,9 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
             && loss.is_none()
             && file.impact.as_ref().is_some_and(|impact| impact.get_ref().watch != Some(false)),
         input_derivatives,
-        structured_names: file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
+        // a name with an index is a structured one
+        structured_names: directions > 1
+            || file.fmu.names.map_or(file.contact.is_some(), |names| names == NamesName::Structured),
         standalone: file.fmu.standalone == Some(true),
         impact_is_assumed: file.impact.is_none(),
         text: String::new(),
@@ -328,10 +332,21 @@ fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Res
 }
 
 fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool, friction: bool) -> Result<Vec<String>, Mistake> {
-    let available = || VARIABLES.iter().filter(|v| v.causality == Causality::Output).map(|v| v.name.as_str());
+    let is_listed =
+        |variable: &&table::Variable| variable.causality == Causality::Output && variable.second_of.is_none();
+    let available = || VARIABLES.iter().filter(is_listed).map(|variable| variable.name.as_str());
     let mut outputs: Vec<String> = Vec::new();
     for name in chosen {
         let text = name.get_ref();
+        if let Some(both) = text.strip_suffix("[1]").or(text.strip_suffix("[2]"))
+            && available().any(|output| output == both)
+        {
+            let message = format!(
+                "the output {text} has no index here: `{both}` is enough, and gives both components if \
+                 friction.directions = 2"
+            );
+            return Err(Mistake(name.span(), message));
+        }
         if !available().any(|output| output == text) {
             return Err(Mistake(name.span(), unknown("output", text, available())));
         }

@@ -18,20 +18,24 @@ pub struct Given<'a> {
     pub knows_mass: bool,
 }
 
-/// Whether the scene has friction.
-pub fn check(table: Option<&Spanned<FrictionTable>>, given: &Given) -> Result<bool, Mistake> {
-    let Some(table) = table else { return Ok(false) };
+/// The number of tangential directions of the scene, zero without friction.
+pub fn check(table: Option<&Spanned<FrictionTable>>, given: &Given) -> Result<usize, Mistake> {
+    let Some(table) = table else { return Ok(0) };
     let no = |message: String| Err(Mistake(table.span(), message));
-    if let Some(directions) = &table.get_ref().directions
-        && *directions.get_ref() != 1
-    {
-        let number = directions.get_ref();
-        let message = format!(
-            "friction.directions = {number} is not supported: allowed is 1, one tangential direction along which the bodies \
-             move to and fro"
-        );
-        return Err(Mistake(directions.span(), message));
-    }
+    let directions = match &table.get_ref().directions {
+        None => 1,
+        Some(directions) => match *directions.get_ref() {
+            1 => 1,
+            2 => 2,
+            number => {
+                let message = format!(
+                    "friction.directions = {number} is out of range: allowed are 1, one tangential direction along which the \
+                     bodies move to and fro, and 2, two directions across each other"
+                );
+                return Err(Mistake(directions.span(), message));
+            }
+        },
+    };
     if let Some(name) = given.damped {
         return no(format!("[friction] needs a law whose force doesn't depend on the rate; that of {name} does"));
     }
@@ -57,5 +61,5 @@ pub fn check(table: Option<&Spanned<FrictionTable>>, given: &Given) -> Result<bo
                    moved, too; leave one of them out"
             .into());
     }
-    Ok(true)
+    Ok(directions)
 }

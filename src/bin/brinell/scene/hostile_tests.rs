@@ -10,7 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// Good scenes with everything that the tables know.
-const SEEDS: [&str; 13] = [
+const SEEDS: [&str; 14] = [
     super::DEFAULT_SCENE,
     include_str!("../../../../scenes/coupled.toml"),
     include_str!("../../../../scenes/damped.toml"),
@@ -20,6 +20,7 @@ const SEEDS: [&str; 13] = [
     include_str!("../../../../scenes/oblique.toml"),
     include_str!("../../../../scenes/rough_contacts.toml"),
     include_str!("../../../../scenes/two_contacts.toml"),
+    include_str!("../../../../scenes/two_directions.toml"),
     include_str!("../../../../scenes/wired.toml"),
     "name = \"a\"\nimpactor = { radius = 5e-3, material = \"tungsten carbide\" }\n[target]\nmaterial = \"mild steel\"\n\
      surface = \"fresh\"\n[law]\nloading = \"stronge\"\nunloading = \"thornton\"\npassivity_guard = true\n\

@@ -68,6 +68,8 @@ pub struct Scene {
     pub coupling: Option<Coupling>,
     /// Whether its contacts have friction.
     pub friction: bool,
+    /// Number of tangential directions, zero without friction.
+    pub directions: usize,
     pub impact: Impact,
     /// The prediction of the impact for the contacts of each group.
     pub predictions: Vec<Prediction>,
@@ -219,8 +221,8 @@ impl Scene {
 
     /// Whether the FMU has the input `name`, which is not the rate.
     pub fn has_input(&self, name: &str) -> bool {
-        if name == "tangential_rate" {
-            return self.friction;
+        if let Some(direction) = ["tangential_rate", "tangential_rate[2]"].iter().position(|rate| *rate == name) {
+            return direction < self.directions;
         }
         self.coupling.is_some_and(|coupling| match name {
             "external_acceleration" => coupling.acceleration_input,

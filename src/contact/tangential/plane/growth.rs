@@ -2,7 +2,7 @@
 
 use super::cut::Cut;
 use super::list::{Apex, Vertex};
-use super::vector::{Vector, difference, length, times};
+use super::vector::{Vector, difference, length};
 use super::{Stuck, Way};
 use crate::contact::numbers::{largest, quotient};
 use crate::contact::segment::Segment;
@@ -38,7 +38,7 @@ impl<const N: usize> Stuck<N> {
         if length(way.shift) > rise {
             cut.touching(edge);
         } else if rise > 0.0 {
-            let slope = times(quotient(1.0, rise, rise > 0.0, 0.0), way.shift);
+            let slope = way.shift.map(|shift| quotient(shift, rise, rise > 0.0, 0.0));
             cut.left.extend(Vertex::new(new, edge, before, slope));
         }
         self.take(cut, new);
@@ -72,5 +72,5 @@ impl<const N: usize> Stuck<N> {
 /// Slope of the straight line between two points.
 fn slope(from: &super::cut::Point, to: &super::cut::Point) -> Vector {
     let rise = to.height - from.height;
-    times(quotient(1.0, rise, rise > 0.0, 0.0), difference(to.before, from.before))
+    difference(to.before, from.before).map(|shift| quotient(shift, rise, rise > 0.0, 0.0))
 }

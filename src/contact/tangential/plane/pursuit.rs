@@ -7,6 +7,9 @@ use libm::{exp, fabs, log1p};
 /// Relative change of a limit below which the limit counts as constant.
 const CONSTANT: f64 = 1e-9;
 
+/// Longest way that can be squared twice \[m\]. On a longer one every spring slips until it is aligned with it.
+const FARTHEST: f64 = 1e60;
+
 /// A spring before a straight way: its tension, and its limit before and after.
 pub(super) struct Spring {
     /// Scaled displacement of the contact from the stuck offset \[m\].
@@ -30,6 +33,9 @@ impl Spring {
     pub(super) fn moved(&self, shift: Vector, direction: Vector) -> Vector {
         if self.end_limit <= 0.0 {
             return [0.0; 2];
+        }
+        if length(shift) > FARTHEST {
+            return times(self.end_limit, direction);
         }
         let stuck = self.stuck_part(shift);
         let tension = add(self.tension, stuck, shift);
@@ -73,9 +79,10 @@ impl Spring {
 
 /// `exp(-L ln(p1/p0)/(p1 - p0))` over the length `way` \[m\], with the limits `p0` and `p1` \[m\]; 0 if `p0` is 0.
 fn turn(way: f64, limit: f64, end_limit: f64) -> f64 {
-    let change = quotient(end_limit - limit, limit, limit > 0.0, 0.0);
+    let touches = limit > 0.0 && end_limit < 1e200 * limit;
+    let change = quotient(end_limit - limit, limit, touches, 0.0);
     let rate =
         quotient(log1p(largest(change, f64::EPSILON - 1.0)), change, fabs(change) > CONSTANT, 1.0 - 0.5 * change);
-    let exponent = quotient(way, limit, limit > 0.0 && way < 1e200 * limit, 1e200) * rate;
+    let exponent = quotient(way, limit, touches && way < 1e200 * limit, 1e200) * rate;
     exp(-smallest(exponent, 700.0))
 }

@@ -1,6 +1,6 @@
 //! A straight piece of the motion in two tangential directions.
 
-use super::vector::{Vector, length, times};
+use super::vector::{Vector, length};
 use crate::contact::numbers::quotient;
 use crate::contact::tangential::Motion;
 
@@ -21,6 +21,6 @@ impl Way {
     /// Direction of the tangential motion; any direction if there is none.
     pub(super) fn direction(&self) -> Vector {
         let rate = length(self.tangential);
-        if rate > 0.0 { times(quotient(1.0, rate, rate > 0.0, 0.0), self.tangential) } else { [1.0, 0.0] }
+        if rate > 0.0 { self.tangential.map(|part| quotient(part, rate, rate > 0.0, 0.0)) } else { [1.0, 0.0] }
     }
 }
