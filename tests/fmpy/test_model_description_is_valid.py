@@ -80,6 +80,11 @@ def outputs(description):
     return [index for index, v in enumerate(variables, start=1) if v.get("causality") == "output"]
 
 
+def quantity(name):
+    """The name of a variable without its contact and its direction."""
+    return name.split(".")[-1].split("[")[0]
+
+
 @every_unit
 def test_every_output_says_that_it_depends_on_nothing_unless_it_follows_the_rate(name):
     # a missing attribute would mean a dependency on everything, and importers would find algebraic loops
@@ -91,9 +96,9 @@ def test_every_output_says_that_it_depends_on_nothing_unless_it_follows_the_rate
     for unknown in unknowns:
         output = variables[int(unknown.get("index")) - 1].get("name")
         expected = "1" if output in following else ""
-        if output == "predicted_tangential_force":
-            names = [variable.get("name") for variable in variables]
-            expected = f"1 {names.index('tangential_rate') + 1}"
+        if quantity(output) == "predicted_tangential_force":
+            rates = [place for place, known in enumerate(variables, 1) if quantity(known.get("name")) == "tangential_rate"]
+            expected = " ".join(map(str, [1, *rates]))
         assert unknown.get("dependencies") == expected, output
     assert variables[0].get("name").split(".")[-1] == "indentation_rate"
 
@@ -123,7 +128,7 @@ def test_kinds_of_variables_are_those_of_the_standard(name):
             variability = {"parameter": "tunable"}.get(variable.get("causality"), variability)
         if variable.get("causality") == "output":
             # an importer that smooths continuous signals must not smooth a force that belongs to a whole step
-            is_held = variable.get("name").split(".")[-1] in ("mean_force", "mean_tangential_force")
+            is_held = quantity(variable.get("name")) in ("mean_force", "mean_tangential_force")
             variability = "discrete" if is_held or variable.find("Enumeration") is not None else "continuous"
         assert (variable.get("variability"), variable.get("initial")) == (variability, initial), variable.get("name")
         starts = variable[0].get("start") is not None
@@ -146,10 +151,12 @@ def test_an_enumeration_has_its_values_in_the_order_of_their_numbers(name):
 
 
 @every_unit
-def test_names_are_flat_unless_there_are_several_contacts(name):
+def test_names_are_flat_unless_there_are_several_contacts_or_directions(name):
     description = xml(name)
-    several = "indentation_rate" not in {variable.get("name") for variable in description.iter("ScalarVariable")}
-    expected = {"flat_names": "flat", "structured_names": "structured"}.get(name, "structured" if several else "flat")
+    names = {variable.get("name") for variable in description.iter("ScalarVariable")}
+    # a name with an index is a structured one
+    is_structured = "indentation_rate" not in names or "tangential_rate[1]" in names
+    expected = {"flat_names": "flat", "structured_names": "structured"}.get(name, "structured" if is_structured else "flat")
     assert description.get("variableNamingConvention") == expected
 
 
