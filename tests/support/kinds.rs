@@ -69,7 +69,7 @@ pub fn one_of_each_kind(law: &str) -> Vec<(&'static str, String)> {
     if !is_rate_dependent(law) {
         scenes.push((
             "least",
-            scene(law, &["dissipated_energy"], "[fmu]\ninput_derivatives = false\ninitial_gap = 1e-6\n"),
+            scene(law, &["indentation", "dissipated_energy"], "[fmu]\ninput_derivatives = false\ninitial_gap = 1e-6\n"),
         ));
         let inputs = "master = \"parallel\"\ninputs = [\"external_acceleration\", \"effective_mass\"]\n";
         scenes.push(("serial", coupled(law, &known, "")));

@@ -1,5 +1,6 @@
 //! Other systems on this one: wine for Windows, QEMU for arm64, an emulator of the processors for macOS; and the C
 //! compiler for their programs.
+#![allow(dead_code, reason = "each test file uses what it needs")]
 
 use super::debian::{Packages, packages};
 use super::hosts::{Host, Loading, compile, folder};
