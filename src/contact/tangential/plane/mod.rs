@@ -50,4 +50,4 @@ const BEND: f64 = 1e-4;
 
 /// Such a part also gets one if its springs turn, and its length times the difference of its stiffnesses is more than this
 /// part of the force. Springs are then close enough whenever they turn, in however small steps.
-const SPACING: f64 = 5e-3;
+const SPACING: f64 = 1e-2;
