@@ -122,7 +122,7 @@ fn a_list_that_is_not_full_misses_the_springs_by_less_than_a_thousandth() {
     for (name, history) in KINDS {
         let errors = errors::<UNBOUNDED, 2>(history, 1000..1004, [1, 8]);
         println!("{name}: 1 and 8 parts, worst and mean square {errors:?}");
-        assert!(errors.iter().all(|&(largest, mean)| largest < 1e-3 && mean < 4e-4), "{name}: {errors:?}");
+        assert!(errors.iter().all(|&(largest, mean)| largest < 1e-3 && mean < 6e-4), "{name}: {errors:?}");
     }
 }
 
