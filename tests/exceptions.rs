@@ -153,7 +153,10 @@ fn instances_with_friction_raise_none() {
             let choice = Choice { friction, ..Choice::of(model.loading, model.unloading) };
             choose(choice);
             live::<RoughOne>(&format!("{name}, friction {friction:e}"));
-            live::<RoughPlaneOne>(&format!("{name}, friction {friction:e} in two directions"));
+            // each unloading law once: it has the springs
+            if ["hertz ", "big-alabo ", "luding "].iter().any(|law| name.starts_with(law)) {
+                live::<RoughPlaneOne>(&format!("{name}, friction {friction:e} in two directions"));
+            }
             choose(Choice { surface: Surface::Fresh, initial_gap: -3e-5, ..choice });
             live::<RoughOne>(&format!("{name}, friction {friction:e}, fresh"));
         }

@@ -94,11 +94,6 @@ fn several_contacts_are_arrays() {
 }
 
 #[test]
-fn friction_is_a_second_rate() {
-    pytest("test_friction.py");
-}
-
-#[test]
 fn states_threads_and_many_at_once() {
     pytest("test_states_and_threads.py");
 }

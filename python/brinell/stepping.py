@@ -75,8 +75,8 @@ class Stepping:
         # everything is checked before anything is set
         self._fill(self._rates, 0, "rate", rate)
         orders = self._take_derivatives(acceleration, jerk)
-        along = (tangential_rate, tangential_acceleration)
-        slips = self._take_tangential(*along) if along != (None, None) else ()
+        is_held = tangential_rate is None and tangential_acceleration is None
+        slips = () if is_held else self._take_tangential(tangential_rate, tangential_acceleration)
         if gap is not None:
             self._follow(instance, h, gap)
         if mass is not None:

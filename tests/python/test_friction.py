@@ -126,3 +126,24 @@ def test_a_rate_that_is_no_number_is_refused():
             made.step(1e-6, 1.0, tangential_rate=float("nan"))
         with pytest.raises(TypeError, match="tangential_rate"):
             made.step(1e-6, 1.0, tangential_rate="fast")
+
+
+def test_two_directions_take_and_give_pairs():
+    with contact("two_directions") as made:
+        for turn in range(30):
+            rates = [0.2 * math.cos(0.3 * turn), 0.2 * math.sin(0.3 * turn)]
+            force = made.step(1e-6, 0.3, tangential_rate=rates)
+            pull = made.tangential_force
+            assert pull.shape == (2,) and math.hypot(*pull) <= 0.3 * force * (1.0 + 1e-9)
+            assert list(pull) == [made["tangential_force[1]"], made["tangential_force[2]"]]
+        # with derivatives the mean force belongs to the step
+        made.step(1e-6, 0.3, 0.0, tangential_rate=np.zeros(2), tangential_acceleration=[1e3, -1e3])
+        assert list(made.tangential_force) == [made["mean_tangential_force[1]"], made["mean_tangential_force[2]"]]
+
+
+@pytest.mark.parametrize("wrong", [0.1, [0.1], [0.1, 0.2, 0.3], "ab"])
+def test_one_number_is_not_enough_for_two_directions(wrong):
+    with contact("two_directions") as made:
+        with pytest.raises(TypeError, match="two numbers are needed, one for each tangential direction"):
+            made.step(1e-6, 0.3, tangential_rate=wrong)
+        assert made["indentation"] == 0.0

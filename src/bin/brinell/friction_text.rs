@@ -54,7 +54,7 @@ const IN_TWO: [&str; 2] = [
     "With the rates held over each step, on a dent that doesn't grow: motion along one line is exact as in one direction, as long as \
      the past fits into sixteen segments. If the direction turns, the tangential force is an approximation. Against many \
      independent springs, its largest measured error over random histories is 1.1e-3 of Coulomb's limit, over circles \
-     2.6e-3, and if each step is divided into 512 parts, 7.3e-3.",
+     2.2e-3, and if each step is divided into 512 parts, 5.4e-3.",
     "The mean tangential force is from Simpson's rule over each step. With input derivatives, the way of a step is divided into \
      eight straight parts. Derivatives of the tangential force are from trial steps.",
 ];

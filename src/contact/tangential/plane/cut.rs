@@ -57,10 +57,16 @@ impl<'a, const N: usize> Cut<'a, N> {
         Cut { curve, way, start, direction: way.direction(), apex, force, left: Draft::EMPTY, slips_from: None }
     }
 
-    /// Adds the segment of this `vertex` up to the point `end`, which is not above the contact.
-    pub(super) fn segment(&mut self, vertex: &Vertex, end: Place) {
-        let [from, to] = [(vertex.height, vertex.offset), end].map(|place| self.point(place, self.way.from - place.0));
+    /// Adds the segment of this `vertex` up to the point `end`, which is not above the contact. `start` is the point at the
+    /// vertex, if it is known. Returns that at the end.
+    pub(super) fn segment(&mut self, vertex: &Vertex, start: Option<Point>, end: Place) -> Point {
+        let from = match start {
+            Some(point) => point,
+            None => self.point((vertex.height, vertex.offset), self.way.from - vertex.height),
+        };
+        let to = self.point(end, self.way.from - end.0);
         self.between(vertex.slope, &from, &to);
+        to
     }
 
     /// Adds the segment of this `slope` between two points.

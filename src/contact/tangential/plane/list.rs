@@ -117,7 +117,7 @@ impl<const N: usize> Draft<N> {
 
     /// Whether segments may be divided further. The rest of the room is for those that follow.
     pub(super) fn has_room(&self) -> bool {
-        self.count < 5 * N
+        self.count < 2 * N
     }
 
     /// Adds a segment, unless it continues the last one in a straight line.

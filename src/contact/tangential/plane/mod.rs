@@ -15,7 +15,7 @@
 //! # Accuracy
 //! Motion along one line has the result of one direction, to rounding. If the direction of slip turns, sixteen segments
 //! differ from many independent springs, over random histories, by at most 1.1e-3 of `mu F` if a step is taken at once or in
-//! eight parts, and by 4.3e-3 in 512 parts; over circles by 2.6e-3 and 7.3e-3. The root mean square is a fifth of this. With an
+//! eight parts, and by 2.9e-3 in 512 parts; over circles by 2.2e-3 and 5.4e-3. The root mean square is a fifth of this. With an
 //! unbounded list the error is below 1e-3 and does not grow with the parts. Coulomb's bound holds to rounding, and friction
 //! seems to do work of at most 2e-5 of the normal energy, from the integration of the test.
 //!
@@ -50,4 +50,4 @@ const BEND: f64 = 1e-4;
 
 /// Such a part also gets one if its springs turn, and its length times the difference of its stiffnesses is more than this
 /// part of the force. Springs are then close enough whenever they turn, in however small steps.
-const SPACING: f64 = 5e-3;
+const SPACING: f64 = 1e-2;

@@ -92,9 +92,12 @@ impl<const N: usize> Stuck<N> {
         if is_fresh {
             cut.touching(curve.lower);
         } else {
+            let mut last = None;
             for (vertex, end) in self.segments_up_to((way.from, before)) {
+                // unloading leaves no segment above the contact
                 let height = smallest(end.0, way.to);
-                cut.segment(vertex, if height < end.0 { (height, vertex.offset_at(height)) } else { end });
+                let end = if height < end.0 { (height, vertex.offset_at(height)) } else { end };
+                last = Some(cut.segment(vertex, last, end));
             }
             if way.to > way.from {
                 cut.touching(way.from);

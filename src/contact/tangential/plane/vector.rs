@@ -1,6 +1,6 @@
 //! Vectors in the plane of the surface.
 
-use libm::hypot;
+use libm::{fabs, hypot, sqrt};
 
 /// A vector along the surface.
 pub(super) type Vector = [f64; 2];
@@ -39,8 +39,12 @@ pub(super) fn cross([x, y]: Vector, [u, v]: Vector) -> f64 {
     x * v - y * u
 }
 
+/// Numbers of this size and their inverses can be squared.
+const SQUARED: f64 = 1e140;
+
 /// Length.
 #[inline(always)]
 pub(super) fn length([x, y]: Vector) -> f64 {
-    hypot(x, y)
+    let size = fabs(x) + fabs(y);
+    if size < SQUARED && size * SQUARED > 1.0 { sqrt(x * x + y * y) } else { hypot(x, y) }
 }
