@@ -129,7 +129,11 @@ fn a_unit_with_a_rate_dependent_law_moves_its_bodies() {
     let outputs = ["indentation", "work", "elastic_energy", "dissipated_energy", "closing_speed"];
     let units = [
         ("hunt", "loading = \"hunt-crossley\"\nrestitution = 0.7", ""),
-        ("kelvin", "loading = \"kelvin-voigt\"\nrestitution = 0.5", "master = \"parallel\"\ninputs = [\"external_acceleration\"]"),
+        (
+            "kelvin",
+            "loading = \"kelvin-voigt\"\nrestitution = 0.5",
+            "master = \"parallel\"\ninputs = [\"external_acceleration\"]",
+        ),
     ];
     let units = units.map(|(name, law, more)| {
         let text = format!(

@@ -118,7 +118,11 @@ fn a_dent_keeps_its_strength_and_a_fresh_surface_has_that_of_each_impact() {
                 let mut deepest = 0.0f64;
                 for speed in speeds {
                     // away beyond the original surface, and back
-                    (0..3).for_each(|_| if deepest > 0.0 { master.step(1e-3) });
+                    (0..3).for_each(|_| {
+                        if deepest > 0.0 {
+                            master.step(1e-3)
+                        }
+                    });
                     master.speed = speed;
                     bounce(&mut master, 3e-6);
                     let restitution = -master.speed / speed;

@@ -226,8 +226,7 @@ impl<S: Scene> Instance<S> {
             return Some(0.0);
         }
         // of the other contacts, the indentation isn't the distance, or the force follows the rate
-        let finds_strength =
-            S::Contact::FINDS_STRENGTH && self.histories().get(contact)?.regime() == Regime::Apart;
+        let finds_strength = S::Contact::FINDS_STRENGTH && self.histories().get(contact)?.regime() == Regime::Apart;
         if S::Contact::DERIVATIVES == 2 && !finds_strength {
             return Some(self.predicted(contact, model, rate)?.stiffness(rate) * self.last_step());
         }

@@ -156,9 +156,7 @@ fn uses(text: &str) -> String {
         true if text.contains("damped::") => {
             "use crate::contact::damped::follow;\nuse crate::contact::motion::Follow;\n"
         }
-        true if text.contains("rate::") => {
-            "use crate::contact::motion::Follow;\nuse crate::contact::rate::follow;\n"
-        }
+        true if text.contains("rate::") => "use crate::contact::motion::Follow;\nuse crate::contact::rate::follow;\n",
         true => "use crate::contact::motion::{Follow, follow};\n",
         false => "",
     };

@@ -86,7 +86,8 @@ pub fn add_model(file: &mut File, scene: &Scene) {
 
 /// The expression of a model whose strength depends on the impact, from that `slow` one.
 fn with_rate(slow: &str) -> String {
-    let (first, last) = slow.split_once(";\n").map_or((String::new(), slow), |(first, last)| (format!("{first};\n"), last));
+    let (first, last) =
+        slow.split_once(";\n").map_or((String::new(), slow), |(first, last)| (format!("{first};\n"), last));
     format!("{first}let slow = {last};\nrate::Model {{ slow, rate: RATE }}")
 }
 
