@@ -7,18 +7,25 @@ mod physics;
 mod scenes;
 
 use brinell::contact::damped::AnyDamped;
+use brinell::contact::rate::Rate;
 use brinell::contact::{Contact, Surface};
 use brinell::instance::Instance;
 use brinell::scene::{Present, Real, Scene};
 use physics::{Random, all_models, mild};
-use scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, Rough, RoughPlane, choose, frictions, words};
+use scenes::{
+    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Massive, OUTPUTS, Rated, Rough, RoughPlane, choose, frictions, words,
+};
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Present>;
 type MassiveOne = Chosen<Massive, 1, Present>;
 type RoughOne = Chosen<Rough, 1, Present>;
 type RoughPlaneOne = Chosen<RoughPlane, 1, Present>;
+type RatedOne = Chosen<Rated, 1, Present>;
+type DampedMassiveOne = Chosen<DampedMassive, 1, Present>;
 type DampedOne = Chosen<Damped, 1, Present>;
+
+const RATES: [Rate; 2] = [Rate::JohnsonCook { c: 0.014, reference_rate: 1.0 }, Rate::CowperSymonds { d: 40.4, q: 5.0 }];
 
 const INVALID: i32 = 1;
 const DIVISION_BY_ZERO: i32 = 4;
@@ -137,6 +144,7 @@ fn rate_dependent_instances_raise_none() {
             for initial_gap in [0.0, 1e-6, -3e-5] {
                 choose(Choice { damped, restitution, initial_gap, ..Choice::of(model.loading, model.unloading) });
                 live::<DampedOne>(name);
+                live::<DampedMassiveOne>(&format!("{name}, moved"));
             }
         }
     }
@@ -169,6 +177,10 @@ fn instances_that_know_the_mass_raise_none() {
         for surface in [Surface::Dented, Surface::Fresh] {
             choose(Choice { surface, ..Choice::of(model.loading, model.unloading) });
             live::<MassiveOne>(&name);
+            for rate in RATES {
+                choose(Choice { surface, rate, ..Choice::of(model.loading, model.unloading) });
+                live::<RatedOne>(&format!("{name}, {rate:?}"));
+            }
         }
     }
 }

@@ -125,6 +125,29 @@ fn a_unit_that_knows_the_mass_finds_the_strength_of_each_impact() {
 }
 
 #[test]
+fn a_unit_with_a_rate_dependent_law_moves_its_bodies() {
+    let outputs = ["indentation", "work", "elastic_energy", "dissipated_energy", "closing_speed"];
+    let units = [
+        ("hunt", "loading = \"hunt-crossley\"\nrestitution = 0.7", ""),
+        (
+            "kelvin",
+            "loading = \"kelvin-voigt\"\nrestitution = 0.5",
+            "master = \"parallel\"\ninputs = [\"external_acceleration\"]",
+        ),
+    ];
+    let units = units.map(|(name, law, more)| {
+        let text = format!(
+            "name = \"{name}\"\nimpactor = {{ radius = 5e-3 }}\ntarget = {{ material = \"mild steel\" }}\n[law]\n{law}\n\
+             [impact]\nmass = 4.11e-3\nspeed = 2.0\n[fmu]\noutputs = {outputs:?}\n[coupling]\neffective_mass = 4.11e-3\n{more}\n"
+        );
+        write_scene(name, &text)
+    });
+    for file in ["test_damped_bodies_move.py", "test_initial_values.py", "test_state_is_restored.py"] {
+        pytest(file, &units);
+    }
+}
+
+#[test]
 fn values_before_the_first_step_are_those_of_the_model_description() {
     pytest("test_initial_values.py", &plain_scenes());
 }

@@ -193,9 +193,11 @@ fn a_mass_to_be_known_that_is_none_is_refused() {
 }
 
 #[test]
-fn a_law_that_follows_the_rate_can_not_know_the_mass() {
+fn a_mass_from_which_the_damping_follows_is_no_input() {
     let law = "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.5\n";
-    refused_with(&format!("{law}§[coupling]\neffective_mass = 1.0"), &["hunt-crossley", "rate"]);
+    let law = law.replace("hunt-crossley", "kelvin-voigt");
+    let with_input = format!("{law}[coupling]\neffective_mass = 1.0\ninputs = [§\"effective_mass\"]");
+    refused_with(&with_input, &["damping of kelvin-voigt", "before the first step", "leave it a parameter"]);
 }
 
 #[test]

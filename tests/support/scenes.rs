@@ -183,6 +183,21 @@ impl Kind for Damped {
     }
 }
 
+/// The same, moved by its mass.
+pub struct DampedMassive;
+
+impl Kind for DampedMassive {
+    type Model = damped::Model<AnyDamped>;
+    type Contact = damped::History<AnyDamped>;
+    type Course = Present;
+    type Coupling = Coupled;
+    type Watch = Absent;
+    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(damped::follow);
+    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
+        damped::Model { pair, law: chosen().damped, restitution, mass }
+    }
+}
+
 /// `N` contacts of a kind with the momentum `M`, each in its own group.
 pub struct Chosen<K, const N: usize, M = Absent>(PhantomData<(K, M)>);
 

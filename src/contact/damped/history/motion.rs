@@ -3,13 +3,15 @@
 //! From touch to separation, a pair of Runge-Kutta methods follows the motion; between contacts it is a parabola. The heat is
 //! what the energy balance of the step leaves, so that the balance is exact whatever the errors of the integration are.
 
+mod integration;
+
 use super::{Damped, History, Sum, within};
 use crate::contact::damped::Model;
-use crate::contact::damped::impact::{ERROR, STAGES};
+use crate::contact::damped::impact::STAGES;
 use crate::contact::history::TooDeep;
 use crate::contact::motion::flight::Flight;
 use crate::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome};
-use crate::contact::numbers::{largest, quotient};
+use crate::contact::numbers::largest;
 use libm::{fabs, pow, sqrt};
 
 /// Largest error of a step of the integration, relative to the largest indentation and speed of the contact.
@@ -18,17 +20,8 @@ const TOLERANCE: f64 = 1e-12;
 /// Smaller errors count as this one.
 const LEAST: f64 = 1e-30;
 
-/// The part of the contact's depth that a step may cover: no change of the force is passed over.
-const STRIDE: f64 = 0.25;
-
-/// Distance from the balance of forces, relative to the indentation, at which bodies count as at rest.
-const REST: f64 = 1e-9;
-
 /// Largest number of contacts and flights in a step.
 const MOST_EVENTS: u32 = MOST_EVALUATIONS / 10;
-
-/// Bisections that find an event in a step to its last digit.
-const HALVINGS: u32 = 60;
 
 /// Indentation \[m\] and closing speed \[m/s\].
 #[derive(Clone, Copy, Debug)]
@@ -74,12 +67,14 @@ pub fn follow<D: Damped + Copy>(
         return Err(TooDeep { indentation: number }.into());
     }
     let state = State { depth: history.indentation(), speed };
+    // of bodies at rest, the speed of an oscillation of this size
+    let swing = sqrt(history.stiffness(0.0) / mass) * largest(state.depth, 0.0);
     let mut bodies = Bodies {
         contact: *history,
         inverse_mass: 1.0 / mass,
         acceleration,
         state,
-        scale: State { depth: largest(state.depth, 0.0), speed: fabs(speed) },
+        scale: State { depth: largest(state.depth, 0.0), speed: largest(fabs(speed), swing) },
         pressed: false,
         way: 0.0,
         taken: 0.0,
@@ -148,13 +143,16 @@ impl<D: Damped + Copy> Bodies<D> {
         if depth == 0.0 {
             self.deepest = largest(self.deepest, self.contact.max_indentation);
             self.contact.max_indentation = 0.0;
-            self.contact.touch_speed = if speed > 0.0 { speed } else { f64::INFINITY };
+            self.contact.touch_speed = 0.0;
             self.scale = State { depth: 0.0, speed };
-        } else if self.contact.touch_speed == f64::INFINITY && speed > 0.0 {
-            self.contact.touch_speed = speed;
         }
+        self.note_speed();
         self.pressed = true;
-        let mut guess = self.left;
+        if depth > 0.0 && self.rests() {
+            self.rest();
+            return Ok(());
+        }
+        let mut guess = if depth == 0.0 { self.first_guess() } else { self.left };
         while self.left > 0.0 {
             let step = self.limited(guess);
             self.evaluations += STAGES.len() as u32;
@@ -165,11 +163,16 @@ impl<D: Damped + Copy> Bodies<D> {
             let factor = 0.9 * pow(TOLERANCE / largest(error, LEAST), 0.2);
             // written positively to reject NaN
             let accepted = error <= TOLERANCE;
+
             if !accepted {
                 guess = step * if factor > 0.1 { factor } else { 0.1 };
                 if guess <= f64::MIN_POSITIVE {
                     return Err(NoMotion::TooLong);
                 }
+                continue;
+            }
+            if let Some(shorter) = self.to_border(step, &next).or_else(|| self.to_largest_speed(step, &next)) {
+                guess = shorter;
                 continue;
             }
             if self.state.speed > 0.0 && next.speed < 0.0 {
@@ -181,9 +184,9 @@ impl<D: Damped + Copy> Bodies<D> {
                 return Ok(self.pass(time, State { depth: 0.0, ..end })?);
             }
             self.pass(step, next)?;
+            self.note_speed();
             if self.rests() {
-                self.taken += self.acceleration * self.left;
-                (self.state.speed, self.left) = (0.0, 0.0);
+                self.rest();
                 return Ok(());
             }
             guess = step * if factor < 5.0 { factor } else { 5.0 };
@@ -191,13 +194,19 @@ impl<D: Damped + Copy> Bodies<D> {
         Ok(())
     }
 
-    /// The time `guess` \[s\], but not beyond the end of the step, and not past a change of the force.
-    fn limited(&self, guess: f64) -> f64 {
-        let State { depth, speed } = self.scale;
-        let swift = speed + sqrt(depth * fabs(self.acceleration));
-        let longest = quotient(STRIDE * depth, swift, depth > 0.0 && swift > 0.0, f64::INFINITY);
-        let guess = if guess < longest { guess } else { longest };
-        if guess < self.left { guess } else { self.left }
+    /// Bodies at rest stay where they are. What is left of their speed is below all digits of the motion.
+    fn rest(&mut self) {
+        self.taken += self.acceleration * self.left + self.state.speed;
+        (self.state.speed, self.left) = (0.0, 0.0);
+    }
+
+    /// Keeps the largest speed since the contact began as that of the first touch. In a free impact that is the speed at first
+    /// touch. Bodies that touch slowly and are accelerated would otherwise have a damping without bound.
+    fn note_speed(&mut self) {
+        let speed = fabs(self.state.speed);
+        let known = if self.contact.touch_speed < f64::INFINITY { self.contact.touch_speed } else { 0.0 };
+        let largest = largest(known, speed);
+        self.contact.touch_speed = if largest > 0.0 { largest } else { f64::INFINITY };
     }
 
     /// Moves the bodies to `next`, `time` \[s\] later.
@@ -209,54 +218,5 @@ impl<D: Damped + Copy> Bodies<D> {
         let scale = self.scale;
         self.scale = State { depth: largest(scale.depth, next.depth), speed: largest(scale.speed, fabs(next.speed)) };
         self.go_to(next)
-    }
-
-    /// Acceleration of the bodies \[m/s^2\].
-    fn net(&self, state: &State) -> f64 {
-        let force = self.contact.sum_of_forces(largest(state.depth, 0.0), state.speed);
-        self.acceleration - largest(force, 0.0) * self.inverse_mass
-    }
-
-    /// The state after `step` \[s\], and its relative error.
-    fn stepped(&self, step: f64) -> (State, f64) {
-        let mut slopes = [State { depth: 0.0, speed: 0.0 }; 7];
-        let mut next = self.state;
-        for (stage, row) in STAGES.iter().enumerate() {
-            next = self.state;
-            for (weight, slope) in row.iter().zip(&slopes) {
-                next.depth += step * weight * slope.depth;
-                next.speed += step * weight * slope.speed;
-            }
-            if let Some(slope) = slopes.get_mut(stage) {
-                *slope = State { depth: next.speed, speed: self.net(&next) };
-            }
-        }
-        let mut error = State { depth: 0.0, speed: 0.0 };
-        for (weight, slope) in ERROR.iter().zip(&slopes) {
-            error.depth += step * weight * slope.depth;
-            error.speed += step * weight * slope.speed;
-        }
-        let relative = |error: f64, size: f64| quotient(fabs(error), size, size > 0.0, 0.0);
-        let depth = relative(error.depth, largest(self.scale.depth, fabs(next.depth)));
-        let speed = relative(error.speed, largest(self.scale.speed, fabs(next.speed)));
-        (next, largest(depth, speed))
-    }
-
-    /// The time within `step` \[s\] at which `happens` becomes true, and the state then. It must be true at the end.
-    fn event(&self, step: f64, happens: impl Fn(&State) -> bool) -> (f64, State) {
-        let (mut low, mut high) = (0.0, step);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            *(if happens(&self.stepped(middle).0) { &mut high } else { &mut low }) = middle;
-        }
-        (high, self.stepped(high).0)
-    }
-
-    /// Whether the bodies have come to rest: forces in balance, and too slow to move noticeably.
-    fn rests(&self) -> bool {
-        let State { depth, speed } = self.state;
-        let scale = self.contact.stiffness(0.0) * self.inverse_mass;
-        let is_balanced = fabs(self.net(&self.state)) <= REST * scale * depth;
-        is_balanced && scale > 0.0 && speed * speed <= REST * REST * scale * depth * depth
     }
 }
