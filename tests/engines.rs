@@ -228,7 +228,8 @@ fn studies_run_completely_and_are_resumed() {
         return;
     }
     let output = interpreter(&[])
-        .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", "test_study.py"])
+        .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"])
+        .args(["test_study.py", "test_study_command.py"])
         .current_dir(root().join("tests/python"))
         .env("BRINELL_TEST_SCENES", root().join("scenes"))
         .output()

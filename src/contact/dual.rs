@@ -55,6 +55,12 @@ impl Dual {
         let tangent = if self.value < 40.0 { sinh(self.value) / cosine } else { 1.0 };
         Dual { value, slope: -value * tangent * self.slope }
     }
+
+    /// `1 - 1 / cosh u` for `u >= 0`, without cancellation: `2 sinh(u/2)^2 / cosh u`. `u` must be below 700.
+    pub fn one_less_sech(self) -> Dual {
+        let half = sinh(0.5 * self.value);
+        Dual { value: 2.0 * half * half / cosh(self.value), slope: -self.sech().slope }
+    }
 }
 
 impl Add for Dual {

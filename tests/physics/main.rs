@@ -22,6 +22,7 @@ mod friction_properties;
 mod friction_tables;
 mod guard;
 mod input_courses;
+mod law_big_alabo;
 mod law_brinell;
 mod law_brizmer;
 mod law_johnson;

@@ -48,6 +48,14 @@ impl Brake2015 {
         PI * pair.radius * self.hardness_factor * pair.yield_strength
     }
 
+    /// `F_H` and `F_P` \[N\], with their slopes.
+    fn parts(&self, pair: &Pair, d_p: f64, indentation: f64) -> [Dual; 2] {
+        let d = Dual::variable(indentation);
+        let root = sqrt(indentation);
+        let hertz = pair.hertz_stiffness() * Dual { value: indentation * root, slope: 1.5 * root };
+        [hertz, self.plastic_slope(pair) * (2.0 * d - Dual::constant(d_p))]
+    }
+
     /// `(F_H - F_P) sech(s)` \[N\] with its slope with respect to `d`; the arguments contain `d_y` and `d_p`.
     fn elastic_part(&self, pair: &Pair, borders: (f64, f64), indentation: f64) -> Dual {
         let (d_y, d_p) = borders;
@@ -55,10 +63,7 @@ impl Brake2015 {
         if s > FADED {
             return Dual::constant(0.0);
         }
-        let d = Dual::variable(indentation);
-        let root = sqrt(indentation);
-        let hertz = pair.hertz_stiffness() * Dual { value: indentation * root, slope: 1.5 * root };
-        let plastic = self.plastic_slope(pair) * (2.0 * d - Dual::constant(d_p));
+        let [hertz, plastic] = self.parts(pair, d_p, indentation);
         (hertz - plastic) * Dual { value: s, slope: 1.0 / (d_p - d_y) }.sech()
     }
 }
@@ -78,10 +83,14 @@ impl Loading for Brake2015 {
             return hertz::segment(pair, d_y);
         }
         let d_p = self.plastic(pair);
-        let slope = self.plastic_slope(pair);
-        let elastic = self.elastic_part(pair, (d_y, d_p), indentation);
-        let force = slope * (2.0 * indentation - d_p) + elastic.value;
-        Segment::tangent(indentation, force, 2.0 * slope + elastic.slope)
+        let [hertz, plastic] = self.parts(pair, d_p, indentation);
+        let s = Dual { value: (indentation - d_y) / (d_p - d_y), slope: 1.0 / (d_p - d_y) };
+        // a sum of two parts of which each is exact: F_P alone may be some ten times as large as the force
+        let force = match s.value > FADED {
+            true => plastic,
+            false => hertz * s.sech() + plastic * s.one_less_sech(),
+        };
+        Segment::tangent(indentation, force.value, force.slope)
     }
 
     fn next_corner(&self, pair: &Pair, indentation: f64) -> f64 {
