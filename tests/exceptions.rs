@@ -13,7 +13,8 @@ use brinell::instance::Instance;
 use brinell::scene::{Present, Real, Scene};
 use physics::{Random, all_models, mild};
 use scenes::{
-    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Massive, OUTPUTS, Rated, Rough, RoughPlane, choose, frictions, words,
+    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Massive, OUTPUTS, Rated, Rough, RoughPlane, choose,
+    frictions, words,
 };
 
 type One = Chosen<Elastoplastic, 1, Present>;

@@ -171,7 +171,7 @@ impl<D: Damped + Copy> Bodies<D> {
                 }
                 continue;
             }
-            if let Some(shorter) = self.to_border(step, &next).or_else(|| self.to_largest_speed(step, &next)) {
+            if let Some(shorter) = self.until_border(step, &next).or_else(|| self.until_largest_speed(step, &next)) {
                 guess = shorter;
                 continue;
             }

@@ -47,7 +47,7 @@ impl<D: Damped + Copy> Bodies<D> {
 
     /// The time to the first border of the law that a motion to `next` in `step` \[s\] passes: the damping is not smooth there.
     /// `None` if the step ends at the border.
-    pub(super) fn to_border(&mut self, step: f64, next: &State) -> Option<f64> {
+    pub(super) fn until_border(&mut self, step: f64, next: &State) -> Option<f64> {
         let depth = self.state.depth;
         let rising = next.depth > depth;
         let passes = |border: &f64| *border > 0.0 && (depth < *border) == rising && (next.depth > *border) == rising;
@@ -60,7 +60,7 @@ impl<D: Damped + Copy> Bodies<D> {
 
     /// The time to the largest speed of a motion to `next` in `step` \[s\], from where on the damping has another scale. `None`
     /// if it isn't passed.
-    pub(super) fn to_largest_speed(&mut self, step: f64, next: &State) -> Option<f64> {
+    pub(super) fn until_largest_speed(&mut self, step: f64, next: &State) -> Option<f64> {
         let slows = |bodies: &Self, state: &State| bodies.net(state) * state.speed <= 0.0;
         let state = self.state;
         let passes = self.contact.law.scaled_by_touch()
