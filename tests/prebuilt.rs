@@ -197,10 +197,8 @@ fn prebuilding_is_reproducible_and_rejects_unknown_laws() {
     let library = |store: &Path| {
         let list = prebuilt::list(store);
         let streams = list["streams"].as_array().unwrap();
-        let all = streams.iter().flat_map(|stream| stream["libraries"].as_array().unwrap());
-        all.cloned()
-            .find(|library: &serde_json::Value| library["name"] == "hunt-crossley/flores force")
-            .expect("it is there")
+        let mut all = streams.iter().flat_map(|stream| stream["libraries"].as_array().unwrap());
+        all.find(|library| library["name"] == "hunt-crossley/flores force").expect("it is there").clone()
     };
     assert_eq!(library(&again), library(store()));
     let said = prebuilt::prebuild(&again, &["--laws", "nobody"]).with_status(1).err;
