@@ -17,9 +17,13 @@ use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
 use libm::{ceil, fabs};
 
-/// Longest part of a path other than Hertz's curve whose image on a new path counts as straight, relative to the
-/// length of the path.
-pub(super) const LONGEST: f64 = 0.25;
+/// Parts of a path other than Hertz's curve whose images on a new path count as straight.
+pub(super) const PARTS: u32 = 4;
+
+/// Longest such part \[m\] of a path that is `length` \[m\] long; infinite without parts.
+pub(super) fn longest_part(parts: u32, length: f64) -> f64 {
+    quotient(length, f64::from(parts), parts > 0, f64::INFINITY)
+}
 
 /// Whether `path` is Hertz's curve from its origin. The images of such paths are proportional to each other.
 pub(super) fn is_hertzian(path: &Segment) -> bool {
@@ -36,7 +40,7 @@ pub(super) fn height_with(path: &Segment, stiffness: f64) -> f64 {
     largest(path.origin + q * q, path.lower)
 }
 
-impl<const N: usize> Stuck<N> {
+impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
     /// Moves the contact on its `way` along the loading curve, while its dent grows: from the end of the `old` path
     /// to the end of the `new` one.
     pub fn grow(&mut self, old: &Segment, new: &Segment, way: &Way) {
@@ -51,15 +55,15 @@ impl<const N: usize> Stuck<N> {
         }
         let mut cut = Cut::new(new, way.to, self.displacement.total());
         let image = |(height, offset): Point| (height_with(new, old.stiffness(height)), offset);
-        let longest =
-            if is_hertzian(old) && is_hertzian(new) { f64::INFINITY } else { LONGEST * (way.from - old.lower) };
+        let parts = if is_hertzian(old) && is_hertzian(new) { 0 } else { PARTS };
+        let longest = longest_part(parts, way.from - old.lower);
         let mut last = None;
         for (vertex, end) in self.segments_up_to((way.from, before)) {
             let start = (vertex.height, vertex.offset);
             let mut from = *last.get_or_insert(image(start));
             let parts = ceil(quotient(end.0 - start.0, longest, longest > 0.0, 1.0));
             let mut part = 1.0;
-            while part < parts && part < 2.0 / LONGEST {
+            while part < parts && part < f64::from(2 * PARTS) {
                 let height = start.0 + (end.0 - start.0) * (part / parts);
                 let to = image((height, vertex.offset_at(height)));
                 cut.line(from, to);

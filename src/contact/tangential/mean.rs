@@ -6,7 +6,7 @@ use crate::contact::numbers::quotient;
 use crate::contact::segment::Segment;
 use libm::fabs;
 
-impl<const N: usize> Stuck<N> {
+impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
     /// Mean tangential force of a step on this `way` that is yet to come, divided by the coefficient of friction
     /// \[N\]; exact.
     pub fn mean_pull(&self, curve: &Segment, way: &Way) -> f64 {

@@ -39,7 +39,7 @@ impl Sliding {
     pub const ALL: [Sliding; 4] = [Sliding::Apart, Sliding::Stick, Sliding::PartialSlip, Sliding::Sliding];
 }
 
-impl<const N: usize> Stuck<N> {
+impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
     /// Tangential force at the current `indentation` \[m\], divided by the coefficient of friction \[N\].
     #[inline]
     pub fn pull(&self, curve: &Segment, indentation: f64) -> f64 {

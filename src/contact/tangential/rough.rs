@@ -2,7 +2,7 @@
 
 use super::growth_steps::next_of_lattice;
 use super::shear::{Rates, Shear, simpson};
-use super::{Friction, Motion, Sliding, Stuck, plane};
+use super::{Friction, Motion, Sliding, Stuck, growth, plane};
 use crate::contact::history::{History, TooDeep};
 use crate::contact::loading::Loading;
 use crate::contact::numbers::{quotient, smallest};
@@ -35,8 +35,9 @@ pub struct SpringsOf<K, const D: usize, const LATTICE: bool> {
     curve: Segment,
 }
 
-/// The springs of a contact in one direction, in a list of `N` segments.
-pub type Springs<const N: usize, const LATTICE: bool = true> = SpringsOf<Stuck<N>, 1, LATTICE>;
+/// The springs of a contact in one direction, in a list of `N` segments; see [`Stuck`] for the `PARTS`.
+pub type Springs<const N: usize, const LATTICE: bool = true, const PARTS: u32 = { growth::PARTS }> =
+    SpringsOf<Stuck<N, PARTS>, 1, LATTICE>;
 
 /// The springs of a contact in two directions, in a list of `N` segments.
 pub type PlaneSprings<const N: usize, const LATTICE: bool = true> = SpringsOf<plane::Stuck<N>, 2, LATTICE>;
@@ -52,7 +53,7 @@ impl<L: Loading, U: Unloading> RoughModel<L, U> {
     }
 }
 
-impl<const N: usize, const LATTICE: bool> Springs<N, LATTICE> {
+impl<const N: usize, const LATTICE: bool, const PARTS: u32> Springs<N, LATTICE, PARTS> {
     /// [`SpringsOf::advance_along`] in one direction. Returns the mean tangential force \[N\] if it `is_asked` for,
     /// otherwise 0.
     ///

@@ -5,7 +5,7 @@ use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
 use crate::contact::words::{load_numbers, store_numbers};
 
-impl<const N: usize> Stuck<N> {
+impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
     /// Number of words in the saved springs of a contact.
     pub const WORDS: usize = 3 + 3 * N;
 
@@ -22,7 +22,7 @@ impl<const N: usize> Stuck<N> {
 
     /// The springs that [`Stuck::save`] has stored, on the same `curve`. `None` if a word is not a finite number, or
     /// if there are more segments than fit into the list.
-    pub fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Stuck<N>> {
+    pub fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Self> {
         let [value, rest] = load_numbers(words)?;
         let count = words.next().and_then(|count| usize::try_from(count).ok()).filter(|&count| count <= N)?;
         let mut list = List::EMPTY;

@@ -69,8 +69,8 @@ impl Motion<1> {
     }
 }
 
-impl<const N: usize> Shear<1> for Stuck<N> {
-    const WORDS: usize = Stuck::<N>::WORDS;
+impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
+    const WORDS: usize = Stuck::<N, PARTS>::WORDS;
 
     fn pressed(curve: &Segment, indentation: f64) -> Self {
         Stuck::pressed(curve, indentation)

@@ -1,27 +1,30 @@
 //! The tangential state of a contact, and its step along one elastic curve.
 
-use super::{List, SAME, Vertex, Way};
+use super::{List, SAME, Vertex, Way, growth};
 use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
 use libm::fabs;
 
 /// The springs of a contact: the tangential displacement, and the polyline of their stuck offsets.
 ///
+/// A segment is divided if it is longer than a path over `PARTS`, before it moves to a path of a deeper dent; with 0 it is
+/// not divided.
+///
 /// The methods take the elastic normal force over the indentation as `curve`, from the surface (its lower end):
 /// Hertz's law, or the unloading path of a dent. It has to be the same in all calls until the contact separates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stuck<const N: usize> {
+pub struct Stuck<const N: usize, const PARTS: u32 = { growth::PARTS }> {
     /// Scaled tangential displacement \[m\] since the first touch or since the last slide of the whole contact.
     pub(super) displacement: Sum,
     pub(super) list: List<N>,
 }
 
-impl<const N: usize> Stuck<N> {
+impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
     /// No contact.
-    pub const APART: Stuck<N> = Stuck { displacement: Sum::new(0.0), list: List::EMPTY };
+    pub const APART: Self = Stuck { displacement: Sum::new(0.0), list: List::EMPTY };
 
     /// A contact that is pressed in without tangential displacement, at `indentation` \[m\].
-    pub fn pressed(curve: &Segment, indentation: f64) -> Stuck<N> {
+    pub fn pressed(curve: &Segment, indentation: f64) -> Self {
         let mut stuck = Stuck::APART;
         if indentation > curve.lower {
             stuck.touch(curve);

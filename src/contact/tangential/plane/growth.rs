@@ -6,7 +6,7 @@ use super::vector::{Vector, difference, length};
 use super::{Stuck, Way};
 use crate::contact::numbers::{largest, quotient};
 use crate::contact::segment::Segment;
-use crate::contact::tangential::growth::{LONGEST, height_with, is_hertzian};
+use crate::contact::tangential::growth::{PARTS, height_with, is_hertzian, longest_part};
 use libm::ceil;
 
 impl<const N: usize> Stuck<N> {
@@ -47,14 +47,15 @@ impl<const N: usize> Stuck<N> {
     /// Adds the segments up to `top` to `cut`, with their heights on the `new` path. Returns the height of the old edge.
     fn map(&self, cut: &mut Cut<N>, old: &Segment, new: &Segment, top: (f64, Vector)) -> f64 {
         let image = |height: f64| height_with(new, old.stiffness(height));
-        let longest = if is_hertzian(old) && is_hertzian(new) { f64::INFINITY } else { LONGEST * (top.0 - old.lower) };
+        let parts = if is_hertzian(old) && is_hertzian(new) { 0 } else { PARTS };
+        let longest = longest_part(parts, top.0 - old.lower);
         let mut edge = new.lower;
         for (vertex, end) in self.segments_up_to(top) {
             let parts = ceil(quotient(end.0 - vertex.height, longest, longest > 0.0, 1.0));
             let at = |cut: &Cut<N>, height: f64, offset: Vector| cut.point((image(height), offset), top.0 - height);
             let mut from = at(cut, vertex.height, vertex.offset);
             let mut part = 1.0;
-            while part < parts && part < 2.0 / LONGEST {
+            while part < parts && part < f64::from(2 * PARTS) {
                 let height = vertex.height + (end.0 - vertex.height) * (part / parts);
                 let to = at(cut, height, vertex.offset_at(height));
                 cut.between(slope(&from, &to), &from, &to);
