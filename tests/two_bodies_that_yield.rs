@@ -45,7 +45,7 @@ fn equally_strong_bodies_yield_alike_once_they_leave_a_dent() {
 #[test]
 fn the_stronger_impactor_yields_from_its_own_first_yield_on() {
     let mut seen = [false; 2];
-    for ratio in [1.05, 1.2, 1.5, 2.0, 2.5, 2.7, 4.0] {
+    for ratio in [1.05, 1.2, 1.5, 2.0, 2.5, 2.7, 2.8, 4.0] {
         for speed in [0.01, 0.1, 0.5, 1.0, 5.0, 50.0] {
             let strength = ratio * 300e6;
             let answer = predicted(&format!("yield_strength = {strength:e}"), speed);
@@ -55,8 +55,8 @@ fn the_stronger_impactor_yields_from_its_own_first_yield_on() {
             let has_dent = number(&impact["dent"]) > 0.0;
             let expected = has_dent && pressure > FIRST_YIELD * strength;
             assert_eq!(says(&answer, "the impactor. From 1.07 on it yields, too"), expected, "{ratio}, {speed} m/s");
-            // the pressure of a fully plastic contact is 2.8 S, or a little above
-            assert!(!expected || ratio < 2.7, "{ratio}, {speed} m/s");
+            // the mean pressure is at most 2.99 S
+            assert!(!expected || ratio < 2.8, "{ratio}, {speed} m/s");
             seen[usize::from(expected)] = true;
         }
     }
