@@ -70,6 +70,7 @@ fn kinds() -> String {
             let instead = instead.as_table().expect("a description of another kind is a table");
             let kind = match text(instead, "of") {
                 "rate-dependent" => "with a rate-dependent law",
+                "held-inputs" => "with `input_derivatives = false`",
                 "parallel" => "that knows the mass, for parallel importers",
                 "acceleration-input" => "that knows the mass, with `external_acceleration`",
                 "mass-known" => "that knows the mass",
