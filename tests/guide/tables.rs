@@ -74,6 +74,7 @@ fn kinds() -> String {
                 "parallel" => "that knows the mass, for parallel importers",
                 "acceleration-input" => "that knows the mass, with `external_acceleration`",
                 "mass-known" => "that knows the mass",
+                "dents-above-surface" => "whose laws can leave a dent above the surface",
                 "makes-energy" => "whose laws make energy",
                 "loses-less" => "whose laws lose less in a deeper dent",
                 "finds-strength" => "that knows the mass, with `rate`",
