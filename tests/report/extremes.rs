@@ -61,3 +61,17 @@ fn energy_created_by_a_law_is_reported_and_is_no_failure_of_its_fmu() {
     let gaining: Vec<_> = rows(&data, "extremes").iter().filter(gains).collect();
     assert!(!gaining.is_empty() && gaining.iter().all(|row| row["verdict"] == "right"), "{gaining:?}");
 }
+
+/// A soft plate takes so much that bodies creep apart; steps that follow them would never end.
+#[test]
+fn impacts_that_a_plate_swallows_are_not_judged_and_the_report_ends() {
+    let folder = empty_folder();
+    let scene = "name = \"plate\"\nimpactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\", plate_thickness = 5e-3 }\n\
+                 law = { loading = \"brinell\" }\nimpact = { mass = 4e-3, speed = 1.0 }\n";
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let data = run(folder.path(), ["report", "scene.toml", "--quick", "--json", "-o", "report"]).with_status(0).json();
+    let verdicts: Vec<_> = rows(&data, "extremes").iter().filter_map(|row| row["verdict"].as_str()).collect();
+    let judged = verdicts.iter().filter(|verdict| **verdict == "right").count();
+    assert!(judged >= 25, "{verdicts:?}");
+    assert!(verdicts.iter().any(|verdict| verdict.contains("the loss leaves no rebound")), "{verdicts:?}");
+}

@@ -171,11 +171,16 @@ fn by_steps(contact: &mut Contact, name: &str, bodies: &Bodies, prediction: &Pre
 const ROUNDING: f64 = 1e-9;
 
 /// An impact without a prediction. Beyond the range of the law, the FMU must report an error. A strongly damped
-/// contact, from which the bodies creep apart indefinitely, can't be judged.
+/// contact, from which the bodies creep apart indefinitely, can't be judged; nor one with a loss, whose rebound then is
+/// below the rounding of the indentation, or ends as slowly.
 fn without_prediction(contact: &mut Contact, name: &str, bodies: &Bodies, steps: f64) -> Case {
     let mut case = Case::new(name, TOLERANCE);
     if bodies.model.elastoplastic().is_none() {
         case.verdict = Verdict::NotJudged("the bodies creep apart without end");
+        return case;
+    }
+    if let AnyModel::Lossy(_) = bodies.model {
+        case.verdict = Verdict::NotJudged("the loss leaves no rebound that can be predicted");
         return case;
     }
     let Impact { mass, speed } = bodies.impact;
