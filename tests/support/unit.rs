@@ -29,20 +29,21 @@ fn once(source: PathBuf, make: impl FnOnce(&Path) -> PathBuf) -> PathBuf {
 /// The folder for the exports of this program from `scene`, which other test programs may have made. It exists only
 /// when it is complete.
 fn shared_folder(scene: &Path) -> PathBuf {
-    static PROGRAM: LazyLock<String> = LazyLock::new(|| {
+    // one thread alone prepares the folder; another one would remove what the first has made
+    static OURS: LazyLock<PathBuf> = LazyLock::new(|| {
         let program = fs::read(env!("CARGO_BIN_EXE_brinell")).expect("cargo has built the program");
-        hash_of(&[&program])
+        let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join("exported");
+        let ours = all.join(hash_of(&[&program]));
+        if !ours.exists() {
+            // exports of another build of the program are useless now
+            let _ = fs::remove_dir_all(&all);
+            fs::create_dir_all(&ours).expect("the target folder can be written to");
+        }
+        ours
     });
     let text = fs::read(scene).expect("a scene file");
     let name = scene.file_name().expect("a scene file has a name").as_encoded_bytes();
-    let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join("exported");
-    let ours = all.join(&*PROGRAM);
-    if !ours.exists() {
-        // exports of another build of the program are useless now
-        let _ = fs::remove_dir_all(&all);
-        fs::create_dir_all(&ours).expect("the target folder can be written to");
-    }
-    ours.join(hash_of(&[name, &text]))
+    OURS.join(hash_of(&[name, &text]))
 }
 
 /// 16 digits that identify these bytes.
@@ -149,8 +150,7 @@ fn unpack(fmu: &Path, folder: &Path) {
 /// The library inside an FMU, unpacked. Tests only read what is unpacked.
 pub fn library(fmu: &Path) -> PathBuf {
     once(fmu.to_path_buf(), |fmu| {
-        // the path of an FMU contains hashes of its scene and of the program, so the contents are always the same
-        let folder = folder().join(hash_of(&[fmu.as_os_str().as_encoded_bytes()]));
+        let folder = folder().join(hash_of(&[&fs::read(fmu).expect("an FMU")]));
         if !folder.exists() {
             let draft = draft_of(&folder);
             unpack(fmu, &draft);

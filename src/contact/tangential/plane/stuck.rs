@@ -4,7 +4,7 @@ use super::Way;
 use super::cut::Cut;
 use super::list::{Apex, List, Vertex};
 use super::vector::{Vector, ZERO, add, difference, dot, length};
-use crate::contact::numbers::smallest;
+use crate::contact::numbers::{largest, smallest};
 use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
 use crate::contact::tangential::{SAME, Sliding};
@@ -145,13 +145,15 @@ impl<const N: usize> Stuck<N> {
     pub fn energy(&self, curve: &Segment, indentation: f64) -> f64 {
         let displacement = self.displaced();
         let segments = self.segments_with_ends(curve, indentation);
-        segments.fold(0.0, |sum, (vertex, force, height)| {
+        let energy = segments.fold(0.0, |sum, (vertex, force, height)| {
             // r {[w F] + r [int F dh]}, in a form without cancellation on a short segment
             let tension = difference(displacement, vertex.offset);
             let shortfall = (height - vertex.height) * (force - curve.mean_force(vertex.height, height));
             let pull = dot(vertex.slope, tension) * (force - vertex.force);
             sum + pull - dot(vertex.slope, vertex.slope) * shortfall
-        })
+        });
+        // relaxed springs have rounding errors of either sign
+        largest(energy, 0.0)
     }
 
     /// Slip state of the contact, from its last way.
