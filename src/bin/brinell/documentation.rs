@@ -33,7 +33,7 @@ fn body(page: &mut String, plan: &Plan) -> std::fmt::Result {
         page,
         "<p>FMU (FMI 2.0 co-simulation) of the {} contact of {}: the closing speed of the bodies goes in, the contact \
          force comes out. {}</p>",
-        if scene.friction { "normal and tangential" } else { "normal" },
+        if scene.has_friction() { "normal and tangential" } else { "normal" },
         contact(scene),
         coupling(scene)
     )?;

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 /// Writes the section about the friction of `scene`, if it has any.
 pub fn section(page: &mut String, scene: &Scene) -> std::fmt::Result {
-    if !scene.friction {
+    if !scene.has_friction() {
         return Ok(());
     }
     let directions = if scene.directions > 1 { TWO } else { ONE };

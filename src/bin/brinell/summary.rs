@@ -37,7 +37,7 @@ impl Summary<'_> {
         // without friction, its variables are not listed one by one
         let exists = |name: &&str| {
             let variable = table::variable(name);
-            (scene.friction || !variable.friction) && (scene.directions > 1 || variable.second_of.is_none())
+            (scene.has_friction() || !variable.friction) && (scene.directions > 1 || variable.second_of.is_none())
         };
         let absent = of_kind(Causality::Parameter).filter(|name| !parameters.clone().any(|other| other.name == *name));
         let absent = absent.filter(exists);
@@ -182,7 +182,7 @@ fn features(scene: &Scene) -> Vec<&'static str> {
     let dents = scene.unloading.is_some();
     [
         (!scene.passivity_guard, "passivity guard"),
-        (!scene.friction, "friction"),
+        (!scene.has_friction(), "friction"),
         (!(dents && surface(Surface::Dented)), "surface that keeps its dents"),
         (!(dents && surface(Surface::Fresh)), "surface that is fresh at every contact"),
     ]

@@ -93,7 +93,7 @@ impl Trial {
         let changed = at_rest.into_iter().zip(before.iter().zip(&after)).filter(|(_, (before, after))| before != after);
         trial.disturbed = changed.map(|((name, _), _)| name).collect();
         instance.call("fmi2Terminate")?;
-        if scene.friction {
+        if scene.has_friction() {
             instance.call("fmi2Reset")?;
             let gap = begin(instance, description, scene, group)?;
             trial.rows.extend(oblique::compare(instance, description, scene, group, (gap, step))?);

@@ -214,7 +214,7 @@ fn add_laws(file: &mut File, scene: &Scene) {
     let [of_loading, of_unloading] = model::strengthened_forms(scene);
     let (loading, unloading) = (form(loading, "loading", of_loading), form(unloading, "unloading", of_unloading));
     let model = format!("Model<{loading}, {unloading}>");
-    (file.model, file.contact) = match (scene.friction, scene.loss) {
+    (file.model, file.contact) = match (scene.has_friction(), scene.loss) {
         (true, _) => (format!("tangential::Rough{model}"), rough_contact(scene)),
         (false, Some(loss)) => {
             let kind = model::kind_of(loss);

@@ -73,13 +73,13 @@ pub fn add_model(file: &mut File, scene: &Scene) {
         return;
     }
     let (group, surface) = groups::surface(file, scene);
-    let needs_group = scene.is_strengthened() || scene.friction;
+    let needs_group = scene.is_strengthened() || scene.has_friction();
     let group = if needs_group || scene.loss.is_some() { "group" } else { group };
     let values = if needs_group { "values" } else { "_values" };
     let hardening_modulus = "Self::parameter(Parameter::TargetHardeningModulus, group, values)";
     let plastic = model_of(scene, hardening_modulus, &format!("surface: {surface}"));
     let model = match scene.loss {
-        _ if scene.friction => with_friction(&plastic),
+        _ if scene.has_friction() => with_friction(&plastic),
         Some(loss) => with_loss(loss, &plastic),
         None if scene.finds_strength() => with_rate(&plastic),
         None => plastic,

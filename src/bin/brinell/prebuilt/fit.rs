@@ -42,7 +42,7 @@ fn library_for(scene: &Scene) -> Result<Library, NeedsCompiler> {
     if scene.passivity_guard {
         return Err(needs("law.passivity_guard", "prebuilt libraries have no guard"));
     }
-    if scene.friction {
+    if scene.has_friction() {
         return Err(needs("[friction]", "prebuilt libraries have no friction"));
     }
     if let Some(loss) = scene.loss {

@@ -56,7 +56,6 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         quasi_static: vec![scene.quasi_static[0]],
         factors: vec![1.0],
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),
-        friction,
         directions: usize::from(friction),
         impact: scene.impact_of(0),
         predictions: vec![scene.predictions[0]],

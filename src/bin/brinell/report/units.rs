@@ -32,7 +32,7 @@ fn kinds(scene: &Scene) -> impl Iterator<Item = (Needs, &'static str)> {
         (Needs::LateMass, "the FMU that knows the mass, for a parallel master"),
         (Needs::Friction, "the FMU with friction"),
     ];
-    let (damped, friction) = (scene.is_rate_dependent(), scene.friction);
+    let (damped, friction) = (scene.is_rate_dependent(), scene.has_friction());
     let knows_mass = |needs: Needs| matches!(needs, Needs::Mass | Needs::LateMass);
     let all = all.into_iter().filter(move |(needs, _)| friction || *needs != Needs::Friction);
     let all = all.filter(move |(needs, _)| !(friction && knows_mass(*needs)));

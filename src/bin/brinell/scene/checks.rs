@@ -106,7 +106,6 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         quasi_static: Vec::new(),
         factors,
         coupling,
-        friction,
         directions,
         impact,
         predictions: Vec::new(),

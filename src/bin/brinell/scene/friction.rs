@@ -1,7 +1,7 @@
 //! The table `[friction]`: whether the law of a scene supports it.
 
-use super::Mistake;
 use super::file::FrictionTable;
+use super::{Mistake, Scene};
 use crate::table;
 use toml::Spanned;
 
@@ -16,6 +16,13 @@ pub struct Given<'a> {
     pub has_loss: bool,
     /// Whether the FMU moves the bodies itself.
     pub knows_mass: bool,
+}
+
+impl Scene {
+    /// Whether its contacts have friction.
+    pub fn has_friction(&self) -> bool {
+        self.directions > 0
+    }
 }
 
 /// The number of tangential directions of the scene, zero without friction.

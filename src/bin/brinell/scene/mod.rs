@@ -66,8 +66,6 @@ pub struct Scene {
     pub factors: Vec<f64>,
     /// How the unit moves the bodies through a step by their mass, if it does.
     pub coupling: Option<Coupling>,
-    /// Whether its contacts have friction.
-    pub friction: bool,
     /// Number of tangential directions, zero without friction.
     pub directions: usize,
     pub impact: Impact,

@@ -163,7 +163,6 @@ impl<D: Damped + Copy> Bodies<D> {
             let factor = 0.9 * pow(TOLERANCE / largest(error, LEAST), 0.2);
             // written positively to reject NaN
             let accepted = error <= TOLERANCE;
-
             if !accepted {
                 guess = step * if factor > 0.1 { factor } else { 0.1 };
                 if guess <= f64::MIN_POSITIVE {
