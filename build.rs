@@ -30,8 +30,8 @@ mod exporter {
     /// The file with the exported functions.
     const INTERFACE: &str = "src/fmi2/exports.rs";
 
-    /// The exporter's own files, and the files that it generates for every library.
-    const NOT_EMBEDDED: [&str; 3] = ["src/bin", "src/scene/exported.rs", "src/scene/kind.rs"];
+    /// The exporter's own files, and the file that it generates for every prebuilt library.
+    const NOT_EMBEDDED: [&str; 2] = ["src/bin", "src/scene/kind.rs"];
 
     pub fn prepare(root: &Path, out: &Path) {
         println!("cargo::rerun-if-changed=Cargo.lock");

@@ -6,7 +6,7 @@ mod command;
 #[path = "support/skips.rs"]
 mod skips;
 
-use command::{assert_same, brinell, contents, empty_folder, exported, output, scene};
+use command::{assert_same, brinell, cache, contents, empty_folder, exported, output, scene};
 use std::ffi::OsStr;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
@@ -161,24 +161,54 @@ fn fmus_do_not_accumulate_in_the_cache() {
     for _ in 0..2 {
         exported(|command| command.env("BRINELL_CACHE", own.path()));
     }
-    let left = contents(own.path());
-    assert!(left.len() == 1 && left[0].starts_with("libm-"), "{left:?}");
+    let mut left = contents(own.path());
+    left.sort();
+    let names: Vec<_> = left.iter().map(|name| name.split('-').next().unwrap()).collect();
+    assert_eq!(names, ["libbrinell", "liblibm"], "{left:?}");
+    // one refers to the other by a hash of all that it holds: both must be the same wherever they were compiled
+    for name in left {
+        let read = |folder: &Path| fs::read(folder.join(&name)).expect("a compiled part");
+        assert!(read(own.path()) == read(&cache()), "{name} depends on its folder");
+    }
 }
 
-/// An export that was killed cannot clean up.
+/// Sets the time of the last change of a file or folder.
+fn set_age(path: &Path, hours: u64) {
+    let moment = SystemTime::now() - Duration::from_secs(3600 * hours);
+    fs::File::open(path).unwrap().set_modified(moment).unwrap();
+}
+
+/// An export that was killed cannot clean up; parts of other versions are not used any more.
 #[test]
-fn files_of_a_killed_export_are_removed_after_a_day() {
+fn files_that_no_export_uses_any_more_are_removed() {
     let own = empty_folder();
     for (name, hours) in [("build-old", 48), ("build-new", 1), ("other", 48)] {
         let path = own.path().join(name);
         fs::create_dir_all(path.join("src")).unwrap();
-        let moment = SystemTime::now() - Duration::from_secs(3600 * hours);
-        fs::File::open(path).unwrap().set_modified(moment).unwrap();
+        set_age(&path, hours);
+    }
+    let month = 31 * 24;
+    for (name, hours) in [("libbrinell-old.rlib", month), ("libbrinell-new.rlib", month - 48), ("other.txt", month)] {
+        let path = own.path().join(name);
+        fs::write(&path, "").unwrap();
+        set_age(&path, hours);
     }
     exported(|command| command.env("BRINELL_CACHE", own.path()));
     let left = contents(own.path());
-    assert!(left.contains(&"build-new".into()) && left.contains(&"other".into()), "{left:?}");
-    assert!(!left.contains(&"build-old".into()), "{left:?}");
+    for kept in ["build-new", "other", "libbrinell-new.rlib", "other.txt"] {
+        assert!(left.contains(&kept.into()), "{kept}: {left:?}");
+    }
+    for removed in ["build-old", "libbrinell-old.rlib"] {
+        assert!(!left.contains(&removed.into()), "{removed}: {left:?}");
+    }
+    // an export that uses the parts keeps them
+    let parts: Vec<_> = left.iter().filter(|name| name.ends_with(".rlib") && !name.contains("new")).collect();
+    parts.iter().for_each(|name| set_age(&own.path().join(name), 29 * 24));
+    exported(|command| command.env("BRINELL_CACHE", own.path()));
+    for name in parts {
+        let age = fs::metadata(own.path().join(name)).unwrap().modified().unwrap().elapsed().unwrap_or_default();
+        assert!(age < Duration::from_secs(3600), "{name}: {age:?}");
+    }
 }
 
 #[test]

@@ -20,6 +20,9 @@ const BUILD: &str = "build-";
 /// A build folder older than this belongs to an interrupted export.
 const ABANDONED: Duration = Duration::from_secs(24 * 3600);
 
+/// A compiled part that no export has used for this time belongs to another version of the exporter or the compiler.
+const OUTDATED: Duration = Duration::from_secs(30 * 24 * 3600);
+
 impl Cache {
     /// The folder, created for its owner alone if it is missing.
     ///
@@ -43,15 +46,27 @@ impl Cache {
         private_folder(BUILD, &self.folder)
     }
 
-    /// Removes the build folders of interrupted exports.
+    /// The compiled part with this file name, if it is there. It is then kept for another while.
+    pub fn part(&self, name: &str) -> Option<PathBuf> {
+        let path = self.folder.join(name);
+        let file = fs::OpenOptions::new().append(true).open(&path).ok()?;
+        // a part that can't be marked is only removed too early, and made again
+        let _ = file.set_modified(SystemTime::now());
+        Some(path)
+    }
+
+    /// Removes the build folders of interrupted exports, and outdated parts. What can't be removed only takes space.
     fn sweep(&self) {
         let Ok(entries) = fs::read_dir(&self.folder) else { return };
-        for entry in entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with(BUILD)) {
+        for entry in entries.flatten() {
+            let (path, name) = (entry.path(), entry.file_name());
             let modified = entry.metadata().and_then(|metadata| metadata.modified());
             let age = modified.ok().and_then(|modified| SystemTime::now().duration_since(modified).ok());
-            if age.is_some_and(|age| age > ABANDONED) {
-                // a folder that can't be removed only takes space
-                let _ = fs::remove_dir_all(entry.path());
+            let older = |than: Duration| age.is_some_and(|age| age > than);
+            if name.to_string_lossy().starts_with(BUILD) {
+                let _ = if older(ABANDONED) { fs::remove_dir_all(path) } else { Ok(()) };
+            } else if path.extension().is_some_and(|extension| extension == "rlib" || extension == "obj") {
+                let _ = if older(OUTDATED) { fs::remove_file(path) } else { Ok(()) };
             }
         }
     }

@@ -4,51 +4,30 @@ use super::compiler::Compilers;
 use super::error::ExportError;
 use super::folder::Cache;
 use super::link::{self, Linker};
+use super::parts::Parts;
 use super::rustc::Rustc;
-use super::{Hash, LIBM_SOURCE, LIBRARY_SOURCE, resource, universal};
+use super::{resource, universal};
 use crate::files::FileError;
 use crate::interrupt::Folder;
 use crate::parallel;
 use crate::plan::Plan;
 use crate::platform::{self, Platform, System, Target};
+use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::{fs, io};
 
-/// Options of every compilation: no unwinding, and optimization of all code as one unit.
-const SETTINGS: [&str; 4] = ["-Cpanic=abort", "-Ccodegen-units=1", "-Cdebuginfo=0", "--cap-lints=allow"];
+/// Options of the crate of an FMU, which is optimized as one unit with the crates that it uses.
+const UNIT: [&str; 5] =
+    ["--crate-name=unit", "--crate-type=cdylib", "--edition=2024", "--cfg=feature=\"fmu\"", "-Clto=fat"];
 
-/// Options of `libm`: the output of its build script for these features. It is compiled to bitcode only, since it is
-/// optimized together with the library.
-const LIBM: [&str; 7] = [
-    "--crate-name=libm",
-    "--crate-type=rlib",
-    "--edition=2021",
-    "--cfg=feature=\"arch\"",
-    "--cfg=arch_enabled",
-    "--cfg=optimizations_enabled",
-    "-Clinker-plugin-lto",
-];
+/// Additional option of a prebuilt library.
+const PREBUILT: &str = "--cfg=feature=\"prebuilt\"";
 
-/// Options of the library.
-const LIBRARY: [&str; 6] = [
-    "--crate-name=unit",
-    "--crate-type=cdylib",
-    "--edition=2024",
-    "--cfg=feature=\"fmu\"",
-    "--cfg=feature=\"c-interface\"",
-    "-Clto=fat",
-];
-
-/// Additional options of prebuilt libraries. LLVM does not promise to keep its own options; a prebuilt library is compiled by a
-/// compiler that is known, an FMU by any. Without these optimizations, which copy code or keep values in more registers, a
-/// compressed library is 1 % smaller.
-const PREBUILT: [&str; 4] = [
-    "--cfg=feature=\"prebuilt\"",
-    "-Cllvm-args=--disable-machine-licm",
-    "-Cllvm-args=--enable-pre=false",
-    "-Cllvm-args=--inline-threshold=60",
-];
+/// Additional options of all crates of a prebuilt library. LLVM does not promise to keep its own options; a prebuilt library is
+/// compiled by a compiler that is known, an FMU by any. Without these optimizations, which copy code or keep values in more
+/// registers, a compressed library is 1 % smaller.
+const COMPACT: [&str; 3] =
+    ["-Cllvm-args=--disable-machine-licm", "-Cllvm-args=--enable-pre=false", "-Cllvm-args=--inline-threshold=60"];
 
 /// Another one for arm64 Linux: code in the order of the source compresses better by 2 %. For macOS, which has another model of
 /// its processors, it doesn't.
@@ -96,33 +75,17 @@ impl Source<'_> {
         matches!(self, Source::Scene { plan, .. } if plan.scene.standalone)
     }
 
-    /// Additional arguments of the compiler.
-    fn arguments(&self, target: &Target) -> Vec<&'static str> {
+    /// Additional options of the compiler for all crates.
+    fn options(&self, target: &Target) -> Vec<&'static str> {
         match self {
             Source::Scene { .. } => Vec::new(),
             Source::Kind { .. } if target.triple.starts_with("aarch64-unknown-linux") => {
-                [PREBUILT.as_slice(), &[IN_ORDER_OF_SOURCE]].concat()
+                [COMPACT.as_slice(), &[IN_ORDER_OF_SOURCE]].concat()
             }
-            Source::Kind { .. } => PREBUILT.to_vec(),
+            Source::Kind { .. } => COMPACT.to_vec(),
         }
     }
 }
-
-/// The functions that copy and compare bytes, for a system without a reliable C library, as one object file for the
-/// linker.
-const BYTES: [&str; 6] =
-    ["--crate-name=bytes", "--crate-type=lib", "--edition=2024", "--emit=obj", "-Copt-level=s", "-o"];
-
-/// Arguments for a library that imports nothing from its process, besides [`BYTES`].
-const STANDALONE: &str = "--cfg=feature=\"standalone\"";
-
-/// The root of the crate of [`BYTES`]. Without `no_builtins` the compiler would replace the functions with calls of
-/// themselves.
-const BYTES_ROOT: (&str, &str) =
-    ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\nmod bytes;\n");
-
-/// The module of that crate.
-const BYTES_SOURCE: (&str, &str) = ("src/fmi2/bytes.rs", include_str!("../../../fmi2/bytes.rs"));
 
 /// Compiles libraries. Shared parts are compiled once.
 pub struct Builder {
@@ -200,126 +163,28 @@ struct Build<'a> {
 impl Build<'_> {
     fn run(&self, source: &Source) -> Result<Vec<u8>, ExportError> {
         let Build { cache, folder, rustc, linker, target } = self;
-        let settings = [SETTINGS.as_slice(), &["--target", target.triple]].concat();
-        let optimized = [settings.as_slice(), &[optimization(source)]].concat();
-        fs::create_dir_all(folder).map_err(FileError::at(folder)).map_err(|error| no_space(cache, error))?;
-        let libm = ["libm/src/lib.rs", "-o", "libm.rlib"];
-        self.make("libm.rlib", &[optimized.as_slice(), &LIBM, &libm].concat(), LIBM_SOURCE)?;
-        self.write(LIBRARY_SOURCE.iter().copied().chain([source.file()]).chain(link::files()))?;
+        let parts = Parts { cache, folder, rustc, target };
+        parts.create()?;
+        let options = [&[optimization(source)], source.options(target).as_slice()].concat();
+        parts.make_crates(&options, source.is_standalone())?;
+        parts.write(Parts::unit_source().chain([source.file()]).chain(link::files()))?;
         let mut objects = Vec::new();
         if target.system == System::Windows || source.is_standalone() {
-            let bytes = "bytes.obj";
-            self.make(
-                bytes,
-                &[settings.as_slice(), &BYTES, &[bytes, BYTES_ROOT.0]].concat(),
-                &[BYTES_ROOT, BYTES_SOURCE],
-            )?;
-            objects.push(bytes);
+            objects.push(parts.make_bytes()?);
         }
         if target.system == System::Windows {
             let version = "version.res";
-            self.write([(version, resource::version(source.name()))].into_iter())?;
+            parts.write([(version, resource::version(source.name()))].into_iter())?;
             objects.push(version);
         }
         let library = format!("{}.{}", source.name(), target.system.extension());
-        let named = ["src/lib.rs", "--extern=libm=libm.rlib", "-o", &library].map(String::from);
-        let standalone = source.is_standalone().then_some(&STANDALONE);
-        let compressed = matches!(source, Source::Kind { .. });
-        let arguments = optimized
-            .iter()
-            .chain(&LIBRARY)
-            .chain(standalone)
-            .copied()
-            .chain(source.arguments(target))
-            .map(String::from);
-        let arguments = arguments.chain(link::arguments(target, linker, &library, &objects, compressed)).chain(named);
-        rustc.run(folder, arguments, &link::variables(target, folder))?;
+        let prebuilt = matches!(source, Source::Kind { .. });
+        let plain = parts.settings().into_iter().chain(options).chain(UNIT);
+        let plain = plain.chain(prebuilt.then_some(PREBUILT)).chain(Parts::USED).map(String::from);
+        let linked = link::arguments(target, linker, &library, &objects, prebuilt);
+        let named = [Parts::UNIT_ROOT, "-o", &library].map(String::from);
+        rustc.run(folder, plain.chain(linked).chain(named), &link::variables(target, folder))?;
         let library = folder.join(library);
         Ok(fs::read(&library).map_err(FileError::at(&library))?)
-    }
-
-    /// Puts `file` into the folder: from the cache, otherwise compiled from `sources` with these `arguments` and
-    /// added to the cache.
-    fn make(&self, file: &str, arguments: &[&str], sources: &[(&str, &str)]) -> Result<(), ExportError> {
-        let Build { cache, folder, rustc, .. } = self;
-        let made_from = [rustc.identity.as_str()].into_iter().chain(arguments.iter().copied());
-        let made_from = made_from.chain(sources.iter().flat_map(|(name, text)| [*name, *text]));
-        let (name, ending) = file.split_once('.').unwrap_or((file, ""));
-        let known = cache.folder.join(format!("{name}-{}.{ending}", Hash::new().with_all(made_from).digits()));
-        let here = folder.join(file);
-        if known.is_file() {
-            let copied = fs::hard_link(&known, &here).or_else(|_| fs::copy(&known, &here).map(drop));
-            return copied.map_err(FileError::at(&known)).map_err(|error| no_space(cache, error));
-        }
-        self.write(sources.iter().copied())?;
-        rustc.run(folder, arguments, &[])?;
-        // atomic; harmless on a file system without links, and if another export was faster
-        let _ = fs::hard_link(&here, &known);
-        Ok(())
-    }
-
-    /// Writes files to the folder.
-    fn write<'b, T: AsRef<[u8]>>(&self, files: impl Iterator<Item = (&'b str, T)>) -> Result<(), ExportError> {
-        for (name, text) in files {
-            let path = self.folder.join(name);
-            let parent = path.parent().unwrap_or(self.folder);
-            let written = fs::create_dir_all(parent).and_then(|()| fs::write(&path, text));
-            written.map_err(FileError::at(&path)).map_err(|error| no_space(self.cache, error))?;
-        }
-        Ok(())
-    }
-}
-
-/// The error of a file in the cache; for a full disk it names the folder.
-fn no_space(cache: &Cache, error: FileError) -> ExportError {
-    match error.source.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
-            ExportError::NoSpace { folder: cache.folder.clone(), said: error.source.to_string() }
-        }
-        _ => error.into(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::LIBM;
-    use serde_json::Value;
-    use std::collections::BTreeSet;
-    use std::path::Path;
-    use std::process::Command;
-
-    /// The output of `command`.
-    fn printed(command: &mut Command) -> String {
-        let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).expect("UTF-8")
-    }
-
-    /// A new version of `libm` may need other options.
-    #[test]
-    fn libm_is_compiled_as_its_own_build_script_says() {
-        let mut cargo = Command::new(env!("CARGO"));
-        cargo.current_dir(env!("CARGO_MANIFEST_DIR")).args(["metadata", "--format-version=1", "--locked", "--offline"]);
-        // the dependencies of other systems are not downloaded
-        cargo.args(["--filter-platform", crate::platform::here().expect("a known system").targets[0].triple]);
-        let metadata: Value = serde_json::from_str(&printed(&mut cargo)).expect("JSON");
-        let libm = metadata["packages"].as_array().unwrap().iter().find(|package| package["name"] == "libm").unwrap();
-        let folder = Path::new(libm["manifest_path"].as_str().unwrap()).parent().unwrap();
-        let new = tempfile::tempdir().unwrap();
-        let script = new.path().join("build");
-        let mut rustc = Command::new(Path::new(env!("CARGO")).with_file_name("rustc"));
-        rustc.args(["--cfg=feature=\"arch\"", "--cap-lints=allow", "--edition=2021"]).arg(folder.join("build.rs"));
-        printed(rustc.arg("-o").arg(&script));
-        let mut script = Command::new(script);
-        script.env("CARGO_MANIFEST_DIR", folder).env("OUT_DIR", new.path()).env("OPT_LEVEL", "s").env("TARGET", "any");
-        for name in ["ARCH", "ENV", "OS", "VENDOR"] {
-            script.env(format!("CARGO_CFG_TARGET_{name}"), "any");
-        }
-        let said = printed(script.env("CARGO_FEATURE_ARCH", "1"));
-        let said: BTreeSet<_> = said.lines().filter_map(|line| line.strip_prefix("cargo:rustc-cfg=")).collect();
-        let ours =
-            LIBM.iter().filter_map(|argument| argument.strip_prefix("--cfg=")).filter(|cfg| !cfg.contains("feature"));
-        assert_eq!(ours.collect::<BTreeSet<_>>(), said);
-        assert!(LIBM.contains(&format!("--edition={}", libm["edition"].as_str().unwrap()).as_str()));
     }
 }

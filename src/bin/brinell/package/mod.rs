@@ -8,6 +8,7 @@ mod folder;
 mod hash;
 mod library;
 mod link;
+mod parts;
 mod resource;
 mod rustc;
 mod toolchain;

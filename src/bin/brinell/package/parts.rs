@@ -1,0 +1,210 @@
+//! The parts that libraries share: the crates that the crate of an FMU uses, and functions that copy bytes. Each is compiled once
+//! for a compiler, a target and its options, and is then in the cache.
+
+use super::error::ExportError;
+use super::folder::Cache;
+use super::rustc::Rustc;
+use super::{Hash, LIBM_SOURCE, LIBRARY_SOURCE};
+use crate::files::FileError;
+use crate::platform::Target;
+use std::path::Path;
+use std::{fs, io};
+
+/// Options of every compilation: no unwinding, and optimization of all code as one unit.
+const SETTINGS: [&str; 4] = ["-Cpanic=abort", "-Ccodegen-units=1", "-Cdebuginfo=0", "--cap-lints=allow"];
+
+/// An option of crates that are compiled to bitcode only: the crate of an FMU is optimized together with them.
+const BITCODE: &str = "-Clinker-plugin-lto";
+
+/// Options of `libm`: the output of its build script for these features.
+const LIBM: [&str; 6] = [
+    "--crate-name=libm",
+    "--crate-type=rlib",
+    "--edition=2021",
+    "--cfg=feature=\"arch\"",
+    "--cfg=arch_enabled",
+    "--cfg=optimizations_enabled",
+];
+
+/// Source and file of `libm`.
+const LIBM_FILES: [&str; 3] = ["libm/src/lib.rs", "-o", "liblibm.rlib"];
+
+/// Options of the library of this package.
+const LIBRARY: [&str; 5] = [
+    "--crate-name=brinell",
+    "--crate-type=rlib",
+    "--edition=2024",
+    "--cfg=feature=\"c-interface\"",
+    "--extern=libm=liblibm.rlib",
+];
+
+/// Source and file of the library.
+const LIBRARY_FILES: [&str; 3] = ["src/lib.rs", "-o", "libbrinell.rlib"];
+
+/// An option of the library in an FMU that imports nothing from its process.
+const STANDALONE: &str = "--cfg=feature=\"standalone\"";
+
+/// The functions that copy and compare bytes, for a system without a reliable C library, as one object file for the
+/// linker.
+const BYTES: [&str; 6] =
+    ["--crate-name=bytes", "--crate-type=lib", "--edition=2024", "--emit=obj", "-Copt-level=s", "-o"];
+
+/// The root of the crate of [`BYTES`]. Without `no_builtins` the compiler would replace the functions with calls of
+/// themselves.
+const BYTES_ROOT: (&str, &str) =
+    ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\nmod bytes;\n");
+
+/// The module of that crate.
+const BYTES_SOURCE: (&str, &str) = ("src/fmi2/bytes.rs", include_str!("../../../fmi2/bytes.rs"));
+
+/// The parts of one library for one target.
+pub struct Parts<'a> {
+    pub cache: &'a Cache,
+    /// The folder in which the library is built.
+    pub folder: &'a Path,
+    pub rustc: &'a Rustc,
+    pub target: &'a Target,
+}
+
+impl Parts<'_> {
+    /// The root of the crate of an FMU.
+    pub const UNIT_ROOT: &'static str = "src/fmu.rs";
+
+    /// The arguments with which that crate finds those that it uses.
+    pub const USED: [&'static str; 2] = ["--extern=brinell=libbrinell.rlib", "-Ldependency=."];
+
+    /// The files of the crate of an FMU, all but the one of its scene.
+    pub fn unit_source<'a>() -> impl Iterator<Item = (&'a str, &'a str)> {
+        let files = [Parts::UNIT_ROOT, "src/fmi2/exports.rs", "src/fmi2/block.rs", "src/fmi2/panic.rs"];
+        LIBRARY_SOURCE.iter().copied().filter(move |(name, _)| files.contains(name))
+    }
+
+    /// The options of every compilation for the target.
+    pub fn settings(&self) -> Vec<&'static str> {
+        [SETTINGS.as_slice(), &["--target", self.target.triple]].concat()
+    }
+
+    /// Creates the folder.
+    ///
+    /// # Errors
+    /// [`ExportError`]
+    pub fn create(&self) -> Result<(), ExportError> {
+        let made = fs::create_dir_all(self.folder).map_err(FileError::at(self.folder));
+        made.map_err(|error| self.no_space(error))
+    }
+
+    /// Puts the crates that an FMU uses into the folder, compiled with these options.
+    ///
+    /// # Errors
+    /// [`ExportError`]
+    pub fn make_crates(&self, options: &[&str], standalone: bool) -> Result<(), ExportError> {
+        let common = [options, &[BITCODE]].concat();
+        let libm = [common.as_slice(), &LIBM, &LIBM_FILES].concat();
+        self.make("liblibm.rlib", &libm, LIBM_SOURCE)?;
+        let standalone = if standalone { [STANDALONE].as_slice() } else { &[] };
+        let library = [common.as_slice(), standalone, &LIBRARY, &LIBRARY_FILES].concat();
+        // another `libm` would not fit
+        self.make("libbrinell.rlib", &library, &[LIBRARY_SOURCE, LIBM_SOURCE].concat())
+    }
+
+    /// Puts the functions that copy and compare bytes into the folder, and returns the name of their file.
+    ///
+    /// # Errors
+    /// [`ExportError`]
+    pub fn make_bytes(&self) -> Result<&'static str, ExportError> {
+        let file = "bytes.obj";
+        self.make(file, &[BYTES.as_slice(), &[file, BYTES_ROOT.0]].concat(), &[BYTES_ROOT, BYTES_SOURCE])?;
+        Ok(file)
+    }
+
+    /// Puts `file` into the folder: from the cache, otherwise compiled from `sources` with these `arguments` and
+    /// added to the cache.
+    fn make(&self, file: &str, arguments: &[&str], sources: &[(&str, &str)]) -> Result<(), ExportError> {
+        let Parts { cache, folder, rustc, .. } = self;
+        let arguments = [self.settings().as_slice(), arguments].concat();
+        let made_from = [rustc.identity.as_str()].into_iter().chain(arguments.iter().copied());
+        let made_from = made_from.chain(sources.iter().flat_map(|(name, text)| [*name, *text]));
+        let (name, ending) = file.split_once('.').unwrap_or((file, ""));
+        let known = format!("{name}-{}.{ending}", Hash::new().with_all(made_from).digits());
+        let here = folder.join(file);
+        if let Some(known) = cache.part(&known) {
+            let copied = fs::hard_link(&known, &here).or_else(|_| fs::copy(&known, &here).map(drop));
+            return copied.map_err(FileError::at(&known)).map_err(|error| self.no_space(error));
+        }
+        self.write(sources.iter().copied())?;
+        // one crate refers to another by a hash of all that it holds, so the name of the folder must not be in it
+        let anywhere = format!("--remap-path-prefix={}=.", folder.display());
+        rustc.run(folder, arguments.into_iter().chain([anywhere.as_str()]), &[])?;
+        // atomic; harmless on a file system without links, and if another export was faster
+        let _ = fs::hard_link(&here, cache.folder.join(known));
+        Ok(())
+    }
+
+    /// Writes files to the folder.
+    ///
+    /// # Errors
+    /// [`ExportError`]
+    pub fn write<'b, T: AsRef<[u8]>>(&self, files: impl Iterator<Item = (&'b str, T)>) -> Result<(), ExportError> {
+        for (name, text) in files {
+            let path = self.folder.join(name);
+            let parent = path.parent().unwrap_or(self.folder);
+            let written = fs::create_dir_all(parent).and_then(|()| fs::write(&path, text));
+            written.map_err(FileError::at(&path)).map_err(|error| self.no_space(error))?;
+        }
+        Ok(())
+    }
+
+    /// The error of a file in the cache; for a full disk it names the folder.
+    fn no_space(&self, error: FileError) -> ExportError {
+        match error.source.kind() {
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
+                ExportError::NoSpace { folder: self.cache.folder.clone(), said: error.source.to_string() }
+            }
+            _ => error.into(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LIBM;
+    use serde_json::Value;
+    use std::collections::BTreeSet;
+    use std::path::Path;
+    use std::process::Command;
+
+    /// The output of `command`.
+    fn printed(command: &mut Command) -> String {
+        let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("UTF-8")
+    }
+
+    /// A new version of `libm` may need other options.
+    #[test]
+    fn libm_is_compiled_as_its_own_build_script_says() {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.current_dir(env!("CARGO_MANIFEST_DIR")).args(["metadata", "--format-version=1", "--locked", "--offline"]);
+        // the dependencies of other systems are not downloaded
+        cargo.args(["--filter-platform", crate::platform::here().expect("a known system").targets[0].triple]);
+        let metadata: Value = serde_json::from_str(&printed(&mut cargo)).expect("JSON");
+        let libm = metadata["packages"].as_array().unwrap().iter().find(|package| package["name"] == "libm").unwrap();
+        let folder = Path::new(libm["manifest_path"].as_str().unwrap()).parent().unwrap();
+        let new = tempfile::tempdir().unwrap();
+        let script = new.path().join("build");
+        let mut rustc = Command::new(Path::new(env!("CARGO")).with_file_name("rustc"));
+        rustc.args(["--cfg=feature=\"arch\"", "--cap-lints=allow", "--edition=2021"]).arg(folder.join("build.rs"));
+        printed(rustc.arg("-o").arg(&script));
+        let mut script = Command::new(script);
+        script.env("CARGO_MANIFEST_DIR", folder).env("OUT_DIR", new.path()).env("OPT_LEVEL", "s").env("TARGET", "any");
+        for name in ["ARCH", "ENV", "OS", "VENDOR"] {
+            script.env(format!("CARGO_CFG_TARGET_{name}"), "any");
+        }
+        let said = printed(script.env("CARGO_FEATURE_ARCH", "1"));
+        let said: BTreeSet<_> = said.lines().filter_map(|line| line.strip_prefix("cargo:rustc-cfg=")).collect();
+        let ours =
+            LIBM.iter().filter_map(|argument| argument.strip_prefix("--cfg=")).filter(|cfg| !cfg.contains("feature"));
+        assert_eq!(ours.collect::<BTreeSet<_>>(), said);
+        assert!(LIBM.contains(&format!("--edition={}", libm["edition"].as_str().unwrap()).as_str()));
+    }
+}
