@@ -7,13 +7,13 @@ use brinell::contact::History;
 use brinell::contact::tangential::{Friction, RoughModel, Sliding, Springs};
 use brinell::contact::{loading::AnyLoading, unloading::AnyUnloading};
 
-const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
+pub const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const LATTICE: bool = true;
 
-type Model = RoughModel<AnyLoading, AnyUnloading>;
+pub type Model = RoughModel<AnyLoading, AnyUnloading>;
 
 /// Pairs of laws that are passive in normal motion and support friction.
-fn models() -> Vec<(String, Model)> {
+pub fn models() -> Vec<(String, Model)> {
     let models = all_models(mild()).into_iter().filter(|(name, model)| {
         let unloading = name.rsplit(' ').next().expect("a law's name");
         is_passive(model) && physics::laws::entry("unloading", unloading).get("no_friction").is_none()
@@ -22,7 +22,7 @@ fn models() -> Vec<(String, Model)> {
 }
 
 /// The allowed error of friction for the pair of laws called `name`, relative to Coulomb's limit.
-fn allowed(name: &str) -> f64 {
+pub fn allowed(name: &str) -> f64 {
     let (loading, unloading) = name.split_once(" with ").expect("two laws");
     let entry = physics::laws::entry("unloading", unloading);
     let of_pair = entry.get("friction_error_of").and_then(|errors| errors.get(loading));
@@ -31,7 +31,7 @@ fn allowed(name: &str) -> f64 {
 }
 
 /// Steps of a random history [m]: up to about a hundred yield indentations, with separations.
-fn history(seed: u64, length: usize) -> Vec<(f64, f64)> {
+pub fn history(seed: u64, length: usize) -> Vec<(f64, f64)> {
     let mut random = Random(seed);
     let unit = unit(&mild()).indentation;
     let deepest = unit * 10f64.powf(0.3 + 2.2 * random.next());

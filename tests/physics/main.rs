@@ -20,6 +20,7 @@ mod friction_measured;
 mod friction_plastic;
 mod friction_properties;
 mod friction_tables;
+mod friction_two_growth;
 mod guard;
 mod input_courses;
 mod law_big_alabo;

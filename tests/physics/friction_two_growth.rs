@@ -1,55 +1,10 @@
 //! Friction in two directions on contacts that yield, for all pairs of laws that support friction.
 
-#[path = "support/friction.rs"]
-mod friction;
-#[path = "support/physics.rs"]
-mod physics;
-
+use super::friction_growth::{FRICTION, Model, allowed, history, models};
+use crate::physics::Random;
 use brinell::contact::History;
-use brinell::contact::tangential::{Friction, PlaneSprings, RoughModel, Sliding, Springs};
-use brinell::contact::{loading::AnyLoading, unloading::AnyUnloading};
-use physics::{Random, all_models, is_passive, mild, unit};
+use brinell::contact::tangential::{PlaneSprings, Sliding, Springs};
 use std::f64::consts::PI;
-
-const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
-
-type Model = RoughModel<AnyLoading, AnyUnloading>;
-
-fn models() -> Vec<(String, Model)> {
-    let models = all_models(mild()).into_iter().filter(|(name, model)| {
-        let unloading = name.rsplit(' ').next().expect("a law's name");
-        is_passive(model) && physics::laws::entry("unloading", unloading).get("no_friction").is_none()
-    });
-    models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION })).collect()
-}
-
-/// The allowed error of friction in one direction for the pair of laws called `name`, relative to Coulomb's limit.
-fn allowed(name: &str) -> f64 {
-    let (loading, unloading) = name.split_once(" with ").expect("two laws");
-    let entry = physics::laws::entry("unloading", unloading);
-    let of_pair = entry.get("friction_error_of").and_then(|errors| errors.get(loading));
-    let error = of_pair.or(entry.get("friction_error")).and_then(|error| error.as_float());
-    error.unwrap_or_else(|| panic!("{unloading} has an error of friction"))
-}
-
-/// Steps along the normal and in the surface [m]: up to about a hundred yield indentations, with separations.
-fn history(seed: u64, length: usize) -> Vec<(f64, f64)> {
-    let mut random = Random(seed);
-    let unit = unit(&mild()).indentation;
-    let deepest = unit * 10f64.powf(0.3 + 2.2 * random.next());
-    let mut indentation: f64 = 0.0;
-    let step = |_| {
-        let mut size =
-            || 0.5 * deepest * 10f64.powf(-3.0 * random.next()) * if random.next() < 0.5 { -1.0 } else { 1.0 };
-        let (mut rise, slip) = (size(), 0.4 * size());
-        if indentation + rise > deepest || indentation + rise < -0.1 * deepest {
-            rise = -rise;
-        }
-        indentation += rise;
-        (rise, slip)
-    };
-    (0..length).map(step).collect()
-}
 
 struct Run<const N: usize> {
     contact: History,
