@@ -2,7 +2,7 @@
  * A body for the tests of importers: `force` reduces its closing speed, and is constant over a step. All functions of
  * co-simulation exist, because many importers load them all; those that a body does not need return an error.
  */
-#include "../../benches/units/fmi2.h"
+#include "phases.h"
 
 #include <stdlib.h>
 
@@ -34,19 +34,6 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
 }
 
 void fmi2FreeInstance(fmi2Component component) { free(component); }
-
-fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_defined, fmi2Real tolerance,
-                               fmi2Real start, fmi2Boolean stop_defined, fmi2Real stop)
-{
-    (void)component, (void)tolerance_defined, (void)tolerance, (void)start, (void)stop_defined, (void)stop;
-    return fmi2OK;
-}
-
-fmi2Status fmi2EnterInitializationMode(fmi2Component component) { return (void)component, fmi2OK; }
-
-fmi2Status fmi2ExitInitializationMode(fmi2Component component) { return (void)component, fmi2OK; }
-
-fmi2Status fmi2Terminate(fmi2Component component) { return (void)component, fmi2OK; }
 
 fmi2Status fmi2Reset(fmi2Component component)
 {

@@ -2,7 +2,7 @@
  * An FMU as another vendor may write it: a linear spring without damping. It takes its memory from the importer, requires
  * the location of its resources, warns in every step, and has no parameters and no output except the force.
  */
-#include "../../benches/units/fmi2.h"
+#include "phases.h"
 
 #include <string.h>
 
@@ -32,19 +32,6 @@ void fmi2FreeInstance(fmi2Component component)
     Spring *spring = component;
     spring->callbacks.freeMemory(spring);
 }
-
-fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_defined, fmi2Real tolerance,
-                               fmi2Real start, fmi2Boolean stop_defined, fmi2Real stop)
-{
-    (void)component, (void)tolerance_defined, (void)tolerance, (void)start, (void)stop_defined, (void)stop;
-    return fmi2OK;
-}
-
-fmi2Status fmi2EnterInitializationMode(fmi2Component component) { return (void)component, fmi2OK; }
-
-fmi2Status fmi2ExitInitializationMode(fmi2Component component) { return (void)component, fmi2OK; }
-
-fmi2Status fmi2Terminate(fmi2Component component) { return (void)component, fmi2OK; }
 
 fmi2Status fmi2Reset(fmi2Component component)
 {
