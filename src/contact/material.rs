@@ -27,11 +27,11 @@ pub struct Pair {
     pub radius: f64,
     /// Effective modulus `E*` \[Pa\]: `1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`.
     pub modulus: f64,
-    /// Yield strength `S` of the yielding body, the target \[Pa\]; infinite for an elastic contact.
+    /// Yield strength `S` of the softer body, which yields \[Pa\]; infinite for an elastic contact.
     pub yield_strength: f64,
-    /// Young's modulus of the target \[Pa\], which some laws need in addition to `E*`.
+    /// Young's modulus of that body \[Pa\], which some laws need in addition to `E*`.
     pub youngs_modulus: f64,
-    /// Poisson's ratio of the target \[-\].
+    /// Poisson's ratio of that body \[-\].
     pub poissons_ratio: f64,
 }
 
@@ -48,7 +48,8 @@ pub struct YieldPoint {
 pub const SMALLEST_RADIUS: f64 = 1e-12;
 
 impl Pair {
-    /// The pair of `impactor` and `target`. The softer one yields at `yield_strength` \[Pa\].
+    /// The pair of `impactor` and `target`. The target yields at `yield_strength` \[Pa\]; [`Pair::yielding_in`] lets the
+    /// impactor yield.
     ///
     /// With a rigid body or a flat target, `E/(1-nu^2)` or `R` of the other body is used without rounding. `None` if both
     /// bodies are rigid or if they cannot touch at one point: a socket must be wider than the impactor (`R2 < -R1`), the
@@ -73,6 +74,16 @@ impl Pair {
             youngs_modulus: target.youngs_modulus,
             poissons_ratio: target.poissons_ratio,
         })
+    }
+
+    /// The same pair where `body`, one of the two, is the softer one and yields at `yield_strength` \[Pa\].
+    ///
+    /// Radius and modulus stay the same: with small strains the normal contact doesn't depend on which of the bodies yields, as
+    /// long as the other one stays elastic.
+    ///
+    /// Reference: Johnson 1985, sections 4.2 and 6.2.
+    pub fn yielding_in(self, body: &Body, yield_strength: f64) -> Pair {
+        Pair { yield_strength, youngs_modulus: body.youngs_modulus, poissons_ratio: body.poissons_ratio, ..self }
     }
 
     /// `K_h = (4/3) E* sqrt(R)` \[N/m^1.5\], the constant of Hertz's law `F = K_h d^1.5`.

@@ -50,20 +50,23 @@ pub(super) fn pair_of<S: Scene>(group: usize, values: &S::Values) -> Result<Pair
         poissons_ratio: value(Parameter::TargetPoissonsRatio),
     };
     let pair = Pair::new(&impactor, &target, value(Parameter::TargetYieldStrength));
-    let (impactor, target) = (impactor.radius, target.radius);
-    pair.ok_or(Fault::NoPointContact { contact: first_of::<S>(group), impactor, target })
+    let (first, second) = (impactor.radius, target.radius);
+    let pair = pair.ok_or(Fault::NoPointContact { contact: first_of::<S>(group), impactor: first, target: second })?;
+    Ok(match S::impactor_yields(group, values) {
+        true => pair.yielding_in(&impactor, value(Parameter::ImpactorYieldStrength)),
+        false => pair,
+    })
 }
 
 /// The bodies and laws of `group`; its `bodies` are those of `values`.
 pub(super) fn model_of<S: Scene>(group: usize, bodies: &BodiesOf<S>, values: &S::Values) -> S::Model {
     let value = |parameter| S::parameter(parameter, group, values);
-    let pair = Pair {
-        radius: bodies.radius,
-        modulus: bodies.modulus,
-        yield_strength: value(Parameter::TargetYieldStrength),
-        youngs_modulus: value(Parameter::TargetYoungsModulus),
-        poissons_ratio: value(Parameter::TargetPoissonsRatio),
-    };
+    let [yield_strength, youngs_modulus, poissons_ratio] = match S::impactor_yields(group, values) {
+        true => [Parameter::ImpactorYieldStrength, Parameter::ImpactorYoungsModulus, Parameter::ImpactorPoissonsRatio],
+        false => [Parameter::TargetYieldStrength, Parameter::TargetYoungsModulus, Parameter::TargetPoissonsRatio],
+    }
+    .map(value);
+    let pair = Pair { radius: bodies.radius, modulus: bodies.modulus, yield_strength, youngs_modulus, poissons_ratio };
     S::model(pair, group, values)
 }
 

@@ -90,6 +90,8 @@ impl Scene for Exported {
             Parameter::ImpactorRadius => values[0],
             Parameter::ImpactorYoungsModulus => f64::INFINITY,
             Parameter::ImpactorPoissonsRatio => 0.0,
+            Parameter::ImpactorYieldStrength => f64::INFINITY,
+            Parameter::ImpactorHardeningModulus => 0.0,
             Parameter::TargetRadius => f64::INFINITY,
             Parameter::TargetYoungsModulus => values[1],
             Parameter::TargetPoissonsRatio => values[2],

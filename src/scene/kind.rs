@@ -35,6 +35,7 @@ impl Kind for Library {
     type Coupling = Absent;
     type Watch = Absent;
 
+    const TWO_STRENGTHS: bool = false;
     const LIBRARY: u64 = identity_of(MADE_FROM);
 
     fn model(pair: Pair, surface: Surface, _value: impl Fn(Parameter) -> f64) -> Self::Model {

@@ -95,6 +95,24 @@ pub trait Scene: Sized {
     /// the scene does not have, it is the value without effect.
     fn parameter(parameter: Parameter, group: usize, values: &Self::Values) -> f64;
 
+    /// Whether the impactor of a group is the softer body, which yields. Of equally strong bodies the target counts as the one
+    /// that does: force over indentation is the same.
+    #[inline(always)]
+    fn impactor_yields(group: usize, values: &Self::Values) -> bool {
+        let strength = |body| Self::parameter(body, group, values);
+        strength(Parameter::ImpactorYieldStrength) < strength(Parameter::TargetYieldStrength)
+    }
+
+    /// Hardening modulus of the body of a group that yields \[Pa\].
+    #[inline(always)]
+    fn hardening_modulus(group: usize, values: &Self::Values) -> f64 {
+        let modulus = match Self::impactor_yields(group, values) {
+            true => Parameter::ImpactorHardeningModulus,
+            false => Parameter::TargetHardeningModulus,
+        };
+        Self::parameter(modulus, group, values)
+    }
+
     /// The bodies of a group with the laws of the scene.
     fn model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model;
 

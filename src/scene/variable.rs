@@ -11,13 +11,17 @@ pub enum Parameter {
     ImpactorYoungsModulus,
     /// `impactor.poissons_ratio` \[-\].
     ImpactorPoissonsRatio,
+    /// `impactor.yield_strength` \[Pa\]; infinite for an impactor that doesn't yield.
+    ImpactorYieldStrength,
+    /// `impactor.hardening_modulus` \[Pa\]; zero for an impactor that doesn't harden.
+    ImpactorHardeningModulus,
     /// `target.radius` \[m\]; infinite for a flat target.
     TargetRadius,
     /// `target.youngs_modulus` \[Pa\].
     TargetYoungsModulus,
     /// `target.poissons_ratio` \[-\].
     TargetPoissonsRatio,
-    /// `target.yield_strength` \[Pa\]; infinite for an elastic contact.
+    /// `target.yield_strength` \[Pa\]; infinite for a target that doesn't yield.
     TargetYieldStrength,
     /// `target.hardening_modulus` \[Pa\]; zero for a target that doesn't harden.
     TargetHardeningModulus,

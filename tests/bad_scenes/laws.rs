@@ -39,16 +39,31 @@ fn input_derivatives_where_the_fmu_cannot_choose_are_refused_with_the_reason() {
 }
 
 #[test]
-fn a_softer_impactor_is_refused() {
+fn a_strength_of_the_impactor_that_cannot_act_is_refused() {
     refused(
         "radius = 5e-3",
         "radius = 5e-3\nyield_strength = §200e6",
-        &[
-            "impactor.yield_strength = 200000000.0",
-            "target.yield_strength",
-            "softer body must be the target",
-            "exchange",
-        ],
+        &["impactor.yield_strength = 200000000.0", "rigid impactor cannot yield", "give impactor.youngs_modulus"],
+    );
+    refused(
+        "radius = 5e-3",
+        "radius = 5e-3\nhardening_modulus = §1e9",
+        &["the hardening of the impactor needs impactor.yield_strength"],
+    );
+    refused(
+        "radius = 5e-3",
+        "radius = 5e-3\nmaterial = \"mild steel\"\nyield_strength = 2e8\nhardening_modulus = §1e9",
+        &["the hardening of the impactor has no effect on law.loading = \"big-alabo\"", "it belongs to \"brinell\""],
+    );
+    refused(
+        "radius = 5e-3",
+        "radius = 5e-3\npower_law = { coefficient = §-1.0, exponent = 0.2 }",
+        &["impactor.power_law.coefficient = -1.0", "1e-6", "Pa"],
+    );
+    refused(
+        "radius = 5e-3",
+        "radius = 5e-3\nrate = { model = §\"norton\", c = 0.1 }",
+        &["impactor.rate.model", "johnson-cook"],
     );
     refused(
         "radius = 5e-3",

@@ -34,4 +34,5 @@ mod rebounds;
 mod several_contacts;
 mod ssp;
 mod strain_rate;
+mod two_strengths;
 mod validity;

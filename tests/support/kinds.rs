@@ -21,6 +21,9 @@ const RATE_DEPENDENT: [&str; 5] = ["hunt-crossley", "kelvin-voigt", "tsuji", "ku
 /// Lines with all the data in which scenes can differ.
 const BODIES: &str = "[impactor]\nradius = 10e-3\nyoungs_modulus = 210e9\npoissons_ratio = 0.3\n\
                       [target]\nmaterial = \"aluminium 6061-T6\"\nradius = -50e-3\nsurface = \"fresh\"\n";
+/// Two strengths: that of the impactor is the lower one.
+const SOFT_IMPACTOR: &str = "[impactor]\nradius = 5e-3\nmaterial = \"aluminium 6061-T6\"\nhardening_modulus = 0.0\n\
+                             [target]\nmaterial = \"mild steel\"\n";
 const NAMED: &str =
     "[[contact]]\nname = \"left\"\ntarget = { yield_strength = 9e8, density = 5e3 }\ninitial_gap = 1e-6\n";
 const COUNTED: &str = "[[contact]]\nname = \"bead\"\ncount = 1\n";
@@ -57,6 +60,15 @@ fn coupled(law: &str, outputs: &[&str], more: &str) -> String {
     scene(law, outputs, &format!("[coupling]\neffective_mass = 4e-3\n{more}"))
 }
 
+/// The lines of a softer impactor; only some laws harden.
+fn soft_impactor(law: &str) -> String {
+    if law.starts_with("brinell") {
+        SOFT_IMPACTOR.into()
+    } else {
+        SOFT_IMPACTOR.replace("hardening_modulus = 0.0\n", "")
+    }
+}
+
 /// A scene for each kind of library that supports `law`, with the name of the kind.
 pub fn one_of_each_kind(law: &str) -> Vec<(&'static str, String)> {
     let momentum: Vec<_> = STATE.into_iter().chain(["impulse", "mean_force"]).collect();
@@ -72,7 +84,7 @@ pub fn one_of_each_kind(law: &str) -> Vec<(&'static str, String)> {
             scene(law, &["indentation", "dissipated_energy"], "[fmu]\ninput_derivatives = false\ninitial_gap = 1e-6\n"),
         ));
         let inputs = "master = \"parallel\"\ninputs = [\"external_acceleration\", \"effective_mass\"]\n";
-        scenes.push(("serial", coupled(law, &known, "")));
+        scenes.push(("serial", coupled(law, &known, &soft_impactor(law))));
         scenes.push(("parallel", coupled(law, &known, inputs)));
     }
     scenes

@@ -294,6 +294,8 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
             Parameter::TargetRadius => choice.target_radius,
             Parameter::TargetYoungsModulus => choice.youngs_modulus * 1.1f64.powi(group as i32),
             Parameter::TargetPoissonsRatio => choice.poissons_ratio,
+            Parameter::ImpactorYieldStrength => f64::INFINITY,
+            Parameter::ImpactorHardeningModulus => 0.0,
             Parameter::TargetYieldStrength => values[1],
             Parameter::TargetHardeningModulus => 0.0,
             Parameter::Restitution => choice.restitution,

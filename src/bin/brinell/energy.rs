@@ -20,7 +20,7 @@ pub enum Energy {
     Guarded,
     /// The dissipated energy may decrease.
     MayBeMade {
-        /// The laws are passive if Poisson's ratio of the target is at least this value; `None` if they may always return too
+        /// The laws are passive if Poisson's ratio of the softer body is at least this value; `None` if they may always return too
         /// much.
         below_poissons_ratio: Option<f64>,
     },
@@ -130,7 +130,7 @@ fn found(scene: &Scene) -> Below {
         let settable = |names: &[&str]| names.iter().any(|name| is_settable(scene, group, name));
         let one = |value: f64| (value, value);
         let Pair { poissons_ratio, modulus, yield_strength, .. } = model.pair;
-        let ratios = if settable(&["target.poissons_ratio"]) { POISSONS_RATIO } else { one(poissons_ratio) };
+        let ratios = if settable(poissons_ratios(scene)) { POISSONS_RATIO } else { one(poissons_ratio) };
         let moduli = match modulus / yield_strength {
             _ if !everywhere => one(ANY_MODULUS_RATIO),
             _ if settable(&STIFFNESS) => MODULUS_RATIO,
@@ -148,19 +148,32 @@ fn found(scene: &Scene) -> Below {
 }
 
 /// The parameters on which `E*/S` depends.
-const STIFFNESS: [&str; 4] =
-    ["target.youngs_modulus", "target.yield_strength", "impactor.youngs_modulus", "impactor.poissons_ratio"];
+const STIFFNESS: [&str; 5] = [
+    "target.youngs_modulus",
+    "target.yield_strength",
+    "impactor.youngs_modulus",
+    "impactor.poissons_ratio",
+    "impactor.yield_strength",
+];
+
+/// Poisson's ratios of the bodies that may yield.
+fn poissons_ratios(scene: &Scene) -> &'static [&'static str] {
+    const BOTH: [&str; 2] = ["target.poissons_ratio", "impactor.poissons_ratio"];
+    if scene.has_two_strengths() { &BOTH } else { &BOTH[..1] }
+}
 
 fn is_settable(scene: &Scene, group: usize, name: &str) -> bool {
     let mut all = scene.contacts[group].own.iter().chain(&scene.parameters);
     all.find(|parameter| parameter.name == name).is_some_and(|parameter| parameter.settable)
 }
 
-/// The lowest Poisson's ratio that the target of `group` can have.
+/// The lowest Poisson's ratio that a body of `group` which may yield can have.
 fn lowest_poissons_ratio(scene: &Scene, group: usize) -> f64 {
-    const NAME: &str = "target.poissons_ratio";
-    let value = scene.group_value(group, NAME).unwrap_or(POISSONS_RATIO.0);
-    if is_settable(scene, group, NAME) { POISSONS_RATIO.0 } else { value }
+    let of = |name: &&str| {
+        let value = scene.group_value(group, name).unwrap_or(POISSONS_RATIO.0);
+        if is_settable(scene, group, name) { POISSONS_RATIO.0 } else { value }
+    };
+    poissons_ratios(scene).iter().map(of).fold(POISSONS_RATIO.1, f64::min)
 }
 
 /// Range of Poisson's ratios that an FMU accepts.

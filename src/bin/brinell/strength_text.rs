@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 /// Writes the section about the strain rate of `scene`, if its strength depends on that.
 pub fn section(page: &mut String, scene: &Scene) -> std::fmt::Result {
-    let Some(rate) = scene.rate else { return Ok(()) };
+    let Some(rate) = scene.rate(0) else { return Ok(()) };
     let model = match rate {
         Rate::JohnsonCook { c, reference_rate } => {
             format!("1 + {c} ln(rate/({reference_rate} 1/s)), and 1 below that rate (Johnson and Cook 1983)")
@@ -17,9 +17,10 @@ pub fn section(page: &mut String, scene: &Scene) -> std::fmt::Result {
     let found = scene.in_impact(0, &scene.impact_of(0));
     let found = found.map(|found| cell(found.factor, 1.0)).unwrap_or_default();
     let what = format!(
-        "The strength of the target is its strength under a slow load times {model}. The rate is the mean strain rate of the \
+        "The strength of the {} is its strength under a slow load times {model}. The rate is the mean strain rate of the \
          loading: 0.2 a/R at the largest contact radius, over the time from first contact to that radius. In the impact of \
-         the scene the factor is {found}."
+         the scene the factor is {found}.",
+        scene.softer(0).name()
     );
     writeln!(page, "<h3>Strain rate</h3>\n<p>{}</p>\n<p>{}</p>", escape(&what), escape(use_of(scene)))
 }

@@ -9,7 +9,7 @@ use crate::scene::Parameter;
 pub const MAGIC: u64 = u64::from_le_bytes(*b"brinell\0");
 
 /// Version of the layout.
-pub const VERSION: u64 = 3;
+pub const VERSION: u64 = 4;
 
 /// Capacity for variables.
 pub const VARIABLES: usize = 64;

@@ -29,6 +29,8 @@ pub trait Kind {
     /// Whether steps that are too long can be detected.
     type Watch: Presence;
 
+    /// Whether the impactor may be the softer body, which yields.
+    const TWO_STRENGTHS: bool;
     /// The function that moves the bodies through a step, if the library moves them.
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
     /// A number that identifies the library; no other library has it.
@@ -123,12 +125,19 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
 
     #[inline(always)]
     fn parameter(parameter: Parameter, _group: usize, values: &Self::Values) -> f64 {
-        values.get(parameter as usize).copied().unwrap_or(f64::NAN)
+        match parameter {
+            // known to the compiler, which then leaves out the choice
+            Parameter::ImpactorYieldStrength if !K::TWO_STRENGTHS => f64::INFINITY,
+            _ => values.get(parameter as usize).copied().unwrap_or(f64::NAN),
+        }
     }
 
     fn model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model {
         let surface = if B::block().data.has(Flag::Fresh) { Surface::Fresh } else { Surface::Dented };
-        K::model(pair, surface, |parameter| Self::parameter(parameter, group, values))
+        K::model(pair, surface, |parameter| match parameter {
+            Parameter::TargetHardeningModulus => Self::hardening_modulus(group, values),
+            _ => Self::parameter(parameter, group, values),
+        })
     }
 
     fn density(_group: usize) -> Option<f64> {

@@ -66,7 +66,7 @@ fn add_places(file: &mut File, scene: &Scene, kind: Type) {
 /// The whole file.
 fn text(file: &File, scene: &Scene) -> String {
     let File { items, methods, model, contact } = file;
-    let (parts, follow) = (parts(scene), follow(scene));
+    let (parts, follow, two) = (parts(scene), follow(scene), scene.has_two_strengths());
     let laws = if scene.damped.is_some() { "damped" } else { "loading, unloading" };
     let contact_itself = if model.starts_with("contact::") { "self, " } else { "" };
     let uses_follow = if follow.is_empty() { "" } else { "use crate::contact::motion::{Follow, follow};\n" };
@@ -89,6 +89,7 @@ impl Kind for Library {{
     type Contact = {contact};
 
 {parts}{follow}
+    const TWO_STRENGTHS: bool = {two};
     const LIBRARY: u64 = identity_of(MADE_FROM);
 {methods}}}
 "

@@ -1,7 +1,7 @@
 //! The model of a contact, as an expression.
 
 use super::{File, groups, literal};
-use crate::scene::{Loss, Rate, Scene};
+use crate::scene::{Body, Loss, Rate, Scene};
 
 /// Number of segments in which the springs of a contact with friction in one direction remember its past.
 pub const MEMORY: usize = 12;
@@ -73,37 +73,56 @@ pub fn add_model(file: &mut File, scene: &Scene) {
         return;
     }
     let (group, surface) = groups::surface(file, scene);
-    let needs_group = scene.is_strengthened() || scene.has_friction();
+    let chooses_rate = scene.finds_strength() && scene.has_two_strengths();
+    let needs_group = scene.is_strengthened() || scene.has_friction() || chooses_rate;
     let group = if needs_group || scene.loss.is_some() { "group" } else { group };
     let values = if needs_group { "values" } else { "_values" };
-    let hardening_modulus = "Self::parameter(Parameter::TargetHardeningModulus, group, values)";
+    let hardening_modulus = "Self::hardening_modulus(group, values)";
     let plastic = model_of(scene, hardening_modulus, &format!("surface: {surface}"));
     let model = match scene.loss {
         _ if scene.has_friction() => with_friction(&plastic),
         Some(loss) => with_loss(loss, &plastic),
-        None if scene.finds_strength() => with_rate(&plastic),
+        None if scene.finds_strength() => with_rate(scene, &plastic),
         None => plastic,
     };
     file.add_method(&format!("model(pair: Pair, {group}: usize, {values}: &Self::Values) -> Self::Model"), &model);
 }
 
 /// The expression of a model whose strength depends on the impact, from that `slow` one.
-fn with_rate(slow: &str) -> String {
+fn with_rate(scene: &Scene, slow: &str) -> String {
     let (first, last) =
         slow.split_once(";\n").map_or((String::new(), slow), |(first, last)| (format!("{first};\n"), last));
-    format!("{first}let slow = {last};\nrate::Model {{ slow, rate: RATE }}")
+    let rate = match scene.has_two_strengths() {
+        true => "rate: if Self::impactor_yields(group, values) { IMPACTOR_RATE } else { RATE }",
+        false => "rate: RATE",
+    };
+    format!("{first}let slow = {last};\nrate::Model {{ slow, {rate} }}")
 }
 
-/// Adds the model of the strain rate, if the unit finds the strength of each impact.
+/// The same strength at any strain rate.
+const NO_RATE: Rate = Rate::JohnsonCook { c: 0.0, reference_rate: 1.0 };
+
+/// Adds the models of the strain rate, if the unit finds the strength of each impact.
 pub fn add_rate(file: &mut File, scene: &Scene) {
-    let Some(rate) = scene.rate.filter(|_| scene.finds_strength()) else { return };
-    let (name, fields) = match rate {
+    if !scene.finds_strength() {
+        return;
+    }
+    add_rate_of(file, Body::Target, "RATE", scene.rates.target);
+    if scene.has_two_strengths() {
+        add_rate_of(file, Body::Impactor, "IMPACTOR_RATE", scene.rates.impactor);
+    }
+}
+
+/// Adds the model of the strain rate of a `body` as a constant.
+fn add_rate_of(file: &mut File, body: Body, constant: &str, rate: Option<Rate>) {
+    let (name, fields) = match rate.unwrap_or(NO_RATE) {
         Rate::JohnsonCook { c, reference_rate } => ("JohnsonCook", [("c", c), ("reference_rate", reference_rate)]),
         Rate::CowperSymonds { d, q } => ("CowperSymonds", [("d", d), ("q", q)]),
     };
     let [one, other] = fields.map(|(field, value)| format!("{field}: {}", literal(value)));
     file.add_item(&format!(
-        "/// The strength of the target over the strain rate.\nconst RATE: rate::Rate = rate::Rate::{name} {{ {one}, {other} }};\n"
+        "/// The strength of the {} over the strain rate.\nconst {constant}: rate::Rate = rate::Rate::{name} {{ {one}, {other} }};\n",
+        body.name()
     ));
 }
 

@@ -7,11 +7,13 @@ use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, Variable};
 use std::fmt::Write;
 
-/// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, a contact that never yields,
-/// a target that doesn't harden, no damping, no friction.
-const ABSENT: [(&str, f64); 8] = [
+/// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, bodies that never yield
+/// or don't harden, no damping, no friction.
+const ABSENT: [(&str, f64); 10] = [
     ("impactor.youngs_modulus", f64::INFINITY),
     ("impactor.poissons_ratio", 0.0),
+    ("impactor.yield_strength", f64::INFINITY),
+    ("impactor.hardening_modulus", 0.0),
     ("target.radius", f64::INFINITY),
     ("target.yield_strength", f64::INFINITY),
     ("target.hardening_modulus", 0.0),

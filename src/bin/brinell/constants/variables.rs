@@ -166,6 +166,8 @@ mod tests {
             ImpactorRadius,
             ImpactorYoungsModulus,
             ImpactorPoissonsRatio,
+            ImpactorYieldStrength,
+            ImpactorHardeningModulus,
             TargetRadius,
             TargetYoungsModulus,
             TargetPoissonsRatio,
@@ -180,6 +182,8 @@ mod tests {
             ImpactorRadius
             | ImpactorYoungsModulus
             | ImpactorPoissonsRatio
+            | ImpactorYieldStrength
+            | ImpactorHardeningModulus
             | TargetRadius
             | TargetYoungsModulus
             | TargetPoissonsRatio

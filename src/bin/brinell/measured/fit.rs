@@ -89,8 +89,9 @@ fn check(scene: &Scene, measured: &Measured, fits: &[Fit]) -> Result<Flow, Strin
         if fits[..index].contains(fit) {
             return Err(format!("--fit names {name} twice"));
         }
-        if scene.power_law.is_some() && *fit != Fit::Rate {
-            return Err(format!("{name} follows from target.power_law: there is nothing to fit"));
+        if scene.power_law(0).is_some() && *fit != Fit::Rate {
+            let body = flow.body.name();
+            return Err(format!("{name} follows from {body}.power_law: there is nothing to fit"));
         }
         if *fit == Fit::Rate && measured.kind == Kind::Force {
             return Err("--fit rate needs speeds: a force over depth says nothing of the strain rate".into());

@@ -1,12 +1,13 @@
-//! The target of a scene with another strength, hardening or rate constant.
+//! The softer body of a scene with another strength, hardening or rate constant.
 
-use crate::scene::{QuasiStatic, Rate, Scene};
+use crate::scene::{Body, QuasiStatic, Rate, Scene};
 use brinell::contact::Loading;
 use brinell::contact::impact::Impact;
 
-/// The flow stress of a target.
+/// The flow stress of the softer body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
+    pub body: Body,
     pub hardening: QuasiStatic,
     pub rate: Option<Rate>,
 }
@@ -15,8 +16,7 @@ impl Flow {
     /// That of the first contact of `scene`; `None` if its law doesn't yield.
     pub fn of(scene: &Scene) -> Option<Flow> {
         let yields = scene.damped.is_none() && scene.loading.0 != "hertz";
-        let hardening = *scene.quasi_static.first().filter(|_| yields)?;
-        Some(Flow { hardening, rate: scene.rate })
+        yields.then(|| Flow { body: scene.softer(0), hardening: scene.quasi_static(0), rate: scene.rate(0) })
     }
 
     /// Restitution of the first contact of `scene` at a closing speed [m/s]; `None` beyond the range of the law.

@@ -1,15 +1,15 @@
 //! The parameters that can be fitted.
 
 use super::Flow;
-use crate::scene::{QuasiStatic, Rate};
+use crate::scene::{Body, QuasiStatic, Rate};
 
 /// A parameter that a measurement can determine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 #[clap(rename_all = "snake_case")]
 pub enum Fit {
-    /// Quasi-static yield strength of the target [Pa]
+    /// Quasi-static yield strength of the softer body [Pa]
     YieldStrength,
-    /// Hardening modulus of the target [Pa]
+    /// Hardening modulus of the softer body [Pa]
     HardeningModulus,
     /// Constant of the rate model: c of johnson-cook, d of cowper-symonds
     Rate,
@@ -21,12 +21,17 @@ impl Fit {
     /// # Errors
     /// A sentence if the scene has no such parameter.
     pub fn of(self, flow: &Flow) -> Result<(&'static str, &'static str, f64), String> {
+        let rate = |target, impactor| if flow.body == Body::Target { target } else { impactor };
         match (self, flow.rate) {
-            (Fit::YieldStrength, _) => Ok(("target.yield_strength", "Pa", flow.hardening.yield_strength)),
-            (Fit::HardeningModulus, _) => Ok(("target.hardening_modulus", "Pa", flow.hardening.hardening_modulus)),
-            (Fit::Rate, Some(Rate::JohnsonCook { c, .. })) => Ok(("target.rate.c", "", c)),
-            (Fit::Rate, Some(Rate::CowperSymonds { d, .. })) => Ok(("target.rate.d", "1/s", d)),
-            (Fit::Rate, None) => Err("--fit rate needs a rate model in the scene: give target.rate".into()),
+            (Fit::YieldStrength, _) => Ok((flow.body.yield_strength(), "Pa", flow.hardening.yield_strength)),
+            (Fit::HardeningModulus, _) => Ok((flow.body.hardening_modulus(), "Pa", flow.hardening.hardening_modulus)),
+            (Fit::Rate, Some(Rate::JohnsonCook { c, .. })) => Ok((rate("target.rate.c", "impactor.rate.c"), "", c)),
+            (Fit::Rate, Some(Rate::CowperSymonds { d, .. })) => {
+                Ok((rate("target.rate.d", "impactor.rate.d"), "1/s", d))
+            }
+            (Fit::Rate, None) => {
+                Err(format!("--fit rate needs a rate model in the scene: give {}.rate", flow.body.name()))
+            }
         }
     }
 

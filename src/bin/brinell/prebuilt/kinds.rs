@@ -20,6 +20,8 @@ pub struct Kind {
     watches: bool,
     /// Whether its inputs can have derivatives.
     input_derivatives: bool,
+    /// Whether the impactor may be the softer body.
+    two_strengths: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -36,7 +38,7 @@ enum Outputs {
 
 /// The kinds, in ascending order of cost. `impulse` and `mean_force` are computed in every step; all other outputs
 /// only when they are read. The first two are for FMUs of many platforms, which are sent around: they lack what a scene can do
-/// without.
+/// without, and the impactor never yields.
 pub const KINDS: [Kind; 6] = [
     Kind {
         name: "least",
@@ -44,6 +46,7 @@ pub const KINDS: [Kind; 6] = [
         master: None,
         watches: false,
         input_derivatives: false,
+        two_strengths: false,
     },
     Kind {
         name: "force",
@@ -51,6 +54,7 @@ pub const KINDS: [Kind; 6] = [
         master: None,
         watches: false,
         input_derivatives: true,
+        two_strengths: false,
     },
     Kind {
         name: "state",
@@ -58,6 +62,7 @@ pub const KINDS: [Kind; 6] = [
         master: None,
         watches: true,
         input_derivatives: true,
+        two_strengths: true,
     },
     Kind {
         name: "everything",
@@ -65,6 +70,7 @@ pub const KINDS: [Kind; 6] = [
         master: None,
         watches: true,
         input_derivatives: true,
+        two_strengths: true,
     },
     Kind {
         name: "serial",
@@ -72,6 +78,7 @@ pub const KINDS: [Kind; 6] = [
         master: Some(Master::Serial),
         watches: false,
         input_derivatives: true,
+        two_strengths: true,
     },
     Kind {
         name: "parallel",
@@ -79,6 +86,7 @@ pub const KINDS: [Kind; 6] = [
         master: Some(Master::Parallel),
         watches: false,
         input_derivatives: true,
+        two_strengths: true,
     },
 ];
 
@@ -114,7 +122,8 @@ impl Kind {
         let derivatives = self.input_derivatives || !constants::has_course(scene);
         let laws = !scene.is_rate_dependent() || self.goes_with_damped();
         let has_features = laws && master == self.master && watches && derivatives;
-        has_features && scene.outputs.iter().all(|output| self.has_output(output))
+        let bodies = self.two_strengths || !scene.has_two_strengths();
+        has_features && bodies && scene.outputs.iter().all(|output| self.has_output(output))
     }
 }
 
@@ -177,8 +186,9 @@ impl Library {
     fn new(laws: Laws, kind: &'static Kind) -> Library {
         let outputs = kind.outputs().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
         let derivatives = if kind.input_derivatives { "" } else { "input_derivatives = false\n" };
+        let strength = if kind.two_strengths { "material = \"mild steel\"\nyield_strength = 1e9\n" } else { "" };
         let mut text = format!(
-            "name = \"prebuilt\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n[fmu]\n\
+            "name = \"prebuilt\"\n[impactor]\nradius = 5e-3\n{strength}[target]\nmaterial = \"mild steel\"\n[fmu]\n\
              outputs = [{outputs}]\n{derivatives}[impact]\nmass = 4e-3\nspeed = 1.0\nwatch = {}\n{}",
             kind.watches,
             laws.table()

@@ -6,7 +6,7 @@ use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::nearest::{nearest, one_of};
 use crate::numbers::exact;
-use crate::scene::Scene;
+use crate::scene::{Body, Scene};
 use crate::table::{self, Causality, VARIABLES};
 use brinell::contact::impact::Impact;
 
@@ -29,8 +29,8 @@ const OF_IMPACT: [(&str, &str); 4] = [("speed", "m/s"), ("mass", "kg"), ("energy
 /// Those that only oblique impacts have.
 pub const OF_OBLIQUE_IMPACT: [(&str, &str); 2] = [("angle", "deg"), ("spin", "rad/s")];
 
-/// Parameters that only some laws have, whether or not a scene contains them.
-const HARDENING: &str = "target.hardening_modulus";
+/// A parameter that only some laws have, whether or not a scene contains it.
+const HARDENING: &str = Body::Target.hardening_modulus();
 
 /// Parameters that do not affect an impact.
 const WITHOUT_EFFECT: [&str; 1] = ["initial_gap"];
@@ -178,7 +178,7 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
     for (name, _) in bodies {
         // a rigid impactor has no modulus, a flat target no radius, and an elastic law no strength
         let is_there = scene.group_value(0, name).is_some() || ["target.radius", HARDENING].contains(name);
-        let strength = *name == "target.yield_strength";
+        let strength = *name == Body::Target.yield_strength();
         let yields = choice.model.elastoplastic().is_some() && choice.laws != "hertz";
         if if strength { !yields } else { !is_there } {
             return Err(missing(name));
@@ -192,10 +192,17 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
             exact(radius)
         ))
     })?;
-    let strength = bodies.iter().find(|(name, _)| *name == "target.yield_strength").map(|(_, value)| *value);
+    let is_strength = |name: &str| [Body::Impactor, Body::Target].iter().any(|body| body.yield_strength() == name);
+    let strength = bodies.iter().any(|(name, _)| is_strength(name)).then_some(pair.yield_strength);
     let model = choice.model.on(pair, strength);
-    match bodies.iter().find(|(name, _)| *name == HARDENING) {
-        Some((_, modulus)) => model.with_hardening(*modulus).ok_or_else(|| missing(HARDENING)),
+    // a strength may make the other body the softer one, which hardens by another modulus
+    let name = scene.softer_with(0, bodies).hardening_modulus();
+    match bodies.iter().find(|(known, _)| *known == name) {
+        Some((_, modulus)) => model.with_hardening(*modulus).ok_or_else(|| missing(name)),
+        None if strength.is_some() && scene.has_two_strengths() => {
+            let modulus = scene.group_value(0, name).unwrap_or(0.0);
+            Ok(model.with_hardening(modulus).unwrap_or(model))
+        }
         None => Ok(model),
     }
 }
@@ -203,7 +210,8 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
 fn why_absent(name: &str) -> &'static str {
     match name {
         "target.yield_strength" => "the law has no yield strength",
-        HARDENING => "the law has no hardening; brinell has",
+        "impactor.yield_strength" => "the scene doesn't give it, so that the impactor never yields",
+        HARDENING | "impactor.hardening_modulus" => "the law has no hardening, or the scene gives none; brinell has",
         _ => "the impactor of the scene is rigid; give youngs_modulus and poissons_ratio, or a material",
     }
 }

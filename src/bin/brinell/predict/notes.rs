@@ -22,7 +22,7 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
         .any(|(choice, prediction)| choice.model.elastoplastic().is_some() && prediction.residual_indentation > 0.0);
     let keeps = scene.contacts[0].surface == Surface::Dented;
     let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.to_string());
-    let softer = predictions.first().and_then(|prediction| softer::notes(scene, prediction));
+    let softer = predictions.first().map(|prediction| softer::notes(scene, prediction)).unwrap_or_default();
     endless.into_iter().chain(loss(scene, impact)).chain(softer).chain(strength(scene, impact)).collect()
 }
 
@@ -46,12 +46,12 @@ fn loss(scene: &Scene, impact: &Impact) -> Option<String> {
     ))
 }
 
-/// The strength of the target in an impact, if it depends on the impact, and its reliability.
+/// The strength of the softer body in an impact, if it depends on the impact, and its reliability.
 fn strength(scene: &Scene, impact: &Impact) -> Vec<String> {
     let depends = scene.depends_on_impact();
     let Some(found) = depends.then(|| scene.in_impact(0, impact)).flatten() else { return Vec::new() };
     let mut notes = Vec::new();
-    if let (Some(law), Some(line)) = (scene.power_law, found.line) {
+    if let (Some(law), Some(line)) = (scene.power_law(0), found.line) {
         let restitution = |part: f64| {
             let prediction = scene.predict_with_strain(impact, part * line.strain, found.factor);
             prediction.map_or("unknown".into(), |prediction| cell(prediction.restitution, 1.0))
@@ -70,10 +70,11 @@ fn strength(scene: &Scene, impact: &Impact) -> Vec<String> {
             restitution(2.0),
         ));
     }
-    if scene.rate.is_some() {
+    if scene.rate(0).is_some() {
         notes.push(format!(
-            "At the mean strain rate of this impact, {} 1/s, the target is {} times as strong as at rest: S = {}.",
+            "At the mean strain rate of this impact, {} 1/s, the {} is {} times as strong as at rest: S = {}.",
             cell(found.strain_rate, 1.0),
+            scene.softer(0).name(),
             cell(found.factor, 1.0),
             quantity(found.yield_strength, "Pa"),
         ));

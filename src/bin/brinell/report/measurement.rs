@@ -36,7 +36,7 @@ impl Measurement {
     pub fn of(scene: &Scene, path: &Path, fits: &[Fit]) -> Result<Measurement, Box<dyn Error>> {
         let measured = read(path).map_err(|error: MeasuredError| Box::new(error) as Box<dyn Error>)?;
         let flow = Flow::of(scene);
-        let usual = if flow.is_some() && scene.power_law.is_none() { &[Fit::YieldStrength][..] } else { &[] };
+        let usual = if flow.is_some() && scene.power_law(0).is_none() { &[Fit::YieldStrength][..] } else { &[] };
         let fits = if fits.is_empty() { usual } else { fits };
         let fitted = if fits.is_empty() { None } else { Some(fit(scene, &measured, fits).map_err(WrongCall)?) };
         let file = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());

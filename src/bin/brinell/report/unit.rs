@@ -2,7 +2,7 @@
 
 use super::ways::Needs;
 use crate::importer::{Archive, Description, ImportError, Instance, Unit};
-use crate::scene::{Coupling, Group, Parameter, Scene};
+use crate::scene::{Body, Both, Coupling, Group, Parameter, Scene};
 use crate::table::VARIABLES;
 
 /// Outputs that a report reads, whatever the scene and the coupling.
@@ -33,7 +33,12 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         let gap = parameters.iter().position(|parameter| parameter.name == "initial_gap").unwrap_or(parameters.len());
         parameters.insert(gap, Parameter::shared("effective_mass", value, true));
     }
-    let has_own_strength = scene.contacts[0].own.iter().any(|own| own.name == "target.yield_strength");
+    // a body with its own strength has no power law
+    let own = |body: Body| scene.contacts[0].own.iter().any(|own| own.name == body.yield_strength());
+    let power_laws = Both {
+        impactor: scene.power_laws.impactor.filter(|_| !own(Body::Impactor)),
+        target: scene.power_laws.target.filter(|_| !own(Body::Target)),
+    };
     let unit = Scene {
         name: scene.name.clone(),
         description: scene.description.clone(),
@@ -51,8 +56,8 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
         loss: scene.loss,
         passivity_guard: scene.passivity_guard,
         yield_strength: scene.yield_strength,
-        power_law: scene.power_law.filter(|_| !has_own_strength),
-        rate: scene.rate,
+        power_laws,
+        rates: scene.rates,
         quasi_static: vec![scene.quasi_static[0]],
         factors: vec![1.0],
         coupling: mass.map(|_| Coupling { parallel: needs == Needs::LateMass, ..Coupling::default() }),

@@ -1,6 +1,6 @@
 //! The bodies of each contact, and values that follow from them alone.
 
-use super::Scene;
+use super::{Scene, softer};
 use brinell::contact::{Body, Pair};
 use std::collections::HashMap;
 
@@ -13,10 +13,12 @@ impl Scene {
     /// The same bodies with other values for some of their parameters.
     pub fn pair_with(&self, group: usize, values: &[(&str, f64)]) -> Option<Pair> {
         let [impactor, target] = self.bodies_with(group, values);
-        let other = values.iter().find(|(known, _)| *known == "target.yield_strength").map(|(_, value)| *value);
-        let own = || self.group_value(group, "target.yield_strength").map(|strength| strength * self.factors[group]);
+        let softer = self.softer_with(group, values);
+        let other = values.iter().find(|(known, _)| *known == softer.yield_strength()).map(|(_, value)| *value);
+        let own = || self.group_value(group, softer.yield_strength()).map(|strength| strength * self.factors[group]);
         let strength = other.or_else(own).unwrap_or(f64::INFINITY);
-        Pair::new(&impactor, &target, strength)
+        let pair = Pair::new(&impactor, &target, strength)?;
+        Some(if softer == softer::Body::Impactor { pair.yielding_in(&impactor, strength) } else { pair })
     }
 
     /// Impactor and target of `group`, with other values for some of their parameters.

@@ -7,6 +7,7 @@ use super::friction;
 use super::laws;
 use super::losses;
 use super::numbers::IMPACTOR_DENSITY;
+use super::softer::{self, Body, Both};
 use super::{Mistake, Parameter, QuasiStatic, Scene};
 use crate::layout::shortened;
 use crate::nearest::unknown;
@@ -41,7 +42,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     let unloading = laws::check_unloading(&file.law, loading.0, elastic)?;
     laws::check_parameters(&file.law, &loading, unloading.as_ref())?;
     let passivity_guard = laws::check_guard(file.law.passivity_guard.as_ref(), unloading)?;
-    let yield_strength = contacts.number(0, "target.yield_strength").map(|strength| *strength.get_ref());
+    let yield_strength = contacts.yield_strength(0);
     if elastic {
         contacts.forget_strength();
     }
@@ -101,8 +102,8 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         loss,
         passivity_guard,
         yield_strength,
-        power_law: contacts.power_law,
-        rate: contacts.rate,
+        power_laws: contacts.power_laws,
+        rates: contacts.rates,
         quasi_static: Vec::new(),
         factors,
         coupling,
@@ -128,13 +129,19 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
         laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
     }
-    let quasi_static = |group| QuasiStatic {
-        yield_strength: scene.group_value(group, "target.yield_strength").unwrap_or(f64::INFINITY),
-        hardening_modulus: scene.hardening_modulus(group),
+    let of = |group, body: Body| QuasiStatic {
+        yield_strength: scene.group_value(group, body.yield_strength()).unwrap_or(f64::INFINITY),
+        hardening_modulus: scene.group_value(group, body.hardening_modulus()).unwrap_or(0.0),
     };
+    let quasi_static = |group| Both { impactor: of(group, Body::Impactor), target: of(group, Body::Target) };
     scene.quasi_static = (0..scene.contacts.len()).map(quasi_static).collect();
     let message = too_hard(&scene, 0);
+    let softer = |scene: &Scene| (0..scene.contacts.len()).map(|group| scene.softer(group)).collect::<Vec<_>>();
+    let slow = softer(&scene);
     scene = scene.with_strengths_for(None).ok_or_else(|| Mistake(impact_span.clone(), message))?;
+    if let Some(group) = softer(&scene).iter().zip(&slow).position(|(now, before)| now != before) {
+        return Err(Mistake(impact_span, contacts.said(group, &softer::exchanged(slow[group]))));
+    }
     let no_prediction = |group| Mistake(impact_span.clone(), contacts.said(group, &too_hard(&scene, group)));
     let predict = |group| scene.any_model_of(group).predict(&scene.impact_of(group));
     let predictions = scene.by_bodies(predict).into_iter().enumerate();

@@ -1,12 +1,14 @@
 //! The contacts: the numbers that a scene gives for all contacts, and those that a contact overrides.
 
 use super::checks::check_identifier;
-use super::file::{Contact, File, Impactor, SurfaceName, Target};
+use super::file::{Contact, File, Impactor, PowerLawTable, RateTable, SurfaceName, Target};
 use super::hardening;
-use super::numbers::{DENSITY, FRICTION, HARDENING, IMPACTOR_STRENGTH, MASS, Numbers, check_numbers};
+use super::numbers::{
+    DENSITY, FRICTION, HARDENING, IMPACTOR_HARDENING, IMPACTOR_STRENGTH, MASS, Numbers, check_numbers,
+};
 use super::power_law::{self, PowerLaw};
 use super::rate::{self, Rate};
-use super::softer;
+use super::softer::{self, Body, Both};
 use super::{Group, Mistake, Parameter};
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS, VARIABLES};
@@ -38,11 +40,11 @@ struct Given {
 /// The contacts of a scene.
 pub struct Contacts {
     shared: Numbers,
-    /// The hardening of all targets by a power law.
-    pub power_law: Option<PowerLaw>,
-    /// The strain-rate dependence of the strength of all targets.
-    pub rate: Option<Rate>,
-    rate_span: Range<usize>,
+    /// The hardening of all bodies by a power law.
+    pub power_laws: Both<Option<PowerLaw>>,
+    /// The strain-rate dependence of the strength of all bodies.
+    pub rates: Both<Option<Rate>>,
+    rate_spans: Both<Range<usize>>,
     given: Vec<Given>,
 }
 
@@ -60,18 +62,27 @@ impl Contacts {
         check_numbers(&shared, "")?;
         let surface = target.and_then(|target| target.surface);
         let given = given(file, surface, &shared)?;
-        let power_law = target.and_then(|target| target.power_law.as_ref()).map(power_law::check).transpose()?;
-        let rate_table = target.and_then(|target| target.rate.as_ref());
-        let rate = rate_table.map(rate::check).transpose()?;
-        let rate_span = rate_table.map_or(0..0, Spanned::span);
-        let contacts = Contacts { shared, power_law, rate, rate_span, given };
+        let power_law = |body, table: &Option<Spanned<PowerLawTable>>| {
+            table.as_ref().map(|table| power_law::check(body, table)).transpose()
+        };
+        let power_laws = Both {
+            impactor: power_law(Body::Impactor, &impactor.power_law)?,
+            target: power_law(Body::Target, &of_target.power_law)?,
+        };
+        let rate =
+            |body, table: &Option<Spanned<RateTable>>| table.as_ref().map(|table| rate::check(body, table)).transpose();
+        let rates =
+            Both { impactor: rate(Body::Impactor, &impactor.rate)?, target: rate(Body::Target, &of_target.rate)? };
+        let span = |table: &Option<Spanned<RateTable>>| table.as_ref().map_or(0..0, Spanned::span);
+        let rate_spans = Both { impactor: span(&impactor.rate), target: span(&of_target.rate) };
+        let mut contacts = Contacts { shared, power_laws, rates, rate_spans, given };
         for index in 0..contacts.given.len() {
             match contacts.given[index].name {
                 Some(_) => contacts.check_complete(index)?,
                 None => check_tables(file, &contacts)?,
             }
             contacts.check_impactor(index)?;
-            softer::check(file, &contacts, index)?;
+            contacts.check_strengths(index)?;
         }
         Ok(contacts)
     }
@@ -86,9 +97,41 @@ impl Contacts {
         self.given[index].name.as_ref().map_or(text.into(), |name| format!("contact `{name}`: {text}"))
     }
 
+    /// Yield strength of the softer body of a contact [Pa], if it has one.
+    pub fn yield_strength(&self, index: usize) -> Option<f64> {
+        let strength = |name| self.number(index, name).map(|strength| *strength.get_ref());
+        let impactor = strength(IMPACTOR_STRENGTH).filter(|_| self.level_of_impactor(index).impactor_may_yield);
+        [impactor, strength("target.yield_strength")].into_iter().flatten().reduce(f64::min)
+    }
+
     /// Whether a contact has a yield strength.
     pub fn any_yields(&self) -> bool {
-        (0..self.given.len()).any(|index| self.number(index, "target.yield_strength").is_some())
+        (0..self.given.len()).any(|index| self.yield_strength(index).is_some())
+    }
+
+    /// The numbers that have the strength of the impactor of a contact: its own, or those of all contacts.
+    fn level_of_impactor(&self, index: usize) -> &Numbers {
+        let own = &self.given[index].own;
+        if own.get(IMPACTOR_STRENGTH).is_some() { own } else { &self.shared }
+    }
+
+    /// Rejects a strength of the impactor without effect. Otherwise, where the scene gives it, or it is below that of the
+    /// target, it becomes a parameter. That of a harder material is only known.
+    fn check_strengths(&mut self, index: usize) -> Result<(), Mistake> {
+        let given = self.level_of_impactor(index).gives_impactor_strength;
+        softer::check(self, index, given)?;
+        let Some(strength) = self.number(index, IMPACTOR_STRENGTH).map(|strength| *strength.get_ref()) else {
+            return Ok(());
+        };
+        let target = self.number(index, "target.yield_strength");
+        let is_softer = target.is_some_and(|target| strength < *target.get_ref());
+        let deforms = self.number(index, "impactor.youngs_modulus").is_some();
+        if deforms && (given || is_softer) {
+            let own = self.given[index].own.get(IMPACTOR_STRENGTH).is_some();
+            let level = if own { &mut self.given[index].own } else { &mut self.shared };
+            level.impactor_may_yield = true;
+        }
+        Ok(())
     }
 
     /// A contact whose target has no density.
@@ -98,7 +141,7 @@ impl Contacts {
 
     /// Rejects a contact without yield strength for a `law` that needs it.
     pub fn check_strength(&self, law: &str) -> Result<(), Mistake> {
-        let elastic = |index: &usize| self.number(*index, "target.yield_strength").is_none();
+        let elastic = |index: &usize| self.yield_strength(*index).is_none();
         let Some(index) = (0..self.given.len()).find(elastic) else { return Ok(()) };
         let message = format!("law.loading = \"{law}\" needs target.yield_strength (or a material) for every contact");
         Err(Mistake(self.given[index].span.clone(), self.said(index, &message)))
@@ -106,29 +149,33 @@ impl Contacts {
 
     /// Rejects a strain rate for a law without strength.
     pub fn check_rate(&self, has_no_strength: bool) -> Result<(), Mistake> {
-        if self.rate.is_none() || !has_no_strength {
-            return Ok(());
-        }
-        let message = "target.rate has no effect: the law has no yield strength";
-        Err(Mistake(self.rate_span.clone(), message.into()))
+        let given = [Body::Impactor, Body::Target].into_iter().find(|body| self.rates.of(*body).is_some());
+        let Some(body) = given.filter(|_| has_no_strength) else { return Ok(()) };
+        let message = format!("{}.rate has no effect: the law has no yield strength", body.name());
+        Err(Mistake(self.rate_spans.of(body).clone(), message))
     }
 
-    /// Rejects a hardening target for the law `name`, if the law has no form for it.
+    /// Rejects a hardening body for the law `name`, if the law has no form for it.
     pub fn check_hardening(&self, name: &str, hardens: bool) -> Result<(), Mistake> {
-        let given = (0..self.given.len()).find_map(|index| Some((index, self.number(index, HARDENING)?)));
-        let Some((index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
+        let of = |(body, name): (Body, &str)| {
+            (0..self.given.len()).find_map(|index| Some((body, index, self.number(index, name)?)))
+        };
+        let given = [(Body::Target, HARDENING), (Body::Impactor, IMPACTOR_HARDENING)].into_iter().find_map(of);
+        let Some((body, index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
         let laws = AnyLoading::ALL.iter().filter(|(name, _)| table::loading_law(name).strengthened);
         let laws = laws.map(|(name, _)| *name).collect::<Vec<_>>().join("\", \"");
-        let message =
-            format!("the hardening of the target has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"");
+        let message = format!(
+            "the hardening of the {} has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"",
+            body.name()
+        );
         Err(Mistake(modulus.span(), self.said(index, &message)))
     }
 
     /// For a law that has no yield strength.
     pub fn forget_strength(&mut self) {
-        self.shared.remove("target.yield_strength");
-        for given in &mut self.given {
-            given.own.remove("target.yield_strength");
+        let own = self.given.iter_mut().map(|given| &mut given.own);
+        for numbers in own.chain([&mut self.shared]) {
+            [IMPACTOR_STRENGTH, "target.yield_strength"].iter().for_each(|name| numbers.remove(name));
         }
     }
 
@@ -279,7 +326,7 @@ fn given(file: &File, surface: Option<SurfaceName>, shared: &Numbers) -> Result<
                 format!("with contact `{text}` there are {total} contacts in all: allowed are {MOST_CONTACTS}");
             return Err(Mistake(span, message));
         }
-        hardening::check_contact(&text, target)?;
+        hardening::check_contact(&text, impactor, target)?;
         let (mass, gap, coefficient) = (effective_mass.as_ref(), initial_gap.as_ref(), friction.coefficient.as_ref());
         let own = Numbers::of(impactor, target, mass, gap, coefficient, Some(shared))?;
         check_numbers(&own, &format!("{text}."))?;

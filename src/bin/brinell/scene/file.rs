@@ -31,6 +31,10 @@ pub struct Impactor {
     pub youngs_modulus: Option<Spanned<f64>>,
     pub poissons_ratio: Option<Spanned<f64>>,
     pub yield_strength: Option<Spanned<f64>>,
+    pub hardening_modulus: Option<Spanned<f64>>,
+    pub tangent_modulus: Option<Spanned<f64>>,
+    pub power_law: Option<Spanned<PowerLawTable>>,
+    pub rate: Option<Spanned<RateTable>>,
     pub density: Option<Spanned<f64>>,
 }
 

@@ -20,14 +20,15 @@ const UNSUPPORTED: [(&[&str], &str); 7] = [
     ),
     (&["adhesion", "cohesion", "surface_energy", "work_of_adhesion", "stickiness"], "surfaces don't stick"),
     (&["roughness", "asperities"], "surfaces are smooth"),
-    (&["temperature", "creep", "strain_rate"], "yield strength depends on neither temperature nor rate"),
+    (&["temperature", "creep"], "yield strength doesn't depend on temperature"),
 ];
 
 /// Keys that belong to another table.
-const ELSEWHERE: [(&str, &str); 9] = [
+const ELSEWHERE: [(&str, &str); 10] = [
     ("mass", "[impact] has a mass, the bodies have none"),
     ("speed", "[impact] has a speed"),
     ("hardness", "give yield_strength; `brinell hardness SCENE --brinell HBW` finds it from a Brinell hardness"),
+    ("strain_rate", "give rate = { model = \"johnson-cook\", c = ..., reference_rate = ... } of the body"),
     ("diameter", "give the radius"),
     ("elasticity", "give youngs_modulus"),
     ("poisson_ratio", "it is called poissons_ratio"),

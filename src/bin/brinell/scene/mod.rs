@@ -29,6 +29,7 @@ use std::path::{Path, PathBuf};
 pub use losses::Loss;
 pub use power_law::PowerLaw;
 pub use rate::{InImpact, QuasiStatic, Rate, STEPS, TABOR};
+pub use softer::{Body, Both};
 
 const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
 
@@ -53,15 +54,15 @@ pub struct Scene {
     pub loss: Option<Loss>,
     /// Whether unloading is limited to return no more than the loading took.
     pub passivity_guard: bool,
-    /// Yield strength of the first target [Pa], if it has one, whether or not the scene's law needs it.
+    /// Yield strength of the softer body of the first contact [Pa], if it has one, whether or not the scene's law needs it.
     pub yield_strength: Option<f64>,
     /// Hardening by a power law, for which the yield strength and the hardening modulus stand.
-    pub power_law: Option<PowerLaw>,
-    /// How the strength grows with the strain rate.
-    pub rate: Option<Rate>,
-    /// The hardening that the scene gives for each group; a power law or a rate puts another in its place.
-    pub quasi_static: Vec<QuasiStatic>,
-    /// Factor on the strength of the targets of each group in the scene's impact, if the unit
+    pub power_laws: Both<Option<PowerLaw>>,
+    /// How the strengths grow with the strain rate.
+    pub rates: Both<Option<Rate>>,
+    /// The hardening that the scene gives for the bodies of each group; a power law or a rate puts another in its place.
+    pub quasi_static: Vec<Both<QuasiStatic>>,
+    /// Factor on the strength of the softer body of each group in the scene's impact, if the unit
     /// [finds it](Scene::finds_strength); then it isn't part of the parameters.
     pub factors: Vec<f64>,
     /// How the unit moves the bodies through a step by their mass, if it does.
@@ -126,7 +127,7 @@ pub struct Group {
     pub surface: Surface,
     /// Density of the target [kg/m^3], if known. It is not a variable; it limits the speeds for which the law is valid.
     pub density: Option<f64>,
-    /// Yield strength of the impactor [Pa], if known. It is not a variable: the impactor does not yield.
+    /// Yield strength of the impactor [Pa], if known. It is a variable only where the impactor may be the softer body.
     pub impactor_strength: Option<f64>,
 }
 
@@ -275,22 +276,31 @@ impl Scene {
         guarded.unwrap_or(unloading)
     }
 
-    /// Hardening modulus of the target of `group` in the scene's impact [Pa].
+    /// Hardening modulus of the softer body of `group` in the scene's impact [Pa].
     pub fn hardening_modulus(&self, group: usize) -> f64 {
-        self.group_value(group, "target.hardening_modulus").unwrap_or(0.0) * self.factors[group]
+        self.group_value(group, self.softer(group).hardening_modulus()).unwrap_or(0.0) * self.factors[group]
     }
 
     /// Whether the FMU needs the form of its laws for targets that harden and for their Poisson's ratio: it has a hardening modulus,
     /// or a Poisson's ratio that is another than that of the laws, or may be.
     pub fn is_strengthened(&self) -> bool {
         let form = self.damped.is_none() && self.loading.1.strengthened(0.0).is_some();
-        let all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
+        let mut all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
+        let impactor_may_yield = self.has_two_strengths();
+        let is_other = |parameter: &Parameter| parameter.settable || parameter.value != strength::POISSONS_RATIO;
         let needs = |parameter: &Parameter| match parameter.name {
-            "target.hardening_modulus" => true,
-            "target.poissons_ratio" => parameter.settable || parameter.value != strength::POISSONS_RATIO,
+            "target.hardening_modulus" | "impactor.hardening_modulus" => true,
+            "target.poissons_ratio" => is_other(parameter),
+            "impactor.poissons_ratio" => impactor_may_yield && is_other(parameter),
             _ => false,
         };
-        form && all.into_iter().any(needs)
+        form && all.any(needs)
+    }
+
+    /// Whether the impactor of a contact may be the softer body.
+    pub fn has_two_strengths(&self) -> bool {
+        let mut all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
+        all.any(|parameter| parameter.name == Body::Impactor.yield_strength())
     }
 }
 

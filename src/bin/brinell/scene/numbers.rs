@@ -2,7 +2,7 @@
 
 use super::checks::{check_limits, check_range};
 use super::file::{Impactor, Target};
-use super::hardening::{self, Flow};
+use super::hardening::{Flow, Given};
 use super::{Mistake, Parameter};
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS};
@@ -10,10 +10,12 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
 /// The properties that a contact may override, in the order of the table.
-const PROPERTIES: [&str; 14] = [
+const PROPERTIES: [&str; 15] = [
     "impactor.radius",
     "impactor.youngs_modulus",
     "impactor.poissons_ratio",
+    IMPACTOR_STRENGTH,
+    IMPACTOR_HARDENING,
     "target.radius",
     "target.youngs_modulus",
     "target.poissons_ratio",
@@ -21,7 +23,6 @@ const PROPERTIES: [&str; 14] = [
     HARDENING,
     DENSITY,
     IMPACTOR_DENSITY,
-    IMPACTOR_STRENGTH,
     MASS,
     "initial_gap",
     FRICTION,
@@ -33,28 +34,33 @@ pub const MASS: &str = "effective_mass";
 /// A property that every contact has as soon as the scene gives it for all.
 pub const FRICTION: &str = "friction.coefficient";
 
-/// A property that only some laws use.
+/// Properties that only some laws use.
 pub const HARDENING: &str = "target.hardening_modulus";
+pub const IMPACTOR_HARDENING: &str = "impactor.hardening_modulus";
+
+/// A property that is a parameter only where the impactor may yield.
+pub const IMPACTOR_STRENGTH: &str = "impactor.yield_strength";
 
 /// Properties that are not variables of the FMU.
 pub const DENSITY: &str = "target.density";
 pub const IMPACTOR_DENSITY: &str = "impactor.density";
 
-pub const IMPACTOR_STRENGTH: &str = "impactor.yield_strength";
-
 /// Allowed densities [kg/m^3]: from thin gases to beyond any solid.
 const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
 
-/// Allowed yield strengths of the impactor [Pa], as for the target.
-const STRENGTHS: RangeInclusive<f64> = 1e-9..=1e18;
-
 /// The numbers at one level, the whole scene or one contact, with their places in the file.
-pub struct Numbers(Vec<(&'static str, Spanned<f64>)>);
+pub struct Numbers {
+    values: Vec<(&'static str, Spanned<f64>)>,
+    /// Whether the scene gives the strength of the impactor at this level, rather than by a material.
+    pub gives_impactor_strength: bool,
+    /// Whether the impactor may be the softer body, so that its strength is a parameter.
+    pub impactor_may_yield: bool,
+}
 
 impl Numbers {
     /// Those of a contact without its own numbers.
     pub fn none() -> Numbers {
-        Numbers(Vec::new())
+        Numbers { values: Vec::new(), gives_impactor_strength: false, impactor_may_yield: false }
     }
 
     /// An explicit number overrides that of a material.
@@ -79,11 +85,17 @@ impl Numbers {
         let of_ball = |value| from(&of_impactor, value);
         let modulus = target.youngs_modulus.clone().or_else(|| of_material(|material| material.youngs_modulus));
         let youngs_modulus = modulus.as_ref().or_else(|| shared?.get("target.youngs_modulus"));
-        let Flow { yield_strength, hardening_modulus } = hardening::of(target, youngs_modulus)?;
+        let Flow { yield_strength, hardening_modulus } = Given::target(target).flow(youngs_modulus)?;
+        let modulus_of_ball = impactor.youngs_modulus.clone().or_else(|| of_ball(|material| material.youngs_modulus));
+        let given_for_ball = Given::impactor(impactor);
+        let of_shared = || shared?.get("impactor.youngs_modulus");
+        let ball = given_for_ball.flow(modulus_of_ball.as_ref().or_else(of_shared))?;
         let given = [
             impactor.radius.clone(),
-            impactor.youngs_modulus.clone().or_else(|| of_ball(|material| material.youngs_modulus)),
+            modulus_of_ball,
             impactor.poissons_ratio.clone().or_else(|| of_ball(|material| material.poissons_ratio)),
+            ball.yield_strength.or_else(|| of_ball(|material| material.yield_strength)),
+            ball.hardening_modulus,
             target.radius.clone(),
             modulus,
             target.poissons_ratio.clone().or_else(|| of_material(|material| material.poissons_ratio)),
@@ -91,29 +103,34 @@ impl Numbers {
             hardening_modulus,
             target.density.clone().or_else(|| of_material(|material| material.density)),
             impactor.density.clone().or_else(|| of_ball(|material| material.density)),
-            impactor.yield_strength.clone().or_else(|| of_ball(|material| material.yield_strength)),
             mass.cloned(),
             initial_gap.cloned(),
             friction.cloned(),
         ];
         let numbers = PROPERTIES.into_iter().zip(given);
-        Ok(Numbers(numbers.filter_map(|(name, value)| Some((name, value?))).collect()))
+        Ok(Numbers {
+            values: numbers.filter_map(|(name, value)| Some((name, value?))).collect(),
+            gives_impactor_strength: given_for_ball.is_any() || impactor.rate.is_some(),
+            impactor_may_yield: false,
+        })
     }
 
     pub fn get(&self, name: &str) -> Option<&Spanned<f64>> {
-        self.0.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+        self.values.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
     }
 
     pub fn remove(&mut self, name: &str) {
-        self.0.retain(|(known, _)| *known != name);
+        self.values.retain(|(known, _)| *known != name);
     }
 
     /// The numbers as parameters; those that satisfy `wanted` can be set.
     pub fn parameters(&self, wanted: impl Fn(&str) -> bool) -> Vec<Parameter> {
-        let wanted = self
-            .0
-            .iter()
-            .filter(|(name, _)| ![DENSITY, IMPACTOR_DENSITY, IMPACTOR_STRENGTH].contains(name) && wanted(name));
+        let is_parameter = |name: &str| match name {
+            DENSITY | IMPACTOR_DENSITY => false,
+            IMPACTOR_STRENGTH | IMPACTOR_HARDENING => self.impactor_may_yield,
+            _ => true,
+        };
+        let wanted = self.values.iter().filter(|(name, _)| is_parameter(name) && wanted(name));
         wanted.map(|(name, value)| Parameter::shared(name, *value.get_ref(), true)).collect()
     }
 }
@@ -127,9 +144,8 @@ fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mis
 
 /// Rejects a number outside its range. `owner` precedes its name in the message.
 pub fn check_numbers(numbers: &Numbers, owner: &str) -> Result<(), Mistake> {
-    numbers.0.iter().try_for_each(|(name, value)| match *name {
+    numbers.values.iter().try_for_each(|(name, value)| match *name {
         DENSITY | IMPACTOR_DENSITY => check_range((name, "kg/m^3"), owner, value, DENSITIES),
-        IMPACTOR_STRENGTH => check_range((name, "Pa"), owner, value, STRENGTHS),
         _ => check_limits(name, owner, value),
     })
 }

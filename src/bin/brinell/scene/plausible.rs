@@ -1,7 +1,7 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
+use super::Mistake;
 use super::file::{File, Impactor, Target};
-use super::{Mistake, softer};
 use crate::numbers::{plain, quantity};
 use std::ops::RangeInclusive;
 use toml::Spanned;
@@ -51,10 +51,11 @@ const STRENGTH_OVER_MODULUS: f64 = 0.2;
 pub fn doubts(file: &File) -> Vec<Mistake> {
     let mut doubts = Vec::new();
     let mut bodies = |owner: &str, impactor: Option<&Impactor>, target: Option<&Target>| {
-        if let Some(Impactor { radius, youngs_modulus, density, .. }) = impactor {
+        if let Some(Impactor { radius, youngs_modulus, yield_strength, density, .. }) = impactor {
             let of_impactor = [
                 ("radius", radius, &RADIUS),
                 ("youngs_modulus", youngs_modulus, &MODULUS),
+                ("yield_strength", yield_strength, &STRENGTH),
                 ("density", density, &DENSITY),
             ];
             doubts.extend(of_impactor.into_iter().filter_map(|(key, value, expected)| {
@@ -84,7 +85,6 @@ pub fn doubts(file: &File) -> Vec<Mistake> {
         let owner = format!("{}.", contact.name.get_ref());
         bodies(&owner, Some(&contact.impactor), Some(&contact.target));
     }
-    doubts.extend(softer::doubts(file));
     doubts
 }
 

@@ -2,6 +2,7 @@
 
 use super::Mistake;
 use super::file::PowerLawTable;
+use super::softer::Body;
 use brinell::contact::rate::FIRST_STRAIN;
 use serde::Serialize;
 use toml::Spanned;
@@ -40,11 +41,12 @@ impl PowerLaw {
     }
 }
 
-/// The power law of a scene.
-pub fn check(table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
+/// The power law of a `body` of the scene.
+pub fn check(body: Body, table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
     let PowerLawTable { coefficient, exponent } = table.get_ref();
-    super::checks::check_range(("coefficient", "Pa"), "target.power_law.", coefficient, 1e-6..=1e18)?;
-    super::checks::check_range(("exponent", ""), "target.power_law.", exponent, 0.0..=0.9)?;
+    let owner = format!("{}.power_law.", body.name());
+    super::checks::check_range(("coefficient", "Pa"), &owner, coefficient, 1e-6..=1e18)?;
+    super::checks::check_range(("exponent", ""), &owner, exponent, 0.0..=0.9)?;
     Ok(PowerLaw { coefficient: *coefficient.get_ref(), exponent: *exponent.get_ref() })
 }
 

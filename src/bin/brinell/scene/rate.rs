@@ -1,7 +1,8 @@
-//! Strain rate: the strength of a target in the scene's impact.
+//! Strain rate: the strength of the softer body in the scene's impact.
 
 use super::file::RateTable;
-use super::power_law::Linear;
+use super::power_law::{Linear, PowerLaw};
+use super::softer::{Body, Both};
 use super::{Mistake, Scene, checks};
 use crate::model::{AnyModel, strengthened};
 use crate::nearest::unknown;
@@ -15,20 +16,21 @@ use toml::Spanned;
 /// The names of the models in scenes.
 const MODELS: [&str; 2] = ["johnson-cook", "cowper-symonds"];
 
-/// The rate model of a scene.
-pub fn check(table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
+/// The rate model of a `body` of the scene.
+pub fn check(body: Body, table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
     let RateTable { model, c, reference_rate, d, q } = table.get_ref();
+    let owner = format!("{}.rate", body.name());
     let keys = [("c", c), ("reference_rate", reference_rate), ("d", d), ("q", q)];
     let own: &[&str] = match model.get_ref().as_str() {
         "johnson-cook" => &["c", "reference_rate"],
         "cowper-symonds" => &["d", "q"],
-        other => return Err(Mistake(model.span(), unknown("target.rate.model", other, MODELS.into_iter()))),
+        other => return Err(Mistake(model.span(), unknown(&format!("{owner}.model"), other, MODELS.into_iter()))),
     };
     let foreign =
         keys.iter().find_map(|(name, value)| value.as_ref().filter(|_| !own.contains(name)).map(|v| (name, v)));
     if let Some((name, value)) = foreign {
         let message = format!(
-            "target.rate.{name} doesn't belong to model = \"{}\", which has {}",
+            "{owner}.{name} doesn't belong to model = \"{}\", which has {}",
             model.get_ref(),
             own.join(" and ")
         );
@@ -36,10 +38,9 @@ pub fn check(table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
     }
     let number = |name: &str, unit, allowed| {
         let value = keys.iter().find(|(known, _)| *known == name).and_then(|(_, value)| value.as_ref());
-        let missing =
-            || Mistake(table.span(), format!("target.rate with model = \"{}\" needs {name}", model.get_ref()));
+        let missing = || Mistake(table.span(), format!("{owner} with model = \"{}\" needs {name}", model.get_ref()));
         let value = value.ok_or_else(missing)?;
-        checks::check_range((name, unit), "target.rate.", value, allowed)?;
+        checks::check_range((name, unit), &format!("{owner}."), value, allowed)?;
         Ok(*value.get_ref())
     };
     match own[0] {
@@ -51,7 +52,7 @@ pub fn check(table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
     }
 }
 
-/// The strength of the target of a group in an impact.
+/// The strength of the softer body of a group in an impact.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct InImpact {
     /// Yield strength and hardening modulus [Pa], including the factor.
@@ -59,6 +60,9 @@ pub struct InImpact {
     pub hardening_modulus: f64,
     /// The straight line that approximates a power law, without the factor.
     pub line: Option<Linear>,
+    /// Tabor's strain.
+    #[serde(skip)]
+    pub strain: f64,
     /// Mean strain rate of the loading [1/s].
     pub strain_rate: f64,
     /// Flow stress relative to the quasi-static one.
@@ -83,16 +87,39 @@ fn hardening_of(given: QuasiStatic, line: Option<Linear>) -> QuasiStatic {
 }
 
 impl Scene {
-    /// Whether the strength of the targets depends on the impact.
-    pub fn depends_on_impact(&self) -> bool {
-        self.power_law.is_some() || self.rate.is_some()
+    /// The strain-rate dependence of the strength of the softer body of `group`.
+    pub fn rate(&self, group: usize) -> Option<Rate> {
+        *self.rates.of(self.softer(group))
     }
 
-    /// The strength of the target of `group` in an `impact`. It is a fixed point, since depth and duration of the
+    /// The power law by which the softer body of `group` hardens, if it has no strength of its own.
+    pub fn power_law(&self, group: usize) -> Option<PowerLaw> {
+        self.power_law_of(group, self.softer(group))
+    }
+
+    /// The same for a `body`.
+    fn power_law_of(&self, group: usize, body: Body) -> Option<PowerLaw> {
+        let own = self.contacts[group].own.iter().any(|own| own.name == body.yield_strength());
+        self.power_laws.of(body).filter(|_| !own)
+    }
+
+    /// The hardening that the scene gives for the softer body of `group`.
+    pub fn quasi_static(&self, group: usize) -> QuasiStatic {
+        *self.quasi_static[group].of(self.softer(group))
+    }
+
+    /// Whether the strength of a body depends on the impact.
+    pub fn depends_on_impact(&self) -> bool {
+        let Scene { rates, power_laws, .. } = self;
+        let one = rates.impactor.is_some() || power_laws.impactor.is_some();
+        one || rates.target.is_some() || power_laws.target.is_some()
+    }
+
+    /// The strength of the softer body of `group` in an `impact`. It is a fixed point, since depth and duration of the
     /// impact depend on the strength. The strain is Tabor's, `0.2 a/R` at the largest contact radius. The strain rate
     /// is this strain over the loading time. `None` beyond the range of the law.
     pub fn in_impact(&self, group: usize, impact: &Impact) -> Option<InImpact> {
-        self.in_impact_with(group, impact, self.quasi_static[group], self.rate)
+        self.in_impact_with(group, impact, self.quasi_static(group), self.rate(group))
     }
 
     /// The same with another quasi-static hardening and rate model.
@@ -103,8 +130,7 @@ impl Scene {
         given: QuasiStatic,
         rate: Option<Rate>,
     ) -> Option<InImpact> {
-        let own = |group: usize| self.contacts[group].own.iter().any(|own| own.name == "target.yield_strength");
-        let line = |strain: f64| self.power_law.filter(|_| !own(group)).map(|law| law.up_to(strain));
+        let line = |strain: f64| self.power_law(group).map(|law| law.up_to(strain));
         let predict = |strain: f64, factor: f64| {
             self.with_strength(group, hardening_of(given, line(strain)), factor).predict(impact)
         };
@@ -116,6 +142,7 @@ impl Scene {
             yield_strength: factor * yield_strength,
             hardening_modulus: factor * hardening_modulus,
             line: line(strain),
+            strain,
             strain_rate,
             factor,
         })
@@ -136,7 +163,7 @@ impl Scene {
 
     /// The first contact in an impact, with another quasi-static hardening and rate model. A power law stays as it is.
     pub fn model_in_impact(&self, hardening: QuasiStatic, rate: Option<Rate>, impact: &Impact) -> Option<AnyModel> {
-        if self.power_law.is_none() && rate.is_none() {
+        if self.power_law(0).is_none() && rate.is_none() {
             return Some(self.model_with(hardening));
         }
         let found = self.in_impact_with(0, impact, hardening, rate)?;
@@ -146,11 +173,11 @@ impl Scene {
 
     /// The prediction of `impact` on the first contact with the straight line for another `strain`.
     pub fn predict_with_strain(&self, impact: &Impact, strain: f64, factor: f64) -> Option<Prediction> {
-        let line = self.power_law.map(|law| law.up_to(strain));
-        self.with_strength(0, hardening_of(self.quasi_static[0], line), factor).predict(impact)
+        let line = self.power_law(0).map(|law| law.up_to(strain));
+        self.with_strength(0, hardening_of(self.quasi_static(0), line), factor).predict(impact)
     }
 
-    /// The scene with the strengths that its targets have in its own impact, or all of them in the given one. `None`
+    /// The scene with the strengths that its softer bodies have in its own impact, or all of them in the given one. `None`
     /// beyond the range of the law.
     pub fn with_strengths_for(mut self, given: Option<&Impact>) -> Option<Scene> {
         if !self.depends_on_impact() {
@@ -160,21 +187,26 @@ impl Scene {
         let found = self.by_bodies(|group| self.in_impact(group, &impact(group)));
         let found: Vec<InImpact> = found.into_iter().collect::<Option<_>>()?;
         let finds = self.finds_strength();
-        let set = |parameters: &mut [super::Parameter], group: usize, found: &InImpact| {
-            let slow = hardening_of(self.quasi_static[group], found.line);
+        let flows = (0..self.contacts.len()).map(|group| Both {
+            impactor: self.flow_in(group, Body::Impactor, &found[group]),
+            target: self.flow_in(group, Body::Target, &found[group]),
+        });
+        let flows: Vec<_> = flows.collect();
+        let set = |parameters: &mut [super::Parameter], flow: &Both<QuasiStatic>| {
+            let all = [Body::Impactor, Body::Target].map(|body| (body, *flow.of(body)));
             for parameter in parameters {
-                match parameter.name {
-                    "target.yield_strength" if finds => parameter.value = slow.yield_strength,
-                    "target.hardening_modulus" if finds => parameter.value = slow.hardening_modulus,
-                    "target.yield_strength" => parameter.value = found.yield_strength,
-                    "target.hardening_modulus" => parameter.value = found.hardening_modulus,
-                    _ => {}
+                for (body, flow) in all {
+                    match parameter.name {
+                        name if name == body.yield_strength() => parameter.value = flow.yield_strength,
+                        name if name == body.hardening_modulus() => parameter.value = flow.hardening_modulus,
+                        _ => {}
+                    }
                 }
             }
         };
-        set(&mut self.parameters, 0, &found[0]);
-        for (group, contacts) in self.contacts.iter_mut().enumerate() {
-            set(&mut contacts.own, group, &found[group]);
+        set(&mut self.parameters, &flows[0]);
+        for (contacts, flow) in self.contacts.iter_mut().zip(&flows) {
+            set(&mut contacts.own, flow);
         }
         if finds {
             self.factors = found.iter().map(|found| found.factor).collect();
@@ -183,9 +215,24 @@ impl Scene {
         Some(self)
     }
 
-    /// Whether the unit finds the strength of its targets by itself, at the first touch of each impact: it knows the mass and
+    /// Yield strength and hardening modulus of a `body` of `group` as parameters of the unit, for the strain and the strain rate
+    /// `found` in the impact.
+    fn flow_in(&self, group: usize, body: Body, found: &InImpact) -> QuasiStatic {
+        let line = self.power_law_of(group, body).map(|law| law.up_to(found.strain));
+        let QuasiStatic { yield_strength, hardening_modulus } = hardening_of(*self.quasi_static[group].of(body), line);
+        let factor = match self.rates.of(body) {
+            Some(_) if self.finds_strength() => 1.0,
+            Some(_) if body == self.softer(group) => found.factor,
+            Some(rate) => rate.factor(found.strain_rate),
+            None => 1.0,
+        };
+        QuasiStatic { yield_strength: factor * yield_strength, hardening_modulus: factor * hardening_modulus }
+    }
+
+    /// Whether the unit finds the strength of its bodies by itself, at the first touch of each impact: it knows the mass and
     /// moves the bodies.
     pub fn finds_strength(&self) -> bool {
-        self.rate.is_some() && self.coupling.is_some() && self.loss.is_none()
+        let has_rate = self.rates.impactor.is_some() || self.rates.target.is_some();
+        has_rate && self.coupling.is_some() && self.loss.is_none()
     }
 }

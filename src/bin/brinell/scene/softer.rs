@@ -1,18 +1,72 @@
-//! Which of the two bodies yields: the softer one, which must be the target.
+//! Which of the two bodies yields: the softer one.
 
 use super::contacts::Contacts;
-use super::file::{File, Impactor, Target};
-use super::numbers::IMPACTOR_STRENGTH;
+use super::numbers::{IMPACTOR_HARDENING, IMPACTOR_STRENGTH};
 use super::{Mistake, Scene};
 use crate::numbers::{cell, quantity};
-use crate::table::{MATERIALS, Material};
 use brinell::contact::impact::Prediction;
 use std::f64::consts::PI;
-use toml::Spanned;
 
-/// The way to a scene in which the softer body is the target.
-const EXCHANGE: &str = "exchange the bodies: the normal contact depends on effective radius and modulus, which stay the same \
-                        (a flat body as impactor is one with radius = 1e9)";
+/// One of the two bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    Impactor,
+    Target,
+}
+
+impl Body {
+    /// The name of its table in a scene.
+    pub fn name(self) -> &'static str {
+        match self {
+            Body::Impactor => "impactor",
+            Body::Target => "target",
+        }
+    }
+
+    /// The name of its yield strength.
+    pub const fn yield_strength(self) -> &'static str {
+        match self {
+            Body::Impactor => "impactor.yield_strength",
+            Body::Target => "target.yield_strength",
+        }
+    }
+
+    /// The name of its hardening modulus.
+    pub const fn hardening_modulus(self) -> &'static str {
+        match self {
+            Body::Impactor => "impactor.hardening_modulus",
+            Body::Target => "target.hardening_modulus",
+        }
+    }
+
+    pub fn other(self) -> Body {
+        match self {
+            Body::Impactor => Body::Target,
+            Body::Target => Body::Impactor,
+        }
+    }
+}
+
+/// A value for each of the two bodies.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Both<T> {
+    pub impactor: T,
+    pub target: T,
+}
+
+impl<T> Both<T> {
+    pub fn of(&self, body: Body) -> &T {
+        match body {
+            Body::Impactor => &self.impactor,
+            Body::Target => &self.target,
+        }
+    }
+}
+
+/// The softer body: the impactor only if its strength is below that of the target.
+pub fn softer_of(impactor_strength: f64, target_strength: f64) -> Body {
+    if impactor_strength < target_strength { Body::Impactor } else { Body::Target }
+}
 
 /// Mean pressure over yield strength at first yield of the law `brinell`, rounded down: the harder body is elastic below.
 const FIRST_YIELD: f64 = 1.07;
@@ -20,85 +74,89 @@ const FIRST_YIELD: f64 = 1.07;
 /// Strengths this close to each other count as equal.
 const EQUAL: f64 = 0.01;
 
-/// Rejects a yield strength of the impactor below that of the target of the contact `index`.
-pub fn check(file: &File, contacts: &Contacts, index: usize) -> Result<(), Mistake> {
-    let Some(impactor) = contacts.number(index, IMPACTOR_STRENGTH) else { return Ok(()) };
-    let own = file.contact.iter().flat_map(|all| all.get_ref()).map(|contact| &contact.get_ref().impactor);
-    let given = file.impactor.iter().map(Spanned::get_ref).chain(own);
-    // that of a material is doubted instead: the scene may mean another heat treatment
-    let is_given = given.filter_map(|body| body.yield_strength.as_ref()).any(|number| number.span() == impactor.span());
-    let Some(target) = contacts.number(index, "target.yield_strength").filter(|_| is_given) else { return Ok(()) };
-    let (strength, other) = (*impactor.get_ref(), *target.get_ref());
-    if strength >= other * (1.0 - EQUAL) {
-        return Ok(());
-    }
-    let message = format!(
-        "impactor.yield_strength = {strength:?} is below target.yield_strength = {other:?}: the softer body must be the target; \
-         {EXCHANGE}"
-    );
-    Err(Mistake(impactor.span(), contacts.said(index, &message)))
-}
-
-/// The doubt about an impactor whose material is softer than the target.
-pub fn doubts(file: &File) -> Vec<Mistake> {
-    let standard = (Impactor::default(), Target::default());
-    let impactor = file.impactor.as_ref().map_or(&standard.0, Spanned::get_ref);
-    let target = file.target.as_ref().map_or(&standard.1, Spanned::get_ref);
-    let strength = |material: Option<&Spanned<String>>| material.and_then(known).map(|known| known.yield_strength);
-    let mut doubts = Vec::new();
-    let mut compare = |owner: &str, one: &Impactor, other: &Target| {
-        let Some(material) = one.material.as_ref().or(impactor.material.as_ref()) else { return };
-        let given = one.yield_strength.as_ref().or(impactor.yield_strength.as_ref()).is_some();
-        let of_target =
-            other.yield_strength.as_ref().or(target.yield_strength.as_ref()).map(|number| *number.get_ref());
-        let of_target = of_target.or_else(|| strength(other.material.as_ref().or(target.material.as_ref())));
-        let (Some(soft), Some(hard)) = (strength(Some(material)), of_target) else { return };
-        if !given && soft < hard * (1.0 - EQUAL) {
-            let message = format!(
-                "{owner}impactor.material = \"{}\" (yield strength {}) is softer than the target ({}), but the target yields; \
-                 {EXCHANGE}, or give impactor.yield_strength",
-                material.get_ref(),
-                quantity(soft, "Pa"),
-                quantity(hard, "Pa")
-            );
-            doubts.push(Mistake(material.span(), message));
-        }
+/// Rejects a strength or a hardening of the impactor of the contact `index` that cannot have an effect. `given` is whether the
+/// scene gives them, rather than by a material.
+pub fn check(contacts: &Contacts, index: usize, given: bool) -> Result<(), Mistake> {
+    let hardening = contacts.number(index, IMPACTOR_HARDENING);
+    let Some(strength) = contacts.number(index, IMPACTOR_STRENGTH) else {
+        return hardening.map_or(Ok(()), |hardening| {
+            let message = "the hardening of the impactor needs impactor.yield_strength, or a material";
+            Err(Mistake(hardening.span(), contacts.said(index, message)))
+        });
     };
-    match &file.contact {
-        None => compare("", impactor, target),
-        Some(contacts) => contacts.get_ref().iter().map(Spanned::get_ref).for_each(|contact| {
-            compare(&format!("{}.", contact.name.get_ref()), &contact.impactor, &contact.target);
-        }),
+    let is_rigid = contacts.number(index, "impactor.youngs_modulus").is_none();
+    let target = contacts.number(index, "target.yield_strength").map_or(f64::INFINITY, |target| *target.get_ref());
+    if given && is_rigid && *strength.get_ref() < target {
+        let message = format!(
+            "impactor.yield_strength = {:?} is that of the softer body, and a rigid impactor cannot yield: give \
+             impactor.youngs_modulus and poissons_ratio, or a material",
+            strength.get_ref()
+        );
+        return Err(Mistake(strength.span(), contacts.said(index, &message)));
     }
-    doubts
+    Ok(())
 }
 
-fn known(name: &Spanned<String>) -> Option<&'static Material> {
-    MATERIALS.iter().find(|material| &material.name == name.get_ref())
+/// The message about bodies of which `softer` is the softer one under a slow load, and not in the scene's impact.
+pub fn exchanged(softer: Body) -> String {
+    let (name, other) = (softer.name(), softer.other().name());
+    format!(
+        "under a slow load the {name} is the softer body, and in the scene's impact the {other}: give the strengths of the impact \
+         (yield_strength) instead of a rate or a power law"
+    )
 }
 
-/// Notes on the impactor of the first contact, whose strength is known, in an impact with this `prediction`.
-pub fn notes(scene: &Scene, prediction: &Prediction) -> Option<String> {
-    let (impactor, target) = (scene.contacts[0].impactor_strength?, scene.yield_strength?);
-    if prediction.residual_indentation <= 0.0 {
-        return None;
+impl Scene {
+    /// The body of `group` that yields.
+    pub fn softer(&self, group: usize) -> Body {
+        self.softer_with(group, &[])
     }
-    let ratio = impactor / target;
-    if (ratio - 1.0).abs() <= EQUAL {
-        return Some(
+
+    /// The same with other values for some of the parameters.
+    pub fn softer_with(&self, group: usize, values: &[(&str, f64)]) -> Body {
+        let strength = |body: Body| {
+            let other = values.iter().find(|(known, _)| *known == body.yield_strength()).map(|(_, value)| *value);
+            other.or_else(|| self.group_value(group, body.yield_strength())).unwrap_or(f64::INFINITY)
+        };
+        softer_of(strength(Body::Impactor), strength(Body::Target))
+    }
+
+    /// The strength of the harder body of `group` [Pa], if it is known.
+    fn harder_strength(&self, group: usize) -> Option<f64> {
+        match self.softer(group) {
+            Body::Impactor => self.group_value(group, Body::Target.yield_strength()),
+            Body::Target => self.contacts[group].impactor_strength,
+        }
+    }
+}
+
+/// Notes on the bodies of the first contact in an impact with this `prediction`.
+pub fn notes(scene: &Scene, prediction: &Prediction) -> Vec<String> {
+    let Some(soft) = scene.yield_strength.filter(|_| prediction.residual_indentation > 0.0) else { return Vec::new() };
+    let softer = scene.softer(0);
+    let (name, other) = (softer.name(), softer.other().name());
+    let mut notes = Vec::new();
+    if softer == Body::Impactor {
+        notes.push("The impactor is the softer body: it yields, and the dent is in the impactor.".into());
+    }
+    let Some(hard) = scene.harder_strength(0) else { return notes };
+    if (hard / soft - 1.0).abs() <= EQUAL {
+        return vec![
             "Both bodies are equally strong and yield alike: force over indentation is the same, and each of them has half of \
              the dent."
                 .into(),
-        );
+        ];
     }
     let radius = prediction.max_contact_radius;
     let pressure = prediction.max_force / (PI * radius * radius);
-    (ratio > 1.0 && pressure > FIRST_YIELD * impactor).then(|| {
-        format!(
-            "The mean pressure reaches {} of the yield strength of the impactor. From {FIRST_YIELD} on it yields, too; the \
-             prediction keeps it elastic. Where both yield, the contact is softer than this, at most as soft as with two bodies \
-             of the strength of the target.",
-            cell(pressure / impactor, 1.0)
-        )
-    })
+    if pressure > FIRST_YIELD * hard {
+        notes.push(format!(
+            "The mean pressure reaches {} times the yield strength of the {other}, {}. From {FIRST_YIELD} on it yields, too; \
+             the prediction keeps it elastic. Where both yield, the contact is softer than this, at most as soft as with two \
+             bodies of the strength of the {name}.",
+            cell(pressure / hard, 1.0),
+            quantity(hard, "Pa")
+        ));
+    }
+    notes
 }

@@ -6,7 +6,7 @@ use crate::model::AnyModel;
 use crate::report::progress::{Progress, Work};
 use crate::report::unit::{self, Contact};
 use crate::report::ways::{LEAP_FROG, Needs};
-use crate::scene::Scene;
+use crate::scene::{Body, Scene};
 use crate::validity::{self, Beyond};
 use brinell::contact::impact::{Impact, Prediction};
 
@@ -37,13 +37,19 @@ impl Bodies {
         let modulus = change.modulus.unwrap_or(old_modulus);
         let radius = change.radius.unwrap_or(old_radius);
         let mass = scene.impact.mass * (radius / old_radius).powi(3);
-        let strain = change.strain.unwrap_or(old("target.yield_strength") / old_modulus);
+        let target_strength = old(Body::Target.yield_strength());
+        let softer_strength = old(scene.softer(0).yield_strength());
+        let strain = change.strain.unwrap_or(softer_strength / old_modulus);
+        // both bodies keep the ratio of their strengths
+        let stronger = strain * modulus / softer_strength;
+        let strength = |body: Body, old: f64| if scene.softer(0) == body { strain * modulus } else { old * stronger };
         let all = [
             ("impactor.radius", radius),
             // a target that is a sphere, or a socket, keeps its shape
             ("target.radius", old("target.radius") * radius / old_radius),
             ("target.youngs_modulus", modulus),
-            ("target.yield_strength", strain * modulus),
+            (Body::Target.yield_strength(), strength(Body::Target, target_strength)),
+            (Body::Impactor.yield_strength(), strength(Body::Impactor, old(Body::Impactor.yield_strength()))),
             ("effective_mass", mass),
         ];
         let mut changed = unit::first_contact(scene, Needs::Force);
@@ -54,7 +60,7 @@ impl Bodies {
                 parameters.push((name, value));
             }
         }
-        let asked = change.strain.is_none() || scene.value("target.yield_strength").is_some();
+        let asked = change.strain.is_none() || scene.value(scene.softer(0).yield_strength()).is_some();
         let impact = Impact { mass, speed: change.speed.unwrap_or(scene.impact.speed) };
         asked.then(|| Bodies { parameters, model: changed.any_model(), impact, density: scene.contacts[0].density })
     }

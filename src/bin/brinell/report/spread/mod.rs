@@ -63,7 +63,7 @@ pub struct Laws<'a> {
     truth: Option<(truth::Impact, YieldPoint)>,
 }
 
-/// The yield point of `scene` as the finite-element results define it, if its target yields.
+/// The yield point of `scene` as the finite-element results define it, if a body yields.
 fn yield_point(scene: &Scene) -> Option<YieldPoint> {
     let pair = Pair { yield_strength: scene.yield_strength?, ..scene.any_model().pair() };
     Some(pair.yield_point(truth::YIELD_PRESSURE_FACTOR))

@@ -1,0 +1,185 @@
+//! Scenes whose impactor may yield, too: the softer body yields.
+
+use crate::command::{empty_folder, run};
+use crate::loaded::{Instance, OK, Unit};
+use crate::physics::Random;
+use crate::refusal::refused_text;
+use crate::unit;
+use serde_json::Value;
+use std::fs;
+
+/// Steel, stronger and stiffer than the aluminium.
+const STEEL: &str = "youngs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 400e6\n";
+const ALUMINIUM: &str = "youngs_modulus = 69e9\npoissons_ratio = 0.36\nyield_strength = 250e6\n";
+const OUTPUTS: [&str; 6] =
+    ["force", "indentation", "residual_indentation", "contact_radius", "work", "dissipated_energy"];
+
+/// A scene with these lines of its bodies, this law, and more tables.
+fn scene(impactor: &str, target: &str, law: &str, more: &str) -> String {
+    let outputs = &OUTPUTS[1..];
+    format!(
+        "name = \"unit\"\n[impactor]\nradius = 5e-3\n{impactor}[target]\n{target}[law]\nloading = {law:?}\n[fmu]\n\
+         outputs = {outputs:?}\n[impact]\nmass = 4.11e-3\nspeed = 2.0\n{more}"
+    )
+}
+
+/// The answer of `predict` for the scene `text`.
+fn predicted(text: &str) -> Value {
+    let folder = empty_folder();
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json()
+}
+
+fn load(name: &str, text: &str) -> Unit {
+    Unit::load(&unit::write_scene(name, text))
+}
+
+/// A random number between two, log-uniform.
+fn between(random: &mut Random, low: f64, high: f64) -> f64 {
+    low * (high / low).powf(random.next())
+}
+
+/// Steps of any size with rates of both signs, and the outputs after each.
+fn history(mut instance: Instance, seed: u64) -> Vec<[f64; 6]> {
+    let mut random = Random(seed);
+    let outputs = OUTPUTS.map(|name| instance.real_of(name));
+    let rate = instance.real_of("indentation_rate");
+    let (mut time, mut all, mut depth) = (0.0, Vec::new(), 0.0);
+    for _ in 0..400 {
+        let (speed, step) = (between(&mut random, 1e-3, 10.0), between(&mut random, 1e-8, 1e-5));
+        let sign = if 1.4 * random.next() - 0.4 > depth * 2e3 { 1.0 } else { -1.0 };
+        assert_eq!(instance.set(&[rate], &[sign * speed]), OK);
+        assert_eq!(instance.step(time, step), OK, "{}", instance.message());
+        time += step;
+        depth += sign * speed * step;
+        let mut values = [0.0; 6];
+        assert_eq!(instance.get(&outputs, &mut values), OK);
+        all.push(values);
+    }
+    assert!(all.iter().any(|values| values[2] > 0.0), "it has yielded");
+    all
+}
+
+#[test]
+fn scenes_with_exchanged_materials_have_the_same_force() {
+    for law in ["brinell", "big-alabo", "ghaednia", "jackson-green"] {
+        let name = |order: &str| format!("{law}-{order}").replace('-', "_");
+        let hardens = if law == "brinell" { "hardening_modulus = 2e9\n" } else { "" };
+        let soft = format!("{ALUMINIUM}{hardens}");
+        let one = load(&name("soft_ball"), &scene(&soft, STEEL, law, ""));
+        let other = load(&name("soft_plate"), &scene(STEEL, &soft, law, ""));
+        for seed in 1..20 {
+            let histories = [one.ready(), other.ready()].map(|instance| history(instance, seed));
+            assert_eq!(histories[0], histories[1], "{law}, {seed}");
+        }
+    }
+}
+
+#[test]
+fn a_parameter_may_make_the_other_body_the_softer_one() {
+    let hard = format!("{STEEL}hardening_modulus = 5e9\n");
+    let soft = format!("{ALUMINIUM}hardening_modulus = 2e9\n");
+    let one = load("soft_ball", &scene(&soft, &hard, "brinell", ""));
+    let other = load("soft_plate", &scene(&hard, &soft, "brinell", ""));
+    let mut random = Random(7);
+    for seed in 0..40 {
+        let (ball, plate) = (between(&mut random, 5e7, 1e9), between(&mut random, 5e7, 1e9));
+        let histories = [
+            one.ready_with(&[("impactor.yield_strength", ball), ("target.yield_strength", plate)]),
+            other.ready_with(&[("impactor.yield_strength", plate), ("target.yield_strength", ball)]),
+        ]
+        .map(|instance| history(instance, seed));
+        assert_eq!(histories[0], histories[1], "{ball} and {plate} Pa");
+        let stronger = one.ready_with(&[("impactor.yield_strength", 1e3 * plate), ("target.yield_strength", plate)]);
+        let elastic = one.ready_with(&[("impactor.yield_strength", 1e8 * plate), ("target.yield_strength", plate)]);
+        assert_eq!(history(stronger, seed), history(elastic, seed), "the strength of the harder body has no effect");
+    }
+}
+
+#[test]
+fn the_prediction_is_that_of_exchanged_bodies_and_the_fmu_agrees_with_it() {
+    let folder = empty_folder();
+    let rate = "rate = { model = \"johnson-cook\", c = 0.014, reference_rate = 1.0 }\n";
+    let power_law = "youngs_modulus = 69e9\npoissons_ratio = 0.36\npower_law = { coefficient = 5e8, exponent = 0.2 }\n";
+    let rated = format!("{ALUMINIUM}{rate}");
+    let strong = STEEL.replace("400e6", "900e6");
+    let coupled = "[coupling]\neffective_mass = 4.11e-3\n";
+    for (soft, law, more) in [
+        (ALUMINIUM, "big-alabo", ""),
+        (power_law, "brinell", ""),
+        (&rated, "brinell", ""),
+        (&rated, "brinell", coupled),
+        (&rated, "thornton", coupled),
+        (ALUMINIUM, "jackson-green", coupled),
+    ] {
+        let text = scene(soft, &strong, law, more);
+        let (one, other) = (predicted(&text), predicted(&scene(&strong, soft, law, more)));
+        assert_eq!(one["laws"], other["laws"], "{soft} {law}");
+        assert_eq!(one["strength"], other["strength"], "{soft} {law}");
+        assert!(one["notes"].to_string().contains("the dent is in the impactor"), "{one}");
+        assert!(!other["notes"].to_string().contains("the dent is in the impactor"), "{other}");
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
+        run(folder.path(), ["check", "unit.fmu"]).with_status(0);
+    }
+}
+
+#[test]
+fn a_target_without_a_strength_stays_elastic_under_an_impactor_that_yields() {
+    let hard = "youngs_modulus = 206e9\npoissons_ratio = 0.3\n";
+    let one = predicted(&scene(ALUMINIUM, hard, "big-alabo", ""));
+    let other = predicted(&scene(hard, ALUMINIUM, "big-alabo", ""));
+    assert_eq!(one["laws"], other["laws"]);
+}
+
+#[test]
+fn the_strength_of_a_material_is_a_parameter_only_if_it_is_below_that_of_the_target() {
+    let constants = |impactor: &str| {
+        let folder = empty_folder();
+        fs::write(folder.path().join("scene.toml"), scene(impactor, STEEL, "big-alabo", "")).unwrap();
+        run(folder.path(), ["constants", "scene.toml"]).with_status(0).out
+    };
+    for (impactor, is_parameter) in [
+        ("material = \"aluminium 6061-T6\"\n", true),
+        ("material = \"titanium Ti-6Al-4V\"\n", false),
+        ("material = \"titanium Ti-6Al-4V\"\nyield_strength = 880e6\n", true),
+        ("yield_strength = 900e6\n", false),
+        ("", false),
+    ] {
+        assert_eq!(constants(impactor).contains("\"impactor.yield_strength\""), is_parameter, "{impactor}");
+    }
+}
+
+#[test]
+fn each_contact_has_its_own_softer_body() {
+    let contacts = "[[contact]]\nname = \"ball\"\nimpactor = { material = \"aluminium 6061-T6\" }\n\
+                    [[contact]]\nname = \"plate\"\nimpactor = { yield_strength = 900e6 }\n";
+    let text = scene("material = \"titanium Ti-6Al-4V\"\n", STEEL, "big-alabo", contacts);
+    let unit = load("two_contacts", &text);
+    let alone = load("alone", &scene("material = \"aluminium 6061-T6\"\n", STEEL, "big-alabo", ""));
+    let (mut both, mut one) = (unit.ready(), alone.ready());
+    let rates = ["ball.indentation_rate", "plate.indentation_rate"].map(|name| both.real_of(name));
+    let forces = ["ball.force", "plate.force"].map(|name| both.real_of(name));
+    let (rate, force) = (one.real_of("indentation_rate"), one.real_of("force"));
+    let (mut values, mut value) = ([0.0; 2], [0.0]);
+    for step in 0..100 {
+        assert_eq!(both.set(&rates, &[1.0, 1.0]), OK);
+        assert_eq!(one.set(&[rate], &[1.0]), OK);
+        let time = f64::from(step) * 1e-6;
+        assert_eq!((both.step(time, 1e-6), one.step(time, 1e-6)), (OK, OK));
+        both.get(&forces, &mut values);
+        one.get(&[force], &mut value);
+        assert_eq!(values[0], value[0]);
+    }
+    assert!(values[1] > 1.1 * values[0], "the target is stronger than the ball: {values:?}");
+}
+
+#[test]
+fn a_rate_that_exchanges_the_bodies_is_refused() {
+    let rate = "rate = §{ model = \"cowper-symonds\", d = 40.4, q = 5 }\n";
+    let text = scene(&format!("{ALUMINIUM}{rate}"), STEEL, "big-alabo", "").replace("[impact]", "§[impact]");
+    refused_text(
+        &text.replacen('§', "", 1),
+        &["under a slow load the impactor is the softer body", "in the scene's impact the target", "yield_strength"],
+    );
+}
