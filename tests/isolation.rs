@@ -13,9 +13,21 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use std::{env, fs, thread};
 
+/// Removes the libraries of FMUs from the folder `cache`, so that the next export compiles.
+fn forget(cache: &Path) {
+    for name in contents(cache).iter().filter(|name| name.starts_with("library-")) {
+        fs::remove_file(cache.join(name)).unwrap();
+    }
+}
+
 #[test]
 fn the_same_scene_gives_the_same_bytes() {
-    assert_same(&exported(|command| command), &exported(|command| command));
+    let own = empty_folder();
+    let export = || exported(|command| command.env("BRINELL_CACHE", own.path()));
+    let (compiled, kept) = (export(), export());
+    forget(own.path());
+    assert_same(&compiled, &kept);
+    assert_same(&compiled, &export());
 }
 
 #[test]
@@ -27,8 +39,9 @@ fn the_cache_does_not_affect_the_fmu() {
 
 #[test]
 fn the_folder_of_temporary_files_does_not_affect_the_fmu() {
-    let other = empty_folder();
-    assert_same(&exported(|command| command), &exported(|command| command.env("TMPDIR", other.path())));
+    let (other, own) = (empty_folder(), empty_folder());
+    let elsewhere = exported(|command| command.env("TMPDIR", other.path()).env("BRINELL_CACHE", own.path()));
+    assert_same(&exported(|command| command), &elsewhere);
     assert!(contents(other.path()).is_empty(), "temporary files were left");
 }
 
@@ -68,6 +81,7 @@ fn no_setting_in_the_environment_affects_the_fmu() {
     let own = empty_folder();
     let exported_with = |settings: &[(&str, &str)]| {
         let settings = settings.iter().copied();
+        forget(own.path());
         exported(|command| command.env("BRINELL_CACHE", own.path()).envs(settings))
     };
     let plain = exported(|command| command);
@@ -164,11 +178,22 @@ fn fmus_do_not_accumulate_in_the_cache() {
     let mut left = contents(own.path());
     left.sort();
     let names: Vec<_> = left.iter().map(|name| name.split('-').next().unwrap()).collect();
-    assert_eq!(names, ["libbrinell", "liblibm"], "{left:?}");
+    assert_eq!(names, ["libbrinell", "liblibm", "library"], "{left:?}");
     // one refers to the other by a hash of all that it holds: both must be the same wherever they were compiled
-    for name in left {
-        let read = |folder: &Path| fs::read(folder.join(&name)).expect("a compiled part");
+    for name in left.iter().take(2) {
+        let read = |folder: &Path| fs::read(folder.join(name)).expect("a compiled part");
         assert!(read(own.path()) == read(&cache()), "{name} depends on its folder");
+    }
+    for number in 0..300 {
+        let path = own.path().join(format!("library-{number}.bin"));
+        fs::write(&path, "").unwrap();
+        set_age(&path, 1 + number);
+    }
+    exported(|command| command.env("BRINELL_CACHE", own.path()));
+    let libraries: Vec<_> = contents(own.path()).into_iter().filter(|name| name.starts_with("library-")).collect();
+    assert_eq!(libraries.len(), 200, "those that were used last");
+    for kept in [&left[2], "library-0.bin", "library-198.bin"] {
+        assert!(libraries.iter().any(|name| name == kept), "{kept}: {libraries:?}");
     }
 }
 
@@ -188,26 +213,35 @@ fn files_that_no_export_uses_any_more_are_removed() {
         set_age(&path, hours);
     }
     let month = 31 * 24;
-    for (name, hours) in [("libbrinell-old.rlib", month), ("libbrinell-new.rlib", month - 48), ("other.txt", month)] {
+    for (name, hours) in [
+        ("libbrinell-old.rlib", month),
+        ("libbrinell-new.rlib", month - 48),
+        ("library-old.bin", month),
+        ("library-new.bin", month - 48),
+        ("other.txt", month),
+    ] {
         let path = own.path().join(name);
         fs::write(&path, "").unwrap();
         set_age(&path, hours);
     }
     exported(|command| command.env("BRINELL_CACHE", own.path()));
     let left = contents(own.path());
-    for kept in ["build-new", "other", "libbrinell-new.rlib", "other.txt"] {
+    for kept in ["build-new", "other", "libbrinell-new.rlib", "library-new.bin", "other.txt"] {
         assert!(left.contains(&kept.into()), "{kept}: {left:?}");
     }
-    for removed in ["build-old", "libbrinell-old.rlib"] {
+    for removed in ["build-old", "libbrinell-old.rlib", "library-old.bin"] {
         assert!(!left.contains(&removed.into()), "{removed}: {left:?}");
     }
-    // an export that uses the parts keeps them
-    let parts: Vec<_> = left.iter().filter(|name| name.ends_with(".rlib") && !name.contains("new")).collect();
-    parts.iter().for_each(|name| set_age(&own.path().join(name), 29 * 24));
-    exported(|command| command.env("BRINELL_CACHE", own.path()));
-    for name in parts {
-        let age = fs::metadata(own.path().join(name)).unwrap().modified().unwrap().elapsed().unwrap_or_default();
-        assert!(age < Duration::from_secs(3600), "{name}: {age:?}");
+    // an export that uses them keeps them: the library alone if it is there, otherwise the parts
+    let used = |ending: &'static str| left.iter().filter(move |name| name.ends_with(ending) && !name.contains("new"));
+    for ending in [".bin", ".rlib"] {
+        used(ending).for_each(|name| set_age(&own.path().join(name), 29 * 24));
+        exported(|command| command.env("BRINELL_CACHE", own.path()));
+        for name in used(ending) {
+            let age = fs::metadata(own.path().join(name)).unwrap().modified().unwrap().elapsed().unwrap_or_default();
+            assert!(age < Duration::from_secs(3600), "{name}: {age:?}");
+        }
+        forget(own.path());
     }
 }
 

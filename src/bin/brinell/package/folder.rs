@@ -20,6 +20,12 @@ const BUILD: &str = "build-";
 /// A build folder older than this belongs to an interrupted export.
 const ABANDONED: Duration = Duration::from_secs(24 * 3600);
 
+/// Prefix of the name of the library of an FMU.
+pub const LIBRARY: &str = "library-";
+
+/// Largest number of libraries that are kept, each of some tens of kilobytes: those that were used last.
+const MOST_LIBRARIES: usize = 200;
+
 /// A compiled part that no export has used for this time belongs to another version of the exporter or the compiler.
 const OUTDATED: Duration = Duration::from_secs(30 * 24 * 3600);
 
@@ -55,19 +61,28 @@ impl Cache {
         Some(path)
     }
 
-    /// Removes the build folders of interrupted exports, and outdated parts. What can't be removed only takes space.
+    /// Removes the build folders of interrupted exports, outdated parts, and the oldest libraries. What can't be removed only takes
+    /// space.
     fn sweep(&self) {
         let Ok(entries) = fs::read_dir(&self.folder) else { return };
+        let mut libraries = Vec::new();
         for entry in entries.flatten() {
             let (path, name) = (entry.path(), entry.file_name());
             let modified = entry.metadata().and_then(|metadata| metadata.modified());
             let age = modified.ok().and_then(|modified| SystemTime::now().duration_since(modified).ok());
             let older = |than: Duration| age.is_some_and(|age| age > than);
-            if name.to_string_lossy().starts_with(BUILD) {
+            if name.to_string_lossy().starts_with(LIBRARY) {
+                libraries.push((age.unwrap_or_default(), path));
+            } else if name.to_string_lossy().starts_with(BUILD) {
                 let _ = if older(ABANDONED) { fs::remove_dir_all(path) } else { Ok(()) };
             } else if path.extension().is_some_and(|extension| extension == "rlib" || extension == "obj") {
                 let _ = if older(OUTDATED) { fs::remove_file(path) } else { Ok(()) };
             }
+        }
+        libraries.sort();
+        let too_many = |place: usize, age: Duration| place >= MOST_LIBRARIES || age > OUTDATED;
+        for (place, (age, path)) in libraries.into_iter().enumerate() {
+            let _ = if too_many(place, age) { fs::remove_file(path) } else { Ok(()) };
         }
     }
 }

@@ -2,11 +2,11 @@
 
 use super::compiler::Compilers;
 use super::error::ExportError;
-use super::folder::Cache;
+use super::folder::{Cache, LIBRARY};
 use super::link::{self, Linker};
 use super::parts::Parts;
 use super::rustc::Rustc;
-use super::{resource, universal};
+use super::{Hash, resource, universal};
 use crate::files::FileError;
 use crate::interrupt::Folder;
 use crate::parallel;
@@ -32,6 +32,9 @@ const COMPACT: [&str; 3] =
 /// Another one for arm64 Linux: code in the order of the source compresses better by 2 %. For macOS, which has another model of
 /// its processors, it doesn't.
 const IN_ORDER_OF_SOURCE: &str = "-Cllvm-args=--enable-misched=false";
+
+/// The file of the version resource.
+const VERSION: &str = "version.res";
 
 /// Number of contacts from which the loops are optimized for speed instead of size.
 const MANY_CONTACTS: usize = 16;
@@ -162,29 +165,74 @@ struct Build<'a> {
 
 impl Build<'_> {
     fn run(&self, source: &Source) -> Result<Vec<u8>, ExportError> {
-        let Build { cache, folder, rustc, linker, target } = self;
+        let arguments = self.arguments(source);
+        // a prebuilt library is made once, and compared with others
+        let known = matches!(source, Source::Scene { .. }).then(|| self.name_in_cache(source, &arguments));
+        let kept = known.as_deref().and_then(|name| self.cache.part(name)).and_then(|path| fs::read(path).ok());
+        if let Some(library) = kept {
+            return Ok(library);
+        }
+        self.compile(source, &arguments)?;
+        let library = self.folder.join(self.file_name(source));
+        if let Some(name) = known {
+            // atomic; without it the next export compiles again
+            let _ = fs::hard_link(&library, self.cache.folder.join(name));
+        }
+        Ok(fs::read(&library).map_err(FileError::at(&library))?)
+    }
+
+    fn file_name(&self, source: &Source) -> String {
+        format!("{}.{}", source.name(), self.target.system.extension())
+    }
+
+    /// The options of all crates of the library.
+    fn options(&self, source: &Source) -> Vec<&'static str> {
+        [&[optimization(source)], source.options(self.target).as_slice()].concat()
+    }
+
+    /// The objects that are linked to the crate of the FMU.
+    fn objects(&self, source: &Source) -> Vec<&'static str> {
+        let windows = self.target.system == System::Windows;
+        let bytes = (windows || source.is_standalone()).then_some(Parts::BYTES_OBJECT);
+        bytes.into_iter().chain(windows.then_some(VERSION)).collect()
+    }
+
+    /// The arguments of the compiler for the crate of the FMU.
+    fn arguments(&self, source: &Source) -> Vec<String> {
+        let Build { folder, rustc, linker, target, cache } = self;
+        let parts = Parts { cache, folder, rustc, target };
+        let library = self.file_name(source);
+        let prebuilt = matches!(source, Source::Kind { .. });
+        let plain = parts.settings().into_iter().chain(self.options(source)).chain(UNIT);
+        let plain = plain.chain(prebuilt.then_some(PREBUILT)).chain(Parts::USED).map(String::from);
+        let linked = link::arguments(target, linker, &library, &self.objects(source), prebuilt);
+        plain.chain(linked).chain([Parts::UNIT_ROOT, "-o", &library].map(String::from)).collect()
+    }
+
+    /// The name of the library in the cache: a hash of all that it is made of.
+    fn name_in_cache(&self, source: &Source, arguments: &[String]) -> String {
+        let memory = if source.is_standalone() { "standalone" } else { "" };
+        let (file, text) = source.file();
+        let all = [self.rustc.identity.as_str(), memory, file, text].into_iter();
+        let all = all
+            .chain(arguments.iter().map(String::as_str))
+            .chain(link::files().into_iter().flat_map(|(name, text)| [name, text]));
+        format!("{LIBRARY}{}.bin", Hash::new().with_all(all.chain(super::sources())).digits())
+    }
+
+    /// Compiles the library in the folder.
+    fn compile(&self, source: &Source, arguments: &[String]) -> Result<(), ExportError> {
+        let Build { cache, folder, rustc, target, .. } = self;
         let parts = Parts { cache, folder, rustc, target };
         parts.create()?;
-        let options = [&[optimization(source)], source.options(target).as_slice()].concat();
-        parts.make_crates(&options, source.is_standalone())?;
+        parts.make_crates(&self.options(source), source.is_standalone())?;
         parts.write(Parts::unit_source().chain([source.file()]).chain(link::files()))?;
-        let mut objects = Vec::new();
-        if target.system == System::Windows || source.is_standalone() {
-            objects.push(parts.make_bytes()?);
+        for object in self.objects(source) {
+            match object {
+                VERSION => parts.write([(VERSION, resource::version(source.name()))].into_iter())?,
+                _ => parts.make_bytes()?,
+            }
         }
-        if target.system == System::Windows {
-            let version = "version.res";
-            parts.write([(version, resource::version(source.name()))].into_iter())?;
-            objects.push(version);
-        }
-        let library = format!("{}.{}", source.name(), target.system.extension());
-        let prebuilt = matches!(source, Source::Kind { .. });
-        let plain = parts.settings().into_iter().chain(options).chain(UNIT);
-        let plain = plain.chain(prebuilt.then_some(PREBUILT)).chain(Parts::USED).map(String::from);
-        let linked = link::arguments(target, linker, &library, &objects, prebuilt);
-        let named = [Parts::UNIT_ROOT, "-o", &library].map(String::from);
-        rustc.run(folder, plain.chain(linked).chain(named), &link::variables(target, folder))?;
-        let library = folder.join(library);
-        Ok(fs::read(&library).map_err(FileError::at(&library))?)
+        rustc.run(folder, arguments, &link::variables(target, folder))
     }
 }

@@ -107,14 +107,16 @@ impl Parts<'_> {
         self.make("libbrinell.rlib", &library, &[LIBRARY_SOURCE, LIBM_SOURCE].concat())
     }
 
-    /// Puts the functions that copy and compare bytes into the folder, and returns the name of their file.
+    /// The file of the functions that copy and compare bytes.
+    pub const BYTES_OBJECT: &'static str = "bytes.obj";
+
+    /// Puts the functions that copy and compare bytes into the folder.
     ///
     /// # Errors
     /// [`ExportError`]
-    pub fn make_bytes(&self) -> Result<&'static str, ExportError> {
-        let file = "bytes.obj";
-        self.make(file, &[BYTES.as_slice(), &[file, BYTES_ROOT.0]].concat(), &[BYTES_ROOT, BYTES_SOURCE])?;
-        Ok(file)
+    pub fn make_bytes(&self) -> Result<(), ExportError> {
+        let file = Parts::BYTES_OBJECT;
+        self.make(file, &[BYTES.as_slice(), &[file, BYTES_ROOT.0]].concat(), &[BYTES_ROOT, BYTES_SOURCE])
     }
 
     /// Puts `file` into the folder: from the cache, otherwise compiled from `sources` with these `arguments` and
