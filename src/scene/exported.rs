@@ -100,6 +100,8 @@ impl Scene for Exported {
             Parameter::Restitution => 1.0,
             Parameter::EffectiveMass => f64::INFINITY,
             Parameter::InitialGap => values[4],
+            Parameter::ElasticRestitution => 1.0,
+            Parameter::TargetPlateThickness => f64::INFINITY,
             Parameter::FrictionCoefficient => 0.0,
         }
     }

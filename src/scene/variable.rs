@@ -31,6 +31,10 @@ pub enum Parameter {
     EffectiveMass,
     /// `initial_gap` \[m\].
     InitialGap,
+    /// `elastic_restitution`, of a loss below yield; 1 without a loss.
+    ElasticRestitution,
+    /// `target.plate_thickness` \[m\]; infinite for a thick target.
+    TargetPlateThickness,
     /// `friction.coefficient`; zero without friction.
     FrictionCoefficient,
 }
@@ -38,6 +42,9 @@ pub enum Parameter {
 impl Parameter {
     /// The number of parameters.
     pub const COUNT: usize = Parameter::FrictionCoefficient as usize + 1;
+
+    /// The number of those that prebuilt libraries have, which come first.
+    pub const PREBUILT: usize = Parameter::InitialGap as usize + 1;
 }
 
 /// A parameter of the scene that can be set, with its limits.

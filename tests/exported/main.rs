@@ -28,6 +28,7 @@ mod hardening;
 mod law_energy;
 mod law_parameters;
 mod long_messages;
+mod loss_parameters;
 mod merge;
 mod parameters_per_contact;
 mod rebounds;

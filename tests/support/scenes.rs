@@ -301,6 +301,8 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
             Parameter::Restitution => choice.restitution,
             Parameter::EffectiveMass => choice.effective_mass,
             Parameter::InitialGap => values[2],
+            Parameter::ElasticRestitution => 1.0,
+            Parameter::TargetPlateThickness => f64::INFINITY,
             Parameter::FrictionCoefficient => choice.friction,
         }
     }

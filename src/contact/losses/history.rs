@@ -37,7 +37,7 @@ impl<K: Loss> History<K> {
         let mut history = History {
             plastic: contact::History::start(&model.plastic, gap)?,
             loss: model.loss,
-            factor: model.loss.factor(&model.plastic.pair),
+            factor: model.loss.factor(),
             swiftest: 0.0,
             bend: 0.0,
             heat: Sum::new(0.0),

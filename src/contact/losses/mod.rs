@@ -19,7 +19,6 @@ pub use bodies::follow;
 pub use history::History;
 
 use super::damped::hunt_crossley::DampingFactor;
-use super::material::Pair;
 use super::numbers::{largest, quotient};
 use libm::{fabs, sqrt};
 
@@ -51,8 +50,19 @@ pub trait Loss: Copy {
     /// The form of the loss.
     fn form(&self) -> Form;
 
-    /// The factor of the form for these bodies: `chi` \[-\], `kappa` \[m.s/N\] or `alpha` \[m/(N.s)\].
-    fn factor(&self, pair: &Pair) -> f64;
+    /// The factor of the form: `chi` \[-\], `kappa` \[m.s/N\] or `alpha` \[m/(N.s)\].
+    fn factor(&self) -> f64;
+}
+
+/// The material of a target that carries energy away. It is not always the body that yields.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solid {
+    /// Density \[kg/m^3\] > 0.
+    pub density: f64,
+    /// Young's modulus \[Pa\] > 0.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio \[-\], above -1 and at most 0.5.
+    pub poissons_ratio: f64,
 }
 
 /// A damping for a given restitution: `F = F_s (1 + chi v/v0)`.
@@ -79,7 +89,7 @@ impl Loss for Fitted {
         Form::Proportional
     }
 
-    fn factor(&self, _pair: &Pair) -> f64 {
+    fn factor(&self) -> f64 {
         DampingFactor::Exact.chi(self.restitution)
     }
 }
@@ -99,8 +109,8 @@ impl Loss for Fitted {
 /// Phys. Solids* 5 (1957) 162-171, and J. Reed, *J. Phys. D* 18 (1985) 2329-2337, for the impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Waves {
-    /// Density of the target \[kg/m^3\] > 0.
-    pub density: f64,
+    /// The half-space.
+    pub target: Solid,
 }
 
 /// The coefficients of `Q(nu)`, from `fit/fit_waves.py`.
@@ -114,11 +124,11 @@ impl Loss for Waves {
         Form::Radiation
     }
 
-    fn factor(&self, pair: &Pair) -> f64 {
-        let nu = pair.poissons_ratio;
+    fn factor(&self) -> f64 {
+        let Solid { density, youngs_modulus, poissons_ratio: nu } = self.target;
         let number = RADIATION.iter().rev().fold(0.0, |sum, coefficient| sum * nu + coefficient);
-        let shear_speed = sqrt(pair.youngs_modulus / (2.0 * self.density * (1.0 + nu)));
-        number / (self.density * shear_speed * shear_speed * shear_speed)
+        let shear_speed = sqrt(youngs_modulus / (2.0 * density * (1.0 + nu)));
+        number / (density * shear_speed * shear_speed * shear_speed)
     }
 }
 
@@ -133,8 +143,8 @@ impl Loss for Waves {
 /// Reference: C. Zener, *Phys. Rev.* 59 (1941) 669-673.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plate {
-    /// Density of the plate \[kg/m^3\] > 0.
-    pub density: f64,
+    /// The material of the plate.
+    pub target: Solid,
     /// Its thickness \[m\] > 0.
     pub thickness: f64,
 }
@@ -147,9 +157,9 @@ impl Loss for Plate {
         Form::Mobility
     }
 
-    fn factor(&self, pair: &Pair) -> f64 {
-        let nu = pair.poissons_ratio;
-        let inertia = sqrt(pair.youngs_modulus * self.density);
+    fn factor(&self) -> f64 {
+        let Solid { density, youngs_modulus, poissons_ratio: nu } = self.target;
+        let inertia = sqrt(youngs_modulus * density);
         sqrt(3.0 * (1.0 - nu * nu)) / (4.0 * self.thickness * self.thickness * inertia)
     }
 }
@@ -176,11 +186,11 @@ impl Loss for AnyLoss {
         }
     }
 
-    fn factor(&self, pair: &Pair) -> f64 {
+    fn factor(&self) -> f64 {
         match self {
-            AnyLoss::Fitted(loss) => loss.factor(pair),
-            AnyLoss::Waves(loss) => loss.factor(pair),
-            AnyLoss::Plate(loss) => loss.factor(pair),
+            AnyLoss::Fitted(loss) => loss.factor(),
+            AnyLoss::Waves(loss) => loss.factor(),
+            AnyLoss::Plate(loss) => loss.factor(),
         }
     }
 }

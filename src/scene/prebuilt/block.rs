@@ -59,11 +59,11 @@ pub struct Data {
     /// Density of the target \[kg/m^3\]; NaN if unknown.
     pub density: f64,
     /// The values of all parameters, in the order of [`Parameter`].
-    pub starts: [f64; Parameter::COUNT],
+    pub starts: [f64; Parameter::PREBUILT],
     /// The smallest value of each parameter that can be set.
-    pub minima: [f64; Parameter::COUNT],
+    pub minima: [f64; Parameter::PREBUILT],
     /// The largest value of each parameter that can be set.
-    pub maxima: [f64; Parameter::COUNT],
+    pub maxima: [f64; Parameter::PREBUILT],
     /// The meaning of each value reference: the index of a variable in the table of variables, or a parameter.
     pub variables: [u8; VARIABLES],
     /// The GUID.
@@ -142,9 +142,9 @@ impl Data {
         settable: 0,
         impact_mass: f64::NAN,
         density: f64::NAN,
-        starts: [0.0; Parameter::COUNT],
-        minima: [0.0; Parameter::COUNT],
-        maxima: [0.0; Parameter::COUNT],
+        starts: [0.0; Parameter::PREBUILT],
+        minima: [0.0; Parameter::PREBUILT],
+        maxima: [0.0; Parameter::PREBUILT],
         variables: [NO_VARIABLE; VARIABLES],
         guid: [0; GUID],
         texts: [0; TEXTS],
@@ -158,7 +158,7 @@ impl Data {
 
     /// Whether this parameter can be set.
     pub fn is_settable(&self, parameter: usize) -> bool {
-        parameter < Parameter::COUNT && self.settable >> parameter & 1 != 0
+        parameter < Parameter::PREBUILT && self.settable >> parameter & 1 != 0
     }
 
     /// The text with this index; empty after the last one.
@@ -189,4 +189,4 @@ fn checksum(data: impl Iterator<Item = u64>) -> u64 {
     data.fold(0xcbf2_9ce4_8422_2325, |sum, word| (sum ^ word).wrapping_mul(0x100_0000_01b3))
 }
 
-const _: () = assert!(size_of::<Block>() == 8 * (HEAD + 5 + 3 * Parameter::COUNT + (VARIABLES + GUID + TEXTS) / 8));
+const _: () = assert!(size_of::<Block>() == 8 * (HEAD + 5 + 3 * Parameter::PREBUILT + (VARIABLES + GUID + TEXTS) / 8));

@@ -72,7 +72,7 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
 
     type Contacts<T: Copy> = [T; 1];
     type Groups<T: Copy> = [T; 1];
-    type Values = [f64; Parameter::COUNT];
+    type Values = [f64; Parameter::PREBUILT];
 
     type Forces = super::Absent;
     type Momentum = K::Momentum;
@@ -166,7 +166,7 @@ impl<K: Kind, B: Source> Scene for Prebuilt<K, B> {
         let place = Self::place(value_reference)?;
         let variable = match place.checked_sub(FIRST_PARAMETER) {
             None => K::real(place)?,
-            Some(parameter) if usize::from(parameter) < Parameter::COUNT => Real::Parameter(parameter.into()),
+            Some(parameter) if usize::from(parameter) < Parameter::PREBUILT => Real::Parameter(parameter.into()),
             Some(_) => return None,
         };
         Some((variable, 0))

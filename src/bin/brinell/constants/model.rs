@@ -49,18 +49,21 @@ pub fn kind_of(loss: Loss) -> &'static str {
 
 /// The expression of a model with this `loss`, from that of its `plastic` part.
 fn with_loss(loss: Loss, plastic: &str) -> String {
-    let density = "density: Self::density(group).unwrap_or(f64::NAN)";
-    let fields = match loss {
-        Loss::Fitted(restitution) => format!("restitution: {}", literal(restitution)),
-        Loss::Waves => density.into(),
-        Loss::Plate(thickness) => format!("{density}, thickness: {}", literal(thickness)),
+    let value = "let value = |which| Self::parameter(which, group, values);\n";
+    let target = "let target = losses::Solid {\n    density: Self::density(group).unwrap_or(f64::NAN),\n    \
+                  youngs_modulus: value(Parameter::TargetYoungsModulus),\n    \
+                  poissons_ratio: value(Parameter::TargetPoissonsRatio),\n};\n";
+    let (target, fields) = match loss {
+        Loss::Fitted(_) => ("", "restitution: value(Parameter::ElasticRestitution)"),
+        Loss::Waves => (target, "target"),
+        Loss::Plate(_) => (target, "target, thickness: value(Parameter::TargetPlateThickness)"),
     };
     let (first, last) = plastic.split_once(";\n").unwrap_or(("", plastic));
     let first = if first.is_empty() { String::new() } else { format!("{first};\n") };
-    // a fitted restitution is the same for all groups
-    let unused = if matches!(loss, Loss::Fitted(_)) { "let _ = group;\n" } else { "" };
     let kind = kind_of(loss);
-    format!("{unused}{first}let plastic = {last};\nlosses::Model {{ plastic, loss: losses::{kind} {{ {fields} }} }}")
+    format!(
+        "{value}{target}{first}let plastic = {last};\nlosses::Model {{ plastic, loss: losses::{kind} {{ {fields} }} }}"
+    )
 }
 
 /// The model of a group.
@@ -74,8 +77,8 @@ pub fn add_model(file: &mut File, scene: &Scene) {
     }
     let (group, surface) = groups::surface(file, scene);
     let chooses_rate = scene.finds_strength() && scene.has_two_strengths();
-    let needs_group = scene.is_strengthened() || scene.has_friction() || chooses_rate;
-    let group = if needs_group || scene.loss.is_some() { "group" } else { group };
+    let needs_group = scene.is_strengthened() || scene.has_friction() || chooses_rate || scene.loss.is_some();
+    let group = if needs_group { "group" } else { group };
     let values = if needs_group { "values" } else { "_values" };
     let hardening_modulus = "Self::hardening_modulus(group, values)";
     let plastic = model_of(scene, hardening_modulus, &format!("surface: {surface}"));

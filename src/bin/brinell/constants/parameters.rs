@@ -8,8 +8,8 @@ use crate::table::{self, Causality, Variable};
 use std::fmt::Write;
 
 /// What the parameters stand for that a scene hasn't got: a rigid impactor, a flat target, bodies that never yield
-/// or don't harden, no damping, no friction.
-const ABSENT: [(&str, f64); 10] = [
+/// or don't harden, no damping, no loss below yield, no friction.
+const ABSENT: [(&str, f64); 12] = [
     ("impactor.youngs_modulus", f64::INFINITY),
     ("impactor.poissons_ratio", 0.0),
     ("impactor.yield_strength", f64::INFINITY),
@@ -19,6 +19,8 @@ const ABSENT: [(&str, f64); 10] = [
     ("target.hardening_modulus", 0.0),
     ("restitution", 1.0),
     ("effective_mass", f64::INFINITY),
+    ("elastic_restitution", 1.0),
+    ("target.plate_thickness", f64::INFINITY),
     ("friction.coefficient", 0.0),
 ];
 

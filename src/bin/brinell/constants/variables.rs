@@ -176,6 +176,8 @@ mod tests {
             Restitution,
             EffectiveMass,
             InitialGap,
+            ElasticRestitution,
+            TargetPlateThickness,
             FrictionCoefficient,
         ];
         match all[0] {
@@ -192,6 +194,8 @@ mod tests {
             | Restitution
             | EffectiveMass
             | InitialGap
+            | ElasticRestitution
+            | TargetPlateThickness
             | FrictionCoefficient => {}
         }
         let names: Vec<_> = all.iter().map(|parameter| format!("{parameter:?}")).collect();

@@ -8,6 +8,7 @@ use crate::scene::Scene;
 use crate::table::{Causality, VARIABLES};
 use brinell::contact::Surface;
 use brinell::contact::damped::AnyDamped;
+use brinell::scene::Parameter;
 use brinell::scene::identity_of;
 use brinell::scene::prebuilt::block::{Data, FIRST_PARAMETER, Flag, GUID, TEXTS, VARIABLES as PLACES};
 
@@ -114,7 +115,7 @@ pub fn data_of(plan: &Plan, guid: &str) -> Result<Data, NeedsCompiler> {
     data.impact_mass = if scene.watches { scene.impact.mass } else { f64::NAN };
     let mut texts = String::new();
     let is_parameter = |entry: &&Entry| entry.variable.causality == Causality::Parameter;
-    for (place, variable) in parameters().enumerate() {
+    for (place, variable) in parameters().take(Parameter::PREBUILT).enumerate() {
         data.starts[place] = start_value(scene, 0, &variable.name);
         let entry = plan.variables.iter().filter(is_parameter).find(|entry| entry.variable.name == variable.name);
         if let Some(entry) = entry {

@@ -194,7 +194,10 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
     })?;
     let is_strength = |name: &str| [Body::Impactor, Body::Target].iter().any(|body| body.yield_strength() == name);
     let strength = bodies.iter().any(|(name, _)| is_strength(name)).then_some(pair.yield_strength);
-    let model = choice.model.on(pair, strength);
+    let mut model = choice.model.on(pair, strength);
+    if let (AnyModel::Lossy(lossy), Some(loss)) = (&mut model, scene.loss_with(0, bodies)) {
+        lossy.loss = loss;
+    }
     // a strength may make the other body the softer one, which hardens by another modulus
     let name = scene.softer_with(0, bodies).hardening_modulus();
     match bodies.iter().find(|(known, _)| *known == name) {
@@ -211,6 +214,7 @@ fn why_absent(name: &str) -> &'static str {
     match name {
         "target.yield_strength" => "the law has no yield strength",
         "impactor.yield_strength" => "the scene doesn't give it, so that the impactor never yields",
+        "elastic_restitution" | "target.plate_thickness" => "the scene has no such loss below yield",
         HARDENING | "impactor.hardening_modulus" => "the law has no hardening, or the scene gives none; brinell has",
         _ => "the impactor of the scene is rigid; give youngs_modulus and poissons_ratio, or a material",
     }

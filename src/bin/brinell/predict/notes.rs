@@ -33,9 +33,7 @@ fn loss(scene: &Scene, impact: &Impact) -> Option<String> {
     let restitution = elastic.restitution(impact).map_or("unknown".into(), |restitution| cell(restitution, 1.0));
     let more = match (loss, elastic) {
         (Loss::Plate(_), AnyModel::Lossy(model)) => {
-            let pair = model.plastic.pair;
-            let mobility = model.loss.factor(&pair);
-            format!(" The plate gives way at {} m/s per newton.", cell(mobility, 1.0))
+            format!(" The plate gives way at {} m/s per newton.", cell(model.loss.factor(), 1.0))
         }
         _ => String::new(),
     };

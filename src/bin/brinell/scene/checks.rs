@@ -5,7 +5,7 @@ use super::coupling;
 use super::file::{File, ImpactTable, NamesName};
 use super::friction;
 use super::laws;
-use super::losses;
+use super::losses::{self, Loss};
 use super::numbers::IMPACTOR_DENSITY;
 use super::softer::{self, Body, Both};
 use super::{Mistake, Parameter, QuasiStatic, Scene};
@@ -72,6 +72,9 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     let mass = known_mass.or(mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass)));
     contacts.check_masses(mass.is_some())?;
     let is_input = |name: &str| name == "effective_mass" && coupling.is_some_and(|coupling| coupling.mass_input);
+    if let Some((name, value)) = loss.and_then(Loss::parameter) {
+        parameters.push(Parameter::shared(name, value, true));
+    }
     for (name, value) in [("restitution", file.law.restitution.clone()), ("effective_mass", mass)] {
         let Some(value) = value else { continue };
         check_limits(name, "", &value)?;

@@ -5,15 +5,15 @@ use super::file::{File, Target};
 use super::{Mistake, Scene};
 use crate::model::AnyModel;
 use crate::numbers::quantity;
-use brinell::contact::Model;
 use brinell::contact::damped::Damped;
 use brinell::contact::loading::AnyLoading;
-use brinell::contact::losses::{self, AnyLoss, Fitted, Plate, Waves};
+use brinell::contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
 use brinell::contact::unloading::AnyUnloading;
+use brinell::contact::{Body, Model};
 use std::ops::RangeInclusive;
 use toml::{Spanned, Value};
 
-/// A loss of a scene. Density and bodies are those of each contact.
+/// A loss of a scene, with the start value of its parameter. Density and bodies are those of each contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Loss {
     /// A damping for this restitution.
@@ -23,6 +23,10 @@ pub enum Loss {
     /// A plate of this thickness [m].
     Plate(f64),
 }
+
+/// The names of the parameters.
+pub const RESTITUTION: &str = "elastic_restitution";
+pub const THICKNESS: &str = "target.plate_thickness";
 
 /// Allowed restitutions.
 const RESTITUTIONS: RangeInclusive<f64> = 0.001..=1.0;
@@ -92,12 +96,12 @@ impl Loss {
         !matches!(self, Loss::Fitted(_))
     }
 
-    /// The loss for a target of this density [kg/m^3].
-    pub fn of_density(self, density: f64) -> AnyLoss {
+    /// Its parameter in the FMU with the start value, if it has one.
+    pub fn parameter(self) -> Option<(&'static str, f64)> {
         match self {
-            Loss::Fitted(restitution) => AnyLoss::Fitted(Fitted { restitution }),
-            Loss::Waves => AnyLoss::Waves(Waves { density }),
-            Loss::Plate(thickness) => AnyLoss::Plate(Plate { density, thickness }),
+            Loss::Fitted(restitution) => Some((RESTITUTION, restitution)),
+            Loss::Waves => None,
+            Loss::Plate(thickness) => Some((THICKNESS, thickness)),
         }
     }
 
@@ -154,12 +158,25 @@ impl Scene {
 
     /// The contact of `group` by an elastoplastic `model`, with the loss of the scene.
     pub fn with_loss(&self, group: usize, model: Model<AnyLoading, AnyUnloading>) -> AnyModel {
-        match self.loss {
+        match self.loss_with(group, &[]) {
             None => AnyModel::Elastoplastic(model),
-            Some(loss) => {
-                let loss = loss.of_density(self.contacts[group].density.unwrap_or(f64::NAN));
-                AnyModel::Lossy(losses::Model { plastic: model, loss })
-            }
+            Some(loss) => AnyModel::Lossy(losses::Model { plastic: model, loss }),
         }
+    }
+
+    /// The loss of the contacts of `group`, with other values for some of the parameters.
+    pub fn loss_with(&self, group: usize, values: &[(&str, f64)]) -> Option<AnyLoss> {
+        let value = |name: &str| {
+            let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
+            other.or_else(|| self.group_value(group, name)).unwrap_or(f64::NAN)
+        };
+        let [_, Body { youngs_modulus, poissons_ratio, .. }] = self.bodies_with(group, values);
+        let density = self.contacts[group].density.unwrap_or(f64::NAN);
+        let target = Solid { density, youngs_modulus, poissons_ratio };
+        Some(match self.loss? {
+            Loss::Fitted(_) => AnyLoss::Fitted(Fitted { restitution: value(RESTITUTION) }),
+            Loss::Waves => AnyLoss::Waves(Waves { target }),
+            Loss::Plate(_) => AnyLoss::Plate(Plate { target, thickness: value(THICKNESS) }),
+        })
     }
 }
