@@ -1,4 +1,5 @@
-//! The book, built by a pinned version of mdBook, which the first run compiles into the target folder.
+//! The book, built by a pinned version of mdBook, which the first run compiles into the target folder. That takes as long as a
+//! tenth of all tests, so it is not part of a usual run.
 
 use crate::python::target_folder;
 use crate::root;
@@ -38,6 +39,7 @@ fn mdbook() -> PathBuf {
 }
 
 #[test]
+#[ignore = "compiles mdBook: cargo test --release --test guide -- --ignored"]
 fn the_book_builds_without_a_warning() {
     let book = tempfile::tempdir().expect("a folder for the book");
     let text = succeed(Command::new(mdbook()).arg("build").arg(root().join("docs")).arg("--dest-dir").arg(book.path()));

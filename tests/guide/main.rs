@@ -1,5 +1,5 @@
 //! README and guide: links are valid, code runs with the output shown, tables agree with `modelDescription/`, and the book
-//! builds.
+//! builds (on request).
 //!
 //! `BRINELL_WRITE=1 cargo test --release --test guide` rewrites tables and outputs instead of comparing them.
 

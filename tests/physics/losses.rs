@@ -79,7 +79,6 @@ fn lost_in_hertz(speed: f64, power: impl Fn(f64, f64, f64) -> f64) -> f64 {
 
 #[test]
 fn waves_and_plate_take_the_energy_of_their_theories_from_an_elastic_impact() {
-    let pair = mild();
     let waves = Waves { target: steel() };
     let kappa = waves.factor();
     for speed in [1e-4, 1e-2, 1.0] {
