@@ -104,10 +104,10 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
         let follows_at_start = damped_at_start || variable.follows_rate == Follows::AtStart;
         let is_listed = |name: &str| variable.depends_on.iter().any(|other| other == "*" || other == name);
         let depends = |name: &str| match name {
-            // it affects only the damping
-            "restitution" => damped_at_start,
-            // without a tangential motion there is no tangential force
-            "friction.coefficient" => false,
+            // they affect only the damping
+            "restitution" | "elastic_restitution" => damped_at_start,
+            // without a motion the plate doesn't give way, and there is no tangential force
+            "target.plate_thickness" | "friction.coefficient" => false,
             "effective_mass" => {
                 damped_at_start && scene.damped.is_some() || is_listed(name) && elastic_part_follows_mass(scene)
             }
