@@ -55,10 +55,10 @@ pub fn site_packages_file(path: &str) -> PathBuf {
 /// # Errors
 /// The reason why it cannot be created.
 pub fn environment_of(name: &str, requirements: &Path) -> Result<PathBuf, String> {
-    environment(name, &read(requirements)?, |interpreter| {
+    environment(name, &read(requirements)?, &[], |interpreter| {
         let hint =
             format!("{} can't be installed; the first run needs the Python Package Index", requirements.display());
-        succeed(pip(interpreter).arg("-r").arg(requirements), &hint).map(|_| true)
+        succeed(pip(interpreter, interpreter).arg("-r").arg(requirements), &hint).map(|_| true)
     })
 }
 
@@ -68,13 +68,15 @@ pub fn environment_of(name: &str, requirements: &Path) -> Result<PathBuf, String
 /// # Errors
 /// The reason why the environment cannot be created.
 pub fn environment_beside(name: &str, more: &Path) -> Result<PathBuf, String> {
-    let packages = packages_of(&python())?;
+    let common = python();
+    let packages = packages_of(&common)?;
     let wanted = [read(Path::new(REQUIREMENTS))?, read(more)?].concat();
-    environment(name, &wanted, |interpreter| {
+    // the installer of the common environment installs here, too
+    environment(name, &wanted, &["--without-pip"], |interpreter| {
         // a path file: its lines are added to those where Python looks for packages
         let link = Path::new(&packages_of(interpreter)?).join("of_the_tests.pth");
         fs::write(link, &packages).expect("the target folder can be written to");
-        Ok(install_what_can_be(interpreter, more))
+        Ok(install_what_can_be(&common, interpreter, more))
     })
 }
 
@@ -91,10 +93,11 @@ fn read(path: &Path) -> Result<Vec<u8>, String> {
 }
 
 /// The interpreter of the virtual environment `name`. If it does not exist, or was made for something other than `wanted`, it is created
-/// and filled by `install`, which returns whether it is complete.
+/// with these `options`, and filled by `install`, which returns whether it is complete.
 fn environment(
     name: &str,
     wanted: &[u8],
+    options: &[&str],
     install: impl FnOnce(&Path) -> Result<bool, String>,
 ) -> Result<PathBuf, String> {
     let folder = target_folder().join(name);
@@ -109,26 +112,28 @@ fn environment(
     }
     let _ = fs::remove_dir_all(&folder);
     let hint = "the tests in Python need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
-    succeed(Command::new("python3").args(["-m", "venv"]).arg(&folder), hint)?;
+    succeed(Command::new("python3").args(["-m", "venv"]).args(options).arg(&folder), hint)?;
     if install(&interpreter)? {
         fs::write(&marker, wanted).expect("the target folder can be written to");
     }
     Ok(interpreter)
 }
 
-fn pip(interpreter: &Path) -> Command {
-    let mut command = Command::new(interpreter);
+/// The installer of the environment of `common`, for that of `interpreter`.
+fn pip(common: &Path, interpreter: &Path) -> Command {
+    let mut command = Command::new(common);
+    command.args(["-m", "pip", "--python"]).arg(interpreter).arg("install");
     // modules are compiled when a test imports them; most never are
-    command.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile"]);
+    command.args(["--quiet", "--disable-pip-version-check", "--no-compile"]);
     command
 }
 
-/// Installs all of `file`, or each of its lines that can be installed. Returns whether all could.
-fn install_what_can_be(interpreter: &Path, file: &Path) -> bool {
+/// Installs all of `file`, or each of its lines that can be installed, with the installer of `common`. Returns whether all could.
+fn install_what_can_be(common: &Path, interpreter: &Path, file: &Path) -> bool {
     let installs = |command: &mut Command| command.output().is_ok_and(|output| output.status.success());
     // nothing is compiled here
     let ready = || {
-        let mut command = pip(interpreter);
+        let mut command = pip(common, interpreter);
         command.args(["--only-binary", ":all:"]);
         command
     };

@@ -8,9 +8,11 @@ use crate::platform::Target;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::OnceLock;
 use std::{env, fs};
 
 /// An available compiler.
+#[derive(Clone)]
 pub struct Rustc {
     program: PathBuf,
     /// The folder with its libraries in `lib/rustlib/TARGET`.
@@ -62,9 +64,14 @@ impl Rustc {
     /// # Errors
     /// [`ExportError::NoRustc`], [`ExportError::BrokenRustc`], [`ExportError::OldRustc`]
     pub fn find(cache: &Path) -> Result<Rustc, ExportError> {
+        // an export needs it several times, and each query starts two processes
+        static FOUND: OnceLock<Rustc> = OnceLock::new();
+        if let Some(found) = FOUND.get() {
+            return Ok(found.clone());
+        }
         let beside_cargo = env::var_os("CARGO").map(|cargo| Path::new(&cargo).with_file_name(name()));
         let found = beside_cargo.filter(|path| path.is_absolute() && path.is_file()).unwrap_or_else(|| "rustc".into());
-        Rustc::at(found, cache)
+        Rustc::at(found, cache).map(|found| FOUND.get_or_init(|| found).clone())
     }
 
     /// The compiler `found`.
