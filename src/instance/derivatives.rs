@@ -213,7 +213,8 @@ impl<S: Scene> Instance<S> {
         if Self::MOVES && variable == Real::ClosingSpeed && self.phase() == Phase::Initialization {
             return Some(1.0);
         }
-        if !S::Contact::FOLLOWS_RATE {
+        // bodies that the FMU moves have their own speed
+        if !S::Contact::FOLLOWS_RATE || Self::MOVES && self.own_speed(contact).is_some() {
             return Some(0.0);
         }
         let (damping, model) = (history.damping(rate), self.model(contact));
