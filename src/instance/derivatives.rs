@@ -131,6 +131,7 @@ impl<S: Scene> Instance<S> {
             return Some(history.tangential_derivatives(&model, quantity, &normal, &tangential));
         }
         let along: fn(&S::Contact, &S::Model, f64) -> f64 = match variable {
+            Real::Force if S::Contact::DERIVATIVES < 2 => return Some((stiffness * rate, 0.0)),
             Real::Force => return Some(by_time((stiffness, history.curvature(&model, rate)))),
             Real::Indentation => return Some((rate, slope)),
             Real::MaxIndentation => {
