@@ -1,6 +1,7 @@
 //! The interface of every kind of contact: it starts, moves, returns its force and energies, and can be saved.
 
 use super::history::{Regime, TooDeep};
+use super::numbers::quotient;
 use super::path::Course;
 use super::tangential::{Quantity, Sliding};
 use core::borrow::Borrow;
@@ -255,5 +256,7 @@ pub fn slopes<M, C: Contact<M>>(contact: &C, model: &M, of: impl Fn(&C) -> f64) 
         first += of_first * rise;
         second += of_second * rise;
     }
-    (first / (6.0 * width), second / (width * width))
+    // the square of a width below some 1e-160 is zero, as are the numbers to be divided by it
+    let square = width * width;
+    (first / (6.0 * width), quotient(second, square, square > 0.0, 0.0))
 }

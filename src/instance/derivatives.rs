@@ -131,6 +131,7 @@ impl<S: Scene> Instance<S> {
             return Some(history.tangential_derivatives(&model, quantity, &normal, &tangential));
         }
         let along: fn(&S::Contact, &S::Model, f64) -> f64 = match variable {
+            Real::Force if S::Contact::DERIVATIVES < 2 => return Some((stiffness * rate, 0.0)),
             Real::Force => return Some(by_time((stiffness, history.curvature(&model, rate)))),
             Real::Indentation => return Some((rate, slope)),
             Real::MaxIndentation => {
@@ -213,7 +214,8 @@ impl<S: Scene> Instance<S> {
         if Self::MOVES && variable == Real::ClosingSpeed && self.phase() == Phase::Initialization {
             return Some(1.0);
         }
-        if !S::Contact::FOLLOWS_RATE {
+        // bodies that the FMU moves have their own speed
+        if !S::Contact::FOLLOWS_RATE || Self::MOVES && self.own_speed(contact).is_some() {
             return Some(0.0);
         }
         let (damping, model) = (history.damping(rate), self.model(contact));

@@ -106,7 +106,7 @@ impl<S: Scene> Instance<S> {
     pub fn plain_force(&self, contact: usize) -> Option<f64> {
         let force = match self.contacts.forces.as_ref().get(contact) {
             Some(&force) => force,
-            None => self.histories().get(contact)?.force(*self.rates().get(contact)?),
+            None => self.histories().get(contact)?.force(self.shown_rate(contact)?),
         };
         (self.clock.phase == Phase::StepComplete).then_some(force)
     }
@@ -114,21 +114,33 @@ impl<S: Scene> Instance<S> {
     /// Copies the forces \[N\] of the contacts from `first` on and returns true, if they are stored.
     pub fn copy_plain_forces(&self, first: usize, forces: &mut [f64]) -> bool {
         let end = first.wrapping_add(forces.len());
-        let (Some(histories), Some(rates)) = (self.histories().get(first..end), self.rates().get(first..end)) else {
-            return false;
-        };
+        let Some(histories) = self.histories().get(first..end) else { return false };
         if self.phase() != Phase::StepComplete {
             return false;
         }
         match self.contacts.forces.as_ref().get(first..end) {
             Some(known) => forces.iter_mut().zip(known).for_each(|(force, &known)| *force = known),
             None => {
-                for ((force, history), &rate) in forces.iter_mut().zip(histories).zip(rates) {
-                    *force = history.force(rate);
+                for (contact, (force, history)) in (first..end).zip(forces.iter_mut().zip(histories)) {
+                    *force = history.force(self.shown_rate(contact).unwrap_or(0.0));
                 }
             }
         }
         true
+    }
+
+    /// The speed of bodies that the FMU moves \[m/s\]; `None` before the initialization ends.
+    #[inline(always)]
+    pub(super) fn own_speed(&self, contact: usize) -> Option<f64> {
+        let has_started = !matches!(self.phase(), Phase::Instantiated | Phase::Initialization);
+        self.contacts.endings.as_ref().get(contact).filter(|_| has_started).map(|ending| ending.speed)
+    }
+
+    /// The rate at which outputs that follow it are shown \[m/s\]: the speed of bodies that the FMU moves, otherwise the input.
+    #[inline(always)]
+    pub(super) fn shown_rate(&self, contact: usize) -> Option<f64> {
+        let own = if Self::MOVES && S::Contact::FOLLOWS_RATE { self.own_speed(contact) } else { None };
+        own.or_else(|| self.rates().get(contact).copied())
     }
 
     /// The present value of a variable.
@@ -138,15 +150,16 @@ impl<S: Scene> Instance<S> {
         };
         let momentum = || self.contacts.momenta.as_ref().get(contact);
         let model = self.model(contact);
+        let shown = self.shown_rate(contact).unwrap_or(rate);
         match variable {
             Real::IndentationRate => rate,
-            Real::Force => history.force(rate),
+            Real::Force => history.force(shown),
             Real::Indentation => history.indentation(),
             Real::MaxIndentation => history.max_indentation(),
             Real::ResidualIndentation => history.residual_indentation(&model),
             Real::ContactRadius => history.contact_radius(&model),
-            Real::MeanPressure => history.mean_pressure(&model, rate),
-            Real::Stiffness => history.stiffness(rate),
+            Real::MeanPressure => history.mean_pressure(&model, shown),
+            Real::Stiffness => history.stiffness(shown),
             Real::Work => history.work(&model),
             Real::ElasticEnergy => history.elastic_energy(&model),
             Real::DissipatedEnergy => history.dissipated_energy(&model),
@@ -156,10 +169,7 @@ impl<S: Scene> Instance<S> {
                 None => momentum().map_or(f64::NAN, |momentum| momentum.mean_force),
             },
             Real::PredictedForce => self.predicted_force(contact, history),
-            Real::ClosingSpeed if Self::MOVES => match self.contacts.endings.as_ref().get(contact) {
-                Some(ending) if !matches!(self.phase(), Phase::Instantiated | Phase::Initialization) => ending.speed,
-                _ => rate,
-            },
+            Real::ClosingSpeed if Self::MOVES => self.own_speed(contact).unwrap_or(rate),
             Real::ExternalAcceleration if S::has_input(variable) => self.acceleration(contact, f64::NAN),
             Real::EffectiveMass if S::has_input(variable) => self.mass(contact),
             Real::TangentialRate => history.tangential_course(0).rate,
@@ -190,7 +200,7 @@ impl<S: Scene> Instance<S> {
 
     /// The force \[N\] of `contact`, with the state `history`, at the end of a next step as long as the last one.
     fn predicted_force(&self, contact: usize, history: &S::Contact) -> f64 {
-        let rate = self.rates().get(contact).copied().unwrap_or(0.0);
+        let rate = self.shown_rate(contact).unwrap_or(0.0);
         let end_rate = self.end_of(contact).0;
         // on the branch, a copy of a few numbers is enough
         let mut next = *history;
@@ -227,7 +237,7 @@ impl<S: Scene> Instance<S> {
     pub(super) fn end_of(&self, contact: usize) -> (f64, f64) {
         match self.contacts.curves.as_ref().get(contact) {
             Some(curve) if self.clock.curved => (curve.end_rate, curve.end_slope),
-            _ => (self.rates().get(contact).copied().unwrap_or(0.0), 0.0),
+            _ => (self.shown_rate(contact).unwrap_or(0.0), 0.0),
         }
     }
 

@@ -30,7 +30,7 @@ const CURVES: [Curve; 7] = [
     Curve { name: "nu0.45", poissons_ratio: 0.45, hardening: 0.0, depths: &["10", "82.5"] },
 ];
 
-fn read(name: &str) -> String {
+pub fn read(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
@@ -53,7 +53,7 @@ fn strengthened(pair: Pair, hardening_modulus: f64) -> AnyModel {
 }
 
 /// A rigid sphere on a target like that of [`mild`], with this Poisson's ratio and `H/E`.
-fn on_steel(poissons_ratio: f64, hardening: f64) -> AnyModel {
+pub fn on_steel(poissons_ratio: f64, hardening: f64) -> AnyModel {
     let sphere = Body { radius: 0.005, youngs_modulus: f64::INFINITY, poissons_ratio: 0.3 };
     let target = Body { radius: f64::INFINITY, youngs_modulus: 206e9, poissons_ratio };
     strengthened(Pair::new(&sphere, &target, 300e6).unwrap(), hardening * 206e9)
@@ -84,7 +84,7 @@ impl Curve {
     }
 }
 
-fn force(model: &AnyModel, indentation: f64) -> f64 {
+pub fn force(model: &AnyModel, indentation: f64) -> f64 {
     model.loading.segment(&model.pair, indentation).force(indentation)
 }
 

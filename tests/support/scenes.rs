@@ -7,6 +7,7 @@
 
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::loading::AnyLoading;
+use brinell::contact::losses::{self, AnyLoss};
 use brinell::contact::motion::{Follow, follow};
 use brinell::contact::rate::{self, Rate};
 use brinell::contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
@@ -41,6 +42,8 @@ pub struct Choice {
     pub friction: f64,
     /// The strength over the strain rate, of [`Rated`] contacts.
     pub rate: Rate,
+    /// The loss below yield, of [`Lossy`] contacts.
+    pub loss: AnyLoss,
 }
 
 impl Choice {
@@ -61,6 +64,7 @@ impl Choice {
             initial_gap: 0.0,
             friction: 0.3,
             rate: Rate::CowperSymonds { d: 40.4, q: 5.0 },
+            loss: AnyLoss::Fitted(losses::Fitted { restitution: 0.9 }),
         }
     }
 }
@@ -195,6 +199,37 @@ impl Kind for DampedMassive {
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(damped::follow);
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
         damped::Model { pair, law: chosen().damped, restitution, mass }
+    }
+}
+
+/// A law with a loss below yield.
+pub struct Lossy;
+
+/// The same, moved by its mass.
+pub struct LossyMassive;
+
+type LossyModel = losses::Model<AnyLoading, AnyUnloading, AnyLoss>;
+
+impl Kind for Lossy {
+    type Model = LossyModel;
+    type Contact = losses::History<AnyLoss>;
+    type Course = Absent;
+    type Coupling = Absent;
+    type Watch = Absent;
+    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
+        losses::Model { plastic: elastoplastic(pair), loss: chosen().loss }
+    }
+}
+
+impl Kind for LossyMassive {
+    type Model = LossyModel;
+    type Contact = losses::History<AnyLoss>;
+    type Course = Present;
+    type Coupling = Coupled;
+    type Watch = Absent;
+    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(losses::follow);
+    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
+        Lossy::model(pair, restitution, mass)
     }
 }
 

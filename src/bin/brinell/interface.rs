@@ -99,8 +99,14 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
     let mut reference = 0;
     for variable in shown {
         let mut first = 0;
-        let follows = follows(variable, scene);
-        let damped_at_start = follows && is_damped_at_start(variable, scene);
+        let has_damping = match variable.follows_rate {
+            Follows::Never | Follows::AtStart => false,
+            Follows::WithLaw => scene.follows_rate(),
+            Follows::Always => true,
+        };
+        // bodies that the FMU moves have their own speed from the first step on
+        let follows = has_damping && (scene.coupling.is_none() || variable.follows_rate == Follows::Always);
+        let damped_at_start = has_damping && is_damped_at_start(variable, scene);
         let follows_at_start = damped_at_start || variable.follows_rate == Follows::AtStart;
         let is_listed = |name: &str| variable.depends_on.iter().any(|other| other == "*" || other == name);
         let depends = |name: &str| match name {
@@ -172,15 +178,6 @@ pub fn is_tunable(scene: &Scene, name: &str) -> bool {
 fn start(variable: &Variable, scene: &Scene, group: usize) -> f64 {
     // the mass is the only input with a value in the scene
     scene.group_value(group, &variable.name).unwrap_or(0.0)
-}
-
-/// Whether `variable` depends on the rate at the same instant.
-fn follows(variable: &Variable, scene: &Scene) -> bool {
-    match variable.follows_rate {
-        Follows::Never | Follows::AtStart => false,
-        Follows::WithLaw => scene.follows_rate(),
-        Follows::Always => true,
-    }
 }
 
 /// Whether `variable`, which depends on the rate, depends on the damping of the law before the first step. A damping that

@@ -5,18 +5,21 @@
 
 use super::history::History;
 use super::runge_kutta::{Ended, State, Stretch};
-use super::{Damping, Loss, Model};
+use super::{Damping, Form, Loss, Model};
 use crate::contact::history::TooDeep;
 use crate::contact::loading::Loading;
 use crate::contact::motion::flight::Flight;
 use crate::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome};
-use crate::contact::numbers::largest;
+use crate::contact::numbers::{largest, quotient};
 use crate::contact::piece::Piece;
 use crate::contact::unloading::Unloading;
 use libm::sqrt;
 
 /// The number of evaluations that one evaluation of a law without segments counts for.
 const COSTLY: u32 = 10;
+
+/// Newton's steps to the balance of a plate, which is near.
+const SETTLING: u32 = 3;
 
 /// Largest number of events in a step.
 const MOST_EVENTS: u32 = MOST_EVALUATIONS / 10;
@@ -116,6 +119,8 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
     /// Flight: until the bodies touch the surface, until a fresh surface forgets its dent, or until the end of the time.
     fn fly(&mut self) -> Result<(), TooDeep> {
         let (surface, indentation) = (self.surface(), self.indentation());
+        // every contact has its own largest speed
+        self.contact.swiftest = 0.0;
         let flight = Flight { speed: self.speed, acceleration: self.acceleration };
         let closing = flight.arrival(surface - indentation, self.left);
         let end = closing.map_or(self.left, |arrival| arrival.time);
@@ -133,7 +138,6 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
             self.left -= arrival.time;
             self.way += surface - indentation;
             self.speed = arrival.speed;
-            // every contact has its own largest speed
             self.contact.swiftest = self.speed;
             return self.go_to(surface, true);
         }
@@ -154,6 +158,11 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
         let below = Piece::at(&self.model.plastic, start, largest_so_far, false);
         let rate = self.speed - damping.retreat(below.force(start));
         let net = self.acceleration - below.force(start) * self.inverse_mass;
+        if self.is_stuck(&damping, below.force(start)) {
+            self.taken += self.acceleration * self.left;
+            self.left = 0.0;
+            return Ok(());
+        }
         let rising = match self.turned {
             Some(rising) => rising,
             None if rate != 0.0 => rate > 0.0,
@@ -165,8 +174,17 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
             below
         };
         let (inverse_mass, acceleration) = (self.inverse_mass, self.acceleration);
-        let mut stretch = Stretch { piece: &piece, damping, inverse_mass, acceleration, start, surface, rising };
-        stretch.damping.swiftest = largest(stretch.damping.swiftest, libm::fabs(rate));
+        let mut stretch = Stretch {
+            piece: &piece,
+            damping,
+            inverse_mass,
+            acceleration,
+            start,
+            surface,
+            rising,
+            leads: false,
+            slack: false,
+        };
         let (state, ended) = stretch.run(self.speed, self.left, &mut self.guess, &mut self.evaluations, watch);
         let end = stretch.indentation(&state);
         self.contact.swiftest = stretch.damping.swiftest;
@@ -183,20 +201,56 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
             _ => self.go_to(if end > piece.lower { end } else { piece.lower }, rising)?,
         }
         if ended == Ended::AtRest {
+            if inverse_mass == 0.0 && self.speed > 0.0 {
+                self.settle(&stretch)?;
+            }
             self.rest(&stretch, &state);
         }
         Ok(())
     }
 
-    /// Bodies at rest stay where they are. On a plate they keep the speed at which it gives way to them.
+    /// Puts a contact on a plate where the plate gives way at the speed of the bodies.
+    fn settle(&mut self, stretch: &Stretch<L, U>) -> Result<(), TooDeep> {
+        let before = self.indentation();
+        let mut d = before;
+        for _ in 0..SETTLING {
+            let rate = self.speed - stretch.damping.retreat(stretch.piece.force(d));
+            let easing = stretch.damping.retreat(stretch.piece.stiffness(d));
+            let next = d + quotient(rate, easing, easing > 0.0, 0.0);
+            // the balance is near, and on the same piece
+            let is_near = next > stretch.surface && next < stretch.piece.upper;
+            d = if is_near { next } else { d };
+        }
+        self.retreat -= d - before;
+        let deeper = d >= self.contact.plastic.max_indentation();
+        self.go_to(d, deeper || stretch.rising && d > before)
+    }
+
+    /// Bodies at rest stay where they are. On a plate they keep the speed at which it gives way to them; a given speed stays.
     fn rest(&mut self, stretch: &Stretch<L, U>, state: &State) {
         let (force, _) = stretch.force_and_rate(state);
-        self.speed = stretch.damping.retreat(force);
-        self.way += self.speed * self.left;
-        self.retreat += self.speed * self.left;
-        self.heat += force * self.speed * self.left;
+        if self.inverse_mass > 0.0 {
+            self.speed = stretch.damping.retreat(force);
+        }
+        let way = self.speed * self.left;
+        // the force at which the plate gives way at this speed
+        let mobility = stretch.damping.retreat(1.0);
+        let steady = quotient(self.speed, mobility, mobility > 0.0, 0.0);
+        self.way += way;
+        self.retreat += way;
+        self.heat += steady * way;
         self.taken += self.acceleration * self.left;
         self.left = 0.0;
+    }
+
+    /// Whether bodies at rest cannot move in either direction. The damping has no scale then: like dry friction, it takes up
+    /// any small difference of the forces.
+    fn is_stuck(&self, damping: &Damping, force: f64) -> bool {
+        if damping.form != Form::Proportional || self.speed != 0.0 || damping.swiftest != 0.0 {
+            return false;
+        }
+        let net = |gain: f64| self.acceleration - force * largest(gain, 0.0) * self.inverse_mass;
+        net(1.0 + damping.factor) <= 0.0 && net(1.0 - damping.factor) >= 0.0
     }
 }
 
@@ -219,8 +273,9 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
     // v0^2 - v1^2 without loss of digits
     let kinetic = 0.5 * (speed - end) * (speed + end);
     let spent = mass * (kinetic + acceleration * way);
-    // bodies that stay apart spend nothing; the difference would be rounding
-    let heat = if taken == 0.0 { 0.0 } else { spent - (next.plastic.work(&model.plastic) - before) };
+    // without force the bodies spend nothing, and the difference would be rounding; but a surface that lags behind them relaxes
+    let spent = if taken == 0.0 { 0.0 } else { spent };
+    let heat = spent - (next.plastic.work(&model.plastic) - before);
     next.take(model, heat)?;
     *history = next;
     let most = if model.plastic.is_segmented() { MOST_EVALUATIONS } else { MOST_EVALUATIONS / COSTLY };

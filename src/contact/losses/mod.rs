@@ -206,20 +206,35 @@ pub(crate) struct Damping {
 }
 
 impl Damping {
-    /// `1 + chi v/v0` at `rate` \[m/s\], never negative.
-    pub fn gain(&self, rate: f64) -> f64 {
-        let fastest = largest(fabs(rate), self.swiftest);
-        let ratio = quotient(rate, fastest, fastest > 0.0, 0.0);
-        largest(1.0 + self.factor * ratio, 0.0)
+    /// `1 + chi v/v0` at `rate` \[m/s\]; it is negative where the surface would have to pull. The largest speed `v0` is not below the
+    /// rate, except in a step that tries to exceed it.
+    fn factor_at(&self, rate: f64) -> f64 {
+        // such a step must not overflow
+        let fastest = largest(0.5 * fabs(rate), self.swiftest);
+        1.0 + self.factor * quotient(rate, fastest, fastest > 0.0, 0.0)
     }
 
-    /// The force \[N\] for the elastoplastic `force` \[N\] and `stiffness` \[N/m\] at `rate` \[m/s\].
-    pub fn force(&self, force: f64, stiffness: f64, rate: f64) -> f64 {
+    /// The same, never negative.
+    pub fn gain(&self, rate: f64) -> f64 {
+        largest(self.factor_at(rate), 0.0)
+    }
+
+    /// The force \[N\] for the elastoplastic `force` \[N\] and `stiffness` \[N/m\] at `rate` \[m/s\]; it is negative where the surface would
+    /// have to pull.
+    pub fn pull(&self, force: f64, stiffness: impl FnOnce() -> f64, rate: f64) -> f64 {
         match self.form {
-            Form::Proportional => force * self.gain(rate),
-            Form::Radiation => largest(force + self.factor * stiffness * stiffness * rate, 0.0),
+            Form::Proportional => force * self.factor_at(rate),
+            Form::Radiation => {
+                let stiffness = stiffness();
+                force + self.factor * stiffness * stiffness * rate
+            }
             Form::Mobility => force,
         }
+    }
+
+    /// The same, never negative.
+    pub fn force(&self, force: f64, stiffness: f64, rate: f64) -> f64 {
+        largest(self.pull(force, || stiffness, rate), 0.0)
     }
 
     /// The speed at which the target gives way to `force` \[N\], in m/s.

@@ -1,11 +1,14 @@
 //! The motion of the bodies on one smooth piece of the law, step by step.
 
-use super::Damping;
+mod events;
+
+use super::{Damping, Form};
 use crate::contact::loading::Loading;
 use crate::contact::numbers::{largest, quotient, smallest};
 use crate::contact::piece::Piece;
 use crate::contact::unloading::Unloading;
-use libm::{fabs, pow};
+use events::Event;
+use libm::{fabs, pow, sqrt};
 
 /// An instant of the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,10 +41,16 @@ pub(super) enum Ended {
 }
 
 /// Largest error of a step, relative to the changes in it and to the height above the surface.
-const TOLERANCE: f64 = 1e-11;
+const TOLERANCE: f64 = 2e-12;
 
 /// A distance by which the plate gives way, relative to the height, below which its digits do not count.
 const SMALL: f64 = 1e-4;
+
+/// The same relative to the indentation, whose last digits are rounded: a dent is much deeper than the height above it may be.
+const ROUNDED: f64 = 1e-3;
+
+/// Largest indentation of a stage \[m\].
+const FARTHEST: f64 = 1e20;
 
 /// Smaller errors count as this one.
 const LEAST: f64 = 1e-30;
@@ -49,11 +58,12 @@ const LEAST: f64 = 1e-30;
 /// Distance from the balance of forces, relative to the height above the surface, at which bodies count as at rest.
 const REST: f64 = 1e-9;
 
-/// The same for the rate of indentation at a given closing speed, relative to that speed.
-const STILL: f64 = 1e-14;
+/// The same for bodies at a given speed on a plate: the distance that the contact still moves, relative to that of the bodies.
+/// The integration leaves more than a tenth of it.
+const STILL: f64 = 1e-10;
 
-/// More halvings than the interpolation of an event ever needs.
-const MOST_CUTS: u32 = 100;
+/// The height above the surface, relative to that at the start, of which nothing is left.
+const NOTHING: f64 = 1e-14;
 
 /// A stretch: a motion in one direction on one smooth `piece` of the law.
 pub(super) struct Stretch<'a, L, U> {
@@ -68,6 +78,10 @@ pub(super) struct Stretch<'a, L, U> {
     /// Indentation of the surface \[m\].
     pub surface: f64,
     pub rising: bool,
+    /// Whether the largest speed is the present one, which grows.
+    pub leads: bool,
+    /// Whether the surface would have to pull, so that there is no force.
+    pub slack: bool,
 }
 
 impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
@@ -83,8 +97,45 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         let d = if self.rising { smallest(d, self.piece.upper) } else { d };
         let elastic = self.piece.force(d);
         let rate = state.speed - self.damping.retreat(elastic);
-        let stiffness = self.piece.stiffness(d);
-        (self.damping.force(elastic, stiffness, rate), rate)
+        (if self.slack { 0.0 } else { self.pull(d, elastic, rate) }, rate)
+    }
+
+    /// Force \[N\] with the damping at the indentation `d` \[m\], the `elastic` force \[N\] and `rate` \[m/s\]. It is negative where the
+    /// surface would have to pull.
+    fn pull(&self, d: f64, elastic: f64, rate: f64) -> f64 {
+        if self.leads {
+            let sign = if self.rising { 1.0 } else { -1.0 };
+            return elastic * (1.0 + sign * self.damping.factor);
+        }
+        self.damping.pull(elastic, || self.piece.stiffness(d), rate)
+    }
+
+    /// The same for a state.
+    fn pull_at(&self, state: &State) -> f64 {
+        let d = self.indentation(state);
+        let d = if self.rising { smallest(d, self.piece.upper) } else { d };
+        let elastic = self.piece.force(d);
+        self.pull(d, elastic, state.speed - self.damping.retreat(elastic))
+    }
+
+    /// Acceleration in the direction of the motion \[m/s^2\].
+    fn gain_of_speed(&self, state: &State) -> f64 {
+        let net = self.acceleration - self.force_and_rate(state).0 * self.inverse_mass;
+        if self.rising { net } else { -net }
+    }
+
+    /// Decides whether the speed of `state` leads, and whether the surface would have to pull.
+    fn note_speed(&mut self, state: &State) {
+        self.slack = self.slack && self.pull_at(state) < 0.0;
+        let speed = fabs(self.force_and_rate(state).1);
+        let is_largest = speed >= self.damping.swiftest;
+        self.damping.swiftest = largest(self.damping.swiftest, speed);
+        if self.damping.form == Form::Proportional {
+            // with the force of a speed that leads, does it grow?
+            self.leads = is_largest;
+            self.leads = is_largest && self.gain_of_speed(state) > 0.0;
+        }
+        self.slack = self.pull_at(state) < 0.0;
     }
 
     /// The state after `step` \[s\], and its relative error.
@@ -100,6 +151,11 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
                 heat += step * weight * slope.3;
             }
             next = State { time: from.time + step, way, retreat, speed, heat };
+            // a step that is far too long must not overflow in its next stage; written positively to reject NaN
+            let near = fabs(self.indentation(&next)) < FARTHEST;
+            if !near {
+                return (*from, f64::INFINITY);
+            }
             if let Some(slope) = slopes.get_mut(stage) {
                 let (force, _) = self.force_and_rate(&next);
                 let given = self.damping.retreat(force);
@@ -113,47 +169,13 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
             }
         }
         let [way, retreat, speed] = errors.map(fabs);
-        let height = fabs(self.start - self.surface) + fabs(next.way) + fabs(next.retreat);
+        let moved = fabs(self.start - self.surface) + fabs(next.way) + fabs(next.retreat);
+        let height = moved + ROUNDED * fabs(self.start);
         let speeds = fabs(from.speed) + fabs(next.speed) + fabs(next.speed - from.speed);
         let relative = |error: f64, size: f64| quotient(error, size, size > 0.0, 0.0);
         // where the force begins, the distance is a fractional power of time: its first steps are never accurate by themselves
-        let given = fabs(next.retreat) + fabs(next.retreat - from.retreat) + SMALL * height;
+        let given = fabs(next.retreat) + fabs(next.retreat - from.retreat) + SMALL * moved + ROUNDED * fabs(self.start);
         (next, largest(largest(relative(way, height), relative(retreat, given)), relative(speed, speeds)))
-    }
-
-    /// How far the state is beyond the end of the stretch: positive beyond its border, or when the indentation has turned.
-    fn beyond(&self, state: &State, at_border: bool) -> f64 {
-        let sign = if self.rising { 1.0 } else { -1.0 };
-        match at_border {
-            true if self.rising => self.indentation(state) - self.piece.upper,
-            true => self.piece.lower - self.indentation(state),
-            false => -sign * self.force_and_rate(state).1,
-        }
-    }
-
-    /// The state within the `step` from `from` at the end of the stretch, which lies inside the step.
-    fn event(&self, from: &State, step: f64, at_border: bool) -> State {
-        let end = |part: f64| self.step(from, part).0;
-        let (mut low, mut high) = (0.0, step);
-        let mut below = self.beyond(from, at_border);
-        let mut above = self.beyond(&end(high), at_border);
-        for cut in 0..MOST_CUTS {
-            // the secant, with a bisection in every third cut
-            let secant = low + (high - low) * quotient(-below, above - below, above > below, 0.5);
-            // the secant may have no room, where the stretch begins at its end
-            let useful = cut % 3 != 2 && secant > low && secant < high;
-            let middle = if useful { secant } else { 0.5 * (low + high) };
-            if !(middle > low && middle < high) || high - low <= 4.0 * f64::EPSILON * step {
-                break;
-            }
-            let value = self.beyond(&end(middle), at_border);
-            if value > 0.0 {
-                (high, above) = (middle, value)
-            } else {
-                (low, below) = (middle, value)
-            };
-        }
-        end(high)
     }
 
     /// Whether the bodies have come to rest: forces in balance, and too slow to move noticeably.
@@ -161,15 +183,18 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         let (force, rate) = self.force_and_rate(state);
         let d = self.indentation(state);
         let (height, stiffness) = (d - self.surface, self.piece.stiffness(d));
+        // the rate at which a plate gives way to a change of the force
+        let easing = self.damping.retreat(stiffness);
         if self.inverse_mass == 0.0 {
             // bodies at a given speed rest when the plate gives way at that speed, or when nothing is left of the contact
-            let same = fabs(rate) <= STILL * fabs(state.speed);
-            return same || state.speed == 0.0 && height <= STILL * fabs(self.start - self.surface);
+            let moved = fabs(self.start - self.surface) + fabs(state.way) + fabs(state.retreat);
+            let steady = state.speed > 0.0 && fabs(rate) <= STILL * easing * moved;
+            return steady || state.speed == 0.0 && height <= NOTHING * fabs(self.start - self.surface);
         }
         let excess = fabs(self.acceleration - force * self.inverse_mass);
         let scale = stiffness * self.inverse_mass;
         let is_balanced = excess <= REST * scale * height;
-        is_balanced && scale > 0.0 && rate * rate <= REST * REST * scale * height * height
+        is_balanced && scale > 0.0 && fabs(rate) <= REST * (sqrt(scale) + easing) * height
     }
 
     /// Follows the motion for `time` \[s\] from the closing speed `speed` \[m/s\]. `guess` is the first step \[s\] to try, and
@@ -183,6 +208,7 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         watch: &mut dyn FnMut(&State, f64),
     ) -> (State, Ended) {
         let mut state = State { speed, ..State::default() };
+        self.note_speed(&state);
         loop {
             let rest = time - state.time;
             if rest <= 0.0 {
@@ -204,26 +230,29 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
                 *guess = shorter;
                 continue;
             }
-            let border = self.beyond(&next, true) >= 0.0;
-            let turned = self.beyond(&next, false) > 0.0;
-            if border || turned {
+            if let Some((event, length)) = self.first_event(&state, &next, step) {
                 *left = left.saturating_sub(20 * STAGES.len() as u32);
-                let mut end = self.event(&state, step, border);
-                let mut ended = if border { Ended::AtBorder } else { Ended::Turned };
-                // the indentation may have turned before it would have reached the border
-                if border && self.beyond(&end, false) > 0.0 {
-                    (end, ended) = (self.event(&state, step, false), Ended::Turned);
+                let (end, error) = self.step(&state, length);
+                // most of the longer step may have had no force
+                if error > TOLERANCE && length < step && length > f64::MIN_POSITIVE {
+                    *guess = 0.5 * length;
+                    continue;
                 }
                 watch(&end, self.force_and_rate(&end).0);
-                return (end, if ended == Ended::Turned && self.rests(&end) { Ended::AtRest } else { ended });
+                self.note_speed(&end);
+                match event {
+                    Event::Border => return (end, Ended::AtBorder),
+                    Event::Turn => return (end, if self.rests(&end) { Ended::AtRest } else { Ended::Turned }),
+                    Event::Lead | Event::Peak | Event::Slack => state = end,
+                }
+                continue;
             }
             state = next;
             if last {
                 state.time = time;
             }
-            let (force, rate) = self.force_and_rate(&state);
-            self.damping.swiftest = largest(self.damping.swiftest, fabs(rate));
-            watch(&state, force);
+            self.note_speed(&state);
+            watch(&state, self.force_and_rate(&state).0);
             if self.rests(&state) {
                 return (state, Ended::AtRest);
             }

@@ -78,7 +78,15 @@ impl Trial {
         let mean_force = format!("{prefix}mean_force");
         let mean_force = if scene.coupling.is_some() { Some(description.real(&mean_force)?) } else { None };
         let parallel = scene.coupling.is_some_and(|coupling| coupling.parallel);
-        let mut master = Master { instance: &mut *instance, rate, force, time: 0.0, follows, mean_force, parallel };
+        let mut master = Master {
+            instance: &mut *instance,
+            rate,
+            force,
+            time: 0.0,
+            follows: follows && scene.coupling.is_none(),
+            mean_force,
+            parallel,
+        };
         let simulated = master.impact(&scene.impact_of(group), gap, step)?;
         trial.rows = compare(prediction, &simulated);
         if follows {

@@ -1,0 +1,144 @@
+//! A body of known mass under a contact with a loss reaches the same state, however the time is divided into steps.
+
+use crate::physics::{AnyModel, Random, all_models, pair_of};
+use brinell::contact::impact::{Impact, predict};
+use brinell::contact::losses::{AnyLoss, Fitted, History, Model, Plate, Solid, Waves, follow};
+use brinell::contact::motion::Drive;
+use brinell::contact::{Contact, Loading, Surface};
+
+type Lossy = Model<brinell::contact::loading::AnyLoading, brinell::contact::unloading::AnyUnloading, AnyLoss>;
+
+/// A motion to be divided into steps.
+#[derive(Debug)]
+struct Case {
+    name: String,
+    model: Lossy,
+    drive: Drive,
+    gap: f64,
+    speed: f64,
+    time: f64,
+}
+
+/// Its final state: energies \[J\] and the indentation \[m\].
+#[derive(Clone, Copy, Debug)]
+struct State {
+    kinetic: f64,
+    dissipated: f64,
+    elastic: f64,
+    indentation: f64,
+    /// Energy that the bodies had or got \[J\].
+    energy: f64,
+}
+
+/// A log-uniform number from `low` to `high`.
+fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
+    low * (high / low).powf(random.next())
+}
+
+/// A loss of this kind on the bodies of `plastic`, which takes a noticeable part of the energy.
+fn draw_loss(random: &mut Random, plastic: &AnyModel, kind: usize, impact: &Impact) -> AnyLoss {
+    let pair = plastic.pair;
+    // density for a speed of waves that is far above that of the impact
+    let wave_speed = impact.speed * log_uniform(random, 50.0, 1e4);
+    let density = pair.youngs_modulus / (wave_speed * wave_speed);
+    let target = Solid { density, youngs_modulus: pair.youngs_modulus, poissons_ratio: pair.poissons_ratio };
+    match kind {
+        0 => AnyLoss::Fitted(Fitted { restitution: [0.3, 0.7, 0.9, 0.98][(random.next() * 4.0) as usize] }),
+        1 => AnyLoss::Waves(Waves { target }),
+        _ => {
+            let depth = predict(plastic, impact).map_or(pair.radius, |found| found.max_indentation);
+            let thickness = (depth * pair.radius).sqrt() * log_uniform(random, 0.5, 30.0);
+            AnyLoss::Plate(Plate { target, thickness })
+        }
+    }
+}
+
+/// A body that touches a fresh surface or an earlier dent and is pressed there or pulled away, and may touch it again.
+fn draw(random: &mut Random, (name, model): &(String, AnyModel), kind: usize) -> Option<Case> {
+    let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
+    let modulus = log_uniform(random, 1e9, 1e12);
+    let pair = pair_of(log_uniform(random, 1e-4, 1.0), modulus, modulus / log_uniform(random, 50.0, 1000.0));
+    let plastic = AnyModel { pair, surface, ..*model };
+    let mass = log_uniform(random, 1e-9, 1e3);
+    let yields = pair.yield_point(1.1);
+    let yield_speed = (0.8 * yields.force * yields.indentation / mass).sqrt();
+    let speed = yield_speed * log_uniform(random, 0.05, 30.0);
+    let impact = Impact { mass, speed };
+    let prediction = predict(&plastic, &impact)?;
+    let sign = if random.next() < 0.6 { 1.0 } else { -1.0 };
+    // from negligible beside the contact to so strong that the bodies cannot separate
+    let contact = prediction.contact_time();
+    let acceleration = sign * speed / contact * log_uniform(random, 1e-4, 1e2);
+    let time = contact * 3.0 * random.next();
+    let gap = if random.next() < 0.5 { 0.0 } else { -prediction.max_indentation * (random.next() - 0.5) };
+    let loss = draw_loss(random, &plastic, kind, &impact);
+    let model = Lossy { plastic, loss };
+    Some(Case { name: name.clone(), model, drive: Drive { mass, acceleration }, gap, speed, time })
+}
+
+/// The state after `parts` steps; `None` beyond the range of the law.
+fn run(case: &Case, parts: u32) -> Option<State> {
+    let Case { model, drive, .. } = case;
+    let mut history = History::start(model, case.gap).ok()?;
+    let mut speed = case.speed;
+    for _ in 0..parts {
+        let outcome = follow(&mut history, model, drive, speed, case.time / f64::from(parts)).ok()?;
+        speed = outcome.speed;
+    }
+    let kinetic = 0.5 * drive.mass * speed * speed;
+    let dissipated = history.dissipated_energy(model);
+    let elastic = history.elastic_energy(model);
+    let energy = (0.5 * drive.mass * case.speed * case.speed).max(kinetic + dissipated + elastic);
+    Some(State { kinetic, dissipated, elastic, indentation: history.plastic().indentation(), energy })
+}
+
+/// The largest difference, relative to the energy.
+fn difference(one: &State, other: &State) -> f64 {
+    let energies = [one.kinetic - other.kinetic, one.dissipated - other.dissipated, one.elastic - other.elastic];
+    energies.into_iter().fold(0.0, |worst: f64, change| worst.max(change.abs())) / one.energy
+}
+
+#[test]
+fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies_and_wherever_the_force_has_a_kink() {
+    let mut random = Random(77);
+    let (mut worst, mut cases) = ([0.0f64; 3], 0);
+    for _ in 0..rounds() {
+        for model in all_models(crate::physics::mild()) {
+            for (kind, worst) in worst.iter_mut().enumerate() {
+                let Some(case) = draw(&mut random, &model, kind) else { continue };
+                let Some(whole) = run(&case, 1) else { continue };
+                // a law without segments takes its time
+                let counts: &[u32] = if model.1.loading.is_segmented() { &[2, 7, 100, 1000] } else { &[3, 50] };
+                for &parts in counts {
+                    let other = run(&case, parts).unwrap_or_else(|| panic!("{case:?} fails in {parts} steps"));
+                    let off = difference(&whole, &other);
+                    if off > *worst {
+                        println!("{off:.1e} in {parts}: {} {:?}", case.name, case.model.loss);
+                    }
+                    *worst = worst.max(off);
+                    assert!(off < 2e-9, "{case:?} in {parts} steps is off by {off:e}: {whole:?} in one, {other:?}");
+                }
+                // nothing is lost between the accounts
+                let start = History::start(&case.model, case.gap).unwrap();
+                let given = 0.5 * case.drive.mass * case.speed * case.speed + start.elastic_energy(&case.model);
+                let closer = whole.indentation + case.gap;
+                let balance = given + case.drive.mass * case.drive.acceleration * closer
+                    - (whole.kinetic + whole.elastic + whole.dissipated - start.dissipated_energy(&case.model));
+                // a plate moves, too
+                assert!(
+                    kind == 2 || balance.abs() < 1e-9 * whole.energy,
+                    "{case:?}: {balance:e} of {:e} J",
+                    whole.energy
+                );
+                cases += 1;
+            }
+        }
+    }
+    println!("{cases} cases, worst {worst:?}");
+    assert!(cases > 100);
+}
+
+/// How often every pair of laws is tried; `BRINELL_ROUNDS` asks for more.
+fn rounds() -> u32 {
+    std::env::var("BRINELL_ROUNDS").map_or(1, |text| text.parse().expect("a number"))
+}
