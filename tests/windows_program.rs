@@ -1,13 +1,19 @@
 //! The program for Windows, run with Wine: its output and its exports equal those of this system, byte by byte.
 //!
-//! The program comes from the archive made by `packaging/release.py windows-x86_64`. Wine is `wine64` on PATH, or the program
-//! in the variable WINE.
-#![cfg(target_os = "linux")]
+//! The program comes from the archive made by `packaging/release.py windows-x86_64`. Wine is the program in the variable WINE,
+//! otherwise Debian's, unpacked in the target folder as for the tests of other systems.
+#![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
 #[path = "support/command.rs"]
 mod command;
+#[path = "support/debian.rs"]
+mod debian;
+#[path = "support/hosts.rs"]
+mod hosts;
 #[path = "support/python.rs"]
 mod python;
+#[path = "support/systems.rs"]
+mod systems;
 
 use command::{Run, brinell, contents, empty_folder, output, scene};
 use std::ffi::OsStr;
@@ -41,9 +47,15 @@ static UNPACKED: LazyLock<PathBuf> = LazyLock::new(|| {
     unpacked
 });
 
+/// The program that starts Wine.
+static WINE: LazyLock<PathBuf> = LazyLock::new(|| match std::env::var_os("WINE") {
+    Some(named) => named.into(),
+    None => systems::wine().unwrap_or_else(|why| panic!("there is no Wine: {why}")).0,
+});
+
 /// A call of the program of `unpacked`.
 fn wine(unpacked: &Path) -> Command {
-    let mut command = Command::new(std::env::var_os("WINE").unwrap_or_else(|| "wine64".into()));
+    let mut command = Command::new(&*WINE);
     command.arg(unpacked.join("bin/brinell.exe"));
     command.env("WINEPREFIX", Path::new(env!("CARGO_TARGET_TMPDIR")).join("wine")).env("WINEDEBUG", "-all");
     command.env("WINEDLLOVERRIDES", "mscoree,mshtml=").env_remove("DISPLAY");

@@ -37,12 +37,21 @@ fn compiled(target: &str, ending: &str) -> Result<PathBuf, String> {
 /// # Errors
 /// The reason why it is not available.
 pub fn windows() -> Result<System, String> {
-    let Packages { folder, versions } = packages("wine", "bookworm", &["wine64"], true)?;
-    let version = version_of(&versions, "wine64")?;
-    let wine = prepare_wine(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let (wine, version) = wine()?;
     let program = compiled("x86_64-windows-gnu", ".exe")?;
     let host = Host { command: vec![wine, program], variables: Vec::new() };
     Ok(System { platform: "win64", name: format!("wine {version}"), host })
+}
+
+/// The program that starts wine, and wine's version.
+///
+/// # Errors
+/// The reason why it is not available.
+pub fn wine() -> Result<(PathBuf, String), String> {
+    let Packages { folder, versions } = packages("wine", "bookworm", &["wine64"], true)?;
+    let version = version_of(&versions, "wine64")?.to_string();
+    let wine = prepare_wine(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    Ok((wine, version))
 }
 
 /// Does the work of the installation scripts of wine's packages, and adds a program that starts wine from its

@@ -1,9 +1,10 @@
 //! The zip archive of an FMU: the same bytes for the same files.
 
 use super::ExportError;
+use super::deflate::{self, Deflated};
 use std::io::{self, Cursor, Write};
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 /// An archive under construction.
 pub struct Archive(ZipWriter<Cursor<Vec<u8>>>);
@@ -18,7 +19,20 @@ impl Archive {
     /// # Errors
     /// [`ExportError::Zip`]
     pub fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), ExportError> {
-        self.add_written(name, |to| to.write_all(bytes))
+        match Deflated::new(bytes) {
+            Some(deflated) => self.add_deflated(name, &deflated),
+            None => self.add_written(name, |to| to.write_all(bytes)),
+        }
+    }
+
+    /// Adds a file that is compressed already. The writer takes such a file only from another archive.
+    ///
+    /// # Errors
+    /// [`ExportError::Zip`]
+    pub fn add_deflated(&mut self, name: &str, file: &Deflated) -> Result<(), ExportError> {
+        let mut archive = ZipArchive::new(Cursor::new(deflate::archive_of_one(name, file)))?;
+        self.0.raw_copy_file(archive.by_index_raw(0)?)?;
+        Ok(())
     }
 
     /// Adds a file with contents that `write` writes in pieces.
@@ -30,14 +44,13 @@ impl Archive {
         name: &str,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), ExportError> {
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Deflated)
-            .compression_level(Some(9))
-            .last_modified_time(zip::DateTime::default())
-            .unix_permissions(0o644);
-        self.0.start_file(name, options)?;
-        let mut pieces = Pieces { to: &mut self.0, piece: Vec::with_capacity(PIECE) };
-        write(&mut pieces).and_then(|()| pieces.flush()).map_err(zip::result::ZipError::from)?;
+        let mut pieces = Pieces { to: self, name, piece: Vec::with_capacity(PIECE), is_started: false };
+        write(&mut pieces).map_err(zip::result::ZipError::from)?;
+        let Pieces { piece, is_started, .. } = pieces;
+        if !is_started && let Some(deflated) = Deflated::new(&piece) {
+            return self.add_deflated(name, &deflated);
+        }
+        self.0.write_all(&piece).map_err(zip::result::ZipError::from)?;
         Ok(())
     }
 
@@ -50,30 +63,41 @@ impl Archive {
     }
 }
 
-/// Length of the pieces passed to the compressor [bytes].
+/// Length of the pieces passed to the compressor [bytes]. A file that is one piece is compressed as a whole.
 const PIECE: usize = 1 << 16;
+const _: () = assert!(PIECE <= deflate::LARGEST);
 
-/// Passes a file to the compressor in pieces of one length: the compressed bytes depend on the borders of the pieces.
-struct Pieces<'a, W> {
-    to: &'a mut W,
+/// Passes a file to the compressor in pieces of one length: the compressed bytes depend on the borders of the pieces. The last,
+/// shorter one is left.
+struct Pieces<'a> {
+    to: &'a mut Archive,
+    name: &'a str,
     piece: Vec<u8>,
+    is_started: bool,
 }
 
-impl<W: Write> Write for Pieces<'_, W> {
+impl Write for Pieces<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let count = bytes.len().min(PIECE - self.piece.len());
-        self.piece.extend_from_slice(&bytes[..count]);
         if self.piece.len() == PIECE {
-            self.to.write_all(&self.piece)?;
+            let writer = &mut self.to.0;
+            if !self.is_started {
+                let options = SimpleFileOptions::default()
+                    .compression_method(CompressionMethod::Deflated)
+                    .compression_level(Some(9))
+                    .last_modified_time(zip::DateTime::default())
+                    .unix_permissions(0o644);
+                writer.start_file(self.name, options)?;
+                self.is_started = true;
+            }
+            writer.write_all(&self.piece)?;
             self.piece.clear();
         }
+        let count = bytes.len().min(PIECE - self.piece.len());
+        self.piece.extend_from_slice(&bytes[..count]);
         Ok(count)
     }
 
-    /// Completes the file with the last, shorter piece.
     fn flush(&mut self) -> io::Result<()> {
-        self.to.write_all(&self.piece)?;
-        self.piece.clear();
         Ok(())
     }
 }

@@ -2,6 +2,7 @@
 
 mod archive;
 mod compiler;
+mod deflate;
 mod diagnostics;
 mod error;
 mod folder;
@@ -28,8 +29,9 @@ pub use way::{How, Way};
 use crate::files::write_whole;
 use crate::plan::Plan;
 use crate::platform::Platform;
-use crate::{documentation, model_description, symbols};
+use crate::{documentation, model_description, parallel, symbols};
 use archive::Archive;
+use deflate::Deflated;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use way::{Made, make};
@@ -102,11 +104,16 @@ pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, 
     }
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
     let page = documentation::write(plan);
+    let deflated = parallel::each(&built, |library| Ok::<_, ExportError>(Deflated::new(library)))?;
     let mut archive = Archive::new();
     archive.add_written("modelDescription.xml", |to| model_description::write(plan, &guid, to))?;
     archive.add("model.png", ICON)?;
-    for (platform, library) in platforms.iter().zip(&built) {
-        archive.add(&format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension), library)?;
+    for ((platform, library), deflated) in platforms.iter().zip(&built).zip(&deflated) {
+        let name = format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension);
+        match deflated {
+            Some(deflated) => archive.add_deflated(&name, deflated)?,
+            None => archive.add(&name, library)?,
+        }
     }
     archive.add("documentation/index.html", page.as_bytes())?;
     archive.add("documentation/licenses/license.txt", license.as_bytes())?;

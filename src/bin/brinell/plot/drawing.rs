@@ -71,7 +71,7 @@ impl Drawing<'_> {
             let pieces = picture.pieces(series).flat_map(|piece| clip::inside(picture, piece, range));
             let pieces: Vec<Vec<Place>> = pieces.map(|piece| piece.into_iter().map(placed).collect()).collect();
             let below = picture.pieces(series).all(|piece| clip::is_below(piece, range)) && !pieces.is_empty();
-            Line { name: series.label.clone(), stroke, pieces, dots: series.dots, strong, below }
+            Line { name: series.label.clone(), stroke, pieces, dots: series.dots, strong, below, bare: view.bare }
         };
         iter::zip(&picture.series, picture.strokes()).map(line).collect()
     }

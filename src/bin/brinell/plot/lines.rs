@@ -25,6 +25,8 @@ pub struct Line {
     pub strong: bool,
     /// Whether it is entirely below the picture, and drawn along the lower edge.
     pub below: bool,
+    /// Whether none of its places shows its values.
+    pub bare: bool,
 }
 
 /// The plotting area between the axes [1/8 pixel].
@@ -91,7 +93,8 @@ fn write_line(text: &mut String, line: &Line) -> std::fmt::Result {
         }
     }
     let every = shown.div_ceil(if line.strong { POINTERS } else { POINTERS / 4 }).max(1);
-    for place in line.pieces.iter().flatten().step_by(if line.dots { 1 } else { every }) {
+    let showing = line.pieces.iter().flatten().filter(|_| !line.bare);
+    for place in showing.step_by(if line.dots { 1 } else { every }) {
         // points without a marker also show their values
         let (radius, seen) = if has_markers { (22, "") } else { (48, " fill-opacity=\"0\"") };
         let (x, y) = (short(place.value.0), short(place.value.1));

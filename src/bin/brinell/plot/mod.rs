@@ -6,6 +6,7 @@ mod drawing;
 mod heat_map;
 mod lines;
 mod map;
+mod thin;
 
 pub use colours::css_lines;
 pub use heat_map::{HeatMap, Quantity, heat_maps};
@@ -48,6 +49,8 @@ pub struct View {
     /// The names of the series that stand out; the others are grey. `None`: all stand out.
     pub strong: Option<Vec<String>>,
     pub name_at: NameAt,
+    /// Lines alone, without places that show their values.
+    pub bare: bool,
 }
 
 /// Where the name of a line is placed.
@@ -79,10 +82,19 @@ const SCALE: u32 = 8;
 impl Picture {
     /// The picture as SVG of `width` by `height` pixels, with a legend.
     pub fn svg(&self, width: u32, height: u32) -> String {
+        self.with_legend(width, height, &View::unnamed())
+    }
+
+    /// The same for a page whose size counts: no places of the lines show their values.
+    pub fn small_svg(self, width: u32, height: u32) -> String {
+        self.thinned().with_legend(width, height, &View { bare: true, ..View::unnamed() })
+    }
+
+    fn with_legend(&self, width: u32, height: u32, view: &View) -> String {
         // beside the curves, where the legend hides none of them
         let beside = self.series.len() > 2;
         svg(width, height, |root| {
-            let curves = self.draw_into(root, SCALE * if beside { LEGEND } else { 0 }, &View::unnamed());
+            let curves = self.draw_into(root, SCALE * if beside { LEGEND } else { 0 }, view);
             self.draw_legend(root, if beside { width - LEGEND } else { 100 });
             curves
         })
@@ -238,6 +250,8 @@ fn svg(width: u32, height: u32, draw: impl FnOnce(&Area) -> String) -> String {
     };
     let drawn = format!("width=\"{}\" height=\"{}\"", SCALE * width, SCALE * height);
     let svg = svg.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1);
+    // attributes with their defaults
+    let svg = svg.replace(" opacity=\"1\"", "").replace(" fill=\"#000000\"", "");
     svg.replacen("</svg>", &format!("{lines}</svg>"), 1)
 }
 
