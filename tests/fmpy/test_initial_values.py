@@ -81,7 +81,10 @@ def changes(name):
 
 
 def follows_rate(name):
-    """Whether the law depends on the rate: outputs follow it, or do so before the bodies have a speed of their own."""
+    """Whether the law depends on the rate: outputs follow it, or do so before the bodies have a speed of their own, or a
+    restitution gives its damping."""
+    if "restitution" in unit(name).parameters:
+        return True
     before = [unknown for unknown in unit(name).description.initialUnknowns if unknown.variable.name != "closing_speed"]
     inputs = {dependency.name for unknown in before for dependency in unknown.dependencies}
     return "indentation_rate" in inputs or any(unknown.dependencies for unknown in unit(name).description.outputs)
