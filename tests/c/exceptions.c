@@ -1,6 +1,7 @@
 /* A host that traps floating-point exceptions: exceptions LIBRARY GUID RATES DERIVATIVES OUTPUT..., where RATES is the number of
    inputs (the first value references), DERIVATIVES is "d" if they have derivatives, "l" for an FMU with a loss below yield, "p" if
-   that is a plate, whose outputs have no derivatives, and "-" otherwise. The others are value references of Real outputs. A call that divides by zero, overflows or computes NaN ends this program with SIGFPE. */
+   that is a plate, whose outputs have no derivatives, and "-" otherwise. The others are value references of Real outputs. A call
+   that divides by zero, overflows or computes NaN ends this program with SIGFPE. */
 #define _GNU_SOURCE
 #include "fmi2Functions.h"
 

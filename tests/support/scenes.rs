@@ -198,7 +198,7 @@ impl Kind for DampedMassive {
     type Watch = Absent;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(damped::follow);
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
-        damped::Model { pair, law: chosen().damped, restitution, mass }
+        Damped::model(pair, restitution, mass)
     }
 }
 

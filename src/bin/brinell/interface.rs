@@ -104,8 +104,9 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
             Follows::WithLaw => scene.follows_rate(),
             Follows::Always => true,
         };
-        // bodies that the FMU moves have their own speed from the first step on
-        let follows = has_damping && (scene.coupling.is_none() || variable.follows_rate == Follows::Always);
+        // with a law that depends on the rate, bodies that the FMU moves have their own speed from the first step on
+        let has_own_speed = scene.coupling.is_some() && scene.follows_rate();
+        let follows = has_damping && !has_own_speed;
         let damped_at_start = has_damping && is_damped_at_start(variable, scene);
         let follows_at_start = damped_at_start || variable.follows_rate == Follows::AtStart;
         let is_listed = |name: &str| variable.depends_on.iter().any(|other| other == "*" || other == name);

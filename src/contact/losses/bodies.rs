@@ -13,7 +13,7 @@ use crate::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome};
 use crate::contact::numbers::{largest, quotient};
 use crate::contact::piece::Piece;
 use crate::contact::unloading::Unloading;
-use libm::sqrt;
+use libm::fabs;
 
 /// The number of evaluations that one evaluation of a law without segments counts for.
 const COSTLY: u32 = 10;
@@ -306,5 +306,5 @@ pub(super) fn driven<L: Loading, U: Unloading, K: Loss>(
 
 /// A time that is short for the bodies of an impact \[s\]: a thousandth of that in which they move by `indentation` \[m\].
 pub(super) fn short_time(indentation: f64, speed: f64) -> f64 {
-    1e-3 * sqrt(indentation * indentation) / speed
+    1e-3 * fabs(indentation) / speed
 }
