@@ -30,16 +30,11 @@ struct State {
     energy: f64,
 }
 
-/// A log-uniform number from `low` to `high`.
-fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
-    low * (high / low).powf(random.next())
-}
-
 /// A loss of this kind on the bodies of `plastic`, which takes a noticeable part of the energy.
 fn draw_loss(random: &mut Random, plastic: &AnyModel, kind: usize, impact: &Impact) -> AnyLoss {
     let pair = plastic.pair;
     // density for a speed of waves that is far above that of the impact
-    let wave_speed = impact.speed * log_uniform(random, 50.0, 1e4);
+    let wave_speed = impact.speed * random.log_uniform(50.0, 1e4);
     let density = pair.youngs_modulus / (wave_speed * wave_speed);
     let target = Solid { density, youngs_modulus: pair.youngs_modulus, poissons_ratio: pair.poissons_ratio };
     match kind {
@@ -47,7 +42,7 @@ fn draw_loss(random: &mut Random, plastic: &AnyModel, kind: usize, impact: &Impa
         1 => AnyLoss::Waves(Waves { target }),
         _ => {
             let depth = predict(plastic, impact).map_or(pair.radius, |found| found.max_indentation);
-            let thickness = (depth * pair.radius).sqrt() * log_uniform(random, 0.5, 30.0);
+            let thickness = (depth * pair.radius).sqrt() * random.log_uniform(0.5, 30.0);
             AnyLoss::Plate(Plate { target, thickness })
         }
     }
@@ -56,19 +51,19 @@ fn draw_loss(random: &mut Random, plastic: &AnyModel, kind: usize, impact: &Impa
 /// A body that touches a fresh surface or an earlier dent and is pressed there or pulled away, and may touch it again.
 fn draw(random: &mut Random, (name, model): &(String, AnyModel), kind: usize) -> Option<Case> {
     let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
-    let modulus = log_uniform(random, 1e9, 1e12);
-    let pair = pair_of(log_uniform(random, 1e-4, 1.0), modulus, modulus / log_uniform(random, 50.0, 1000.0));
+    let modulus = random.log_uniform(1e9, 1e12);
+    let pair = pair_of(random.log_uniform(1e-4, 1.0), modulus, modulus / random.log_uniform(50.0, 1000.0));
     let plastic = AnyModel { pair, surface, ..*model };
-    let mass = log_uniform(random, 1e-9, 1e3);
+    let mass = random.log_uniform(1e-9, 1e3);
     let yields = pair.yield_point(1.1);
     let yield_speed = (0.8 * yields.force * yields.indentation / mass).sqrt();
-    let speed = yield_speed * log_uniform(random, 0.05, 30.0);
+    let speed = yield_speed * random.log_uniform(0.05, 30.0);
     let impact = Impact { mass, speed };
     let prediction = predict(&plastic, &impact)?;
     let sign = if random.next() < 0.6 { 1.0 } else { -1.0 };
     // from negligible beside the contact to so strong that the bodies cannot separate
     let contact = prediction.contact_time();
-    let acceleration = sign * speed / contact * log_uniform(random, 1e-4, 1e2);
+    let acceleration = sign * speed / contact * random.log_uniform(1e-4, 1e2);
     let time = contact * 3.0 * random.next();
     let gap = if random.next() < 0.5 { 0.0 } else { -prediction.max_indentation * (random.next() - 0.5) };
     let loss = draw_loss(random, &plastic, kind, &impact);

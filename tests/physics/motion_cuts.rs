@@ -27,27 +27,22 @@ struct State {
     turns: u32,
 }
 
-/// A log-uniform number from `low` to `high`.
-fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
-    low * (high / low).powf(random.next())
-}
-
 /// A body that touches a fresh surface or an earlier dent is driven there or pulled away, and touches it up to five times.
 fn draw(random: &mut Random, models: &[(String, AnyModel)]) -> Option<Case> {
     let (_, model) = &models[(random.next() * models.len() as f64) as usize];
     let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
-    let modulus = log_uniform(random, 1e8, 1e12);
-    let pair = pair_of(log_uniform(random, 1e-4, 1.0), modulus, modulus / log_uniform(random, 50.0, 1000.0));
+    let modulus = random.log_uniform(1e8, 1e12);
+    let pair = pair_of(random.log_uniform(1e-4, 1.0), modulus, modulus / random.log_uniform(50.0, 1000.0));
     let model = AnyModel { pair, surface, ..*model };
-    let mass = log_uniform(random, 1e-9, 1e3);
+    let mass = random.log_uniform(1e-9, 1e3);
     let yields = pair.yield_point(1.1);
     let yield_speed = (0.8 * yields.force * yields.indentation / mass).sqrt();
-    let speed = yield_speed * log_uniform(random, 0.05, 30.0);
+    let speed = yield_speed * random.log_uniform(0.05, 30.0);
     let prediction = predict(&model, &Impact { mass, speed })?;
     let sign = if random.next() < 0.5 { 1.0 } else { -1.0 };
     // from negligible beside the contact to so strong that the bodies cannot separate
     let contact = prediction.contact_time();
-    let acceleration = sign * speed / contact * log_uniform(random, 1e-6, 1e3);
+    let acceleration = sign * speed / contact * random.log_uniform(1e-6, 1e3);
     let flights = if sign > 0.0 { 2.0 * speed / acceleration } else { 0.0 };
     let time = contact * 2.0 * random.next() + flights * 4.0 * random.next().powi(3);
     let gap = if random.next() < 0.5 { 0.0 } else { -prediction.max_indentation * (random.next() - 0.5) };
@@ -84,7 +79,7 @@ fn cut(random: &mut Random, time: f64, count: usize) -> Vec<f64> {
     if random.next() < 0.5 {
         return vec![time / count as f64; count];
     }
-    let parts: Vec<f64> = (0..count).map(|_| log_uniform(random, 1e-3, 1.0)).collect();
+    let parts: Vec<f64> = (0..count).map(|_| random.log_uniform(1e-3, 1.0)).collect();
     let sum: f64 = parts.iter().sum();
     parts.iter().map(|part| time * part / sum).collect()
 }
@@ -115,7 +110,7 @@ fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies() {
     while cases < 500 {
         let Some(case) = draw(&mut random, &models) else { continue };
         let whole = run(&case, &[case.time]);
-        let count = log_uniform(&mut random, 2.0, 1001.0) as usize;
+        let count = random.log_uniform(2.0, 1001.0) as usize;
         let steps = cut(&mut random, case.time, count);
         let parts = run(&case, &steps);
         // the rounding errors of many impacts add up

@@ -4,14 +4,9 @@ use crate::physics::{AnyModel, Random, all_models, pair_of};
 use brinell::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follow};
 use brinell::contact::{History, Surface};
 
-/// A log-uniform number from `low` to `high`.
-fn log_uniform(random: &mut Random, low: f64, high: f64) -> f64 {
-    (low.ln() + (high.ln() - low.ln()) * random.next()).exp()
-}
-
 /// Log-uniform, or zero, or the smallest number, of either sign.
 fn signed(random: &mut Random, low: f64, high: f64) -> f64 {
-    let number = log_uniform(random, low, high);
+    let number = random.log_uniform(low, high);
     let sign = if random.next() < 0.5 { 1.0 } else { -1.0 };
     match random.next() {
         0.0..0.15 => 0.0,
@@ -32,10 +27,10 @@ struct Step {
 fn draw(random: &mut Random, models: &[(String, AnyModel)]) -> Option<(Step, History)> {
     let (name, model) = &models[(random.next() * models.len() as f64) as usize];
     let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
-    let modulus = log_uniform(random, 1e8, 1e12);
-    let pair = pair_of(log_uniform(random, 1e-4, 1.0), modulus, modulus / log_uniform(random, 50.0, 1000.0));
+    let modulus = random.log_uniform(1e8, 1e12);
+    let pair = pair_of(random.log_uniform(1e-4, 1.0), modulus, modulus / random.log_uniform(50.0, 1000.0));
     let model = AnyModel { pair, surface, ..*model };
-    let mass = log_uniform(random, 1e-12, 1e6);
+    let mass = random.log_uniform(1e-12, 1e6);
     let history = History::start(&model, signed(random, 1e-20, 1e-3)).ok()?;
     let acceleration = match random.next() {
         0.0..0.2 => history.force() / mass,
@@ -43,7 +38,7 @@ fn draw(random: &mut Random, models: &[(String, AnyModel)]) -> Option<(Step, His
         _ => signed(random, 1e-3, 1e3),
     };
     let speed = if random.next() < 0.5 { signed(random, 1e-160, 1e3) } else { signed(random, 1e-9, 1e3) };
-    let time = log_uniform(random, 1e-18, 1e3);
+    let time = random.log_uniform(1e-18, 1e3);
     let step = Step { model, name: name.clone(), drive: Drive { mass, acceleration }, speed, time };
     Some((step, history))
 }

@@ -207,6 +207,11 @@ impl Random {
         let shifted = (((state >> 18) ^ state) >> 27) as u32;
         f64::from(shifted.rotate_right((state >> 59) as u32)) / 4_294_967_296.0
     }
+
+    /// A log-uniform number from `low` to `high`.
+    pub fn log_uniform(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.next())
+    }
 }
 
 /// `x` yield indentations [m] on a grid of powers of two, on which sums and differences are exact.
