@@ -85,7 +85,7 @@ mod exporter {
     }
 
     /// The prototypes of the 34 functions. A C program that includes the standard's header and then this one compiles only if
-    /// every signature agrees; `tests/abi.rs` checks this.
+    /// every signature agrees; `tests/importing/abi.rs` checks this.
     fn write_header(root: &Path, header: &Path) {
         let config = cbindgen::Config {
             language: cbindgen::Language::C,

@@ -2,14 +2,32 @@
 //!
 //! `cargo test --release --test exported every_law` runs one of them.
 
+#[path = "../support/both_ways.rs"]
+mod both_ways;
 #[path = "../support/command.rs"]
 mod command;
+#[path = "../support/courses.rs"]
+mod courses;
+#[path = "../support/hosts.rs"]
+mod hosts;
+#[path = "../support/kinds.rs"]
+mod kinds;
 #[path = "../support/loaded.rs"]
 mod loaded;
 #[path = "../support/physics.rs"]
 mod physics;
+#[path = "../support/prebuilt.rs"]
+mod prebuilt;
+#[path = "../support/pytest.rs"]
+mod pytest;
+#[path = "../support/python.rs"]
+mod python;
 #[path = "../support/refusal.rs"]
 mod refusal;
+#[path = "../support/skips.rs"]
+mod skips;
+#[path = "../support/standalone.rs"]
+mod standalone;
 #[path = "../support/unit.rs"]
 mod unit;
 
@@ -22,18 +40,23 @@ mod every_law;
 mod export;
 mod friction_derivatives;
 mod friction_rebounds;
+mod friction_two_unit;
 mod friction_unit;
 mod guarded_units;
 mod hardening;
 mod law_energy;
 mod law_parameters;
+mod library;
 mod long_messages;
 mod loss_parameters;
 mod merge;
 mod parameters_per_contact;
+mod prebuilt_libraries;
+mod prebuilt_refusals;
 mod rebounds;
 mod several_contacts;
 mod ssp;
+mod standalone_unit;
 mod strain_rate;
 mod two_strengths;
 mod validity;

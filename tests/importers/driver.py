@@ -1,8 +1,8 @@
 """The task of every importer, and the format of its results.
 
 A driver `with_TOOL.py FOLDER RESULT` finds in FOLDER `contact.fmu`, `serial.fmu`, `parallel.fmu`, `mass.fmu`, `heavy.fmu`
-(the same body under gravity), `ball.ssp` and `history.txt`, and writes to RESULT what it found as JSON; `tests/importers.rs` judges it. A driver has ways: a name, the order
-of execution, and what to do.
+(the same body under gravity), `ball.ssp` and `history.txt`, and writes to RESULT what it found as JSON;
+`tests/importing/every_importer.rs` judges it. A driver has ways: a name, the order of execution, and what to do.
 """
 
 import importlib.metadata

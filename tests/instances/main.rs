@@ -2,12 +2,20 @@
 //!
 //! The same tests run under the address sanitizer, see `tests/c_functions.rs`.
 
+#[path = "../support/masters.rs"]
+mod masters;
 #[path = "../support/physics.rs"]
 mod physics;
 #[path = "../support/scenes.rs"]
 mod scenes;
 
+mod damped_motion;
 mod derivatives;
+mod hostile_states;
+mod orders_of_execution;
+mod rate_unit;
+mod stability_warning;
+mod wiring;
 
 use brinell::contact::Contact;
 use brinell::contact::damped::AnyDamped;

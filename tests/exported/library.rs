@@ -1,0 +1,160 @@
+//! The library in an FMU, as bytes: small, self-contained, and without traces of where it was built.
+#![cfg(target_os = "linux")]
+
+use crate::skips;
+use crate::unit;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Largest size of a library [bytes]: that of an FMU that knows the mass.
+const LARGEST: u64 = 62_000;
+
+/// The same with friction: the springs, their growth with the dent, and their merge.
+const LARGEST_WITH_FRICTION: u64 = 100_000;
+
+/// Largest size of the library of the default scene [bytes].
+const LARGEST_OF_DEFAULT: u64 = 34_300;
+
+fn libraries() -> Vec<PathBuf> {
+    unit::scenes().iter().map(|scene| unit::library(&unit::export(scene))).collect()
+}
+
+/// Standard output of a binutils program; `None`, with a message, if it is not installed.
+fn tool(name: &str, arguments: &[&str], library: &Path) -> Option<String> {
+    let Ok(output) = Command::new(name).args(arguments).arg(library).output() else {
+        skips::skipped(&format!("what {name} shows of a library"), "it isn't installed");
+        return None;
+    };
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    Some(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+fn contains(bytes: &[u8], text: &str) -> bool {
+    bytes.windows(text.len()).any(|window| window == text.as_bytes())
+}
+
+#[test]
+fn it_is_small() {
+    for library in libraries() {
+        let size = fs::metadata(&library).unwrap().len();
+        let has_friction = contains(&fs::read(&library).unwrap(), "tangential_rate");
+        let largest = if has_friction { LARGEST_WITH_FRICTION } else { LARGEST };
+        assert!(size < largest, "{}: {size} bytes", library.display());
+    }
+    let library = unit::library(&unit::export(&unit::scene("steel_ball")));
+    let size = fs::metadata(&library).unwrap().len();
+    assert!(size < LARGEST_OF_DEFAULT, "{size} bytes");
+}
+
+/// Nothing unwinds through a library that cannot panic, and nobody needs to know which compiler made it.
+#[test]
+fn it_has_no_tables_for_unwinding_and_no_comment() {
+    for library in libraries() {
+        let Some(sections) = tool("readelf", &["-SW"], &library) else { return };
+        assert!(sections.contains(".text"), "no list of sections: {sections}");
+        for name in [".eh_frame", ".comment", ".debug", ".symtab"] {
+            assert!(!sections.contains(name), "{name} in {sections}");
+        }
+    }
+}
+
+/// The library of the default scene's contact with these outputs.
+fn with_outputs(name: &str, outputs: &str) -> PathBuf {
+    let text = format!(
+        "name = \"{name}\"\nimpactor = {{ radius = 5e-3 }}\ntarget = {{ material = \"mild steel\" }}\n\
+         fmu = {{ outputs = [{outputs}] }}\n"
+    );
+    unit::library(&unit::export(&unit::write_scene(name, &text)))
+}
+
+/// The code of an output is in the library only if the scene requests the output.
+#[test]
+fn an_output_that_is_not_requested_is_not_in_the_library() {
+    let size = |library: PathBuf| fs::metadata(library).unwrap().len();
+    let force_alone = size(with_outputs("force_alone", ""));
+    let work = size(with_outputs("with_work", "\"work\""));
+    let radius = size(with_outputs("with_radius", "\"contact_radius\""));
+    assert!(force_alone + 200 < work && force_alone + 200 < radius, "{force_alone}, {work} and {radius} bytes");
+}
+
+#[test]
+fn it_exports_the_34_functions_and_nothing_else() {
+    for library in libraries() {
+        let Some(symbols) = tool("nm", &["-D", "--defined-only"], &library) else { return };
+        let names: Vec<_> = symbols.lines().filter_map(|line| line.rsplit(' ').next()).collect();
+        assert!(names.iter().all(|name| name.starts_with("fmi2")), "{names:?}");
+        assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), 34, "{names:?}");
+        assert_eq!(names.len(), 34, "{names:?}");
+    }
+}
+
+/// Only memory functions, and those to which compilers translate loops over memory; above all, nothing that panics.
+#[test]
+fn it_takes_only_memory_functions_from_the_process() {
+    let allowed = ["calloc", "free", "memcpy", "memmove", "memset", "memcmp", "bcmp", "strlen"];
+    for library in libraries() {
+        let Some(symbols) = tool("nm", &["-D", "--undefined-only"], &library) else { return };
+        let names: Vec<_> = symbols.lines().filter_map(|line| line.rsplit(' ').next()).collect();
+        assert!(names.contains(&"calloc"), "the list is that of another file: {names:?}");
+        assert!(names.iter().all(|name| allowed.contains(name)), "{names:?}");
+    }
+}
+
+/// Otherwise it would load only with a C library of the same kind, at least as new as the one on the build machine.
+#[test]
+fn it_needs_no_library_and_no_version_of_a_symbol() {
+    for library in libraries() {
+        let Some(dynamic) = tool("readelf", &["-dW"], &library) else { return };
+        assert!(dynamic.contains("SYMTAB"), "no dynamic section: {dynamic}");
+        for entry in ["NEEDED", "VERNEED", "RPATH", "RUNPATH", "TEXTREL", "INIT", "FINI"] {
+            assert!(!dynamic.contains(&format!("({entry}")), "{entry} in {dynamic}");
+        }
+    }
+}
+
+/// Because of an executable stack, the loader would make the stack of the whole process executable, or fail.
+#[test]
+fn its_stack_is_not_executable() {
+    for library in libraries() {
+        let Some(segments) = tool("readelf", &["-lW"], &library) else { return };
+        let stack = segments.lines().find(|line| line.contains("GNU_STACK")).expect("a stack segment");
+        assert!(stack.contains(" RW "), "{stack}");
+    }
+}
+
+#[test]
+fn it_holds_no_path_of_the_machine_that_built_it() {
+    for library in libraries() {
+        let bytes = fs::read(&library).unwrap();
+        let temporary = std::env::temp_dir();
+        for path in ["/home", "/root", "/rustc/", "rustc/", ".cargo", "registry", env!("CARGO_MANIFEST_DIR")] {
+            assert!(!contains(&bytes, path), "{path:?} in {}", library.display());
+        }
+        assert!(!contains(&bytes, &format!("{}/", temporary.display())), "{} in the library", temporary.display());
+        assert!(contains(&bytes, "fmi2DoStep"), "the search would find nothing at all");
+    }
+}
+
+/// Features that a scene does not request are neither in the XML nor in the binary.
+#[test]
+fn an_elastic_fmu_has_nothing_plastic() {
+    let [elastic, plastic] = ["elastic", "steel_ball"].map(|name| unit::library(&unit::export(&unit::scene(name))));
+    let size = |library: &Path| fs::metadata(library).unwrap().len() as f64;
+    assert!(size(&elastic) < 0.9 * size(&plastic), "{} against {} bytes", size(&elastic), size(&plastic));
+    let description = |library: &Path| {
+        let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+        fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library")
+    };
+    assert!(description(&plastic).contains("yield_strength"));
+    assert!(!description(&elastic).contains("yield_strength"));
+    assert!(!contains(&fs::read(&elastic).unwrap(), "yield_strength"));
+}
+
+/// The library of a scene whose parameters are all constants contains no name of a parameter.
+#[test]
+fn a_parameter_that_is_a_constant_is_not_in_the_library() {
+    let bytes = fs::read(unit::library(&unit::export(&unit::scene("elastic")))).unwrap();
+    assert!(!contains(&bytes, "youngs_modulus") && !contains(&bytes, "initial_gap"));
+}

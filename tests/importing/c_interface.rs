@@ -1,0 +1,147 @@
+//! The FMU called by a C program that is compiled against the standard's headers: see `tests/c/driver.c`.
+//!
+//! Misuse by a C importer, and guarantees to it, are best tested in C. This file compiles the program, runs it on the FMU of
+//! the default scene, and reads its list of checks.
+#![cfg(all(target_os = "linux", target_env = "gnu"))]
+
+use crate::driver::{arguments, assert_good, attribute, compile, has_valgrind, headers, valgrind};
+use crate::unit;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Least number of checks by the program: fewer would mean that it ended early, or that a part is not called.
+const CHECKS: usize = 130;
+
+/// Number of those that count allocations.
+const COUNTS: usize = 8;
+
+#[test]
+fn a_c_program_finds_everything_in_order() {
+    let program = compile("driver", &[]);
+    let output = Command::new(program).args(arguments()).output().expect("the program was compiled");
+    let checks = assert_good(&output);
+    assert!(checks >= CHECKS, "only {checks} checks:\n{}", String::from_utf8_lossy(&output.stdout));
+    let counts = String::from_utf8_lossy(&output.stdout).lines().filter(|line| line.contains("memory")).count();
+    assert!(counts >= COUNTS, "allocations were not counted");
+}
+
+#[test]
+fn valgrind_finds_no_wrong_access_and_no_leak() {
+    if !has_valgrind() {
+        return;
+    }
+    let program = compile("driver-for-valgrind", &["-DNO_COUNTING"]);
+    let output = valgrind("memcheck").arg(program).args(arguments()).output().expect("valgrind is there");
+    let checks = assert_good(&output);
+    assert!(checks >= CHECKS - 2 * COUNTS, "only {checks} checks:\n{}", String::from_utf8_lossy(&output.stdout));
+}
+
+/// Compiles the program of one file `tests/c/NAME.c`.
+fn compile_one(name: &str) -> PathBuf {
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/c/{name}.c"));
+    let mut compiler = Command::new("cc");
+    compiler.args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-I"]).arg(headers()).arg(source);
+    let output = compiler.arg("-o").arg(&program).args(["-ldl", "-lm"]).output().expect("there is a C compiler");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    program
+}
+
+const MOMENTUM: &str = "\"indentation\", \"stiffness\", \"mean_pressure\", \"elastic_energy\", \"dissipated_energy\", \
+                        \"impulse\", \"mean_force\", \"predicted_force\", \"work\"";
+
+/// A scene with each loss below yield, by the name of its kind.
+fn losses() -> [(&'static str, PathBuf); 3] {
+    let kinds = [
+        ("fitted", "", ", elastic_restitution = 0.9"),
+        ("waves", "", ", elastic_restitution = \"waves\""),
+        ("plate", ", plate_thickness = 0.01", ""),
+    ];
+    kinds.map(|(kind, target, law)| {
+        let text = format!(
+            "name = \"lossy\"\nimpactor = {{ radius = 5e-3 }}\ntarget = {{ material = \"mild steel\"{target} }}\n\
+             law = {{ loading = \"brinell\"{law} }}\nfmu = {{ outputs = [{MOMENTUM}] }}\n\
+             impact = {{ mass = 4e-3, speed = 1.0 }}\n"
+        );
+        (kind, unit::write_scene("lossy", &text))
+    })
+}
+
+#[test]
+fn a_c_program_uses_fmus_with_losses() {
+    let program = compile_one("losses");
+    for (kind, scene) in losses() {
+        let library = unit::library(&unit::export(&scene));
+        let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+        let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
+        let variables = description.split("<ScalarVariable").skip(1).map(|element| {
+            let of = |name| attribute(element, name).expect("every variable has a name and a reference");
+            format!("{}={}", of("name"), of("valueReference"))
+        });
+        let mut run = Command::new(&program);
+        run.arg(&library).arg(attribute(&description, "guid").unwrap()).arg(kind).args(variables);
+        let output = run.output().expect("the program was compiled");
+        println!("{kind}:\n{}", String::from_utf8_lossy(&output.stdout));
+        let least = if kind == "waves" { 24 } else { 30 };
+        assert!(assert_good(&output) >= least, "{kind}: too few checks");
+    }
+}
+
+/// Every scene of the project, each rate-dependent law, each loss, and a law without segments, with every output, in a host
+/// that traps.
+#[test]
+fn a_host_that_traps_floating_point_exceptions_survives_every_kind_of_fmu() {
+    let program = compile_one("exceptions");
+    let bodies = "impactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n";
+    let mut scenes = unit::scenes();
+    scenes.extend(losses().map(|(_, scene)| scene));
+    for law in ["hunt-crossley", "kelvin-voigt", "tsuji", "kuwabara-kono", "adams-impact", "jackson-green"] {
+        let asked = ["hunt-crossley", "kelvin-voigt", "tsuji"].contains(&law);
+        let restitution = if asked { "restitution = 0.7\n" } else { "" };
+        let text = format!(
+            "name = \"trapped\"\n{bodies}law = {{ loading = \"{law}\" }}\nfmu = {{ outputs = [{MOMENTUM}] }}\n\
+             impact = {{ mass = 4e-3, speed = 1.0 }}\n"
+        );
+        let text = text.replace("law = {", &format!("law = {{ {}", restitution.trim().replace("0.7", "0.7,")));
+        scenes.push(unit::write_scene(&format!("trapped_{}", law.replace('-', "_")), &text));
+    }
+    for scene in scenes {
+        let library = unit::library(&unit::export(&scene));
+        let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+        let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
+        let elements = || description.split("<ScalarVariable").skip(1);
+        let of = |causality: &'static str| {
+            elements().filter(move |element| attribute(element, "causality") == Some(causality))
+        };
+        let outputs = of("output").filter(|element| element.contains("<Real"));
+        let outputs = outputs.filter_map(|element| attribute(element, "valueReference").map(str::to_string));
+        let has = |what: &str| description.contains(what);
+        let derivatives = match () {
+            () if has("canInterpolateInputs=\"true\"") => "d",
+            () if has("maxOutputDerivativeOrder=\"0\"") => "p",
+            () if has("name=\"lossy\"") || has("modelName=\"lossy\"") => "l",
+            () => "-",
+        };
+        let mut run = Command::new(&program);
+        // the rates come first; other inputs keep their values
+        let rates = of("input").filter(|element| element.contains("indentation_rate\"")).count();
+        run.arg(&library).arg(attribute(&description, "guid").unwrap()).arg(rates.to_string());
+        run.arg(derivatives).args(outputs.take(40));
+        let output = run.output().expect("the program was compiled");
+        assert!(output.status.success(), "{}: {}", scene.display(), output.status);
+    }
+}
+
+/// The program must be able to fail: here its arguments do not match the library.
+#[test]
+fn the_c_program_fails_for_a_wrong_guid_and_a_wrong_reference() {
+    let program = compile("driver-that-fails", &[]);
+    for (place, wrong) in [(1, "another"), (3, "1000000"), (2, "1")] {
+        let mut wrong_ones = arguments();
+        wrong_ones[place] = wrong.into();
+        let output = Command::new(&program).args(wrong_ones).output().expect("the program was compiled");
+        assert!(!output.status.success(), "argument {place} = {wrong}");
+        assert!(String::from_utf8_lossy(&output.stdout).contains("FAIL "), "argument {place} = {wrong}");
+    }
+}

@@ -1,0 +1,235 @@
+//! Examples with multibody engines, and studies. Each example checks its own results. If a package cannot be installed here,
+//! the example is skipped with a message. `BRINELL_ENGINES=all` adds Drake and Exudyn, and the
+//! animations.
+
+use crate::python;
+use crate::skips;
+use crate::unit;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::LazyLock;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Whether Drake and Exudyn are tested too.
+fn all() -> bool {
+    std::env::var("BRINELL_ENGINES").is_ok_and(|value| value == "all")
+}
+
+/// The engines that are tested only with `BRINELL_ENGINES=all`, because they are large.
+const LARGE: [&str; 2] = ["pydrake.all", "exudyn"];
+
+/// The interpreter that has these packages, with the module of the project and the program.
+fn interpreter(packages: &[&str]) -> Command {
+    let mut command = Command::new(python::engines(packages.iter().any(|package| LARGE.contains(package))));
+    command
+        .env("PYTHONPATH", root().join("python"))
+        .env("BRINELL", env!("CARGO_BIN_EXE_brinell"))
+        .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
+        // the source tree stays clean
+        .env("PYTHONDONTWRITEBYTECODE", "1");
+    command
+}
+
+fn text(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
+
+/// Prints past the test harness, which hides the output of a test that passes.
+fn tell(what: &str) {
+    writeln!(std::io::stderr(), "{what}").expect("somebody reads");
+}
+
+/// Whether these packages are available; if not, records what is skipped.
+fn have(packages: &[&str], skipped: &str) -> bool {
+    if !all() && packages.iter().any(|package| LARGE.contains(package)) {
+        skips::skipped(skipped, "a large engine; BRINELL_ENGINES=all adds it");
+        return false;
+    }
+    let missing: Vec<_> = packages
+        .iter()
+        .filter(|package| {
+            let output = interpreter(packages).args(["-c", &format!("import {package}")]).output();
+            !output.expect("the environment has an interpreter").status.success()
+        })
+        .collect();
+    if !missing.is_empty() {
+        skips::skipped(skipped, &format!("{missing:?} can't be installed here"));
+    }
+    missing.is_empty()
+}
+
+/// An example with its packages.
+struct Example {
+    name: &'static str,
+    packages: &'static [&'static str],
+    animated: bool,
+}
+
+const EXAMPLES: [Example; 10] = [
+    Example { name: "mujoco_ball", packages: &["mujoco"], animated: false },
+    Example { name: "mujoco_arm", packages: &["mujoco"], animated: true },
+    Example { name: "exudyn_ball", packages: &["exudyn"], animated: false },
+    Example { name: "drake_ball", packages: &["pydrake.all"], animated: false },
+    Example { name: "pendulum", packages: &[], animated: false },
+    Example { name: "cradle", packages: &["mujoco"], animated: true },
+    Example { name: "ball_in_box", packages: &[], animated: false },
+    Example { name: "mujoco_oblique", packages: &["mujoco"], animated: false },
+    Example { name: "billiard", packages: &[], animated: false },
+    Example { name: "ramp", packages: &[], animated: false },
+];
+
+/// Runs an example, which ends with an error if its checks fail, and compares its pictures, which `BRINELL_WRITE=1` copies to
+/// the documentation. Returns its output and its run time [s], or an error message.
+fn run(example: &Example) -> Result<(String, f64), String> {
+    let name = example.name;
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let [picture, animation] = ["svg", "gif"].map(|ending| folder.join(name).with_extension(ending));
+    // an animation takes longer than its example
+    let animated = example.animated && (all() || std::env::var_os("BRINELL_WRITE").is_some());
+    let drawn = [Some(&picture), animated.then_some(&animation)];
+    for path in drawn.into_iter().flatten() {
+        let _ = std::fs::remove_file(path);
+    }
+    let mut command = interpreter(example.packages);
+    command.arg(root().join("examples").join(name).with_extension("py")).args(drawn.into_iter().flatten());
+    let start = std::time::Instant::now();
+    let output = command.output().expect("the environment has an interpreter");
+    let (text, seconds) = (text(&output), start.elapsed().as_secs_f64());
+    if !output.status.success() || !text.contains("balance of energy") {
+        return Err(format!("{name} fails or doesn't judge itself:\n{text}"));
+    }
+    if !std::fs::read_to_string(&picture).is_ok_and(|drawn| drawn.contains("</svg>")) {
+        return Err(format!("{name} draws no picture"));
+    }
+    let moves = |bytes: Vec<u8>| bytes.starts_with(b"GIF89a") && bytes.len() < 500_000;
+    if animated && !std::fs::read(&animation).is_ok_and(moves) {
+        return Err(format!("{name} draws no animation, or a large one"));
+    }
+    if std::env::var_os("BRINELL_WRITE").is_some() {
+        for path in drawn.into_iter().flatten() {
+            let file = path.file_name().expect("a picture has a name");
+            std::fs::copy(path, root().join("docs/examples").join(file)).map_err(|error| error.to_string())?;
+        }
+    }
+    Ok((text, seconds))
+}
+
+/// The largest error of the energy balance in the output of an example.
+fn balance(text: &str) -> f64 {
+    let errors =
+        text.lines().filter_map(|line| line.strip_prefix("balance of energy: ")?.split(' ').next()?.parse().ok());
+    errors.fold(f64::NAN, f64::max)
+}
+
+#[test]
+fn every_example_judges_itself_and_draws_its_pictures() {
+    let mut table = String::from("| example | balance of energy | seconds |\n|---|---|---|\n");
+    let mut wrong = Vec::new();
+    for example in &EXAMPLES {
+        let name = example.name;
+        if !have(example.packages, name) {
+            table += &format!("| {name} | not run | |\n");
+            continue;
+        }
+        match run(example) {
+            Ok((text, seconds)) => {
+                println!("{name}:\n{text}");
+                table += &format!("| {name} | {:.1e} | {seconds:.0} |\n", balance(&text));
+                // the friction of the billiard ball begins within a step: an error of first order
+                let allowed = if name == "billiard" { 1e-4 } else { 1e-6 };
+                let errs = balance(&text).is_nan() || balance(&text) > allowed;
+                wrong.extend(errs.then(|| format!("{name}: the balance")));
+            }
+            Err(reason) => wrong.push(reason),
+        }
+    }
+    tell(&table);
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// own_lines.py defines which lines count.
+#[test]
+fn an_example_is_at_most_forty_lines_of_the_users_own_code() {
+    let paths = EXAMPLES.map(|example| root().join("examples").join(example.name).with_extension("py"));
+    let output = interpreter(&[]).arg(root().join("tests/python/own_lines.py")).args(paths).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    let counts = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(counts.lines().count(), EXAMPLES.len(), "{counts}");
+    for line in counts.lines() {
+        let count: u32 = line.split_whitespace().next().and_then(|word| word.parse().ok()).expect("a number");
+        assert!((10..=40).contains(&count), "{line}");
+    }
+    tell(&format!("lines of the user's own code:\n{counts}"));
+}
+
+/// The first block of `page` in this language.
+fn block<'a>(page: &'a str, language: &str) -> &'a str {
+    let start = format!("```{language}\n");
+    let rest = page.split(&start).nth(1).unwrap_or_else(|| panic!("the page has no block of {language}"));
+    rest.split("```").next().unwrap_or_default()
+}
+
+fn read(page: &str) -> String {
+    std::fs::read_to_string(root().join("docs/guide/tools").join(page)).expect("the page is there")
+}
+
+/// The unit of the page on MuJoCo, exported once.
+static BALL: LazyLock<PathBuf> =
+    LazyLock::new(|| unit::export(&unit::write_scene("ball", block(&read("mujoco.md"), "toml"))));
+
+/// What docs/guide/tools/`name`.md prints is what its script prints, with the unit of the page on MuJoCo.
+fn page(name: &str, packages: &[&str]) {
+    if !have(packages, &format!("the page {name}")) {
+        return;
+    }
+    let page = read(&format!("{name}.md"));
+    let folder = tempfile::tempdir().expect("a folder for what the page writes");
+    std::fs::copy(&*BALL, folder.path().join("ball.fmu")).unwrap();
+    let output =
+        interpreter(packages).args(["-c", block(&page, "python")]).current_dir(folder.path()).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    // an engine may print additional lines
+    let shown: Vec<_> = printed.lines().filter(|line| line.contains(" s: ") || line.starts_with("potential")).collect();
+    assert_eq!(shown, block(&page, "text").lines().collect::<Vec<_>>(), "{printed}");
+}
+
+#[test]
+fn the_page_on_mujoco_prints_what_it_shows() {
+    page("mujoco", &["mujoco"]);
+}
+
+#[test]
+fn the_page_on_exudyn_prints_what_it_shows() {
+    page("exudyn", &["exudyn"]);
+}
+
+#[test]
+fn the_page_on_drake_prints_what_it_shows() {
+    page("drake", &["pydrake.all"]);
+}
+
+#[test]
+fn the_page_on_fmpy_prints_what_it_shows() {
+    page("fmpy", &[]);
+}
+
+#[test]
+fn studies_run_completely_and_are_resumed() {
+    if !have(&["scipy", "pyarrow", "tqdm", "matplotlib"], "studies") {
+        return;
+    }
+    let output = interpreter(&[])
+        .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"])
+        .args(["test_study.py", "test_study_command.py"])
+        .current_dir(root().join("tests/python"))
+        .env("BRINELL_TEST_SCENES", root().join("scenes"))
+        .output()
+        .expect("the environment has an interpreter");
+    assert!(output.status.success(), "{}", text(&output));
+    println!("{}", text(&output));
+}

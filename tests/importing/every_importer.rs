@@ -1,0 +1,327 @@
+//! FMUs in other tools: the drivers in tests/importers/, each in its own process.
+//!
+//! Every tool runs the same history of rates, whose forces must be those of the C interface. A co-simulation tool also runs a
+//! ball that hits the block, whose restitution must be the predicted one. The result is a table, including tools that did not
+//! run and the reason. `BRINELL_IMPORTERS=all` adds the larger tools (two gigabytes), `BRINELL_IMPORTER_PYTHON` names an
+//! interpreter with tools that no registry provides, `BRINELL_WRITE=1` writes the table to docs/importers.md.
+#![cfg(target_os = "linux")]
+
+use crate::command;
+use crate::fmi_crate;
+use crate::importer_table;
+use crate::importer_table::{Row, Table};
+use crate::loaded::{OK, Unit};
+use crate::python;
+use crate::skips;
+use crate::unit;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::env;
+use std::f64::consts::TAU;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// The source of the interpreter of a driver.
+enum Interpreter {
+    /// The environment of all tests.
+    Common,
+    /// A virtual environment with the packages of that and those of this requirements file.
+    Beside { requirements: &'static str, large: bool },
+    /// A virtual environment with this requirements file only, because it wants other versions.
+    Own { requirements: &'static str },
+    /// The interpreter in `BRINELL_IMPORTER_PYTHON` with this Python package, if no registry provides an installable one.
+    Given { package: &'static str, since: &'static str },
+}
+
+use Interpreter::{Beside, Common, Given, Own};
+
+struct Driver {
+    name: &'static str,
+    interpreter: Interpreter,
+}
+
+impl Interpreter {
+    /// Whether it is tested only with `BRINELL_IMPORTERS=all`.
+    fn is_large(&self) -> bool {
+        matches!(self, Beside { large: true, .. } | Own { .. })
+    }
+}
+
+const LIGHT: Interpreter = Beside { requirements: "light", large: false };
+const MORE: Interpreter = Beside { requirements: "more", large: true };
+
+const DRIVERS: [Driver; 10] = [
+    Driver { name: "fmpy", interpreter: Common },
+    Driver { name: "libcosim", interpreter: LIGHT },
+    Driver { name: "ecos", interpreter: LIGHT },
+    Driver { name: "container", interpreter: MORE },
+    Driver { name: "pathsim", interpreter: MORE },
+    Driver { name: "cofmupy", interpreter: Own { requirements: "cofmupy" } },
+    Driver { name: "gemseo", interpreter: Own { requirements: "gemseo" } },
+    Driver {
+        name: "fmipp",
+        interpreter: Given {
+            package: "fmipp",
+            since: "PyPI has its source only, which needs SWIG, Boost and SUNDIALS 3.1.2 (Debian 12 has 6.4.1)",
+        },
+    },
+    Driver {
+        name: "pyfmi",
+        interpreter: Given {
+            package: "pyfmi",
+            since: "PyPI has the source of version 2.5 only, which needs FMI Library and Assimulo; the current one is on conda-forge",
+        },
+    },
+    Driver {
+        name: "omsimulator",
+        interpreter: Given {
+            package: "OMSimulator",
+            since: "its package on PyPI has no binary and downloads one from build.openmodelica.org when it is installed",
+        },
+    },
+];
+
+/// Tools without a driver.
+const NOT_RUN: [(&str, &str); 1] = [("fmi-sim", "not tried: it is the program of the `fmi` crate, which is run")];
+
+/// More time than any driver needs: one that takes longer hangs.
+const HANGS: Duration = Duration::from_secs(300);
+
+/// Of the heavy ball, towards the block [m/s^2].
+const GRAVITY: f64 = 9.81;
+
+/// Steps of the balls [s], and how many there are of them, as in importers/driver.py.
+const BALL_SIZES: [f64; 3] = [1e-6, 1e-4, 2e-3];
+const BALL_STEPS: f64 = 100.0;
+
+const STEPS: u32 = 2000;
+const STEP: f64 = 1e-6;
+
+/// The closing rate [m/s] of a step: load, unload until separation, and load deeper, five times.
+fn rate(index: u32) -> f64 {
+    0.06 * (TAU * f64::from(index) / 400.3).sin() + 0.006
+}
+
+/// The folder with all files of the drivers. `swapped` gives each kind of importer the FMU for the other kind.
+fn folder(name: &str, swapped: bool) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("importers").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let lines: String = (0..STEPS).map(|index| format!("{:?} {STEP:?}\n", rate(index))).collect();
+    fs::write(folder.join("history.txt"), lines).unwrap();
+    let (serial, parallel) = if swapped { ("parallel", "serial") } else { ("serial", "parallel") };
+    fs::copy(unit::export(&unit::scene("steel_ball")), folder.join("contact.fmu")).unwrap();
+    fs::copy(unit::export(&ball("serial")), folder.join(serial).with_extension("fmu")).unwrap();
+    fs::copy(unit::export(&ball("parallel")), folder.join(parallel).with_extension("fmu")).unwrap();
+    pack_mass(&folder, "mass", 0.0);
+    pack_mass(&folder, "heavy", GRAVITY);
+    // the ball as a system
+    let scene = ball(if swapped { "serial" } else { "parallel" }).display().to_string();
+    let system = ["ssp", &scene, "-o", "ball.ssp", "--with", "mass.fmu"];
+    let connections = ["--connect", "contact.mean_force=mass.force", "--connect", "mass.rate=contact.indentation_rate"];
+    command::run(&folder, system.into_iter().chain(connections)).with_status(0);
+    folder
+}
+
+/// The ball of scenes/mass_known.toml for this kind of importer. It touches the block within the second microsecond.
+fn ball(master: &str) -> PathBuf {
+    let text = fs::read_to_string(unit::scene("mass_known")).unwrap();
+    let text = text.replacen("\"mass_known\"", &format!("\"{master}\""), 1);
+    let text = text.replacen("[fmu]\n", "[fmu]\ninitial_gap = 1.3e-6\n", 1);
+    unit::write_scene(master, &format!("{text}master = \"{master}\"\ninputs = [\"external_acceleration\"]\n"))
+}
+
+/// Compiles c/mass.c with this gravity [m/s^2] and packs it as `NAME.fmu`.
+fn pack_mass(folder: &Path, name: &str, gravity: f64) {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let parts = folder.join(name);
+    fs::create_dir_all(parts.join("binaries/linux64")).unwrap();
+    let text = include_str!("../importers/mass.xml")
+        .replace("start=\"0\"/></ScalarVariable>\n  </Model", "start=\"GRAVITY\"/></ScalarVariable>\n  </Model");
+    let text = text.replace("{mass}", &format!("{{{name}}}")).replace("GRAVITY", &gravity.to_string());
+    fs::write(parts.join("modelDescription.xml"), text).unwrap();
+    let mut compiler = Command::new("cc");
+    compiler.args(["-shared", "-fPIC", "-O2", "-Wall", "-Wextra", "-Werror", &format!("-DGRAVITY={gravity:?}"), "-o"]);
+    compiler.arg(parts.join("binaries/linux64/mass.so")).arg(tests.join("c/mass.c"));
+    command::output(&mut compiler).with_status(0);
+    let mut zip = Command::new("python3");
+    zip.args(["-m", "zipfile", "-c", &format!("../{name}.fmu"), "binaries", "modelDescription.xml"])
+        .current_dir(&parts);
+    command::output(&mut zip).with_status(0);
+}
+
+/// The forces [N] after each step through the C interface; the history must pass through every regime.
+fn reference() -> Vec<f64> {
+    let unit = Unit::load(&unit::steel_ball_with_regime());
+    let mut instance = unit.ready();
+    let mut regimes = BTreeSet::new();
+    let forces = (0..STEPS).map(|index| {
+        instance.set_one("indentation_rate", rate(index));
+        assert_eq!(instance.step(f64::from(index) * STEP, STEP), OK);
+        regimes.insert(instance.integer("regime"));
+        instance.real("force")
+    });
+    let forces = forces.collect();
+    assert_eq!(regimes.into_iter().collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
+    forces
+}
+
+/// The interpreter that has the tool.
+fn python_of(driver: &Driver) -> Result<PathBuf, String> {
+    let name = |requirements| format!("importers-{requirements}");
+    let file = |requirements| {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/importers/requirements-{requirements}.txt"))
+    };
+    let failed = |reason: String| format!("can't be installed: {}", last_line(&reason));
+    match driver.interpreter {
+        Common => Ok(python::python()),
+        Beside { requirements: of, .. } => python::environment_beside(&name(of), &file(of)).map_err(failed),
+        Own { requirements: of } => python::environment_of(&name(of), &file(of)).map_err(failed),
+        Given { package, since } => {
+            let python = PathBuf::from(env::var_os("BRINELL_IMPORTER_PYTHON").unwrap_or_default());
+            let imports = Command::new(&python).args(["-c", &format!("import {package}")]).output();
+            let has = imports.is_ok_and(|output| output.status.success());
+            has.then_some(python).ok_or_else(|| format!("can't be installed: {since}"))
+        }
+    }
+}
+
+/// Runs a driver to its end. Its result is in `result`, possibly incomplete.
+fn run(driver: &Driver, folder: &Path) -> Result<Value, String> {
+    let importers = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers");
+    let python = python_of(driver)?;
+    let [result, log] = ["json", "log"].map(|ending| folder.join(driver.name).with_extension(ending));
+    let written = File::create(&log).unwrap();
+    let mut process = Command::new(python)
+        .arg(importers.join(format!("with_{}.py", driver.name)))
+        .args([folder, &result])
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .stdin(Stdio::null())
+        .stdout(written.try_clone().unwrap())
+        .stderr(written)
+        .spawn()
+        .map_err(|error| format!("can't be started: {error}"))?;
+    let start = Instant::now();
+    let status = loop {
+        match process.try_wait().map_err(|error| error.to_string())? {
+            Some(status) => break status,
+            None if start.elapsed() > HANGS => {
+                process.kill().and_then(|()| process.wait()).map_err(|error| error.to_string())?;
+                return Err(format!("hangs, see {}", log.display()));
+            }
+            None => sleep(Duration::from_millis(20)),
+        }
+    };
+    if !status.success() {
+        let text = String::from_utf8_lossy(&fs::read(&log).unwrap_or_default()).into_owned();
+        return Err(format!("{status}: {}", last_line(&text)));
+    }
+    result_of(driver, folder)
+}
+
+/// The result that a driver has written.
+fn result_of(driver: &Driver, folder: &Path) -> Result<Value, String> {
+    let text = fs::read_to_string(folder.join(driver.name).with_extension("json"));
+    let text = text.map_err(|error| format!("no result: {error}"))?;
+    serde_json::from_str(&text).map_err(|error| format!("no result: {error}"))
+}
+
+fn last_line(text: &str) -> String {
+    text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default().to_string()
+}
+
+/// The restitution of the ball according to `brinell predict`.
+fn predicted() -> f64 {
+    let run =
+        command::run(command::empty_folder().path(), [Path::new("predict"), &ball("serial"), Path::new("--json")]);
+    run.with_status(0).json()["laws"][0]["restitution"].as_f64().expect("a number")
+}
+
+/// What is right: the forces of the history [N], the restitution of the ball, and the closing speeds of the heavy one when it has
+/// made all its steps [m/s], by an FMU that goes there in one.
+struct Right {
+    forces: Vec<f64>,
+    restitution: f64,
+    speeds: [f64; 3],
+}
+
+impl Right {
+    fn found() -> Right {
+        let unit = Unit::load(&ball("serial"));
+        let speed = |step: f64| {
+            let mut instance = unit.ready();
+            instance.set_one("external_acceleration", GRAVITY);
+            instance.set_one("indentation_rate", 1.0);
+            assert_eq!(instance.step(0.0, BALL_STEPS * step), OK);
+            1.0 + BALL_STEPS * step * (GRAVITY - instance.real("mean_force") / 4e-3)
+        };
+        Right { forces: reference(), restitution: predicted(), speeds: BALL_SIZES.map(speed) }
+    }
+
+    fn rows<'a>(&'a self, result: &'a Value) -> impl Iterator<Item = Row> + 'a {
+        importer_table::rows(result, &self.forces, self.restitution, &self.speeds)
+    }
+}
+
+/// The row of the `fmi` crate.
+fn fmi_crate(folder: &Path, forces: &[f64]) -> Row {
+    let bits = fmi_crate::forces_by_fmi_crate(&folder.join("contact.fmu"), &folder.join("history.txt"));
+    let found: Vec<_> = bits.lines().map(|line| f64::from_bits(u64::from_str_radix(line, 16).unwrap())).collect();
+    let (_, version) =
+        include_str!("../importers/Cargo.toml").split_once("fmi = { version = \"").expect("its requirement");
+    let version = version.split('"').next().unwrap_or_default();
+    Row {
+        agreement: Some(importer_table::difference(&found, forces)),
+        ..Row::named("`fmi` crate (Rust)", version, "-")
+    }
+}
+
+#[test]
+fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitution() {
+    let (folder, right) = (folder("right", false), Right::found());
+    let mut table = Table::default();
+    table.rows.push(fmi_crate(&folder, &right.forces));
+    let all = env::var("BRINELL_IMPORTERS").is_ok_and(|value| value == "all");
+    for driver in &DRIVERS {
+        if driver.interpreter.is_large() && !all {
+            table.not_run.push((driver.name.into(), "large; BRINELL_IMPORTERS=all adds it".into()));
+            continue;
+        }
+        match run(driver, &folder) {
+            Ok(result) => table.rows.extend(right.rows(&result)),
+            Err(reason) if reason.starts_with("can't be installed") => table.not_run.push((driver.name.into(), reason)),
+            Err(reason) => {
+                // the results before the crash
+                let done = result_of(driver, &folder).unwrap_or_default();
+                table.rows.extend(right.rows(&done));
+                table.rows.push(Row { failure: Some(reason), ..Row::named(driver.name, "", "-") });
+            }
+        }
+    }
+    table.not_run.extend(NOT_RUN.map(|(tool, reason)| (tool.to_string(), reason.to_string())));
+    table.print();
+    table.not_run.iter().for_each(|(tool, reason)| skips::skipped(&format!("the importer {tool}"), reason));
+    let wrong = table.wrong();
+    assert!(wrong.is_empty(), "{wrong:#?}; logs are in {}", folder.display());
+    assert!(table.rows.len() > 1, "no importer could be installed");
+    if env::var_os("BRINELL_WRITE").is_some() {
+        table.write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/importers.md"));
+    }
+}
+
+/// The table can fail: with the FMU for the other kind of importer, the ball has a large error.
+#[test]
+fn a_unit_for_the_other_kind_of_master_is_seen_in_the_table() {
+    let (folder, right) = (folder("swapped", true), Right::found());
+    let result = run(&DRIVERS[0], &folder).unwrap_or_else(|reason| panic!("{reason}"));
+    let rows: Vec<_> = right.rows(&result).collect();
+    for order in ["serial", "parallel"] {
+        for row in rows.iter().filter(|row| row.order == order) {
+            assert!(row.errors.iter().any(|error| error.abs() > 0.1), "{row:?}");
+            assert!(row.heavy.is_none_or(|error| error > 0.1), "{row:?}");
+        }
+    }
+}

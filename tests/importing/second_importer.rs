@@ -1,0 +1,51 @@
+//! An FMU in another importer: the `fmi` crate must read it and get the same bits as fmpy.
+
+use crate::fmi_crate::{forces_by_fmi_crate, output_of};
+use crate::python;
+use crate::unit;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Steps of the history.
+const STEPS: u32 = 3000;
+
+/// Loads, unloads and loads deeper, with rates and steps that change from line to line: a few visits to each branch of the law,
+/// at times that no decimal number of steps gives.
+fn history() -> PathBuf {
+    let mut text = String::new();
+    for index in 0..STEPS {
+        let phase = f64::from(index) * 0.013;
+        let rate = 0.3 * phase.sin() + 0.08;
+        let step = 1e-7 * (1.0 + 0.5 * (1.7 * phase).cos());
+        text += &format!("{rate:?} {step:?}\n");
+    }
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("second_importer_history.txt");
+    fs::write(&path, text).expect("the target folder can be written to");
+    path
+}
+
+fn forces_by_fmpy(unit: &Path, history: &Path) -> String {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmpy/force_bits.py");
+    let mut command = Command::new(python::python());
+    output_of(command.arg(script).args([unit, history]).env("PYTHONDONTWRITEBYTECODE", "1"))
+}
+
+#[test]
+fn the_fmi_crate_and_fmpy_get_the_same_bits() {
+    let history = history();
+    for scene in unit::scenes() {
+        let unit = unit::export(&scene);
+        let (by_fmi_crate, by_fmpy) = (forces_by_fmi_crate(&unit, &history), forces_by_fmpy(&unit, &history));
+        let (by_fmi_crate, by_fmpy): (Vec<_>, Vec<_>) = (by_fmi_crate.lines().collect(), by_fmpy.lines().collect());
+        assert_eq!(by_fmi_crate.len(), STEPS as usize);
+        let different = by_fmi_crate.iter().zip(&by_fmpy).position(|(one, other)| one != other);
+        if let Some(step) = different {
+            panic!("{}: step {step}: {} and {}", scene.display(), by_fmi_crate[step], by_fmpy[step]);
+        }
+        assert_eq!(by_fmi_crate.len(), by_fmpy.len());
+        // two importers that both read zeros would also agree
+        let pressed = by_fmi_crate.iter().filter(|bits| **bits != "0000000000000000").count();
+        assert!(pressed > 1000, "{}: in contact for {pressed} steps only", scene.display());
+    }
+}

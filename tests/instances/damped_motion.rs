@@ -1,0 +1,215 @@
+//! Bodies of known mass under the rate-dependent laws, without FMI.
+
+use crate::physics;
+use crate::scenes::{Choice, Chosen, DampedMassive, choose, ready, set_rate};
+use brinell::contact::damped::{self, AnyDamped, Damped, History, Model};
+use brinell::contact::impact::Impact;
+use brinell::contact::motion::{Drive, Outcome};
+use brinell::contact::{Contact, Pair};
+use brinell::instance::Instance;
+use brinell::scene::{Present, Real};
+
+type One = Chosen<DampedMassive, 1, Present>;
+
+const MASS: f64 = 4.11e-3;
+const GRAVITY: f64 = 9.81;
+
+fn pair() -> Pair {
+    Pair { radius: 5e-3, modulus: 226e9, yield_strength: f64::INFINITY, youngs_modulus: 206e9, poissons_ratio: 0.3 }
+}
+
+/// Every law, each with two restitutions.
+fn models() -> impl Iterator<Item = (&'static str, Model<AnyDamped>)> {
+    AnyDamped::ALL.into_iter().flat_map(|(name, law)| {
+        [0.4, 0.9].map(|restitution| (name, Model { pair: pair(), law, restitution, mass: MASS }))
+    })
+}
+
+#[derive(Debug)]
+struct Ball<'a> {
+    model: &'a Model<AnyDamped>,
+    history: History<AnyDamped>,
+    speed: f64,
+    acceleration: f64,
+    /// Distance by which it has come closer [m].
+    way: f64,
+}
+
+impl Ball<'_> {
+    fn new(model: &Model<AnyDamped>, gap: f64, speed: f64, acceleration: f64) -> Ball<'_> {
+        Ball { model, history: History::start(model, gap).expect("within range"), speed, acceleration, way: 0.0 }
+    }
+
+    fn step(&mut self, step: f64) -> Outcome {
+        let drive = Drive { mass: MASS, acceleration: self.acceleration };
+        let before = self.history.indentation();
+        let outcome = damped::follow(&mut self.history, self.model, &drive, self.speed, step);
+        let outcome = outcome.unwrap_or_else(|reason| panic!("{reason:?}: {self:?}"));
+        self.way += self.history.indentation() - before;
+        // the momentum is balanced
+        let expected = self.speed + self.acceleration * step - outcome.taken;
+        let size = self.speed.abs() + self.acceleration.abs() * step + outcome.taken;
+        assert!((outcome.speed - expected).abs() <= 1e-12 * size, "{outcome:?} {expected}");
+        self.speed = outcome.speed;
+        outcome
+    }
+
+    fn dissipated(&self) -> f64 {
+        Contact::<Model<AnyDamped>>::dissipated_energy(&self.history, self.model)
+    }
+
+    fn stored(&self) -> f64 {
+        Contact::<Model<AnyDamped>>::elastic_energy(&self.history, self.model)
+    }
+
+    fn has_parted(&self) -> bool {
+        self.speed < 0.0 && self.history.indentation() <= 0.0
+    }
+}
+
+#[test]
+fn a_rebound_is_the_predicted_one_at_any_speed_and_in_any_steps() {
+    let mut worst = 0.0f64;
+    for (name, model) in models() {
+        for speed in [0.01, 0.1, 1.0, 10.0, 100.0] {
+            let expected = damped::impact::predict(&model, &Impact { mass: MASS, speed }).expect("within range");
+            for parts in [1.0, 10.0, 1000.0] {
+                let step = 1.6 * expected.contact_time() / parts;
+                let mut ball = Ball::new(&model, 0.3 * speed * step, speed, 0.0);
+                let mut deepest = 0.0f64;
+                for _ in 0..10_000 {
+                    deepest = deepest.max(ball.step(step).deepest);
+                    if ball.has_parted() {
+                        break;
+                    }
+                }
+                let error = (-ball.speed / speed / expected.restitution - 1.0).abs();
+                // the prediction ends where the force vanishes; this law pushes once more at a smaller indentation
+                let allowed = if name == "adams-impact" { 2e-5 } else { 1e-9 };
+                worst = if name == "adams-impact" { worst } else { worst.max(error) };
+                assert!(error < allowed, "{name}, {speed} m/s in {parts}: {error:e}");
+                assert!((deepest / expected.max_indentation - 1.0).abs() < 1e-9, "{name}, {speed} m/s in {parts}");
+                let lost = 0.5 * MASS * (speed * speed - ball.speed * ball.speed);
+                assert!((ball.dissipated() / lost - 1.0).abs() < 1e-9, "{name}, {speed} m/s in {parts}");
+                assert_eq!(ball.stored(), 0.0);
+            }
+        }
+    }
+    println!("largest error of the restitution: {worst:.1e}");
+}
+
+#[test]
+fn the_motion_does_not_depend_on_how_time_is_divided() {
+    let mut worst = 0.0f64;
+    for (name, model) in models() {
+        for acceleration in [0.0, 9.81, 3e4, -3e4] {
+            let run = |parts: u32| {
+                let mut ball = Ball::new(&model, 2e-6, 1.0, acceleration);
+                (0..parts).for_each(|_| {
+                    ball.step(6e-5 / f64::from(parts));
+                });
+                [ball.speed, ball.history.indentation() / 1e-5, ball.dissipated() / (0.5 * MASS)]
+            };
+            let whole = run(1);
+            for parts in [2, 7, 100, 1000] {
+                for (one, many) in whole.into_iter().zip(run(parts)) {
+                    let error = (one - many).abs();
+                    worst = worst.max(error);
+                    assert!(error < 1e-8, "{name}, {acceleration} in {parts}: {one} {many}");
+                }
+            }
+        }
+    }
+    println!("largest difference between divisions: {worst:.1e}");
+}
+
+#[test]
+fn a_dropped_ball_comes_to_rest_with_each_law_and_no_energy_gets_lost() {
+    for (place, (name, model)) in models().enumerate() {
+        // the damping of this law fades with the depth: its last bounces are many
+        let (fades, repeated) = (name == "adams-impact", !model.law.needs_restitution() && place % 2 == 0);
+        let (goal, steps) = if fades { (1e-3, &[3.3e-3][..]) } else { (1e-6, &[1e-4, 3.3e-3][..]) };
+        for &step in if repeated { &[] } else { steps } {
+            let height = 0.5;
+            let mut ball = Ball::new(&model, height, 0.0, GRAVITY);
+            let energy = MASS * GRAVITY * height;
+            let (mut time, mut left, mut worst, mut lost) = (0.0, energy, 0.0f64, 0.0);
+            while left > goal * energy {
+                ball.step(step);
+                time += step;
+                let kinetic = 0.5 * MASS * ball.speed * ball.speed;
+                let balance = MASS * GRAVITY * ball.way - kinetic - ball.stored() - ball.dissipated();
+                worst = worst.max(balance.abs() / energy);
+                assert!(ball.dissipated() >= lost - 1e-12 * energy, "{name}: heat falls");
+                lost = ball.dissipated();
+                left = kinetic + ball.stored() + MASS * GRAVITY * (-ball.history.indentation()).max(0.0);
+                assert!(time < 120.0, "{name} with restitution {}: {:e} is left", model.restitution, left / energy);
+            }
+            assert!(worst < 1e-9, "{name}: {worst:e}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_at_rest_stays_at_rest() {
+    for (name, model) in models() {
+        let mut ball = Ball::new(&model, 0.0, 0.0, GRAVITY);
+        for _ in 0..100 {
+            ball.step(1e-3);
+        }
+        let force = Contact::<Model<AnyDamped>>::force(&ball.history, ball.speed);
+        assert!(force >= 0.0 && ball.history.indentation() < 1e-6, "{name}: {force}");
+    }
+}
+
+#[test]
+fn bodies_that_are_pulled_back_while_the_surface_follows_meet_it_again() {
+    // they leave with a force of zero at a positive indentation, and an acceleration brings them back
+    for (name, model) in models() {
+        let mut ball = Ball::new(&model, 0.0, 1.0, 0.0);
+        while ball.speed > -0.2 {
+            ball.step(1e-7);
+        }
+        ball.acceleration = 1e6;
+        for _ in 0..2000 {
+            ball.step(1e-7);
+        }
+        assert!(ball.history.force(ball.speed) > 0.0, "{name}");
+    }
+}
+
+#[test]
+fn the_force_of_an_instance_is_that_at_the_own_speed_of_its_bodies() {
+    for (name, damped) in AnyDamped::ALL {
+        let laws = physics::model("hertz", "contact-radius");
+        let choice = Choice { damped, ..Choice::of(laws.loading, laws.unloading) };
+        choose(choice);
+        let mut instance = ready::<One>();
+        let (step, mut speed, mut before, mut largest) = (2e-8, 1.0, 0.0, 0.0f64);
+        for place in 0..1500 {
+            set_rate(&mut instance, 0, speed);
+            instance.do_step(instance.time(), step).unwrap();
+            let force = instance.real((Real::Force, 0));
+            let end = instance.real((Real::ClosingSpeed, 0));
+            largest = largest.max(force);
+            // the momentum says the same as the forces at both ends of the step, if the force is smooth within it
+            let taken = choice.effective_mass * (speed - end) / step;
+            if place > 100 && before > 0.0 && force > 0.0 {
+                let error = (0.5 * (before + force) - taken).abs() / largest;
+                assert!(error < 1e-5, "{name} in step {place}: {error:e}");
+            }
+            (before, speed) = (force, end);
+            // an input for the next step changes neither the force nor any other output of the last step
+            let outputs = [Real::Force, Real::MeanPressure, Real::Stiffness, Real::PredictedForce];
+            let all = |instance: &Instance<One>| outputs.map(|output| instance.real((output, 0)));
+            let shown = all(&instance);
+            set_rate(&mut instance, 0, 0.5 * end + 0.1);
+            assert_eq!(all(&instance).map(f64::to_bits), shown.map(f64::to_bits), "{name} in step {place}");
+            for output in outputs {
+                let slope = instance.derivative_by_input((output, 0), (Real::IndentationRate, 0));
+                assert_eq!(slope.unwrap(), 0.0, "{name}, {output:?}");
+            }
+        }
+        assert!(speed < 0.0 && largest > 100.0, "{name}: {speed} m/s after {largest} N");
+    }
+}

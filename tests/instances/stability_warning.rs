@@ -1,0 +1,198 @@
+//! An FMU warns about an importer with unstable steps, and about no other.
+
+use crate::masters::{MASS, PATTERNS, Pattern, choice};
+use crate::physics::{AnyModel, Random, all_models, mild};
+use crate::scenes::{Choice, Chosen, Elastoplastic, choose, ready, set_rate};
+use brinell::contact::Surface;
+use brinell::contact::impact::{Impact, predict};
+use brinell::instance::Warning;
+use brinell::scene::{Absent, Present, Real, Scene};
+
+type One = Chosen<Elastoplastic, 1, Absent>;
+type WithMomentum = Chosen<Elastoplastic, 1, Present>;
+type Several = Chosen<Elastoplastic, 3, Absent>;
+
+/// The longest stable step at the largest indentation of an impact at 1 m/s [s].
+fn stable_step(model: &AnyModel, mass: f64) -> f64 {
+    let deepest = predict(model, &Impact { mass, speed: 1.0 }).unwrap().max_indentation;
+    2.0 * (mass / model.unloading_segment(deepest, deepest).stiffness(deepest)).sqrt()
+}
+
+/// The warning about unstable steps for a mass that the contact force moves, and the speed that the mass has reached.
+fn coupled<S: Scene>(model: &AnyModel, step: f64, count: usize) -> (Option<Warning>, f64) {
+    // a touch leaves the branch of a flight
+    choose(choice(model, Surface::Dented, 0.3 * step));
+    let mut instance = ready::<S>();
+    let contact = S::CONTACTS - 1;
+    let (mut speed, mut told, mut fastest) = (1.0, None, 0.0f64);
+    for _ in 0..count {
+        set_rate(&mut instance, contact, speed);
+        let time = instance.time();
+        if instance.do_step(time, step).is_err() {
+            break;
+        }
+        told = told.or(instance.take_deep().filter(|warning| matches!(warning, Warning::Unstable { .. })));
+        speed -= step * instance.real((Real::Force, contact)) / MASS;
+        fastest = fastest.max(speed.abs());
+    }
+    (told, fastest)
+}
+
+#[test]
+fn steps_that_are_too_long_for_a_mass_cause_a_warning_and_shorter_ones_do_not() {
+    for (name, model) in all_models(mild()) {
+        let stable = stable_step(&model, MASS);
+        for factor in [15.0, 40.0, 150.0] {
+            for (told, fastest) in [
+                coupled::<One>(&model, factor * stable, 30),
+                coupled::<WithMomentum>(&model, factor * stable, 30),
+                coupled::<Several>(&model, factor * stable, 30),
+            ] {
+                assert!(fastest > 1.0, "{name}, {factor} stable steps: not unstable at all");
+                let step = factor * stable;
+                assert_eq!(told, Some(Warning::Unstable { step, mass: MASS }), "{name}, {factor} stable steps");
+            }
+        }
+        for factor in [1e-2, 0.1, 0.3] {
+            let count = (20.0 / factor) as usize;
+            let (told, _) = coupled::<One>(&model, factor * stable, count);
+            assert_eq!(told, None, "{name}, {factor} stable steps");
+        }
+    }
+}
+
+/// The force that an importer applies over a step.
+#[derive(Clone, Copy, Debug)]
+enum Applied {
+    /// The force at the end of the step: semi-implicit Euler, or leap-frog for rates half a step off.
+    New,
+    /// The force at the start of the step: explicit Euler.
+    Old,
+    /// Their mean: trapezoidal rule, velocity Verlet.
+    Mean,
+    /// The new force, extrapolated by half a step: the two-step Adams-Bashforth method.
+    Extrapolated,
+    /// The output `mean_force`.
+    MeanForce,
+}
+
+const APPLIED: [Applied; 5] = [Applied::New, Applied::Old, Applied::Mean, Applied::Extrapolated, Applied::MeanForce];
+
+/// A mass that an importer moves.
+#[derive(Clone, Copy, Debug)]
+struct Moved {
+    applied: Applied,
+    pattern: Pattern,
+    mass: f64,
+    /// Length of the steps [s].
+    step: f64,
+    gap: f64,
+    /// Acceleration by all other forces [m/s^2].
+    acceleration: f64,
+}
+
+impl Moved {
+    /// Any importer, mass, gap and gravity, with a step from 1.05 to 1000 times the longest stable one at the largest
+    /// indentation of an impact at 1 m/s.
+    fn any(model: &AnyModel, random: &mut Random) -> Moved {
+        let mut decades = |low: f64, high: f64| 10f64.powf(low + (high - low) * random.next());
+        let mass = MASS * decades(-3.0, 3.0);
+        let step = decades(1.05f64.log10(), 3.0) * stable_step(model, mass);
+        let (gap, pull) = (step * decades(-3.0, 0.7), decades(-5.0, -0.5) / step);
+        let acceleration = [0.0, pull, -pull][(3.0 * random.next()) as usize];
+        let applied = APPLIED[(5.0 * random.next()) as usize];
+        // that method has equal steps
+        let pattern = if matches!(applied, Applied::Extrapolated) { 0 } else { (4.0 * random.next()) as usize };
+        Moved { applied, pattern: PATTERNS[pattern], mass, step, gap, acceleration }
+    }
+
+    /// Moves the mass by `count` steps. Returns the first step that was too long, and the first step with a warning.
+    fn run<S: Scene>(&self, model: &AnyModel, count: usize) -> (Option<usize>, Option<usize>) {
+        let Moved { applied, pattern, mass, step, gap, acceleration } = *self;
+        choose(Choice { effective_mass: mass, ..choice(model, Surface::Dented, gap) });
+        let (mut instance, mut random) = (ready::<S>(), Random(7));
+        let (mut speed, mut old, mut long, mut told) = (1.0, 0.0, None, None);
+        for index in 0..count {
+            let step = step * pattern.factor(index, &mut random);
+            let [force, stiffness] = [Real::Force, Real::Stiffness].map(|output| instance.real((output, 0)));
+            let is_long = force > 0.0 && step * step * stiffness / mass > 4.0;
+            long = long.or(is_long.then_some(index));
+            set_rate(&mut instance, 0, speed);
+            // an importer may add up the time, or multiply
+            let time = if matches!(pattern, Pattern::Equal) { index as f64 * step } else { instance.time() };
+            if instance.do_step(time, step).is_err() {
+                break;
+            }
+            let warning = instance.take_deep().filter(|warning| matches!(warning, Warning::Unstable { .. }));
+            told = told.or(warning.map(|_| index));
+            let new = instance.real((Real::Force, 0));
+            let force = match applied {
+                Applied::New => new,
+                Applied::Old => old,
+                Applied::Mean => 0.5 * (new + old),
+                Applied::Extrapolated => 1.5 * new - 0.5 * old,
+                Applied::MeanForce => instance.real((Real::MeanForce, 0)),
+            };
+            speed += step * (acceleration - force / mass);
+            old = new;
+        }
+        (long, told)
+    }
+}
+
+#[test]
+fn every_importer_with_steps_that_are_too_long_is_warned_within_three_steps() {
+    let mut random = Random(41);
+    let (mut cases, mut unstable) = (0, 0);
+    for (name, model) in all_models(mild()) {
+        for _ in 0..40 {
+            let moved = Moved::any(&model, &mut random);
+            let (long, told) = match moved.applied {
+                Applied::MeanForce => moved.run::<WithMomentum>(&model, 60),
+                _ => moved.run::<One>(&model, 60),
+            };
+            cases += 1;
+            match (long, told) {
+                (None, None) => continue,
+                (Some(long), Some(told)) if told >= long && told <= long + 3 => unstable += 1,
+                // the bodies leave the range of the law before
+                (Some(long), None) if long + 3 >= 60 => {}
+                _ => panic!("{name}, {moved:?}: too long from step {long:?}, warned in {told:?}"),
+            }
+        }
+    }
+    assert!(2 * unstable > cases, "{unstable} of {cases} masters are unstable");
+}
+
+#[test]
+fn a_prescribed_motion_never_causes_a_warning() {
+    let mut random = Random(29);
+    for (name, model) in all_models(mild()) {
+        let stable = stable_step(&model, MASS);
+        for factor in [1.0, 10.0, 1e3, 1e5] {
+            let step = factor * stable;
+            // in and out, by a few micrometres: held rates, ramps, waves and random motion
+            let motions: [&mut dyn FnMut(usize) -> f64; 7] = [
+                // one that slows down, by itself or in cycles, and one that reverses in each step
+                &mut |count| 4e-6 * 0.9f64.powi(count as i32),
+                &mut |count| 3e-6 * 0.99f64.powi(count as i32) * f64::cos(1.3 * count as f64),
+                &mut |count| if count % 2 == 0 { 2e-6 } else { -2e-6 },
+                &mut |count| if count % 10 < 5 { 2e-6 } else { -2e-6 },
+                &mut |count| 1e-7 * (count % 40) as f64 - 2e-6,
+                &mut |count| 3e-6 * f64::cos(0.3 * count as f64),
+                &mut |_| 6e-6 * random.next() - 3e-6,
+            ];
+            for (kind, motion) in motions.into_iter().enumerate() {
+                choose(choice(&model, Surface::Dented, 0.0));
+                let mut instance = ready::<One>();
+                for count in 0..300 {
+                    set_rate(&mut instance, 0, motion(count) / step);
+                    let time = instance.time();
+                    instance.do_step(time, step).unwrap();
+                    let told = instance.take_deep().filter(|warning| matches!(warning, Warning::Unstable { .. }));
+                    assert_eq!(told, None, "{name}, motion {kind}, {factor} stable steps, step {count}");
+                }
+            }
+        }
+    }
+}

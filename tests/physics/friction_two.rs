@@ -1,0 +1,265 @@
+//! Friction in two directions on an elastic curve: many exact springs as the judge, and properties of every history.
+
+mod histories;
+mod springs;
+
+use crate::friction::{hertz, table};
+use crate::physics::Random;
+use brinell::contact::tangential::plane::Stuck;
+use brinell::contact::tangential::{self, Friction};
+use histories::{DEEPEST, MODULUS, RADIUS, Run, Step, any_sizes, circles, distance, length, like_the_table};
+use springs::Springs;
+use std::f64::consts::PI;
+
+const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
+
+/// A list that is hardly ever full.
+const UNBOUNDED: usize = 512;
+
+/// Makes the steps of a history from its seed and length.
+type History = fn(u64, usize) -> Vec<Step>;
+
+/// The kinds of histories.
+const KINDS: [(&str, History); 3] =
+    [("like the table", like_the_table), ("any sizes", any_sizes), ("circles", circles)];
+
+#[test]
+fn a_history_that_turns_has_the_forces_of_the_table_and_of_springs() {
+    let kappa = FRICTION.scale();
+    let (mut run, mut springs, mut worst) = (Run::<16>::new(), Springs::new(2000), [0.0_f64; 3]);
+    for row in table("two") {
+        let step = (row.get("d_delta"), [kappa * row.get("d_s1"), kappa * row.get("d_s2")]);
+        run.step(step);
+        springs.step(step);
+        let size = run.force();
+        let expected = [row.get("T1"), row.get("T2")].map(|force| force / FRICTION.coefficient);
+        let energy = FRICTION.coefficient / kappa * run.energy();
+        worst[0] = worst[0].max(distance(run.pull(), expected) / size);
+        worst[1] = worst[1].max(distance(run.pull(), springs.pull()) / size);
+        worst[2] = worst[2].max((energy / row.get("energy") - 1.0).abs());
+    }
+    println!("worst of T: {:.1e} from the table, {:.1e} from the springs; energy {:.1e}", worst[0], worst[1], worst[2]);
+    // the table itself is from an approximation, which in one row is farther from the springs
+    assert!(worst[0] < 6e-3 && worst[1] < 1e-3 && worst[2] < 5e-3, "{worst:?}");
+}
+
+#[test]
+fn the_springs_agree_with_more_springs_and_with_small_parts() {
+    for (name, history) in KINDS {
+        let (mut few, mut many, mut fine) = (Springs::new(500), Springs::new(2000), Springs::new(500));
+        let (mut worst, mut worst_of_fine, mut indentation) = (0.0_f64, 0.0_f64, 0.0);
+        for step in history(77, 15) {
+            few.step(step);
+            many.step(step);
+            fine.step_in_small_parts(step, 1000);
+            indentation += step.0;
+            let size = hertz(MODULUS, RADIUS).force(indentation);
+            if indentation > 1e-6 {
+                worst = worst.max(distance(few.pull(), many.pull()) / size);
+                worst_of_fine = worst_of_fine.max(distance(few.pull(), fine.pull()) / size);
+            }
+        }
+        println!("{name}: {worst:.1e} with more springs, {worst_of_fine:.1e} with small parts");
+        assert!(worst < 2e-5 && worst_of_fine < 1e-3, "{name}: {worst:e} {worst_of_fine:e}");
+    }
+}
+
+/// The largest and the root mean square difference between lists and springs over these `seeds`, relative to the force, with
+/// steps in each of these `parts`. Contacts shallower than 1e-6 m, with few springs, are left out.
+fn errors<const N: usize, const P: usize>(
+    history: History,
+    seeds: std::ops::Range<u64>,
+    parts: [u32; P],
+) -> [(f64, f64); P] {
+    let (mut worst, mut squares, mut count) = ([0.0_f64; P], [0.0; P], 0.0);
+    for seed in seeds {
+        let mut runs = parts.map(|_| Run::<N>::new());
+        let mut springs = Springs::new(500);
+        for step in history(seed, 25) {
+            springs.step(step);
+            let expected = springs.pull();
+            let found = std::array::from_fn::<_, P, _>(|index| {
+                runs[index].in_parts(step, parts[index]);
+                distance(runs[index].pull(), expected) / runs[index].force()
+            });
+            if runs[0].indentation > 1e-6 {
+                worst = std::array::from_fn(|index| worst[index].max(found[index]));
+                squares = std::array::from_fn(|index| squares[index] + found[index] * found[index]);
+                count += 1.0;
+            }
+        }
+    }
+    std::array::from_fn(|index| (worst[index], (squares[index] / count).sqrt()))
+}
+
+#[test]
+fn sixteen_segments_are_near_the_springs_however_a_step_is_divided() {
+    for (name, history) in KINDS {
+        let errors = errors::<16, 3>(history, 1000..1015, [1, 8, 64]);
+        println!("{name}: 1, 8 and 64 parts, worst and mean square {errors:?}");
+        let (worst, worst_mean) = if name == "circles" { (5e-3, 1e-3) } else { (2e-3, 5e-4) };
+        assert!(errors.iter().all(|&(largest, mean)| largest < worst && mean < worst_mean), "{name}: {errors:?}");
+    }
+}
+
+/// The figures of the guide.
+#[test]
+#[ignore = "takes a minute"]
+fn sixteen_segments_over_many_histories_and_parts() {
+    for (name, history) in KINDS {
+        let errors = errors::<16, 4>(history, 0..60, [1, 8, 64, 512]);
+        println!("{name}: 1, 8, 64 and 512 parts, worst and mean square {errors:?}");
+        assert!(errors.iter().all(|&(largest, mean)| largest < 1e-2 && mean < 1e-3), "{name}: {errors:?}");
+    }
+}
+
+#[test]
+fn a_list_that_is_not_full_misses_the_springs_by_less_than_a_thousandth() {
+    for (name, history) in KINDS {
+        let errors = errors::<UNBOUNDED, 2>(history, 1000..1004, [1, 8]);
+        println!("{name}: 1 and 8 parts, worst and mean square {errors:?}");
+        assert!(errors.iter().all(|&(largest, mean)| largest < 1e-3 && mean < 6e-4), "{name}: {errors:?}");
+    }
+}
+
+#[test]
+fn motion_along_one_line_has_the_force_and_energy_of_one_direction() {
+    let curve = hertz(MODULUS, RADIUS);
+    let (mut worst, mut across, mut worst_energy) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for seed in 0..400 {
+        let angle: f64 = [0.0, 0.5 * PI, PI, 0.3, 2.0, 4.0, 5.5, 1e-9][seed as usize % 8];
+        let direction = [angle.cos(), angle.sin()];
+        let mut run = Run::<UNBOUNDED>::new();
+        let mut line = tangential::Stuck::<UNBOUNDED>::APART;
+        let mut random = Random(seed);
+        for (rise, shift) in any_sizes(seed, 60) {
+            let way = if random.next() < 0.5 { length(shift) } else { -length(shift) };
+            let to = run.indentation + rise;
+            line.advance(&curve, &tangential::Way::straight(run.indentation, to, way));
+            run.step((rise, direction.map(|part| part * way)));
+            if to <= 1e-7 {
+                continue;
+            }
+            let (pull, expected) = (run.pull(), line.pull(&curve, to));
+            let along = pull[0] * direction[0] + pull[1] * direction[1];
+            worst = worst.max((along - expected).abs() / run.force());
+            across = across.max((pull[1] * direction[0] - pull[0] * direction[1]).abs() / run.force());
+            worst_energy = worst_energy.max((run.energy() - line.energy(&curve, to)).abs() / curve.work(to));
+            assert_eq!(run.stuck.sliding(), line.sliding(), "seed {seed} at {to:e}");
+        }
+    }
+    println!("force {worst:.1e}, across {across:.1e}, energy {worst_energy:.1e}");
+    assert!(worst <= 2e-13 && across <= 2e-13 && worst_energy <= 2e-13, "{worst:e} {across:e} {worst_energy:e}");
+}
+
+/// The largest excess over Coulomb's bound, and the largest friction work below zero relative to the largest energy, if
+/// each step is divided into `parts`.
+fn bounds<const N: usize>(history: History, parts: u32) -> (f64, f64) {
+    let scale = hertz(MODULUS, RADIUS).work(DEEPEST);
+    let (mut excess, mut gain) = (0.0_f64, 0.0_f64);
+    for seed in 100..(if N > 16 { 104 } else { 130 }) {
+        let mut run = Run::<N>::new();
+        let mut energy = 0.0;
+        for step in history(seed, 60) {
+            let work = run.divided(step, parts, |run| {
+                excess = excess.max(length(run.pull()) / run.force().max(f64::MIN_POSITIVE) - 1.0);
+            });
+            let lost = work - (run.energy() - energy);
+            energy = run.energy();
+            gain = gain.max(-lost / scale);
+            assert!(energy >= -1e-13 * scale, "seed {seed}: {energy:e}");
+        }
+    }
+    (excess, gain)
+}
+
+#[test]
+fn the_tangential_force_never_exceeds_coulombs_bound_and_friction_hardly_does_work() {
+    for (name, history) in KINDS {
+        // the work of a step is integrated by Simpson's rule in each part
+        for (parts, tolerance) in [(1, 1e-3), (8, 1e-4)] {
+            for (excess, gain) in [bounds::<UNBOUNDED>(history, parts), bounds::<16>(history, parts)] {
+                println!("{name}, {parts} parts: {excess:.1e} {gain:.1e}");
+                assert!(excess <= 1e-12 && gain <= tolerance, "{excess:e} {gain:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_rotated_history_has_the_rotated_force() {
+    let mut worst = 0.0_f64;
+    for (seed, (_, history)) in (500..560).zip(KINDS.into_iter().cycle()) {
+        let (sine, cosine) = (0.1 * seed as f64).sin_cos();
+        let rotated = |[x, y]: [f64; 2]| [cosine * x - sine * y, sine * x + cosine * y];
+        let (mut run, mut other) = (Run::<16>::new(), Run::<16>::new());
+        for (rise, shift) in history(seed, 60) {
+            run.step((rise, shift));
+            other.step((rise, rotated(shift)));
+            if run.indentation > 0.0 {
+                worst = worst.max(distance(rotated(run.pull()), other.pull()) / run.force());
+            }
+        }
+    }
+    println!("worst difference: {worst:.1e}");
+    assert!(worst < 1e-8, "{worst:e}");
+}
+
+#[test]
+fn restored_springs_continue_with_the_same_bits() {
+    for seed in 3000..3030 {
+        let mut run = Run::<16>::new();
+        for step in any_sizes(seed, 40) {
+            let mut words = Vec::new();
+            run.stuck.save(&mut |word| words.push(word));
+            assert_eq!(words.len(), Stuck::<16>::WORDS);
+            let stuck = Stuck::load(&mut words.iter().copied(), &run.curve).expect("words of a contact");
+            let mut other = Run::<16> { stuck, ..run };
+            run.step(step);
+            other.step(step);
+            assert_eq!(run.pull().map(f64::to_bits), other.pull().map(f64::to_bits), "seed {seed}");
+            assert_eq!(run.energy().to_bits(), other.energy().to_bits(), "seed {seed}");
+        }
+    }
+}
+
+#[test]
+fn damaged_words_are_rejected() {
+    let mut run = Run::<16>::new();
+    run.step((1e-6, [1e-7, 2e-7]));
+    let mut words = Vec::new();
+    run.stuck.save(&mut |word| words.push(word));
+    let load = |words: &[u64]| Stuck::<16>::load(&mut words.iter().copied(), &run.curve);
+    assert!(load(&words).is_some());
+    assert!(load(&words[1..]).is_none(), "a word is missing");
+    for (place, word) in [(0, f64::NAN.to_bits()), (5, 17), (7, f64::INFINITY.to_bits())] {
+        let mut damaged = words.clone();
+        damaged[place] = word;
+        assert!(load(&damaged).is_none(), "word {place}");
+    }
+}
+
+/// Words that no contact has saved, but whose numbers are finite.
+#[test]
+fn forged_springs_end_their_steps() {
+    let mut random = Random(31);
+    for _ in 0..2000 {
+        let mut any = || {
+            let size = 10f64.powf(40.0 * random.next() - 30.0);
+            if random.next() < 0.5 { size } else { -size }
+        };
+        let mut words: Vec<u64> = (0..Stuck::<16>::WORDS).map(|_| any().to_bits()).collect();
+        words[5] = (any().abs().to_bits() >> 7) % 17;
+        let mut run = Run::<16>::new();
+        run.indentation = 1e-5;
+        run.stuck = Stuck::load(&mut words.into_iter(), &run.curve).expect("finite numbers");
+        for step in any_sizes(5, 6) {
+            run.divided(step, 2, |run| assert!(run.stuck.segments() <= 16));
+        }
+        // a new contact has forgotten it
+        run.step((-1e-4, [0.0; 2]));
+        run.indentation = -1e-6;
+        run.step((2e-6, [1e-6, 0.0]));
+        assert!(length(run.pull()) <= run.force() * (1.0 + 1e-12));
+    }
+}

@@ -1,0 +1,137 @@
+//! A successful step raises no floating-point exception except inexact and underflow: a host may trap the others.
+#![cfg(target_arch = "x86_64")]
+
+use crate::physics::{AnyModel, Random, all_models, pair_of};
+use brinell::contact::momentum::impulse;
+use brinell::contact::motion::{Drive, follow};
+use brinell::contact::path::Course;
+use brinell::contact::{Contact, History, Model, Surface, loading, unloading};
+use std::arch::asm;
+
+/// Invalid operation, division by zero and overflow, as bits of the control and status register.
+const TRAPPED: u32 = 0b1101;
+
+/// The result of `step`, and the exceptions of [`TRAPPED`] that it raised.
+fn raised<T>(step: impl FnOnce() -> T) -> (T, u32) {
+    let (mut before, mut after) = (0u32, 0u32);
+    // SAFETY: the register is stored, and loaded with the same contents except for the exception flags
+    unsafe {
+        asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
+        let cleared = before & !0b11_1111;
+        asm!("ldmxcsr [{}]", in(reg) &raw const cleared, options(nostack));
+    }
+    // prevents any earlier computation
+    let step = std::hint::black_box(step);
+    let result = std::hint::black_box(step());
+    // SAFETY: as above
+    unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut after, options(nostack)) };
+    (result, after & TRAPPED)
+}
+
+/// A log-uniform number from `low` to `high` of either sign, or zero, or the smallest number.
+fn signed(random: &mut Random, low: f64, high: f64) -> f64 {
+    let number = (low.ln() + (high.ln() - low.ln()) * random.next()).exp();
+    let sign = if random.next() < 0.5 { 1.0 } else { -1.0 };
+    match random.next() {
+        0.0..0.2 => 0.0,
+        0.2..0.25 => sign * f64::from_bits(1),
+        _ => sign * number,
+    }
+}
+
+/// A contact with any two laws on any surface, at any indentation.
+fn contact(random: &mut Random, models: &[(String, AnyModel)]) -> Option<(String, AnyModel, History)> {
+    let (name, model) = &models[(random.next() * models.len() as f64) as usize];
+    let surface = if random.next() < 0.5 { Surface::Dented } else { Surface::Fresh };
+    let model = AnyModel { surface, ..*model };
+    let mut history = History::start(&model, signed(random, 1e-20, 1e-4)).ok()?;
+    history.advance(&model, -random.next() * history.indentation()).ok()?;
+    Some((format!("{name} on a {surface:?} surface"), model, history))
+}
+
+#[test]
+fn the_flags_are_seen() {
+    let zero = std::hint::black_box(0.0);
+    assert_eq!(raised(|| 1.0 / zero).1, 0b100);
+    assert_eq!(raised(|| zero / zero).1, 0b1);
+    assert_eq!(raised(|| std::hint::black_box(f64::MAX) * 2.0).1, 0b1000);
+    assert_eq!(raised(|| std::hint::black_box(1e-200) * 1e-200 + 0.1).1, 0);
+}
+
+#[test]
+fn no_motion_raises_an_exception() {
+    let models = all_models(pair_of(0.005, 2e11, 3e8));
+    let mut random = Random(3);
+    for _ in 0..30_000 {
+        let Some((name, model, mut history)) = contact(&mut random, &models) else { continue };
+        let mass = signed(&mut random, 1e-9, 1e3).abs().max(1e-9);
+        let acceleration = match random.next() {
+            0.0..0.2 => history.force() / mass,
+            0.2..0.5 => signed(&mut random, 1e-30, 1e30),
+            _ => signed(&mut random, 1e-3, 1e3),
+        };
+        let drive = Drive { mass, acceleration };
+        let mut speed = signed(&mut random, 1e-160, 1e3);
+        for _ in 0..2 {
+            let step = signed(&mut random, 1e-18, 1e3).abs().max(1e-18);
+            let before = history;
+            let (result, flags) = raised(|| follow(&mut history, &model, &drive, speed, step));
+            let Ok(outcome) = result else { break };
+            let from = (before.indentation(), before.max_indentation());
+            assert_eq!(flags, 0, "{name}, {drive:?}, {speed:e} m/s for {step:e} s from {from:?}: {outcome:?}");
+            speed = outcome.speed;
+        }
+    }
+}
+
+/// A course of any size, and the length of its step [s].
+fn any_course(random: &mut Random) -> (Course, f64) {
+    let step = signed(random, 1e-18, 1e3).abs().max(1e-18);
+    let size = signed(random, 1e-30, 1e-4).abs();
+    let mut derivative = |order: i32| {
+        let number = if random.next() < 0.3 { signed(random, 1e-300, 1e-4) } else { size * (random.next() - 0.5) };
+        number / step.powi(order)
+    };
+    (Course { rate: derivative(1), slope: derivative(2), bend: derivative(3) }, step)
+}
+
+#[test]
+fn no_step_along_a_course_raises_an_exception() {
+    let models = all_models(pair_of(0.005, 2e11, 3e8));
+    let mut random = Random(4);
+    for _ in 0..30_000 {
+        let Some((name, model, mut history)) = contact(&mut random, &models) else { continue };
+        let (course, step) = any_course(&mut random);
+        let (result, flags) = raised(|| impulse(&history, &model, &course, step));
+        let what = format!("{name}, {course:?} for {step:e} s from {} m", history.indentation());
+        if result.is_ok() {
+            assert_eq!(flags, 0, "impulse by {what}");
+        }
+        let before = history;
+        let (result, flags) = raised(|| history.step(&course, step, || model));
+        if result.is_ok() {
+            assert_eq!(flags, 0, "step by {what} ({} m)", before.max_indentation());
+        }
+    }
+}
+
+/// Along the branches of a law known at compile time, which uses other code than the models above.
+#[test]
+fn no_mean_force_along_branches_raises_an_exception() {
+    let model = Model {
+        pair: pair_of(0.005, 2e11, 3e8),
+        loading: loading::Brinell::REFERENCE,
+        unloading: unloading::Brinell::REFERENCE,
+        surface: Surface::Dented,
+    };
+    let mut random = Random(6);
+    for _ in 0..30_000 {
+        let Ok(mut history) = History::start(&model, -signed(&mut random, 1e-30, 1e-3)) else { continue };
+        for _ in 0..4 {
+            let (course, step) = any_course(&mut random);
+            let from = history.indentation();
+            let (result, flags) = raised(|| history.step_with_mean_force(&course, step, || &model));
+            assert!(result.is_err() || flags == 0, "{course:?} for {step:e} s from {from} m: {result:?}");
+        }
+    }
+}

@@ -1,0 +1,373 @@
+//! The commands that predict and show, as a user calls them.
+
+mod hardness;
+mod law_list;
+mod oblique;
+mod sweeps;
+
+use crate::command::{contents, empty_folder, run, scene};
+use crate::{command, laws};
+use serde_json::Value;
+use std::fs;
+
+/// The JSON that `brinell` prints for these arguments and the default scene.
+fn predicted(arguments: &[&str]) -> Value {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let mut all = vec!["predict", &scene, "--json"];
+    all.extend(arguments);
+    run(folder.path(), all).with_status(0).json()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[track_caller]
+fn close(got: f64, expected: f64, tolerance: f64) {
+    assert!((got / expected - 1.0).abs() < tolerance, "{got} instead of {expected}");
+}
+
+#[test]
+fn predict_gives_the_impact_of_the_scene() {
+    let law = &predicted(&[])["laws"][0];
+    // the mass of the scene is 4.11e-3 kg, that of the reference tables 4.11025e-3 kg: 6e-5 in energy
+    close(number(&law["largest_force"]), 330.6641, 1e-4);
+    close(number(&law["dent"]), 9.4661023e-6, 1e-4);
+    close(number(&law["restitution"]), 0.44629924, 1e-4);
+    assert_eq!(law["regime"], 4);
+    // the speeds at which the regimes begin, relative to the yield speed: 1.8737e-3, 25.189 and 201.19
+    let onsets: Vec<f64> = law["onsets"].as_array().unwrap().iter().map(|onset| number(&onset["speed"])).collect();
+    assert_eq!(onsets.len(), 3);
+    close(onsets[1] / onsets[0], 25.1891570453553, 1e-12);
+    close(onsets[2] / onsets[0], 201.188636084190, 1e-12);
+}
+
+#[test]
+fn speed_energy_and_height_of_fall_say_the_same_impact() {
+    let by_speed = predicted(&["--mass", "0.01", "--speed", "2"]);
+    let by_energy = predicted(&["--mass", "0.01", "--energy", "0.02"]);
+    // v^2/(2 g)
+    let height = (4.0 / (2.0 * 9.80665)).to_string();
+    let by_height = predicted(&["--mass", "0.01", "--drop-height", &height]);
+    for other in [by_energy, by_height] {
+        let force = |value: &Value| number(&value["laws"][0]["largest_force"]);
+        close(force(&other), force(&by_speed), 1e-14);
+    }
+}
+
+#[test]
+fn several_laws_stand_side_by_side_and_hertz_loses_nothing() {
+    let laws = predicted(&["--laws", "hertz,brinell,big-alabo/thornton"])["laws"].clone();
+    let names: Vec<_> = laws.as_array().unwrap().iter().map(|law| law["law"].as_str().unwrap().to_string()).collect();
+    assert_eq!(names, ["hertz", "brinell/brinell", "big-alabo/thornton"]);
+    close(number(&laws[0]["restitution"]), 1.0, 1e-14);
+    close(number(&laws[2]["restitution"]), 0.53041676, 1e-4);
+    assert!(number(&laws[1]["restitution"]) < number(&laws[2]["restitution"]));
+}
+
+#[test]
+fn a_dent_turned_round_gives_the_speed_and_the_strength_that_made_it() {
+    for law in ["big-alabo", "brinell"] {
+        let dent = number(&predicted(&["--laws", law])["laws"][0]["dent"]).to_string();
+        let answer = predicted(&["--laws", law, "--dent", &dent])["laws"][0].clone();
+        // the dent is proportional to the speed and to the inverse of the strength, and no digit is lost
+        close(number(&answer["speed"]), 1.0, 1e-12);
+        close(number(&answer["yield_strength"]), 300e6, 1e-12);
+    }
+}
+
+#[test]
+fn a_curve_goes_in_out_in_again_and_out_and_its_energies_add_up() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    run(folder.path(), ["curve", &scene, "--to", "1e-5", "-o", "curve.csv"]).with_status(0);
+    let table = fs::read_to_string(folder.path().join("curve.csv")).unwrap();
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|line| line.split(',').skip(1).map(|cell| cell.parse().unwrap()).collect()).collect();
+    let indentation = |row: &Vec<f64>| row[0];
+    let largest = rows.iter().map(indentation).fold(0.0, f64::max);
+    close(largest, 1e-5, 1e-12);
+    let turns = rows.windows(3).filter(|w| (w[1][0] - w[0][0]) * (w[2][0] - w[1][0]) < 0.0).count();
+    assert_eq!(turns, 3, "in, out, in, out");
+    for row in &rows {
+        let [work, elastic, dissipated] = [row[5], row[6], row[7]];
+        assert!((work - elastic - dissipated).abs() <= 1e-15 * work.abs(), "{work} is not {elastic} + {dissipated}");
+    }
+    assert!(rows.windows(2).all(|w| w[1][7] >= w[0][7] * (1.0 - 1e-13)), "dissipated energy never falls");
+    run(folder.path(), ["curve", &scene, "--laws", "all", "--truth", "-o", "curve.svg"]).with_status(0);
+    let picture = fs::read_to_string(folder.path().join("curve.svg")).unwrap();
+    assert!(picture.contains("finite elements") && picture.contains("<circle"));
+}
+
+#[test]
+fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let cases: [(&[&str], &[&str]); 22] = [
+        (&["predict", &scene, "--mass", "0"], &["mass = 0", "positive"]),
+        (&["predict", &scene, "--speed", "NaN"], &["speed = NaN", "positive"]),
+        (&["predict", &scene, "--energy=-1"], &["energy = -1", "positive"]),
+        (&["predict", &scene, "--drop-height", "5mm"], &["--drop-height", "metres, a number without unit: 5e-3"]),
+        (&["predict", &scene, "--mass", "heavy"], &["--mass", "a number in kilograms"]),
+        (&["predict", &scene, "--laws", "hooke"], &["unknown loading law `hooke`", "big-alabo"]),
+        (&["predict", &scene, "--laws", "brinel"], &["unknown loading law `brinel`", "did you mean `brinell`?"]),
+        (&["predict", &scene, "--laws", "hertz/hooke"], &["unknown unloading law `hooke`", "contact-radius"]),
+        (&["predict", &scene, "--sweep", "speed"], &["speed", "NAME=FROM:TO"]),
+        (&["predict", &scene, "--sweep", "speed=2:1"], &["speed=2:1", "FROM must be below TO"]),
+        (&["predict", &scene, "--sweep", "speed=1:2:1"], &["COUNT = 1", "2 to 10000"]),
+        (&["predict", &scene, "--sweep", "yield_strength=1e8:2e8"], &["did you mean `target.yield_strength`?"]),
+        (&["predict", &scene, "--sweep", "initial_gap=0:1"], &["doesn't depend on initial_gap"]),
+        (&["predict", &scene, "--sweep", "impactor.youngs_modulus=1e9:2e9"], &["the impactor of the scene is rigid"]),
+        (&["predict", &scene, "--sweep", "target.poissons_ratio=0:0.9"], &["out of range", "0.5"]),
+        (&["predict", &scene, "--sweep", "speed=1:2", "-o", "x.pdf"], &["x.pdf", ".csv, .svg or .html"]),
+        (&["predict", &scene, "--time-history", "x.pdf"], &["x.pdf", ".csv, .svg or .html"]),
+        (&["curve", &scene, "-o", "x.html"], &["x.html", ".csv or .svg"]),
+        (&["curve", &scene, "--to", "1e150"], &["1e150", "too deep"]),
+        (&["laws", "hooke"], &["unknown law `hooke`"]),
+        (&["laws", "-o", "x.csv"], &["x.csv", ".svg"]),
+        (&["predict", &scene, "--speed", "1", "--energy", "1"], &["--speed", "--energy"]),
+    ];
+    for (arguments, parts) in cases {
+        let failed = run(folder.path(), arguments).with_status(2);
+        assert!(failed.err.starts_with("brinell: ") && failed.out.is_empty(), "{failed:#?}");
+        for part in parts {
+            assert!(failed.err.contains(part), "nothing of {part:?} in {failed:#?}");
+        }
+    }
+    // a valid question without an answer
+    let failed = run(folder.path(), ["predict", &scene, "--dent", "1e9"]).with_status(1);
+    assert!(failed.err.contains("dent = ") && failed.err.contains("speed"), "{failed:#?}");
+    assert!(contents(folder.path()).is_empty());
+}
+
+/// It fails before the work, not after it.
+#[test]
+fn an_output_that_cannot_be_written_is_refused_before_the_work() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    fs::create_dir(folder.path().join("there.csv")).unwrap();
+    fs::create_dir(folder.path().join("there.svg")).unwrap();
+    fs::create_dir(folder.path().join("there.ssp")).unwrap();
+    fs::write(folder.path().join("file"), "").unwrap();
+    let cases: [&[&str]; 9] = [
+        &["export", &scene, "-o", "there.csv"],
+        &["export", &scene, "-o", "nowhere/unit.fmu"],
+        &["export", &scene, "-o", "file/unit.fmu"],
+        &["ssp", &scene, "-o", "there.ssp"],
+        &["predict", &scene, "--sweep", "speed=1:2", "-o", "there.csv"],
+        &["predict", &scene, "--time-history", "there.csv"],
+        &["curve", &scene, "-o", "there.svg"],
+        &["laws", "-o", "there.svg"],
+        &["report", &scene, "-o", "file"],
+    ];
+    for arguments in cases {
+        let failed = run(folder.path(), arguments).with_status(1);
+        let goal = arguments.last().unwrap();
+        assert!(failed.err.starts_with(&format!("brinell: {goal}: ")), "{failed:#?}");
+        assert!(!failed.err.contains("building") && failed.out.is_empty(), "{failed:#?}");
+    }
+}
+
+/// For every command, in every text format.
+#[test]
+fn every_output_fits_a_hundred_columns() {
+    let folder = empty_folder();
+    let scenes =
+        ["steel_ball", "damped", "everything", "two_contacts", "elastic"].map(|name| scene(name).display().to_string());
+    let [ball, damped, everything, two, elastic] = scenes.each_ref().map(String::as_str);
+    let mut commands: Vec<Vec<&str>> = vec![
+        vec!["laws"],
+        vec!["materials"],
+        vec!["--help"],
+        vec!["check", "everything.fmu"],
+        vec!["predict", ball, "--laws", "all,damped"],
+        vec!["predict", ball, "--laws", "all,damped", "--drop-height", "0.05"],
+        vec!["predict", ball, "--laws", "hunt-crossley/herbert-mcwhannell,zhao-maietta-chang"],
+        vec!["predict", ball, "--speed", "30"],
+        vec!["predict", ball, "--laws", "all", "--speed", "30"],
+        vec!["predict", ball, "--dent", "1e-5", "--laws", "brinell,zhao-maietta-chang"],
+        vec!["predict", ball, "--restitution", "0.5"],
+        vec!["predict", ball, "--restitution", "1"],
+        vec!["predict", ball, "--sweep", "speed=0.01:10"],
+        vec!["predict", ball, "--laws", "all", "--sweep", "target.yield_strength=200e6:900e6:8"],
+        vec!["predict", ball, "--sweep", "speed=0.01:10", "--sweep", "impactor.radius=1e-3:1e-2:5"],
+        vec!["curve", ball],
+        vec!["curve", damped],
+        vec!["hardness", ball, "--load", "5kN"],
+        vec!["hardness", ball, "--load", "29.4kN", "--laws", "all"],
+        vec!["new", "fresh"],
+    ];
+    commands.extend([ball, damped, everything, two, elastic].map(|scene| vec!["predict", scene]));
+    commands.extend([everything, two, damped].map(|scene| vec!["export", scene]));
+    // before it is checked
+    let check = commands.remove(3);
+    commands.push(check);
+    for command in ["export", "ssp", "check", "predict", "hardness", "curve", "report", "laws", "materials", "new"] {
+        commands.push(vec![command, "--help"]);
+    }
+    let laws =
+        ["hertz", "big-alabo", "brinell", "thornton", "jackson-green", "etsion", "hunt-crossley", "tsuji", "ghaednia"];
+    commands.extend(laws.map(|law| vec!["laws", law]));
+    for command in commands {
+        let run = run(folder.path(), &command).with_status(0);
+        let wide = run.out.lines().find(|line| line.chars().count() > 100);
+        assert_eq!(wide, None, "{command:?}");
+        assert!(!run.out.contains("NaN") && !run.out.contains("-0 "), "{command:?}: {}", run.out);
+        assert!(!run.out.trim().is_empty(), "{command:?} says nothing");
+    }
+}
+
+#[test]
+fn a_prediction_is_written_as_people_write_numbers() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let text = run(folder.path(), ["predict", &scene]).with_status(0).out;
+    for part in
+        ["4.11 g", "1 m/s", "big-alabo/contact-radius", "330.7 N", "12.56 um", "29.85 us", "0.4463", "fully plastic"]
+    {
+        assert!(text.contains(part), "nothing of {part} in {text}");
+    }
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("bounces to the same height for ever"), "{text}");
+    assert!(words.contains("surface = \"fresh\""), "{text}");
+    let other = command::scene("everything").display().to_string();
+    assert!(!run(folder.path(), ["predict", &other]).with_status(0).out.contains("for ever"), "its surface is fresh");
+    let dropped = predicted(&["--drop-height", "0.05"]);
+    let law = &dropped["laws"][0];
+    let restitution = number(&law["restitution"]);
+    close(number(&law["rebound_height"]), 0.05 * restitution * restitution, 1e-14);
+    close(number(&law["rebound_speed"]), number(&dropped["speed"]) * restitution, 1e-14);
+    let text = run(folder.path(), ["predict", &scene, "--drop-height", "0.05"]).with_status(0).out;
+    assert!(text.contains("rebound height") && text.contains("a fall of 50 mm"), "{text}");
+}
+
+/// The end of the impact agrees with the prediction, and the force follows the law.
+#[test]
+fn a_time_history_goes_from_first_contact_to_separation() {
+    for (name, laws) in [("steel_ball", "big-alabo,brinell,jackson-green,hertz"), ("damped", "hunt-crossley,tsuji")] {
+        let folder = empty_folder();
+        let scene = scene(name).display().to_string();
+        let arguments = ["predict", &scene, "--laws", laws, "--json", "--time-history", "over_time.csv"];
+        let answer = run(folder.path(), arguments).with_status(0).json();
+        let table = fs::read_to_string(folder.path().join("over_time.csv")).unwrap();
+        assert!(table.starts_with("law,time_s,indentation_m,force_N,speed_m_per_s\n"), "{table}");
+        for law in answer["laws"].as_array().unwrap() {
+            let prefix = format!("{},", law["law"].as_str().unwrap());
+            let row = |line: &str| -> Vec<f64> { line.split(',').map(|cell| cell.parse().unwrap()).collect() };
+            let rows: Vec<_> = table.lines().filter_map(|line| line.strip_prefix(&prefix)).map(row).collect();
+            assert!(rows.len() > 300, "{prefix}");
+            let (first, last) = (&rows[0], &rows[rows.len() - 1]);
+            let (speed, restitution) = (number(&answer["speed"]), number(&law["restitution"]));
+            assert_eq!(first[..2], [0.0, 0.0]);
+            close(last[0], number(&law["loading_time"]) + number(&law["unloading_time"]), 1e-9);
+            close(-last[3] / speed, restitution, 1e-6);
+            let largest = |column: usize| rows.iter().map(|row| row[column]).fold(0.0, f64::max);
+            close(largest(1), number(&law["largest_indentation"]), 1e-4);
+            close(largest(2), number(&law["largest_force"]), 1e-3);
+            // momentum: the integral of the force is the mass times the change of speed
+            let impulse: f64 = rows.windows(2).map(|w| 0.5 * (w[1][0] - w[0][0]) * (w[0][2] + w[1][2])).sum();
+            close(impulse, number(&answer["mass"]) * speed * (1.0 + restitution), 2e-3);
+        }
+        for format in ["svg", "html"] {
+            let file = format!("over_time.{format}");
+            run(folder.path(), ["predict", &scene, "--laws", laws, "--time-history", &file]).with_status(0);
+            let drawn = fs::read_to_string(folder.path().join(file)).unwrap();
+            assert!(drawn.contains("<svg") && drawn.contains("closing speed [m/s]"), "{format}");
+        }
+    }
+}
+
+#[test]
+fn rate_dependent_laws_stand_beside_the_others_and_are_asked_for_the_same_restitution() {
+    let both = predicted(&["--laws", "big-alabo,hunt-crossley,hunt-crossley/lee-wang"]);
+    let restitution = |law: usize| number(&both["laws"][law]["restitution"]);
+    close(restitution(1), restitution(0), 1e-9);
+    assert!(restitution(2) > restitution(0) + 0.1, "lee-wang gives more than it is asked for: {both}");
+    assert_eq!(number(&both["laws"][1]["dent"]), 0.0);
+}
+
+#[test]
+fn a_rate_dependent_law_cannot_explain_a_dent() {
+    let folder = empty_folder();
+    for question in [["--dent", "1e-6"], ["--restitution", "0.5"]] {
+        let scene = scene("steel_ball");
+        let arguments = ["predict", scene.to_str().unwrap(), "--laws", "tsuji", question[0], question[1]];
+        let run = run(folder.path(), arguments).with_status(1);
+        assert!(run.err.contains("tsuji") && run.err.contains("leaves no dent"), "{run:#?}");
+    }
+}
+
+#[test]
+fn the_curve_of_a_rate_dependent_law_is_the_course_of_the_impact() {
+    let folder = empty_folder();
+    let scene = scene("damped");
+    let arguments = ["curve", scene.to_str().unwrap(), "-o", "curve.csv"];
+    run(folder.path(), arguments).with_status(0);
+    let text = std::fs::read_to_string(folder.path().join("curve.csv")).unwrap();
+    let rows: Vec<Vec<f64>> =
+        text.lines().skip(1).map(|line| line.split(',').skip(1).map(|word| word.parse().unwrap()).collect()).collect();
+    let impact = 0.5 * 5.4e-3 * 0.8 * 0.8;
+    let (mut heat, mut deepest) = (0.0, 0.0f64);
+    for row in &rows {
+        let [indentation, force, _, _, _, work, elastic, dissipated, _] = row[..] else { panic!("{row:?}") };
+        assert!(force >= 0.0 && dissipated >= heat - 1e-12 * impact, "{row:?}");
+        assert!((work - elastic - dissipated).abs() <= 1e-12 * impact, "{row:?}");
+        (heat, deepest) = (dissipated, deepest.max(indentation));
+    }
+    close(heat / impact, 1.0 - 0.9 * 0.9, 1e-3);
+    close(deepest, 1.323_578e-5, 1e-4);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_reader_that_leaves_early_is_no_fault() {
+    let folder = empty_folder();
+    let mut child = command::brinell(folder.path());
+    child.arg("laws").stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped());
+    let mut child = child.spawn().unwrap();
+    // closed before anything is printed
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(0), ""));
+}
+
+/// What `brinell` says of them was computed independently of the program: `experiment/README.md`.
+#[test]
+fn every_law_is_set_beside_the_measured_rebounds_and_dents() {
+    let folder = empty_folder();
+    let experiment = run(folder.path(), ["laws", "--experiment", "--json"]).with_status(0).json();
+    let list = |value: &Value| value.as_array().unwrap().iter().map(number).collect::<Vec<_>>();
+    for (got, expected) in list(&experiment["restitution"]).into_iter().zip([0.574, 0.759, 0.845]) {
+        assert!((got - expected).abs() < 1e-3, "{got} instead of {expected}");
+    }
+    let law = |name: &str| {
+        let found = experiment["laws"].as_array().unwrap().iter().find(|law| law["name"] == name);
+        found.unwrap_or_else(|| panic!("no {name} in {experiment}")).clone()
+    };
+    for (name, expected) in [("brinell", [0.517, 0.684, 0.759]), ("big-alabo", [0.562, 0.808, 0.867])] {
+        for (got, expected) in list(&law(name)["restitution"]).into_iter().zip(expected) {
+            assert!((got - expected).abs() < 2e-3, "{name}: {got} instead of {expected}");
+        }
+    }
+    for (got, expected) in list(&law("brinell")["strength_factor"]).into_iter().zip([1.29, 1.33, 1.39]) {
+        assert!((got - expected).abs() < 0.02, "{got} instead of {expected}");
+    }
+    let yielding = laws::entries("loading").filter(|law| laws::text(law, "name") != "hertz").count();
+    assert_eq!(experiment["laws"].as_array().unwrap().len(), yielding);
+    // one constant for all hardnesses, and what the literature has
+    let rates = experiment["rates"].as_array().unwrap();
+    assert!(number(&rates[2]["worst_restitution"]).abs() < 0.05, "{rates:?}");
+    for (rate, [low, high]) in rates.iter().zip([[1.09, 1.13], [2.9, 3.6], [1.25, 1.45]]) {
+        for factor in list(&rate["factor"]) {
+            assert!(factor > low && factor < high, "{rate}");
+        }
+    }
+    let text = run(folder.path(), ["laws", "--experiment"]).with_status(0).out;
+    assert!(text.contains("measured") && text.contains("printed") && text.contains("brinell/brinell"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    let alone = run(folder.path(), ["laws", "brinell", "--experiment", "--json"]).with_status(0).json();
+    assert_eq!(alone["laws"][0], law("brinell"));
+    let refused = run(folder.path(), ["laws", "hertz", "--experiment"]).with_status(2).err;
+    assert!(refused.contains("unknown law that yields `hertz`") && refused.contains("`brinell`"), "{refused}");
+}

@@ -1,0 +1,121 @@
+//! `brinell hardness`: the test of a scene, and the inverse problem.
+
+use super::{close, number};
+use crate::command::{empty_folder, run, scene};
+use brinell::contact::loading::AnyLoading;
+use serde_json::Value;
+use std::fs;
+
+/// A hard ball of 10 mm on steel, as in the test HBW 10/3000.
+const BALL: &str = "name = \"test\"\n[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild steel\"\n";
+
+/// The result for the scene `text` with these arguments.
+fn tested(text: &str, arguments: &[&str]) -> Value {
+    let folder = empty_folder();
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    let all = ["hardness", "scene.toml", "--json"].into_iter().chain(arguments.iter().copied());
+    run(folder.path(), all).with_status(0).json()
+}
+
+/// ISO 6506-1: HBW from force in newtons and lengths in millimetres; Meyer's hardness is the load over the projected area.
+#[test]
+fn the_numbers_of_a_test_are_those_of_the_standard() {
+    for law in ["big-alabo", "brinell", "johnson"] {
+        for load in [1e3, 3e3, 1e4, 29.42e3] {
+            let answer = tested(BALL, &["--force", &load.to_string(), "--laws", law]);
+            let dent = &answer["laws"][0];
+            let diameter = 1e3 * number(&dent["dent_diameter"]);
+            let depth = 10.0 - (100.0 - diameter * diameter).sqrt();
+            close(number(&dent["brinell_hardness"]), 0.102 * 2.0 * load / (std::f64::consts::PI * 10.0 * depth), 1e-9);
+            let area = std::f64::consts::PI * diameter * diameter / 4.0;
+            close(number(&dent["meyer_hardness"]), 1e6 * load / area, 1e-12);
+            assert!(number(&dent["dent_depth"]) < number(&dent["max_indentation"]), "{dent}");
+            close(number(&answer["load_ratio"]), 0.102 * load / 100.0, 1e-12);
+        }
+    }
+}
+
+/// Tabor: in the fully plastic range, the mean pressure is about 2.8 to 3 yield strengths.
+#[test]
+fn a_fully_plastic_dent_has_some_three_yield_strengths() {
+    let answer = tested(BALL, &["--load", "5kN", "--laws", "brinell"]);
+    let pressure = number(&answer["laws"][0]["meyer_hardness"]) / 300e6;
+    assert!((2.8..3.05).contains(&pressure), "{pressure}");
+    assert_eq!(answer["laws"][0]["regime_name"], "fully plastic");
+}
+
+#[test]
+fn a_hardness_turned_round_gives_the_strength_that_made_it() {
+    let mut judged = 0;
+    for (law, _) in AnyLoading::ALL.into_iter().filter(|(law, _)| *law != "hertz") {
+        for strength in [50e6, 300e6, 1.2e9] {
+            let text = format!("{BALL}yield_strength = {strength:e}\n");
+            let dent = tested(&text, &["--load", "2kN", "--laws", law])["laws"][0].clone();
+            // a target that is too soft for the ball, or does not yield
+            let Some(hardness) = dent["brinell_hardness"].as_f64() else { continue };
+            let hardness = format!("{hardness:.17e}");
+            let found = tested(BALL, &["--load", "2kN", "--laws", law, "--brinell", &hardness])["laws"][0].clone();
+            close(number(&found["yield_strength"]), strength, 1e-9);
+            judged += 1;
+        }
+    }
+    assert!(judged >= 3 * 17, "{judged}");
+}
+
+#[test]
+fn a_load_has_a_unit_or_is_in_newtons() {
+    let force = |arguments: &[&str]| number(&tested(BALL, arguments)["load"]);
+    assert_eq!(force(&["--load", "29.4kN"]), 29400.0);
+    assert_eq!(force(&["--force", "29400"]), 29400.0);
+    close(force(&["--load", "3000kgf"]), 29419.95, 1e-12);
+}
+
+#[test]
+fn a_dent_too_wide_for_the_law_causes_a_warning() {
+    let warnings = |load: &str| tested(BALL, &["--load", load])["laws"][0]["warnings"].clone();
+    let wide = warnings("29.4kN").to_string();
+    assert!(wide.contains("a/R = 0.6") && wide.contains("ends at 0.3") && wide.contains("0.24 to 0.6"), "{wide}");
+    assert!(!warnings("5kN").to_string().contains("beyond"));
+    assert!(warnings("1kN").to_string().contains("smaller than ISO 6506-1"));
+}
+
+#[test]
+fn a_load_below_yield_leaves_no_hardness() {
+    let dent = tested(BALL, &["--load", "1mN"])["laws"][0].clone();
+    assert!(dent["brinell_hardness"].is_null() && dent["meyer_hardness"].is_null(), "{dent}");
+    assert!(dent["warnings"].to_string().contains("doesn't reach the yield point"), "{dent}");
+}
+
+#[test]
+fn several_laws_are_rows_and_fit_a_terminal() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    for more in [&[][..], &["--brinell", "90"]] {
+        let arguments = ["hardness", &scene, "--load", "5kN", "--laws", "all"].into_iter().chain(more.iter().copied());
+        let text = run(folder.path(), arguments).with_status(0).out;
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        assert!(text.contains("brinell/brinell") && text.contains("HBW"), "{text}");
+    }
+}
+
+#[test]
+fn scenes_that_are_not_brinell_tests_are_refused() {
+    let folder = empty_folder();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("curved.toml", &BALL.replace("[target]", "[target]\nradius = -0.1"));
+    write("flat.toml", BALL);
+    write("elastic.toml", &BALL.replace("material = \"mild steel\"", "youngs_modulus = 2e11\npoissons_ratio = 0.3"));
+    let cases: [(&[&str], i32, &str); 7] = [
+        (&["curved.toml", "--load", "1kN"], 1, "flat target"),
+        (&["elastic.toml", "--load", "1kN"], 1, "leaves no dent"),
+        (&["elastic.toml", "--load", "1kN", "--brinell", "200"], 1, "target.yield_strength"),
+        (&["flat.toml", "--load", "1kN", "--brinell", "1e9"], 1, "no yield strength"),
+        (&["flat.toml", "--load", "1000"], 2, "29.4kN"),
+        (&["flat.toml", "--force=-1"], 2, "load = -1 must be positive"),
+        (&["flat.toml"], 2, "--load"),
+    ];
+    for (arguments, status, said) in cases {
+        let failed = run(folder.path(), ["hardness"].iter().chain(arguments)).with_status(status);
+        assert!(failed.err.starts_with("brinell: ") && failed.err.contains(said), "{failed:#?}");
+    }
+}

@@ -1,0 +1,248 @@
+//! `brinell predict --angle` and `brinell curve --tangential`: oblique impacts and loops of the tangential force.
+
+use super::{close, number};
+use crate::command::{empty_folder, run, scene};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// The aluminium oxide ball on glass of Kharaz, Gorham and Salman.
+const KHARAZ: &str = "name = \"kharaz\"\nimpactor = { radius = 2.5e-3, youngs_modulus = 380e9, poissons_ratio = 0.23 }\n\
+                      target = { youngs_modulus = 70e9, poissons_ratio = 0.25 }\nlaw = { loading = \"hertz\" }\n\
+                      friction = { coefficient = 0.092 }\nimpact = { mass = 2.617993877991494e-4, speed = 3.9 }\n";
+
+/// The result of `brinell predict` on the scene `text` with these arguments and `--json`.
+fn predicted(text: &str, arguments: &[&str]) -> Value {
+    let folder = empty_folder();
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    let all = ["predict", "scene.toml", "--json"].iter().chain(arguments);
+    run(folder.path(), all).with_status(0).json()
+}
+
+/// Columns of `experiment/oblique_elastic.csv` for a quantity.
+fn measured(quantity: &str) -> Vec<(f64, f64)> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiment/oblique_elastic.csv");
+    let text = fs::read_to_string(path).unwrap();
+    let rows = text.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
+    let own = rows.filter(|row| row[1] == quantity);
+    own.map(|row| (row[2].parse().unwrap(), row[3].parse().unwrap())).collect()
+}
+
+#[test]
+fn predicted_oblique_rebounds_agree_with_the_measurement() {
+    let sweep = predicted(KHARAZ, &["--sweep", "angle=1:89:89"])["laws"][0].clone();
+    let column = |name: &str| sweep[name].as_array().unwrap().iter().map(number).collect::<Vec<_>>();
+    let angles = column("angle");
+    assert_eq!(angles.len(), 89);
+    for (quantity, name, sign, limit) in [
+        ("e_t", "tangential_restitution", 1.0, 0.02),
+        ("omega", "rebound_spin", -1.0, 30.0),
+        ("rebound_angle_centre", "rebound_angle", 1.0, 1.0),
+    ] {
+        let values = column(name);
+        let at = |angle: f64| {
+            let place = ((angle - 1.0).floor() as usize).min(87);
+            values[place] + (values[place + 1] - values[place]) * (angle - angles[place])
+        };
+        let errors: Vec<f64> = measured(quantity).iter().map(|(angle, value)| sign * at(*angle) - value).collect();
+        let rms = (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt();
+        assert!(errors.len() >= 14 && rms <= limit, "{quantity}: {rms}");
+    }
+}
+
+#[test]
+fn the_scenes_friction_is_the_default_and_both_signs_and_spins_are_accepted() {
+    let own = predicted(KHARAZ, &["--angle", "20"]);
+    assert_eq!(number(&own["friction"]), 0.092);
+    assert_eq!(own["laws"], predicted(KHARAZ, &["--angle", "20", "--friction", "0.092"])["laws"]);
+    let law = |arguments: &[&str], name: &str| number(&predicted(KHARAZ, arguments)["laws"][0][name]);
+    assert_ne!(law(&["--angle", "20"], "rebound_spin"), law(&["--angle", "20", "--friction", "0.3"], "rebound_spin"));
+    for name in ["rebound_spin", "rebound_angle", "tangential_rebound_speed"] {
+        let one = law(&["--angle", "20", "--spin", "-300"], name);
+        assert_eq!(one, -law(&["--angle", "-20", "--spin", "300"], name), "{name}");
+        assert_ne!(one, law(&["--angle", "20", "--spin", "300"], name), "{name}");
+    }
+    // a ball that only spins rolls away
+    assert!(law(&["--spin", "300"], "tangential_rebound_speed") < 0.0);
+    // without friction nothing tangential changes
+    close(law(&["--angle", "20", "--friction", "0"], "tangential_restitution"), 1.0, 1e-14);
+    // a ball with all its mass in the middle takes up more spin
+    let light = law(&["--angle", "60", "--inertia", "1e-10"], "rebound_spin");
+    assert!(light.abs() > 2.0 * law(&["--angle", "60"], "rebound_spin").abs(), "{light}");
+}
+
+#[test]
+fn full_sliding_is_coulombs_law_and_the_slip_is_stated_in_words() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let said =
+        |angle: &str| run(folder.path(), ["predict", &scene, "--friction", "0.1", "--angle", angle]).with_status(0).out;
+    assert!(said("60").contains("slides throughout"), "{}", said("60"));
+    assert!(said("3").contains("of the contact time, else sticks"), "{}", said("3"));
+    assert!(said("3").contains("no measurement of friction with yield"), "{}", said("3"));
+    let arguments = ["predict", &scene, "--json", "--friction", "0.1", "--angle", "60"];
+    let law = run(folder.path(), arguments).with_status(0).json()["laws"][0].clone();
+    let expected = 1.0 - 0.1 * (1.0 + number(&law["normal_restitution"])) / 60f64.to_radians().tan();
+    close(number(&law["tangential_restitution"]), expected, 1e-6);
+    assert_eq!(law["slides_throughout"], true);
+}
+
+#[test]
+fn an_oblique_sweep_is_a_table_a_picture_or_a_page() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let sweep = |more: &[&str]| {
+        let all = ["predict", &scene, "--laws", "brinell,thornton", "--friction", "0.2", "--sweep", "angle=0:85:5"];
+        run(folder.path(), all.iter().chain(more)).with_status(0).out
+    };
+    let table = sweep(&[]);
+    assert!(table.contains("tangential restitution") && table.contains("[deg]") && !table.contains("NaN"), "{table}");
+    sweep(&["-o", "x.csv"]);
+    let csv = fs::read_to_string(folder.path().join("x.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 11);
+    assert!(csv.starts_with("law,angle_deg,rebound_angle_deg,rebound_speed_m_per_s"), "{csv}");
+    sweep(&["-o", "x.svg"]);
+    let picture = fs::read_to_string(folder.path().join("x.svg")).unwrap();
+    for title in ["tangential restitution of the centre", "rebound angle [deg]", "rebound spin [rad/s]", "slip speed"] {
+        assert_eq!(picture.matches(title).count(), 1, "one panel with {title}");
+    }
+    sweep(&["-o", "x.html"]);
+    let page = fs::read_to_string(folder.path().join("x.html")).unwrap();
+    assert!(page.contains("a coefficient of friction of 0.2 and angle from 0 deg to 85 deg"), "{page}");
+    assert!(page.matches("<svg").count() == 4 && !page.contains("closing speed"));
+    // a parameter of the scene, with the bodies that go with it
+    let by = |range: &str| {
+        let all = ["predict", &scene, "--friction", "0.2", "--angle", "20", "--json", "--sweep", range];
+        run(folder.path(), all).with_status(0).json()["laws"][0]["tangential_restitution"].clone()
+    };
+    for range in
+        ["target.poissons_ratio=0.1:0.45:3", "friction.coefficient=0.1:0.5:3", "speed=0.1:10:3", "spin=-10:10:3"]
+    {
+        let values = by(range);
+        let values = values.as_array().unwrap();
+        assert!(values.len() == 3 && values[0] != values[2], "{range}: {values:?}");
+    }
+}
+
+#[test]
+fn an_impossible_oblique_impact_is_rejected_with_the_reason() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let cases: [(&[&str], &str); 14] = [
+        (&["--angle", "30"], "the scene has no friction: give it [friction] coefficient, or --friction"),
+        (&["--friction", "0.1"], "--friction belongs to an oblique impact: add --angle"),
+        (&["--inertia", "1e-8"], "--inertia belongs to an oblique impact"),
+        (&["--sweep", "friction.coefficient=0.1:1"], "--friction belongs to an oblique impact"),
+        (&["--angle", "90", "--friction", "0.1"], "angle = 90 must be above -90 and below 90 degrees"),
+        (&["--angle", "NaN", "--friction", "0.1"], "angle = NaN must be"),
+        (&["--spin", "inf", "--friction", "0.1"], "spin = inf rad/s must be finite"),
+        (&["--angle", "1", "--friction", "11"], "friction = 11 is out of range: allowed is 0 to 10"),
+        (&["--angle", "1", "--friction", "-0.1"], "unexpected argument"),
+        (&["--angle", "1", "--friction", "0.1", "--inertia", "0"], "inertia = 0 must be positive"),
+        (&["--friction", "0.1", "--sweep", "angle=0:90"], "angle = 90 must be above -90"),
+        (
+            &["--angle", "1", "--friction", "0.1", "--laws", "kogut-etsion"],
+            "kogut-etsion/etsion doesn't support friction",
+        ),
+        (&["--angle", "1", "--friction", "0.1", "--laws", "damped"], "rate-dependent laws have none"),
+        (&["--angle", "1", "--friction", "0.1", "--dent", "1e-6"], "cannot be used with"),
+    ];
+    for (arguments, words) in cases {
+        let failed = run(folder.path(), ["predict", &scene].iter().chain(arguments)).with_status(2);
+        assert!(failed.err.contains(words), "{arguments:?}: {}, not {words}", failed.err);
+    }
+    let twice = ["--angle", "1", "--friction", "0.1", "--sweep", "speed=1:2", "--sweep", "mass=1:2"];
+    let failed = run(folder.path(), ["predict", &scene].iter().chain(&twice)).with_status(2);
+    assert!(failed.err.contains("--sweep is given 2 times: at most once for oblique impacts"), "{}", failed.err);
+}
+
+#[test]
+fn every_law_with_friction_has_oblique_impacts_and_the_others_are_left_out() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let arguments = ["predict", &scene, "--laws", "all", "--friction", "0.2", "--angle", "15", "--json"];
+    let laws = run(folder.path(), arguments).with_status(0).json()["laws"].as_array().unwrap().clone();
+    let names: Vec<&str> = laws.iter().map(|law| law["law"].as_str().unwrap()).collect();
+    assert!(names.len() >= 15 && !names.iter().any(|name| name.ends_with("/etsion")), "{names:?}");
+    for law in &laws {
+        assert!(number(&law["friction_work"]) > 0.0 && number(&law["sliding_part"]) <= 1.0, "{law}");
+        assert!(number(&law["energy_lost"]) >= number(&law["friction_work"]) * (1.0 - 1e-9), "{law}");
+    }
+}
+
+/// Rows of a loop as numbers, without the name of the law.
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    text.lines().skip(1).map(|line| line.split(',').skip(1).map(|cell| cell.parse().unwrap()).collect()).collect()
+}
+
+/// Energy lost per cycle: `9 (mu N)^2/(10 a G*) {1 - (1 - t)^(5/3) - 5t/6 [1 + (1 - t)^(2/3)]}` with `t = T/(mu N)`.
+///
+/// Reference: R. D. Mindlin, H. Deresiewicz, *J. Appl. Mech.* 20 (1953) 327-344, with `8 G* a` for the initial stiffness.
+#[test]
+fn loops_of_an_elastic_contact_lose_what_mindlin_says() {
+    let folder = empty_folder();
+    fs::write(folder.path().join("scene.toml"), KHARAZ).unwrap();
+    let run = |arguments: &[&str]| run(folder.path(), ["curve", "scene.toml", "--tangential"].iter().chain(arguments));
+    run(&["--to", "1e-6", "-o", "loop.csv"]).with_status(0);
+    let all = rows(&fs::read_to_string(folder.path().join("loop.csv")).unwrap());
+    assert_eq!(all.len(), 4 * 601, "four loops of three branches");
+    let modulus = 1.0 / ((1.0 - 0.23f64.powi(2)) / 380e9 + (1.0 - 0.25f64.powi(2)) / 70e9);
+    let compliance = |e: f64, nu: f64| 2.0 * (1.0 + nu) * (2.0 - nu) / e;
+    let shear = 1.0 / (compliance(380e9, 0.23) + compliance(70e9, 0.25));
+    let radius = (2.5e-3f64 * 1e-6).sqrt();
+    let limit = 0.092 * 4.0 / 3.0 * modulus * radius.powi(3) / 2.5e-3;
+    for one in all.chunks(601).take(3) {
+        let part = one[200][2] / limit;
+        let lost = one[600][4] - one[200][4];
+        let bracket = 1.0 - (1.0 - part).powf(5.0 / 3.0) - 5.0 / 6.0 * part * (1.0 + (1.0 - part).powf(2.0 / 3.0));
+        close(lost, 0.9 * limit * limit / (radius * shear) * bracket, 1e-9);
+        // the loop closes
+        close(one[600][2], one[200][2], 1e-12);
+        close(one[400][2], -one[200][2], 1e-12);
+    }
+    let sliding = &all[3 * 601 + 200];
+    close(sliding[2], limit, 1e-12);
+    assert_eq!(sliding[6], 3.0);
+    let slips = limit * 3.0 / (16.0 * shear * radius);
+    close(sliding[0], 1.2 * slips, 1e-12);
+}
+
+#[test]
+fn loops_have_amplitudes_laws_and_reasons_for_refusals() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let run = |arguments: &[&str]| run(folder.path(), ["curve", &scene, "--tangential"].iter().chain(arguments));
+    let text = run(&["--friction", "0.2", "--amplitude", "1e-7,3e-7"]).with_status(0).out;
+    assert!(text.contains("amplitude 100 nm") && text.contains("amplitude 300 nm"), "{text}");
+    run(&["--friction", "0.2", "--laws", "brinell,hertz", "-o", "loop.svg"]).with_status(0);
+    let picture = fs::read_to_string(folder.path().join("loop.svg")).unwrap();
+    assert!(picture.contains("tangential displacement [nm]") && picture.contains("hertz, "), "{picture}");
+    let json = run(&["--friction", "0.2", "--json"]).with_status(0).json();
+    assert_eq!(json["laws"][0]["tangential_force"].as_array().unwrap().len(), 4 * 601);
+    for (arguments, words) in [
+        (&[][..], "the scene has no friction"),
+        (&["--friction", "0"], "friction = 0 must be positive"),
+        (&["--friction", "20"], "allowed is 0 to 10"),
+        (&["--friction", "0.1", "--amplitude", "0"], "amplitude = 0 must be positive"),
+        (&["--friction", "0.1", "--amplitude", "5nm"], "metres, a number without unit: 5e-9"),
+        (&["--friction", "0.1", "--laws", "kogut-etsion"], "doesn't support friction"),
+        (&["--friction", "0.1", "--truth"], "cannot be used with"),
+    ] {
+        let failed = run(arguments).with_status(2);
+        assert!(failed.err.contains(words), "{arguments:?}: {}, not {words}", failed.err);
+    }
+}
+
+#[test]
+fn a_loss_below_yield_is_not_combined_with_friction_silently() {
+    let folder = empty_folder();
+    let text = KHARAZ.replace("friction = { coefficient = 0.092 }\n", "");
+    let text = text.replace("poissons_ratio = 0.25 }", "poissons_ratio = 0.25, yield_strength = 3e9 }");
+    let text = text.replace("loading = \"hertz\"", "loading = \"brinell\", elastic_restitution = 0.98");
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    for command in [&["predict", "--angle", "10"][..], &["curve", "--tangential"]] {
+        let all = [command[0], "scene.toml"].into_iter().chain(command[1..].iter().copied());
+        let failed = run(folder.path(), all.chain(["--friction", "0.1"])).with_status(2);
+        assert!(failed.err.contains("a loss below yield and friction can't be combined"), "{}", failed.err);
+    }
+}

@@ -1,0 +1,102 @@
+//! `brinell report` in quick mode: the page is self-contained, and its numbers agree with theory.
+
+mod coupling;
+mod extremes;
+mod laws;
+mod measured;
+mod oblique;
+
+use crate::command::{contents, empty_folder, run, scene};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::sync::LazyLock;
+use tempfile::TempDir;
+
+/// The quick report of a scene: its folder and its data.
+fn report(name: &str) -> (TempDir, Value) {
+    let folder = empty_folder();
+    let scene = scene(name).display().to_string();
+    run(folder.path(), ["report", &scene, "--quick", "-o", "report"]).with_status(0);
+    let text = fs::read_to_string(folder.path().join("report/report.json")).expect("the data stand beside the page");
+    let data = serde_json::from_str(&text).expect("JSON");
+    (folder, data)
+}
+
+/// The report of the default scene, made once.
+static DEFAULT: LazyLock<(TempDir, Value)> = LazyLock::new(|| report("steel_ball"));
+
+fn rows<'a>(data: &'a Value, table: &str) -> &'a [Value] {
+    data[table].as_array().unwrap_or_else(|| panic!("no table {table}"))
+}
+
+#[track_caller]
+fn row<'a>(data: &'a Value, table: &str, way: &str) -> &'a Value {
+    rows(data, table).iter().find(|row| row["way"] == way).unwrap_or_else(|| panic!("no way {way} in {table}"))
+}
+
+/// The data of the elastic scene, made once.
+static ELASTIC: LazyLock<Value> = LazyLock::new(|| report("elastic").1);
+
+#[test]
+fn the_page_is_self_contained_with_its_data_beside_it() {
+    let folder = DEFAULT.0.path().join("report");
+    let page = fs::read_to_string(folder.join("index.html")).expect("a page");
+    assert!(page.ends_with("</html>\n"), "the page is whole");
+    for outside in ["<link", "<img", "@import", "src=", "url(", "fetch(", "import(", "XMLHttpRequest"] {
+        assert!(!page.contains(outside), "the page has {outside}");
+    }
+    // the only web address is the name of the vector format, which is not loaded
+    let addresses = page.matches("http").count();
+    assert_eq!(addresses, page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
+    let expected = [
+        "contact-time-against-steps.svg",
+        "dent-against-steps.svg",
+        "error-against-calls.svg",
+        "error-against-steps.svg",
+        "error-against-time.svg",
+        "experiment-dents.csv",
+        "experiment-rates.csv",
+        "experiment-rebounds.csv",
+        "experiment.svg",
+        "extremes.csv",
+        "force-against-steps.svg",
+        "force-over-indentation.svg",
+        "force-over-time.svg",
+        "index.html",
+        "laws.csv",
+        "laws.svg",
+        "limits.csv",
+        "orders.csv",
+        "precision.csv",
+        "report.json",
+        "restitution.csv",
+        "restitution.svg",
+        "spread.csv",
+        "stability-curves.svg",
+        "stability.csv",
+        "stability.svg",
+    ];
+    assert_eq!(contents(&folder), expected);
+    for file in expected {
+        assert!(page.contains(file) || file == "index.html", "the page names {file}");
+    }
+}
+
+#[test]
+fn csv_and_json_have_the_same_rows() {
+    let (folder, data) = &*DEFAULT;
+    for table in ["precision", "orders", "limits", "stability", "extremes", "laws", "spread", "restitution"] {
+        let path = Path::new("report").join(table).with_extension("csv");
+        let csv = fs::read_to_string(folder.path().join(path)).expect("a table");
+        assert_eq!(csv.lines().count(), rows(data, table).len() + 1, "{table}");
+    }
+}
+
+#[test]
+fn a_scene_with_several_contacts_or_a_rate_dependent_law_has_a_report_too() {
+    let (_folder, data) = report("two_contacts");
+    assert!(data["summary"].to_string().contains("measures the first contact"), "{}", data["summary"]);
+    let (_folder, data) = report("damped");
+    assert!(rows(&data, "orders").iter().all(|row| row["way"] != "mass known"), "{}", data["orders"]);
+}

@@ -1,0 +1,82 @@
+//! What `brinell predict` says about an impactor that may yield, too.
+
+use crate::command::{empty_folder, run};
+use serde_json::Value;
+use std::f64::consts::PI;
+use std::fs;
+
+/// Mean pressure over yield strength at first yield, as in the guide.
+const FIRST_YIELD: f64 = 1.07;
+
+/// The prediction for an impactor with these lines on a target of 300 MPa, at `speed` [m/s].
+fn predicted(impactor: &str, speed: f64) -> Value {
+    let folder = empty_folder();
+    let text = format!(
+        "name = \"unit\"\n[impactor]\nradius = 5e-3\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n{impactor}\n\
+         [target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 300e6\n[law]\nloading = \"brinell\"\n\
+         [impact]\nmass = 4.11e-3\nspeed = {speed:?}\n"
+    );
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json()
+}
+
+fn says(answer: &Value, words: &str) -> bool {
+    answer["notes"].to_string().contains(words)
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn equally_strong_bodies_yield_alike_once_they_leave_a_dent() {
+    for strength in ["yield_strength = 300e6", "yield_strength = 302e6", "yield_strength = 298e6"] {
+        assert!(says(&predicted(strength, 1.0), "equally strong and yield alike"), "{strength}");
+        assert!(!says(&predicted(strength, 1e-3), "yield"), "{strength}: there is no dent");
+    }
+    for other in ["", "yield_strength = 400e6"] {
+        assert!(!says(&predicted(other, 1.0), "equally strong"), "{other}");
+    }
+}
+
+#[test]
+fn the_stronger_impactor_yields_from_its_own_first_yield_on() {
+    let mut seen = [false; 2];
+    for ratio in [1.05, 1.2, 1.5, 2.0, 2.5, 2.7, 2.8, 4.0] {
+        for speed in [0.01, 0.1, 0.5, 1.0, 5.0, 50.0] {
+            let strength = ratio * 300e6;
+            let answer = predicted(&format!("yield_strength = {strength:e}"), speed);
+            let impact = &answer["laws"][0];
+            let radius = number(&impact["largest_contact_radius"]);
+            let pressure = number(&impact["largest_force"]) / (PI * radius * radius);
+            let has_dent = number(&impact["dent"]) > 0.0;
+            let expected = has_dent && pressure > FIRST_YIELD * strength;
+            assert_eq!(says(&answer, "From 1.07 on it yields, too"), expected, "{ratio}, {speed} m/s");
+            assert!(!expected || says(&answer, "times the yield strength of the impactor"), "{answer}");
+            // the mean pressure is at most 2.99 S up to 1000 yield indentations, which 50 m/s exceeds
+            assert!(!expected || ratio < 2.8 || speed == 50.0, "{ratio}, {speed} m/s");
+            seen[usize::from(expected)] = true;
+        }
+    }
+    assert_eq!(seen, [true; 2]);
+}
+
+#[test]
+fn two_equal_spheres_are_a_rigid_sphere_of_half_the_radius_on_half_the_modulus() {
+    let folder = empty_folder();
+    let end = "yield_strength = 300e6\n[law]\nloading = \"brinell\"\n[impact]\nmass = 4.11e-3\n";
+    let two = "name = \"two\"\n[impactor]\nradius = 10e-3\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\nyield_strength = 300e6\n\
+               [target]\nradius = 10e-3\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n";
+    let one = "name = \"one\"\n[impactor]\nradius = 5e-3\n[target]\nyoungs_modulus = 103e9\npoissons_ratio = 0.3\n";
+    for speed in [0.01, 0.3, 3.0, 100.0] {
+        let predict = |text: &str| {
+            fs::write(folder.path().join("scene.toml"), format!("{text}{end}speed = {speed:?}\n")).unwrap();
+            run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json()["laws"][0].clone()
+        };
+        let (two, one) = (predict(two), predict(one));
+        for key in ["restitution", "largest_force", "largest_indentation", "dent"] {
+            let (two, one) = (number(&two[key]), number(&one[key]));
+            assert!((two - one).abs() <= 1e-12 * one, "{key} at {speed} m/s: {two} {one}");
+        }
+    }
+}
