@@ -11,6 +11,7 @@ mod scenes;
 
 mod damped_motion;
 mod derivatives;
+mod exceptions;
 mod hostile_states;
 mod orders_of_execution;
 mod rate_unit;

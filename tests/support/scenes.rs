@@ -3,20 +3,22 @@
 //! [`Chosen`] is one contact or several, each in its own group, of any [`Kind`]: elastoplastic, rate-dependent, or moved by its
 //! mass. Bodies and laws are those that the thread has selected with [`choose`].
 
-#![allow(dead_code)] // each test file uses a part of it
+#![allow(dead_code, unused_imports)] // each test file uses a part of it
 
-use brinell::contact::damped::{self, AnyDamped};
+#[path = "scenes/kinds.rs"]
+mod kinds;
+
+pub use kinds::{Damped, DampedMassive, Elastoplastic, Kind, Lossy, LossyMassive, Massive, Rated, Rough, RoughPlane};
+
+use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::losses::{self, AnyLoss};
-use brinell::contact::motion::{Follow, follow};
-use brinell::contact::rate::{self, Rate};
-use brinell::contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
+use brinell::contact::motion::Follow;
+use brinell::contact::rate::Rate;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, Contact, History, Model, Pair, Surface};
+use brinell::contact::{Contact, Pair, Surface};
 use brinell::instance::Instance;
-use brinell::scene::{
-    Absent, Coupled, Coupling, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of,
-};
+use brinell::scene::{Absent, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of};
 use std::cell::RefCell;
 use std::marker::PhantomData;
 
@@ -80,157 +82,6 @@ pub fn choose(choice: Choice) {
 
 fn chosen() -> Choice {
     CHOICE.with(|slot| slot.borrow().expect("a test chooses before it makes an instance"))
-}
-
-/// A kind of contact.
-pub trait Kind {
-    type Model: Copy;
-    type Contact: Contact<Self::Model>;
-    type Course: Presence;
-    type Coupling: Coupling;
-    type Watch: Presence;
-    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
-    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model;
-}
-
-/// A law that depends on the indentation and the largest indentation.
-pub struct Elastoplastic;
-
-/// The same, moved by its mass, with the coupling `C`.
-pub struct Massive<C = Coupled>(PhantomData<C>);
-
-/// The same, with the strength of each impact.
-pub struct Rated<C = Coupled>(PhantomData<C>);
-
-/// The same with friction.
-pub struct Rough;
-
-/// The same with friction in two directions.
-pub struct RoughPlane;
-
-/// A rate-dependent law.
-pub struct Damped;
-
-fn elastoplastic(pair: Pair) -> Model<AnyLoading, AnyUnloading> {
-    let Choice { loading, unloading, surface, .. } = chosen();
-    Model { pair, loading, unloading, surface }
-}
-
-impl Kind for Elastoplastic {
-    type Model = Model<AnyLoading, AnyUnloading>;
-    type Contact = History;
-    type Course = Present;
-    type Coupling = Absent;
-    type Watch = Present;
-    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
-        elastoplastic(pair)
-    }
-}
-
-impl<C: Coupling> Kind for Massive<C> {
-    type Model = Model<AnyLoading, AnyUnloading>;
-    type Contact = History;
-    type Course = Present;
-    type Coupling = C;
-    type Watch = Absent;
-    const FOLLOW: Option<Follow<History, Self::Model>> = Some(follow);
-    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
-        elastoplastic(pair)
-    }
-}
-
-impl<C: Coupling> Kind for Rated<C> {
-    type Model = rate::Model<AnyLoading, AnyUnloading>;
-    type Contact = rate::History;
-    type Course = Present;
-    type Coupling = C;
-    type Watch = Absent;
-    const FOLLOW: Option<Follow<rate::History, Self::Model>> = Some(rate::follow);
-    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
-        rate::Model { slow: elastoplastic(pair), rate: chosen().rate }
-    }
-}
-
-impl Kind for Rough {
-    type Model = RoughModel<AnyLoading, AnyUnloading>;
-    type Contact = RoughContact<12>;
-    type Course = Present;
-    type Coupling = Absent;
-    type Watch = Present;
-    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
-        let rigid = Body { radius: 1.0, youngs_modulus: f64::INFINITY, poissons_ratio: 0.0 };
-        let target = Body { youngs_modulus: pair.youngs_modulus, poissons_ratio: pair.poissons_ratio, ..rigid };
-        let friction = Friction::between(&rigid, &target, pair.modulus, chosen().friction);
-        RoughModel { normal: elastoplastic(pair), friction }
-    }
-}
-
-impl Kind for RoughPlane {
-    type Model = <Rough as Kind>::Model;
-    type Contact = PlaneContact<16>;
-    type Course = Present;
-    type Coupling = Absent;
-    type Watch = Present;
-    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
-        Rough::model(pair, restitution, mass)
-    }
-}
-
-impl Kind for Damped {
-    type Model = damped::Model<AnyDamped>;
-    type Contact = damped::History<AnyDamped>;
-    type Course = Absent;
-    type Coupling = Absent;
-    type Watch = Absent;
-    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
-        damped::Model { pair, law: chosen().damped, restitution, mass }
-    }
-}
-
-/// The same, moved by its mass.
-pub struct DampedMassive;
-
-impl Kind for DampedMassive {
-    type Model = damped::Model<AnyDamped>;
-    type Contact = damped::History<AnyDamped>;
-    type Course = Present;
-    type Coupling = Coupled;
-    type Watch = Absent;
-    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(damped::follow);
-    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
-        Damped::model(pair, restitution, mass)
-    }
-}
-
-/// A law with a loss below yield.
-pub struct Lossy;
-
-/// The same, moved by its mass.
-pub struct LossyMassive;
-
-type LossyModel = losses::Model<AnyLoading, AnyUnloading, AnyLoss>;
-
-impl Kind for Lossy {
-    type Model = LossyModel;
-    type Contact = losses::History<AnyLoss>;
-    type Course = Absent;
-    type Coupling = Absent;
-    type Watch = Absent;
-    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
-        losses::Model { plastic: elastoplastic(pair), loss: chosen().loss }
-    }
-}
-
-impl Kind for LossyMassive {
-    type Model = LossyModel;
-    type Contact = losses::History<AnyLoss>;
-    type Course = Present;
-    type Coupling = Coupled;
-    type Watch = Absent;
-    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(losses::follow);
-    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
-        Lossy::model(pair, restitution, mass)
-    }
 }
 
 /// `N` contacts of a kind with the momentum `M`, each in its own group.

@@ -1,22 +1,17 @@
 //! A host may trap floating-point exceptions: a successful call raises none except inexact and underflow.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
-#[path = "support/physics.rs"]
-mod physics;
-#[path = "support/scenes.rs"]
-mod scenes;
-
+use crate::physics::{Random, all_models, mild};
+use crate::scenes::{
+    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Lossy, LossyMassive, Massive, OUTPUTS, Rated, Rough,
+    RoughPlane, choose, frictions, words,
+};
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::losses::{AnyLoss, Fitted, Plate, Solid, Waves};
 use brinell::contact::rate::Rate;
 use brinell::contact::{Contact, Surface};
 use brinell::instance::{Fault, Instance};
 use brinell::scene::{Present, Real, Scene};
-use physics::{Random, all_models, mild};
-use scenes::{
-    Choice, Chosen, Damped, DampedMassive, Elastoplastic, Lossy, LossyMassive, Massive, OUTPUTS, Rated, Rough,
-    RoughPlane, choose, frictions, words,
-};
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Present>;
