@@ -20,9 +20,14 @@ const USUAL: [&str; 10] = [
     "adams-impact",
 ];
 
+/// Whether this run takes all laws.
+pub fn takes_all() -> bool {
+    env::var("BRINELL_LAWS").is_ok_and(|value| value == "all")
+}
+
 /// Those of `laws` that this run takes.
 fn taken(laws: &[serde_json::Value]) -> impl Iterator<Item = &serde_json::Value> {
-    let all = env::var("BRINELL_LAWS").is_ok_and(|value| value == "all");
+    let all = takes_all();
     let taken: Vec<_> = laws.iter().filter(|law| all || USUAL.contains(&law["name"].as_str().unwrap())).collect();
     assert!(taken.len() == if all { laws.len() } else { USUAL.len() / 2 }, "{} laws", taken.len());
     taken.into_iter()

@@ -2,6 +2,7 @@
 
 use crate::command;
 use crate::command::{empty_folder, run};
+use crate::every_law::takes_all;
 use std::fs;
 use std::path::Path;
 
@@ -25,7 +26,9 @@ fn inside(folder: &Path, path: &str) -> String {
 #[test]
 fn a_guarded_fmu_states_where_the_guard_acts_and_agrees_with_the_prediction() {
     let folder = empty_folder();
-    for loading in ["stronge", "kogut-etsion", "brake-2012-tangent", "brake-2012-line", "brake-2015", "ghaednia"] {
+    // two with a range from first yield on, one whose range begins later; then the rest
+    let laws = ["stronge", "ghaednia", "brake-2012-line", "kogut-etsion", "brake-2012-tangent", "brake-2015"];
+    for loading in laws.into_iter().take(if takes_all() { laws.len() } else { 3 }) {
         write(folder.path(), loading, "passivity_guard = true");
         let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
         let ranges = exported["passivity_guard"].as_array().unwrap().clone();

@@ -62,7 +62,8 @@ fn history(mut instance: Instance, seed: u64) -> Vec<[f64; 6]> {
 
 #[test]
 fn scenes_with_exchanged_materials_have_the_same_force() {
-    for law in ["brinell", "big-alabo", "ghaednia", "jackson-green"] {
+    // the only law that hardens, and one whose work is an integral
+    for law in ["brinell", "jackson-green"] {
         let name = |order: &str| format!("{law}-{order}").replace('-', "_");
         let hardens = if law == "brinell" { "hardening_modulus = 2e9\n" } else { "" };
         let soft = format!("{ALUMINIUM}{hardens}");

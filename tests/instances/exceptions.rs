@@ -248,17 +248,18 @@ fn instances_that_know_the_mass_raise_none() {
 
 #[test]
 fn instances_with_losses_raise_none() {
-    for (name, model) in all_models(mild()) {
-        for loss in LOSSES {
-            for (surface, initial_gap) in [(Surface::Dented, 0.0), (Surface::Dented, -3e-5), (Surface::Fresh, 1e-6)] {
-                choose(Choice { loss, surface, initial_gap, ..Choice::of(model.loading, model.unloading) });
-                let (name, moved) = (format!("{name}, {loss:?}"), format!("{name}, {loss:?}, moved"));
-                live::<LossyOne>(&name);
-                live::<LossyMassiveOne>(&moved);
-                if initial_gap == 0.0 {
-                    sweep::<LossyOne>(&name);
-                    sweep::<LossyMassiveOne>(&moved);
-                }
+    let starts = [(Surface::Dented, 0.0), (Surface::Dented, -3e-5), (Surface::Fresh, 1e-6)];
+    for (place, (name, model)) in all_models(mild()).into_iter().enumerate() {
+        for (turn, loss) in LOSSES.into_iter().enumerate() {
+            // every start with each law and with each loss
+            let (surface, initial_gap) = starts[(place + turn) % 3];
+            choose(Choice { loss, surface, initial_gap, ..Choice::of(model.loading, model.unloading) });
+            let (name, moved) = (format!("{name}, {loss:?}"), format!("{name}, {loss:?}, moved"));
+            live::<LossyOne>(&name);
+            live::<LossyMassiveOne>(&moved);
+            if initial_gap == 0.0 {
+                sweep::<LossyOne>(&name);
+                sweep::<LossyMassiveOne>(&moved);
             }
         }
     }

@@ -16,9 +16,14 @@ pub fn nearest<'a>(asked: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
     (best.0 >= SIMILAR).then_some(best.1)
 }
 
+/// Characters of a name that are compared. Every name that exists is shorter, and the time to compare two names grows with the
+/// product of their lengths.
+const COMPARED: usize = 200;
+
 /// In lower case, and with spaces in place of hyphens and other joints.
 fn normal(name: &str) -> String {
-    name.trim().to_lowercase().replace(['-', '_'], " ")
+    let compared = name.trim().chars().take(COMPARED).collect::<String>();
+    compared.to_lowercase().replace(['-', '_'], " ")
 }
 
 fn similarity(asked: &str, name: &str) -> f64 {
