@@ -48,6 +48,14 @@ struct Defect {
     test: String,
 }
 
+impl Defect {
+    /// The program of tests in Rust that must fail, and its topic; an empty topic is all of them.
+    fn program(&self) -> Option<(&str, &str)> {
+        let named = self.test.strip_prefix("test: ")?;
+        Some(named.split_once(' ').unwrap_or((named, "")))
+    }
+}
+
 fn defects() -> Vec<Defect> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/defects/defects.toml");
     let table: toml::Table = fs::read_to_string(path).expect("the list").parse().expect("the list is well-formed");
@@ -101,10 +109,9 @@ impl Tests {
     /// # Errors
     /// Why none does.
     fn find(&self, defect: &Defect) -> Result<String, String> {
-        if let Some(file) = defect.test.strip_prefix("test: ") {
+        if let Some((program, topic)) = defect.program() {
             let before = self.sources.replace(&defect.file, &defect.old, &defect.new)?;
-            let (file, topic) = file.split_once(' ').unwrap_or((file, ""));
-            let result = self.sources.test(file, topic);
+            let result = self.sources.test(program, topic);
             self.sources.restore(&defect.file, &before);
             return match result {
                 Err(said) if said.contains("test result: FAILED") => Ok(defect.test.clone()),
@@ -148,8 +155,8 @@ const FRESH: &str = "name = \"fresh\"\n[impactor]\nradius = 5e-3\n[target]\nmate
 fn assert_good_without_a_mistake(tests: &Tests, defects: &[&Defect]) {
     let mut done = HashSet::new();
     for defect in defects.iter().filter(|defect| done.insert((&defect.scene, &defect.test))) {
-        let result = match defect.test.strip_prefix("test: ") {
-            Some(file) => tests.sources.test(file, ""),
+        let result = match defect.program() {
+            Some((program, topic)) => tests.sources.test(program, topic),
             None => {
                 let place = tests.sources.use_scene(&scene(&defect.scene));
                 let name = format!("good_{}", defect.scene.replace(' ', "_"));
@@ -205,7 +212,13 @@ fn every_deliberate_mistake_applies_to_the_sources() {
         let count = text.matches(&defect.old).count();
         assert_eq!(count, 1, "{}: {} has the text to replace {count} times", defect.name, defect.file);
         assert_ne!(defect.old, defect.new, "{}", defect.name);
-        let is_test = ["conformance: ", "fuzz: ", "test: "].iter().any(|kind| defect.test.starts_with(kind));
+        if let Some((program, topic)) = defect.program() {
+            let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+            let file = if topic.is_empty() { tests.join(program) } else { tests.join(program).join(topic) };
+            assert!(file.with_extension("rs").is_file(), "{}: there is no {}", defect.name, defect.test);
+            continue;
+        }
+        let is_test = ["conformance: ", "fuzz: "].iter().any(|kind| defect.test.starts_with(kind));
         assert!(is_test || ["memcheck", "helgrind"].contains(&&*defect.test), "{}: {}", defect.name, defect.test);
     }
 }
