@@ -1,25 +1,24 @@
 //! Checks a scene: from the contents of the file to a scene that can be built.
 
+use super::chosen::{check_input_derivatives, check_outputs, choose_settable};
 use super::contacts::Contacts;
 use super::coupling;
 use super::file::{File, ImpactTable, NamesName};
 use super::friction;
 use super::laws;
+use super::limits::{check_limits, positive};
 use super::losses::{self, Loss};
+use super::names::{check_description, check_name};
 use super::numbers::IMPACTOR_DENSITY;
 use super::softer::{self, Body, Both};
 use super::{Mistake, Parameter, QuasiStatic, Scene};
-use crate::layout::shortened;
-use crate::nearest::unknown;
 use crate::predict;
-use crate::table::{self, Causality, VARIABLES};
-use crate::xml;
+use crate::table::{self, VARIABLES};
 use brinell::contact::damped::Damped;
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::{AnyLoading, Hertz};
-use std::collections::HashSet;
 use std::f64::consts::PI;
-use std::ops::RangeInclusive;
+use std::ops::Range;
 use toml::Spanned;
 
 /// The scene of `file`, without its text.
@@ -132,6 +131,12 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         check_pair(&scene, group, &contacts).map_err(of_contact)?;
         laws::check_curves(&file.law, &scene, group).map_err(of_contact)?;
     }
+    settle(scene, &contacts, &impact_span)
+}
+
+/// The scene with the strengths that its impact gives the bodies, and with the predictions of each contact's impact. `place` is
+/// where the scene has its impact.
+fn settle(mut scene: Scene, contacts: &Contacts, place: &Range<usize>) -> Result<Scene, Mistake> {
     let of = |group, body: Body| QuasiStatic {
         yield_strength: scene.group_value(group, body.yield_strength()).unwrap_or(f64::INFINITY),
         hardening_modulus: scene.group_value(group, body.hardening_modulus()).unwrap_or(0.0),
@@ -141,63 +146,16 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     let message = too_hard(&scene, 0);
     let softer = |scene: &Scene| (0..scene.contacts.len()).map(|group| scene.softer(group)).collect::<Vec<_>>();
     let slow = softer(&scene);
-    scene = scene.with_strengths_for(None).ok_or_else(|| Mistake(impact_span.clone(), message))?;
+    scene = scene.with_strengths_for(None).ok_or_else(|| Mistake(place.clone(), message))?;
     if let Some(group) = softer(&scene).iter().zip(&slow).position(|(now, before)| now != before) {
-        return Err(Mistake(impact_span, contacts.said(group, &softer::exchanged(slow[group]))));
+        return Err(Mistake(place.clone(), contacts.said(group, &softer::exchanged(slow[group]))));
     }
-    let no_prediction = |group| Mistake(impact_span.clone(), contacts.said(group, &too_hard(&scene, group)));
+    let no_prediction = |group| Mistake(place.clone(), contacts.said(group, &too_hard(&scene, group)));
     let predict = |group| scene.any_model_of(group).predict(&scene.impact_of(group));
     let predictions = scene.by_bodies(predict).into_iter().enumerate();
     let predictions = predictions.map(|(group, prediction)| prediction.ok_or_else(|| no_prediction(group)));
     scene.predictions = predictions.collect::<Result<_, _>>()?;
     Ok(scene)
-}
-
-/// The name of an FMU: a C identifier that every operating system accepts as a file name.
-///
-/// Reference: "Naming Files, Paths, and Namespaces" in the documentation of Windows.
-fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
-    let text = check_identifier(name)?;
-    let lower = text.to_ascii_lowercase();
-    let port = lower.strip_prefix("com").or(lower.strip_prefix("lpt"));
-    let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|digit| digit.is_ascii_digit()));
-    if is_port || ["con", "prn", "aux", "nul"].contains(&lower.as_str()) {
-        let message =
-            format!("name = {text:?} is that of a device on Windows, where no library can have it: call it otherwise");
-        return Err(Mistake(name.span(), message));
-    }
-    Ok(text)
-}
-
-/// Text that is a C identifier.
-pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
-    let text = name.get_ref();
-    let mut characters = text.chars();
-    let begins = characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
-    // the name is also used for a file
-    let short = text.len() <= 100;
-    if short && begins && characters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
-        return Ok(text.clone());
-    }
-    let message = format!(
-        "name = {:?} is not a C identifier: at most 100 letters, digits and `_`, and no digit at the beginning",
-        shortened(text)
-    );
-    Err(Mistake(name.span(), message))
-}
-
-/// A text that the model description can contain.
-fn check_description(given: Option<&Spanned<String>>) -> Result<String, Mistake> {
-    let Some(text) = given else { return Ok(String::new()) };
-    match xml::forbidden(text.get_ref()) {
-        None => Ok(text.get_ref().clone()),
-        Some((place, character)) => {
-            let number = text.get_ref()[..place].chars().count() + 1;
-            let character = xml::name(character);
-            let message = format!("description has {character} as character {number}, which XML doesn't allow");
-            Err(Mistake(text.span(), message))
-        }
-    }
 }
 
 /// The impact of the scene, or an impact at 1 m/s. Its mass is the given mass, otherwise the mass that the FMU knows, otherwise
@@ -253,21 +211,6 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
     Err(Mistake(socket.span(), message))
 }
 
-/// Whether the inputs may have derivatives, as far as the law allows.
-fn check_input_derivatives(
-    asked: Option<&Spanned<bool>>,
-    knows_mass: bool,
-    follows_rate: bool,
-) -> Result<bool, Mistake> {
-    let Some(asked) = asked else { return Ok(true) };
-    let reason = match *asked.get_ref() {
-        false if knows_mass => "an FMU with [coupling] needs them to move the bodies; leave this key out",
-        true if follows_rate && !knows_mass => "a law that depends on the rate allows none; leave this key out",
-        wanted => return Ok(wanted),
-    };
-    Err(Mistake(asked.span(), format!("fmu.input_derivatives = {}: {reason}", asked.get_ref())))
-}
-
 /// The message about an impact for which the law cannot be evaluated.
 fn too_hard(scene: &Scene, group: usize) -> String {
     let Impact { mass, speed } = scene.impact_of(group);
@@ -276,101 +219,4 @@ fn too_hard(scene: &Scene, group: usize) -> String {
         true => "drives the bodies deeper than the law can be evaluated, or is damped so strongly that it never ends",
     };
     format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}")
-}
-
-/// Rejects a value of the parameter `name` outside its range. `owner` precedes the name in the message.
-pub fn check_limits(name: &str, owner: &str, value: &Spanned<f64>) -> Result<(), Mistake> {
-    let variable = table::variable(name);
-    let allowed = variable.minimum.unwrap_or(f64::MIN)..=variable.maximum.unwrap_or(f64::MAX);
-    check_range((name, variable.unit.as_deref().unwrap_or("")), owner, value, allowed)
-}
-
-/// Rejects a value with this name and unit unless it is `allowed`. `owner` precedes the name in the message.
-pub fn check_range(
-    (name, unit): (&str, &str),
-    owner: &str,
-    value: &Spanned<f64>,
-    allowed: RangeInclusive<f64>,
-) -> Result<(), Mistake> {
-    if allowed.contains(value.get_ref()) {
-        return Ok(());
-    }
-    let (given, minimum, maximum) = (value.get_ref(), allowed.start(), allowed.end());
-    let message = format!("{owner}{name} = {given:?} is out of range: allowed is {minimum:?} to {maximum:?} {unit}");
-    Err(Mistake(value.span(), message.trim_end().into()))
-}
-
-pub fn positive(name: &str, value: &Spanned<f64>) -> Result<f64, Mistake> {
-    let number = *value.get_ref();
-    if number > 0.0 && number.is_finite() {
-        return Ok(number);
-    }
-    Err(Mistake(value.span(), format!("{name} = {number:?} must be positive and finite")))
-}
-
-/// Makes settable only the parameters in `chosen`, or all: those of all contacts and those of one contact.
-fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Result<(), Mistake> {
-    let Some(chosen) = chosen else { return Ok(()) };
-    let names: HashSet<&str> = chosen.iter().map(|name| name.get_ref().as_str()).collect();
-    let mut known = Vec::new();
-    let mass_is_input = scene.coupling.is_some_and(|coupling| coupling.mass_input);
-    let mut choose = |parameter: &mut Parameter, name: String| {
-        if mass_is_input && parameter.name == "effective_mass" {
-            return;
-        }
-        // a parameter that each contact has for itself is meant to be set
-        parameter.settable = parameter.per_contact || names.contains(name.as_str());
-        known.push(name);
-    };
-    for parameter in &mut scene.parameters {
-        choose(parameter, parameter.name.to_string());
-    }
-    for group in &mut scene.contacts {
-        let mut own = std::mem::take(&mut group.own);
-        own.iter_mut().for_each(|parameter| choose(parameter, group.variable(parameter.name)));
-        group.own = own;
-    }
-    let known_names: HashSet<&str> = known.iter().map(String::as_str).collect();
-    match chosen.iter().find(|name| !known_names.contains(name.get_ref().as_str())) {
-        Some(name) => {
-            let message = unknown("parameter", name.get_ref(), known.iter().map(String::as_str));
-            Err(Mistake(name.span(), message))
-        }
-        None => Ok(()),
-    }
-}
-
-fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool, friction: bool) -> Result<Vec<String>, Mistake> {
-    let is_listed =
-        |variable: &&table::Variable| variable.causality == Causality::Output && variable.second_of.is_none();
-    let available = || VARIABLES.iter().filter(is_listed).map(|variable| variable.name.as_str());
-    let mut outputs: Vec<String> = Vec::new();
-    for name in chosen {
-        let text = name.get_ref();
-        if let Some(both) = text.strip_suffix("[1]").or(text.strip_suffix("[2]"))
-            && available().any(|output| output == both)
-        {
-            let message = format!(
-                "the output {text} has no index here: `{both}` is enough, and gives both components if \
-                 friction.directions = 2"
-            );
-            return Err(Mistake(name.span(), message));
-        }
-        if !available().any(|output| output == text) {
-            return Err(Mistake(name.span(), unknown("output", text, available())));
-        }
-        if text == "closing_speed" && !knows_mass {
-            let message =
-                "the output closing_speed needs [coupling] effective_mass: the FMU must move the bodies itself";
-            return Err(Mistake(name.span(), message.into()));
-        }
-        if table::variable(text).friction && !friction {
-            let message = format!("the output {text} needs friction: give [friction] coefficient");
-            return Err(Mistake(name.span(), message));
-        }
-        if text != "force" && !outputs.contains(text) {
-            outputs.push(text.clone());
-        }
-    }
-    Ok(outputs)
 }

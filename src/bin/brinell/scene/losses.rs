@@ -83,7 +83,7 @@ fn of_restitution(given: &Spanned<Value>) -> Result<Loss, Mistake> {
 }
 
 fn of_thickness(given: &Spanned<f64>, target: Option<&Target>) -> Result<Loss, Mistake> {
-    super::checks::check_range(("target.plate_thickness", "m"), "", given, THICKNESSES)?;
+    super::limits::check_range(("target.plate_thickness", "m"), "", given, THICKNESSES)?;
     if let Some(radius) = target.and_then(|target| target.radius.as_ref()) {
         let message = format!("target.radius = {:?} and target.plate_thickness: a plate is flat", radius.get_ref());
         return Err(Mistake(radius.span(), message));

@@ -45,8 +45,8 @@ impl PowerLaw {
 pub fn check(body: Body, table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
     let PowerLawTable { coefficient, exponent } = table.get_ref();
     let owner = format!("{}.power_law.", body.name());
-    super::checks::check_range(("coefficient", "Pa"), &owner, coefficient, 1e-6..=1e18)?;
-    super::checks::check_range(("exponent", ""), &owner, exponent, 0.0..=0.9)?;
+    super::limits::check_range(("coefficient", "Pa"), &owner, coefficient, 1e-6..=1e18)?;
+    super::limits::check_range(("exponent", ""), &owner, exponent, 0.0..=0.9)?;
     Ok(PowerLaw { coefficient: *coefficient.get_ref(), exponent: *exponent.get_ref() })
 }
 

@@ -3,7 +3,7 @@
 use super::file::RateTable;
 use super::power_law::{Linear, PowerLaw};
 use super::softer::{Body, Both};
-use super::{Mistake, Scene, checks};
+use super::{Mistake, Scene, limits};
 use crate::model::{AnyModel, strengthened};
 use crate::nearest::unknown;
 use brinell::contact::impact::{Impact, Prediction};
@@ -40,7 +40,7 @@ pub fn check(body: Body, table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
         let value = keys.iter().find(|(known, _)| *known == name).and_then(|(_, value)| value.as_ref());
         let missing = || Mistake(table.span(), format!("{owner} with model = \"{}\" needs {name}", model.get_ref()));
         let value = value.ok_or_else(missing)?;
-        checks::check_range((name, unit), &format!("{owner}."), value, allowed)?;
+        limits::check_range((name, unit), &format!("{owner}."), value, allowed)?;
         Ok(*value.get_ref())
     };
     match own[0] {
