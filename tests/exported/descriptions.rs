@@ -1,8 +1,7 @@
 //! The texts of an FMU in its model description and on its documentation page must be true for its kind.
 
 use crate::loaded::{ERROR, OK, Unit};
-use crate::unit;
-use crate::unit::write_scene;
+use crate::unit::{self, write_scene};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

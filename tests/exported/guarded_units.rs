@@ -1,7 +1,6 @@
 //! FMUs with the passivity guard: their texts, and their agreement with the prediction.
 
-use crate::command;
-use crate::command::{empty_folder, run};
+use crate::command::{self, empty_folder, run};
 use crate::every_law::takes_all;
 use std::fs;
 use std::path::Path;

@@ -1,10 +1,9 @@
 //! Passivity of the laws: the table of laws describes it for all bodies that an FMU accepts.
 
 use crate::command::{empty_folder, run};
-use crate::physics;
 use crate::physics::laws::{entries, entry, text};
 use crate::physics::{
-    AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit,
+    self, AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit,
 };
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;

@@ -1,7 +1,6 @@
 //! `brinell merge`: FMUs of one scene are joined, others are rejected.
 
-use crate::command;
-use crate::command::{Run, contents, empty_folder, output, run};
+use crate::command::{self, Run, contents, empty_folder, output, run};
 use crate::unit;
 use std::fs;
 use std::path::Path;

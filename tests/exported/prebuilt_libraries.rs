@@ -2,15 +2,13 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 use crate::both_ways::Both;
-use crate::command;
-use crate::command::{assert_same, brinell, empty_folder, output, run};
+use crate::command::{self, assert_same, brinell, empty_folder, output, run};
 use crate::courses;
 use crate::hosts::{Host, Interface, Loading, cc, compile};
 use crate::kinds::{further, one_of_each_kind, scene};
 use crate::loaded::Unit;
 use crate::physics::Random;
-use crate::prebuilt;
-use crate::prebuilt::{LAWS, export, export_anew, store};
+use crate::prebuilt::{self, LAWS, export, export_anew, store};
 use crate::pytest;
 use crate::skips;
 use crate::unit;

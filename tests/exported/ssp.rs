@@ -1,7 +1,6 @@
 //! `brinell ssp` from the user's point of view; tests/fmpy/test_ssp.py examines the packages.
 
-use crate::command;
-use crate::command::{Run, assert_same, contents, empty_folder, run, scene};
+use crate::command::{self, Run, assert_same, contents, empty_folder, run, scene};
 use crate::unit;
 use std::fs;
 use std::path::Path;

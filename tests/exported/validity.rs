@@ -1,7 +1,6 @@
 //! The valid range of the laws, and the messages of the program about an impact beyond.
 
-use crate::command;
-use crate::command::{empty_folder, run};
+use crate::command::{self, empty_folder, run};
 use crate::physics::{AnyModel, all_models, mild, pair_of};
 use brinell::contact::damped::{self, AnyDamped};
 use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, largest_speed};

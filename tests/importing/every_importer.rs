@@ -8,8 +8,7 @@
 
 use crate::command;
 use crate::fmi_crate;
-use crate::importer_table;
-use crate::importer_table::{Row, Table};
+use crate::importer_table::{self, Row, Table};
 use crate::loaded::{OK, Unit};
 use crate::python;
 use crate::skips;

@@ -2,8 +2,7 @@
 //! is used with the scene made for it.
 
 use crate::masters::{MASS, Master, PATTERNS, Parallel, Serial, WiredParallel, WiredSerial, choice};
-use crate::physics;
-use crate::physics::{AnyModel, Random, all_models, mild};
+use crate::physics::{self, AnyModel, Random, all_models, mild};
 use crate::scenes::Choice;
 use brinell::contact::impact::{Impact, predict};
 use brinell::contact::{Loading, Surface};

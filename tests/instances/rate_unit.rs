@@ -2,8 +2,7 @@
 
 use crate::masters::{MASS, Master, choice};
 use crate::physics::{AnyModel, all_models, mild, model};
-use crate::scenes;
-use crate::scenes::{Chosen, Rated, outputs, words};
+use crate::scenes::{self, Chosen, Rated, outputs, words};
 use brinell::contact::impact::{self, Impact, Prediction};
 use brinell::contact::rate::{Model, Rate};
 use brinell::contact::{Loading, Surface};

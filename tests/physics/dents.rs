@@ -1,8 +1,7 @@
 //! The dent ends the contact: beyond it there is no force, whichever way the bodies move, and inside there is one.
 
-use crate::physics;
 use crate::physics::{
-    AnyModel, Random, advance, all_models, is_passive, logarithmic, mild, pressed, random_bodies, unit,
+    self, AnyModel, Random, advance, all_models, is_passive, logarithmic, mild, pressed, random_bodies, unit,
 };
 use brinell::contact::Pair;
 use brinell::contact::history::{History, Regime};

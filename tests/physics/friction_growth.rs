@@ -1,8 +1,7 @@
 //! Properties of every history of a yielding contact with friction, for all pairs of laws whose unloading is one segment.
 
 use crate::friction;
-use crate::physics;
-use crate::physics::{Random, all_models, is_passive, mild, unit};
+use crate::physics::{self, Random, all_models, is_passive, mild, unit};
 use brinell::contact::History;
 use brinell::contact::tangential::{Friction, RoughModel, Sliding, Springs};
 use brinell::contact::{loading::AnyLoading, unloading::AnyUnloading};

@@ -1,8 +1,7 @@
 //! Oblique impacts of a free ball: the limit of full sliding, energies, signs, the order of the method, and other methods.
 
 use crate::friction::assert_close;
-use crate::physics;
-use crate::physics::{all_models, mild};
+use crate::physics::{self, all_models, mild};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::tangential::impact::{Ball, Rebound, in_steps, predict};
 use brinell::contact::tangential::{Friction, RoughModel, Sliding};

@@ -1,7 +1,6 @@
 //! The tangential force on elastic curves compared with tables from another program: histories, and impacts in steps.
 
-use crate::friction;
-use crate::friction::{Ball, Rebound, assert_close, hertz, table};
+use crate::friction::{self, Ball, Rebound, assert_close, hertz, table};
 use brinell::contact::tangential::{Friction, Stuck, Way};
 use brinell::contact::{Body, Pair, Segment};
 use std::f64::consts::PI;

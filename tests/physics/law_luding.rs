@@ -1,7 +1,6 @@
 //! Luding's spring: forces, dents and restitution compared with his formulas.
 
-use crate::physics;
-use crate::physics::{MASS, go, model, pressed, unit};
+use crate::physics::{self, MASS, go, model, pressed, unit};
 use brinell::contact::impact::{Impact, predict};
 use brinell::contact::{History, Loading};
 

@@ -1,7 +1,6 @@
 //! A contact that knows the mass in delicate cases: at the surface, at rest, in equilibrium, and pulled away.
 
-use crate::physics;
-use crate::physics::{AnyModel, MASS, all_models, mild, model, unit};
+use crate::physics::{self, AnyModel, MASS, all_models, mild, model, unit};
 use brinell::contact::motion::{Drive, NoMotion, Outcome, follow};
 use brinell::contact::{History, Surface};
 

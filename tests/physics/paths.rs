@@ -1,8 +1,7 @@
 //! Contacts on paths: the result depends on the path, not on the number of steps.
 
-use crate::physics;
 use crate::physics::{
-    AnyModel, Random, TURNS, advance, all_models, exactly, go, is_passive, loading_force, mild, model, on_grid,
+    self, AnyModel, Random, TURNS, advance, all_models, exactly, go, is_passive, loading_force, mild, model, on_grid,
     pressed, unit, unloading_force,
 };
 use brinell::contact::loading::KogutEtsion;

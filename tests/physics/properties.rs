@@ -1,7 +1,8 @@
 //! Properties that hold for every material, sphere, pair of laws and path: random cases, shrunk on failure.
 
-use crate::physics;
-use crate::physics::{AnyModel, advance, all_models, is_passive, is_scale_free, loading_force, mild, pressed, unit};
+use crate::physics::{
+    self, AnyModel, advance, all_models, is_passive, is_scale_free, loading_force, mild, pressed, unit,
+};
 use brinell::contact::impact::{Impact, predict};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, History, Pair, Regime, Surface};

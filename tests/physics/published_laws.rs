@@ -1,8 +1,7 @@
 //! The published laws compared with tables of independently computed numbers. The numbers are as printed, unless a comment
 //! names another source.
 
-use crate::physics;
-use crate::physics::{AnyModel, MASS, loading_force, mild, model, pair_of, unit};
+use crate::physics::{self, AnyModel, MASS, loading_force, mild, model, pair_of, unit};
 use crate::printed::{agrees, agrees_in_digits};
 use brinell::contact::Loading;
 use brinell::contact::impact::{Impact, Prediction, predict};

@@ -1,7 +1,6 @@
 //! The fitted and reconstructed laws compared with tables of independently computed numbers, as printed.
 
-use crate::physics;
-use crate::physics::{MASS, loading_force, mild, model, pair_of, unit};
+use crate::physics::{self, MASS, loading_force, mild, model, pair_of, unit};
 use crate::printed::{agrees, agrees_in_digits};
 use brinell::contact::Loading;
 use brinell::contact::impact::{Impact, Prediction, predict};

@@ -1,7 +1,6 @@
 //! The laws compared with tables of independently computed numbers, as printed, unless a comment names another source.
 
-use crate::physics;
-use crate::physics::{MASS, loading_force, mild, model, pair_of, unit};
+use crate::physics::{self, MASS, loading_force, mild, model, pair_of, unit};
 use crate::printed::{agrees, agrees_in_digits, closure, yield_speed};
 use brinell::contact::Loading;
 use brinell::contact::loading::BigAlabo;

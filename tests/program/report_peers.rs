@@ -1,8 +1,7 @@
 //! `brinell report --peer`: other FMUs in the same picture.
 #![cfg(target_os = "linux")]
 
-use crate::command;
-use crate::command::{Run, empty_folder, run, scene};
+use crate::command::{self, Run, empty_folder, run, scene};
 use crate::unit;
 use serde_json::Value;
 use std::fs;
