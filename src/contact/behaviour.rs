@@ -1,8 +1,8 @@
 //! The interface of every kind of contact: it starts, moves, returns its force and energies, and can be saved.
 
-use super::history::{Regime, TooDeep};
 use super::numbers::quotient;
 use super::path::Course;
+use super::regime::{Regime, TooDeep};
 use super::tangential::{Quantity, Sliding};
 use core::borrow::Borrow;
 use core::f64::consts::PI;
@@ -41,7 +41,7 @@ pub trait Contact<M>: Copy {
     /// A contact at `gap` \[m\] before any motion. A negative gap is an initial indentation.
     ///
     /// # Errors
-    /// [`TooDeep`] beyond [`LARGEST_INDENTATION`](super::history::LARGEST_INDENTATION) on either side, and for NaN.
+    /// [`TooDeep`] beyond [`LARGEST_INDENTATION`](super::regime::LARGEST_INDENTATION) on either side, and for NaN.
     fn start(model: &M, gap: f64) -> Result<Self, TooDeep>;
 
     /// Moves the contact by `increment` \[m\] if that takes only a few comparisons: along its present branch, or through the
@@ -194,7 +194,7 @@ pub trait Contact<M>: Copy {
     /// The indentation up to which the law of `model` is valid \[m\].
     fn valid_depth(model: &M) -> f64;
 
-    /// Whether a law of `model` may reject an indentation below the [limit](super::history::LARGEST_INDENTATION). A fitted law
+    /// Whether a law of `model` may reject an indentation below the [limit](super::regime::LARGEST_INDENTATION). A fitted law
     /// may end earlier.
     fn may_refuse(model: &M) -> bool;
 

@@ -1,8 +1,8 @@
 //! Prediction of an impact from the energy balance, without time stepping.
 
-use super::history::LARGEST_INDENTATION;
 use super::loading::Loading;
 use super::quadrature::{gauss, graded_integral};
+use super::regime::LARGEST_INDENTATION;
 use super::unloading::Unloading;
 use super::{Model, Regime};
 use core::cell::Cell;

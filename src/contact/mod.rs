@@ -43,6 +43,7 @@ pub mod path;
 pub mod piece;
 pub mod quadrature;
 pub mod rate;
+pub mod regime;
 pub mod segment;
 pub mod strength;
 pub mod tangential;
@@ -51,9 +52,10 @@ pub mod validity;
 pub(crate) mod words;
 
 pub use behaviour::Contact;
-pub use history::{History, Regime, TooDeep};
+pub use history::History;
 pub use loading::Loading;
 pub use material::{Body, Pair, YieldPoint};
+pub use regime::{Regime, TooDeep};
 pub use segment::Segment;
 pub use unloading::{Peak, Unloading};
 

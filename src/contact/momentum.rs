@@ -1,10 +1,11 @@
 //! The integral of force over time: the impulse of a step.
 
-use super::history::{History, TooDeep};
+use super::history::History;
 use super::loading::Loading;
 use super::path::Course;
 use super::piece::Piece;
 use super::quadrature::{gauss, graded_integral};
+use super::regime::TooDeep;
 use super::unloading::Unloading;
 use super::{Model, Surface};
 use libm::fabs;

@@ -1,10 +1,10 @@
 //! Predictions: the root of the energy balance, and the cost to find it.
 
 use crate::physics::{AnyModel, MASS, logarithmic, mild, model, unit};
-use brinell::contact::history::Regime;
 use brinell::contact::impact::{Impact, predict};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::material::YieldPoint;
+use brinell::contact::regime::Regime;
 use brinell::contact::unloading::ContactRadius;
 use brinell::contact::{Loading, Model, Pair, Segment, Surface};
 use std::cell::Cell;

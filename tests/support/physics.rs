@@ -180,7 +180,7 @@ pub fn loading_force(model: &AnyModel, indentation: f64) -> f64 {
 pub fn corners(model: &AnyModel) -> Vec<f64> {
     let mut corners = Vec::new();
     let mut corner = model.loading.next_corner(&model.pair, 0.0);
-    while corner < brinell::contact::history::LARGEST_INDENTATION {
+    while corner < brinell::contact::regime::LARGEST_INDENTATION {
         corners.push(corner);
         corner = model.loading.next_corner(&model.pair, corner);
     }

@@ -6,8 +6,8 @@
 
 use crate::scene::Scene;
 use crate::{laws, table};
-use brinell::contact::history::LARGEST_INDENTATION;
 use brinell::contact::loading::AnyLoading;
+use brinell::contact::regime::LARGEST_INDENTATION;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model, Pair};
 

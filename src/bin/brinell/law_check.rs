@@ -1,7 +1,7 @@
 //! Checks of laws with constants from a scene on the scene's bodies.
 
-use brinell::contact::history::LARGEST_INDENTATION;
 use brinell::contact::loading::AnyLoading;
+use brinell::contact::regime::LARGEST_INDENTATION;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model};
 

@@ -2,8 +2,8 @@
 
 use super::{Damped, Model};
 use crate::contact::Regime;
-use crate::contact::history::LARGEST_INDENTATION;
 use crate::contact::impact::{Impact, Prediction};
+use crate::contact::regime::LARGEST_INDENTATION;
 use libm::{fabs, pow, sqrt};
 
 /// An instant of the motion.

@@ -9,12 +9,9 @@ mod saved;
 use super::Model;
 use super::loading::Loading;
 use super::path::Sum;
+use super::regime::{LARGEST_INDENTATION, Regime, TooDeep};
 use super::segment::Segment;
 use super::unloading::Unloading;
-
-/// The indentation up to which the laws are evaluated \[m\]. It is far beyond anything physical, and small enough that no force
-/// or energy overflows.
-pub const LARGEST_INDENTATION: f64 = 1e100;
 
 /// The largest force \[N\] and stiffness \[N/m\] of a fitted law. Their products with any time and any indentation are finite.
 const LARGEST_FORCE: f64 = 1e200;
@@ -27,30 +24,6 @@ const TOUCHING: f64 = f64::from_bits(1);
 
 /// The `least_increment` \[m\] of a branch that is followed in both directions: any increment is allowed.
 const ANY: f64 = -f64::MAX;
-
-/// The part of the law that a contact is on. The numbers are the values of the variable `regime`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Regime {
-    /// No contact.
-    Apart = 0,
-    /// Hertzian: nothing has yielded.
-    Elastic = 1,
-    /// Elastoplastic loading, first region.
-    ElastoplasticFirst = 2,
-    /// Elastoplastic loading, second region.
-    ElastoplasticSecond = 3,
-    /// Fully plastic loading.
-    FullyPlastic = 4,
-    /// Below the largest indentation of a contact that has yielded: unloading or reloading.
-    Unloaded = 5,
-}
-
-/// Error: the indentation left the range in which the law can be evaluated, or is NaN.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TooDeep {
-    /// The rejected indentation \[m\].
-    pub indentation: f64,
-}
 
 /// The whole state of an elastoplastic contact.
 ///
@@ -68,18 +41,6 @@ pub struct History {
     regime: Regime,
     /// Energy lost in dents that were left behind \[J\]; see [`Surface::Fresh`].
     left_behind: f64,
-}
-
-impl Regime {
-    /// All regimes, in the order of their numbers.
-    pub const ALL: [Regime; 6] = [
-        Regime::Apart,
-        Regime::Elastic,
-        Regime::ElastoplasticFirst,
-        Regime::ElastoplasticSecond,
-        Regime::FullyPlastic,
-        Regime::Unloaded,
-    ];
 }
 
 impl History {

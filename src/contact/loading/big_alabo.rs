@@ -1,8 +1,8 @@
 //! Big-Alabo, Harrison and Cartmell: elastic, elastoplastic in two regions, fully plastic.
 
 use super::{Loading, hertz, work_over_segments};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::{log, sqrt};
 

@@ -1,8 +1,8 @@
 //! Brake 2012: a cubic between Hertz and the plastic line.
 
 use super::{Loading, first_above, hertz};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use core::f64::consts::PI;
 use libm::{atan, sqrt};

@@ -3,9 +3,9 @@
 use super::brake_2012::first_yield;
 use super::{Loading, hertz};
 use crate::contact::dual::Dual;
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::quadrature::{gauss, graded_integral};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use core::f64::consts::PI;
 use libm::sqrt;

@@ -1,8 +1,8 @@
 //! The law `brinell`: a fit to finite-element results for a rigid sphere on an elastic, perfectly plastic half-space.
 
 use super::{Loading, hertz, work_over_segments};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::sqrt;
 

@@ -1,8 +1,8 @@
 //! Hertz: the elastic contact of two spheres.
 
 use super::Loading;
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::sqrt;
 

@@ -2,9 +2,9 @@
 
 use super::{Loading, hertz};
 use crate::contact::dual::Dual;
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::quadrature::logarithmic_integral;
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::{exp, pow, sqrt};
 

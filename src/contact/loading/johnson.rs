@@ -1,8 +1,8 @@
 //! Johnson: a plastic zone that grows like an expanding cavity, from Hertz's law to full plasticity.
 
 use super::{Loading, constant_pressure, first_above, hertz};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use core::f64::consts::PI;
 use libm::{exp, log, sqrt};

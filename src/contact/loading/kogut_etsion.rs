@@ -1,8 +1,8 @@
 //! Kogut and Etsion: powers of the indentation fitted to finite elements.
 
 use super::{Loading, first_above, hertz};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::{pow, sqrt};
 

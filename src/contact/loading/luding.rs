@@ -1,8 +1,8 @@
 //! Luding: a spring whose unloading stiffness grows with the depth, up to a limit beyond which it is elastic again.
 
 use super::{Loading, WaltonBraun, first_above, work_over_segments};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::sqrt;
 

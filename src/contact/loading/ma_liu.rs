@@ -1,8 +1,8 @@
 //! Ma and Liu: a logarithmic curve that connects Hertz's law and a plastic line with continuous slope.
 
 use super::{Loading, first_above, hertz};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::{log, sqrt};
 

@@ -6,8 +6,8 @@ include!(concat!(env!("OUT_DIR"), "/loading_laws.rs"));
 pub mod strengthened;
 pub use strengthened::Strengthened;
 
-use super::history::{LARGEST_INDENTATION, Regime};
 use super::material::{Pair, YieldPoint};
+use super::regime::{LARGEST_INDENTATION, Regime};
 use super::segment::Segment;
 
 /// A loading law: its constants, without the bodies.

@@ -1,8 +1,8 @@
 //! A power of the indentation beyond yield, for constants fitted by the user.
 
 use super::{Loading, hertz};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::{pow, sqrt};
 

@@ -1,8 +1,8 @@
 //! The law `brinell` for a target that hardens, or with a Poisson's ratio other than 0.3.
 
 use super::{Brinell, Loading, first_above, hertz};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use crate::contact::strength::{self, KNOTS, Strength};
 use libm::sqrt;

@@ -1,8 +1,8 @@
 //! Stronge: a mean pressure that grows with the logarithm of the indentation until the contact is fully plastic.
 
 use super::{Loading, constant_pressure, first_above, hertz};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::{exp, log, sqrt};
 

@@ -1,8 +1,8 @@
 //! Thornton: Hertz's law, then a line along which the contact pressure is limited.
 
 use super::{Loading, hertz, work_over_segments};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::sqrt;
 

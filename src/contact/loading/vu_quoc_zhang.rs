@@ -1,9 +1,9 @@
 //! Vu-Quoc and Zhang: the contact radius is the sum of an elastic and a plastic part.
 
 use super::{Loading, hertz};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
 use crate::contact::quadrature::logarithmic_integral;
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::{cbrt, sqrt};
 

@@ -1,8 +1,8 @@
 //! Walton and Braun: a spring that is stiffer during unloading.
 
 use super::Loading;
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::sqrt;
 

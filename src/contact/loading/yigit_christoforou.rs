@@ -2,8 +2,8 @@
 
 use super::thornton::line;
 use super::{Loading, hertz, work_over_segments};
-use crate::contact::history::Regime;
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::Regime;
 use crate::contact::segment::Segment;
 use libm::sqrt;
 

@@ -1,8 +1,8 @@
 //! Zhao, Maietta and Chang: contact area and mean pressure, each with a smooth transition from elastic to fully plastic.
 
 use super::{Loading, first_above, hertz};
-use crate::contact::history::{LARGEST_INDENTATION, Regime};
 use crate::contact::material::{Pair, YieldPoint};
+use crate::contact::regime::{LARGEST_INDENTATION, Regime};
 use crate::contact::segment::Segment;
 use libm::{log, sqrt};
 

@@ -6,12 +6,12 @@
 use super::history::History;
 use super::runge_kutta::{Ended, State, Stretch};
 use super::{Damping, Form, Loss, Model};
-use crate::contact::history::TooDeep;
 use crate::contact::loading::Loading;
 use crate::contact::motion::flight::Flight;
 use crate::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome};
 use crate::contact::numbers::{largest, quotient};
 use crate::contact::piece::Piece;
+use crate::contact::regime::TooDeep;
 use crate::contact::unloading::Unloading;
 use libm::fabs;
 

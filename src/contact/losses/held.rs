@@ -1,11 +1,11 @@
 //! Work and heat of a motion at constant rate.
 
 use super::{Damping, Form};
-use crate::contact::history::TooDeep;
 use crate::contact::loading::Loading;
 use crate::contact::numbers::quotient;
 use crate::contact::piece::Piece;
 use crate::contact::quadrature::{gauss, graded_integral};
+use crate::contact::regime::TooDeep;
 use crate::contact::segment::Segment;
 use crate::contact::unloading::Unloading;
 use crate::contact::{History, Model, Surface};

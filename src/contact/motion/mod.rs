@@ -20,9 +20,10 @@ mod travel;
 mod turning;
 
 use super::Model;
-use super::history::{History, Regime, TooDeep};
+use super::history::History;
 use super::loading::Loading;
 use super::numbers::largest;
+use super::regime::{Regime, TooDeep};
 use super::unloading::Unloading;
 use bodies::Bodies;
 use field::Start;

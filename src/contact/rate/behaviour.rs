@@ -3,10 +3,11 @@
 use super::{History, Model, is_factor};
 use crate::contact;
 use crate::contact::behaviour::Contact;
-use crate::contact::history::{self, Regime, TooDeep};
+use crate::contact::history;
 use crate::contact::impact::Impact;
 use crate::contact::loading::Loading;
 use crate::contact::path::Course;
+use crate::contact::regime::{Regime, TooDeep};
 use crate::contact::unloading::Unloading;
 use crate::contact::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;

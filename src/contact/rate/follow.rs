@@ -1,11 +1,11 @@
 //! The motion of bodies of known mass: each first touch of a surface without a dent finds its strength.
 
 use super::{History, Model, is_factor};
-use crate::contact::history::{Regime, TooDeep};
 use crate::contact::impact::Impact;
 use crate::contact::loading::Loading;
 use crate::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follow_to_touch};
 use crate::contact::numbers::largest;
+use crate::contact::regime::{Regime, TooDeep};
 use crate::contact::unloading::Unloading;
 use libm::fabs;
 

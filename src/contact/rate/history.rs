@@ -1,8 +1,9 @@
 //! The state of a contact whose strength depends on the impact.
 
 use super::Model;
-use crate::contact::history::{self, TooDeep};
+use crate::contact::history;
 use crate::contact::loading::Loading;
+use crate::contact::regime::TooDeep;
 use crate::contact::unloading::Unloading;
 
 /// The state of an elastoplastic contact, and the strength that its dent or its present impact has.

@@ -2,9 +2,10 @@
 
 use super::{RoughModel, Shear, Sliding, SpringsOf, Stuck, plane};
 use crate::contact::behaviour::Contact;
-use crate::contact::history::{History, TooDeep};
+use crate::contact::history::History;
 use crate::contact::loading::Loading;
 use crate::contact::path::{Course, Sum};
+use crate::contact::regime::TooDeep;
 use crate::contact::unloading::Unloading;
 
 /// An elastoplastic contact with friction in `D` tangential directions.

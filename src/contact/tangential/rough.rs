@@ -3,9 +3,10 @@
 use super::growth_steps::next_of_lattice;
 use super::shear::{Rates, Shear, simpson};
 use super::{Friction, Motion, Sliding, Stuck, growth, plane};
-use crate::contact::history::{History, TooDeep};
+use crate::contact::history::History;
 use crate::contact::loading::Loading;
 use crate::contact::numbers::{quotient, smallest};
+use crate::contact::regime::TooDeep;
 use crate::contact::segment::Segment;
 use crate::contact::unloading::Unloading;
 use crate::contact::{Model, Surface};

@@ -3,6 +3,7 @@
 mod apart;
 mod master;
 mod oblique;
+mod row;
 mod trial;
 
 use crate::files::FileError;
@@ -11,13 +12,14 @@ use crate::layout::paragraph;
 use crate::numbers::quantity;
 use crate::scene::{Scene, SceneError};
 use apart::Found;
+use master::STEPS_PER_CONTACT;
 use serde::Serialize;
 use std::fmt::Formatter;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::Duration;
-use trial::{STEPS_PER_CONTACT, Trial};
+use trial::Trial;
 
 /// Largest allowed relative difference between prediction and simulation.
 const TOLERANCE: f64 = 1e-3;

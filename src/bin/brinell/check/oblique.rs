@@ -1,6 +1,7 @@
 //! The oblique impact of a ball on a contact with friction: the FMU compared with the springs of the library.
 
-use super::trial::{Row, STEPS_PER_CONTACT};
+use super::master::STEPS_PER_CONTACT;
+use super::row::Row;
 use crate::constants::{MEMORY, parameters, start_value};
 use crate::importer::{Description, ImportError, Instance};
 use crate::scene::Scene;

@@ -1,16 +1,14 @@
 //! The impact of a scene on one contact of its FMU, compared with the prediction.
 
-use super::master::{Master, Simulated};
+use super::master::{Master, STEPS_PER_CONTACT, Simulated};
 use super::oblique;
+use super::row::Row;
 use crate::importer::{Description, ImportError, Instance};
 use crate::layout::table;
 use crate::numbers::{percent, quantity};
 use crate::scene::{Parameter, Scene};
 use brinell::contact::impact::Prediction;
 use serde::Serialize;
-
-/// Number of steps per contact. The method is of second order: its error is then far below the tolerance.
-pub const STEPS_PER_CONTACT: u32 = 4096;
 
 /// The impact on one contact.
 #[derive(Debug, Serialize)]
@@ -29,25 +27,6 @@ pub struct Trial {
     /// Contacts at rest whose force changed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub disturbed: Vec<String>,
-}
-
-/// One quantity, predicted and from the co-simulation. Those of an oblique impact are predicted by the springs of the
-/// library.
-#[derive(Debug, Serialize)]
-pub struct Row {
-    pub quantity: &'static str,
-    pub unit: &'static str,
-    pub predicted: f64,
-    pub simulated: f64,
-    /// Difference relative to the predicted value or to `scale`.
-    pub difference: f64,
-}
-
-impl Row {
-    /// A row whose difference is relative to `scale`.
-    pub fn new(quantity: &'static str, unit: &'static str, predicted: f64, simulated: f64, scale: f64) -> Row {
-        Row { quantity, unit, predicted, simulated, difference: (simulated - predicted) / scale }
-    }
 }
 
 impl Trial {

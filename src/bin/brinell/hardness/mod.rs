@@ -7,8 +7,8 @@ pub mod command;
 
 use crate::laws::Choice;
 use crate::model::AnyModel;
-use brinell::contact::history::LARGEST_INDENTATION;
 use brinell::contact::loading::AnyLoading;
+use brinell::contact::regime::LARGEST_INDENTATION;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::validity::LARGEST_RADIUS_RATIO;
 use brinell::contact::{Loading, Model, Regime};

@@ -137,7 +137,7 @@ fn onsets(choice: &Choice, mass: f64) -> Vec<(Regime, f64)> {
     let (law, pair) = (model.loading, model.pair);
     let mut regime = law.regime(&pair, 0.0);
     let mut corner = law.next_corner(&pair, 0.0);
-    while corner < brinell::contact::history::LARGEST_INDENTATION {
+    while corner < brinell::contact::regime::LARGEST_INDENTATION {
         let above = law.regime(&pair, corner);
         if above != regime {
             onsets.push((above, (2.0 * law.work(&pair, corner) / mass).sqrt()));

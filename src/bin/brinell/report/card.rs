@@ -1,7 +1,7 @@
 //! The card at the top of a report: the scene, the outcome of its impact, and the reliability of the law.
 
+use super::contact::Contact;
 use super::spread::Laws;
-use super::unit::Contact;
 use super::ways::{Body, LEAP_FROG};
 use super::{Figure, ReportError};
 use crate::bodies;

@@ -2,6 +2,7 @@
 
 mod card;
 mod choice;
+mod contact;
 mod data;
 mod experiment;
 mod extremes;

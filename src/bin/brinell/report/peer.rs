@@ -2,7 +2,7 @@
 
 use super::precision::{Line, Plan};
 use super::ways::{Needs, WAYS, Way};
-use super::{ReportError, unit::Contact};
+use super::{ReportError, contact::Contact};
 use crate::importer::{Archive, ImportError, Unit};
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};

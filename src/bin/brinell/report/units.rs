@@ -1,8 +1,9 @@
 //! The FMUs of a report, one for each kind of coupling: each has only the features that its ways need.
 
 use super::ReportError;
+use super::contact::Contact;
 use super::progress::{Progress, Work};
-use super::unit::{self, Contact};
+use super::unit;
 use super::ways::{Needs, WAYS, Way};
 use crate::files::private_folder;
 use crate::importer::{Archive, ImportError, Unit};

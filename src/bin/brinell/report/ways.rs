@@ -1,6 +1,6 @@
 //! The ways to couple a contact with a mass that the importer moves.
 
-use super::unit::Contact;
+use super::contact::Contact;
 use crate::importer::ImportError;
 
 /// The result of an impact for the importer.

@@ -5,7 +5,7 @@
 
 use super::ToolchainError;
 use super::deb;
-use super::index::Package;
+use super::package::Package;
 use crate::files::FileError;
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressStyle};

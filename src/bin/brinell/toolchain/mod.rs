@@ -7,13 +7,14 @@
 mod deb;
 mod download;
 mod index;
+mod package;
 mod scripts;
 mod targets;
 
 use crate::files::{FileError, write_whole};
 use crate::package::{Cache, ExportError, Toolchain};
 use download::Source;
-use index::Package;
+use package::Package;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,8 +2,8 @@
 
 use super::{Damped, Factors, History, Model, Regime, Sum, TooDeep, within};
 use crate::contact::behaviour::{Contact, slopes};
-use crate::contact::history::LARGEST_INDENTATION;
 use crate::contact::path::Course;
+use crate::contact::regime::LARGEST_INDENTATION;
 use crate::contact::words::{load_numbers, store_numbers};
 use core::borrow::Borrow;
 

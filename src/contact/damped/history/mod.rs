@@ -9,8 +9,8 @@ pub use motion::follow;
 
 use super::{Damped, Factors, Model};
 use crate::contact::behaviour::is_finite_at;
-use crate::contact::history::{LARGEST_INDENTATION, Regime, TooDeep};
 use crate::contact::path::Sum;
+use crate::contact::regime::{LARGEST_INDENTATION, Regime, TooDeep};
 use libm::sqrt;
 
 /// The whole state of a rate-dependent contact, and the factors of its law.

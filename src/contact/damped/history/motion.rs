@@ -8,10 +8,10 @@ mod integration;
 use super::{Damped, History, Sum, within};
 use crate::contact::damped::Model;
 use crate::contact::damped::impact::STAGES;
-use crate::contact::history::TooDeep;
 use crate::contact::motion::flight::Flight;
 use crate::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome};
 use crate::contact::numbers::largest;
+use crate::contact::regime::TooDeep;
 use libm::{fabs, pow, sqrt};
 
 /// Largest error of a step of the integration, relative to the largest indentation and speed of the contact.

@@ -3,8 +3,9 @@
 use super::{Case, TOLERANCE, Verdict};
 use crate::importer::ImportError;
 use crate::model::AnyModel;
+use crate::report::contact::Contact;
 use crate::report::progress::{Progress, Work};
-use crate::report::unit::{self, Contact};
+use crate::report::unit;
 use crate::report::ways::{LEAP_FROG, Needs};
 use crate::scene::{Body, Scene};
 use crate::validity::{self, Beyond};

@@ -4,9 +4,9 @@ mod impacts;
 mod motions;
 
 use super::Part;
+use super::contact::Contact;
 use super::data::{Table, number, text};
 use super::progress::Progress;
-use super::unit::Contact;
 use crate::scene::Scene;
 use crate::validity::Beyond;
 use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};

@@ -3,8 +3,8 @@
 use super::impacts::Bodies;
 use super::{Case, EXACT, Verdict};
 use crate::importer::ImportError;
+use crate::report::contact::Contact;
 use crate::report::progress::{Progress, Work};
-use crate::report::unit::Contact;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Loading, Model, Surface};

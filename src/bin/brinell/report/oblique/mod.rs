@@ -4,7 +4,7 @@ mod page;
 mod single_spring;
 
 use super::ReportError;
-use super::unit::Contact;
+use super::contact::Contact;
 use super::ways::gaps;
 use crate::importer::ImportError;
 use crate::laws::{Choice, choose};

@@ -2,8 +2,8 @@
 
 mod page;
 
+use super::contact::Contact;
 use super::progress::{Progress, Work};
-use super::unit::Contact;
 use super::ways::{Way, gaps};
 use crate::importer::ImportError;
 use brinell::contact::impact::{Impact, Prediction};

@@ -2,7 +2,7 @@
 
 use super::{RANGE, Setting};
 use crate::importer::ImportError;
-use crate::report::unit::Contact;
+use crate::report::contact::Contact;
 use crate::report::ways::{Body, Needs, Way};
 
 /// The stability limit of a way, as `h sqrt(K/m)`.

@@ -4,9 +4,9 @@ mod limit;
 mod map;
 mod words;
 
+use super::contact::Contact;
 use super::data::{Table, number, text};
 use super::progress::{Progress, Work};
-use super::unit::Contact;
 use super::units::Contacts;
 use super::ways::{Way, gaps};
 use super::{Figure, Part};

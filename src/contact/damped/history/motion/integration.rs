@@ -3,8 +3,8 @@
 use super::{Bodies, State};
 use crate::contact::damped::Damped;
 use crate::contact::damped::impact::{ERROR, STAGES};
-use crate::contact::history::LARGEST_INDENTATION;
 use crate::contact::numbers::{largest, quotient};
+use crate::contact::regime::LARGEST_INDENTATION;
 use libm::{fabs, sqrt};
 
 /// The part of the contact's depth that a step may cover: no change of the force is passed over.

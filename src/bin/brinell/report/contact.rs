@@ -1,0 +1,144 @@
+//! The contact that a co-simulation algorithm steps.
+
+use crate::importer::{Archive, Description, ImportError, Instance, Unit};
+
+/// A contact in the hands of a co-simulation algorithm; it counts the calls.
+pub struct Contact<'a> {
+    instance: Instance<'a>,
+    description: &'a Description,
+    /// Parameters that differ from the start values of the FMU.
+    parameters: Vec<(u32, f64)>,
+    rate: u32,
+    force: u32,
+    // outputs that another FMU may not have
+    mean_force: Option<u32>,
+    predicted_force: Option<u32>,
+    /// Time of the co-simulation, and its start time [s].
+    time: f64,
+    start_time: f64,
+    /// Number of calls since the start.
+    pub calls: u64,
+    /// Largest closing speed since the start [m/s].
+    pub fastest: f64,
+}
+
+impl<'a> Contact<'a> {
+    /// A contact of the FMU. Every start sets those of these `parameters` that the FMU has.
+    pub fn new(archive: &'a Archive, unit: &'a Unit, parameters: &[(&str, f64)]) -> Result<Contact<'a>, ImportError> {
+        let description = &archive.description;
+        let known = |(name, value): &(&str, f64)| Some((description.real(name).ok()?, *value));
+        Ok(Contact {
+            instance: unit.instantiate()?,
+            description,
+            parameters: parameters.iter().filter_map(known).collect(),
+            rate: description.real("indentation_rate")?,
+            force: description.real("force")?,
+            mean_force: description.real("mean_force").ok(),
+            predicted_force: description.real("predicted_force").ok(),
+            time: 0.0,
+            start_time: 0.0,
+            calls: 0,
+            fastest: 0.0,
+        })
+    }
+
+    /// Restarts with these parameters; the others have the values of the scene.
+    pub fn start(&mut self, parameters: &[(&str, f64)]) -> Result<(), ImportError> {
+        self.instance.call("fmi2Reset")?;
+        self.instance.setup_experiment(0.0)?;
+        self.instance.call("fmi2EnterInitializationMode")?;
+        for (reference, value) in &self.parameters {
+            self.instance.set_real(*reference, *value)?;
+        }
+        for (name, value) in parameters {
+            self.instance.set_real(self.description.real(name)?, *value)?;
+        }
+        self.instance.call("fmi2ExitInitializationMode")?;
+        (self.time, self.start_time, self.calls, self.fastest) = (0.0, 0.0, 0, 0.0);
+        Ok(())
+    }
+
+    /// Restarts with the bodies `gap` [m] apart. If the FMU has no such parameter, one `step` [s] moves the bodies apart.
+    pub fn start_apart(&mut self, gap: f64, step: f64) -> Result<(), ImportError> {
+        if self.description.real("initial_gap").is_ok() {
+            return self.start(&[("initial_gap", gap)]);
+        }
+        self.start(&[])?;
+        self.set_rate(-gap / step)?;
+        self.step(step)?;
+        (self.start_time, self.calls) = (self.time, 0);
+        Ok(())
+    }
+
+    /// Enables warnings, including those already logged.
+    pub fn ask_for_warnings(&mut self) -> Result<(), ImportError> {
+        self.instance.take_warnings();
+        self.instance.ask_for_warnings()
+    }
+
+    /// The warnings since they were enabled.
+    pub fn warnings(&mut self) -> Vec<String> {
+        self.instance.take_warnings()
+    }
+
+    /// Time since the start [s].
+    pub fn elapsed(&self) -> f64 {
+        self.time - self.start_time
+    }
+
+    /// Sets the closing speed [m/s].
+    pub fn set_rate(&mut self, rate: f64) -> Result<(), ImportError> {
+        self.calls += 1;
+        self.fastest = self.fastest.max(rate);
+        self.instance.set_real(self.rate, rate)
+    }
+
+    /// Sets the relative tangential speed of the contact points [m/s].
+    pub fn set_tangential_rate(&mut self, rate: f64) -> Result<(), ImportError> {
+        self.calls += 1;
+        self.instance.set_real(self.description.real("tangential_rate")?, rate)
+    }
+
+    /// Sets the derivatives of the closing speed for the next step: [m/s^2], [m/s^3].
+    pub fn set_derivatives(&mut self, derivatives: &[f64]) -> Result<(), ImportError> {
+        self.calls += 1;
+        self.instance.set_input_derivatives(self.rate, derivatives)
+    }
+
+    /// Makes a step [s].
+    pub fn step(&mut self, step: f64) -> Result<(), ImportError> {
+        self.calls += 1;
+        self.instance.do_step(self.time, step)?;
+        self.time += step;
+        Ok(())
+    }
+
+    /// The force at the end of the step [N].
+    pub fn force(&mut self) -> Result<f64, ImportError> {
+        self.calls += 1;
+        self.instance.real(self.force)
+    }
+
+    /// The time derivative of the force at the end of the step [N/s].
+    pub fn force_slope(&mut self) -> Result<f64, ImportError> {
+        self.calls += 1;
+        self.instance.output_derivative(self.force)
+    }
+
+    /// The mean force over the step [N].
+    pub fn mean_force(&mut self) -> Result<f64, ImportError> {
+        self.calls += 1;
+        self.instance.real(self.mean_force.ok_or_else(|| ImportError::Variable("mean_force".into()))?)
+    }
+
+    /// The force that the FMU predicts for the end of the next step [N].
+    pub fn predicted_force(&mut self) -> Result<f64, ImportError> {
+        self.calls += 1;
+        self.instance.real(self.predicted_force.ok_or_else(|| ImportError::Variable("predicted_force".into()))?)
+    }
+
+    /// Another output of the FMU.
+    pub fn output(&mut self, name: &str) -> Result<f64, ImportError> {
+        self.instance.real(self.description.real(name)?)
+    }
+}
