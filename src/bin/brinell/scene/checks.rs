@@ -3,15 +3,17 @@
 use super::chosen::{check_input_derivatives, check_outputs, choose_settable};
 use super::contacts::Contacts;
 use super::coupling;
+use super::error::Mistake;
 use super::file::{File, ImpactTable, NamesName};
 use super::friction;
+use super::group::Parameter;
 use super::laws;
 use super::limits::{check_limits, positive};
 use super::losses::{self, Loss};
 use super::names::{check_description, check_name};
 use super::numbers::IMPACTOR_DENSITY;
 use super::softer::{self, Body, Both};
-use super::{Mistake, Parameter, QuasiStatic, Scene};
+use super::{QuasiStatic, Scene};
 use crate::predict;
 use crate::table::{self, VARIABLES};
 use brinell::contact::damped::Damped;

@@ -1,6 +1,8 @@
 //! What the table `[fmu]` asks for: parameters, outputs, and derivatives of the inputs.
 
-use super::{Mistake, Parameter, Scene};
+use super::Scene;
+use super::error::Mistake;
+use super::group::Parameter;
 use crate::nearest::unknown;
 use crate::table::{self, Causality, VARIABLES};
 use std::collections::HashSet;

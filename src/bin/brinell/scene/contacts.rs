@@ -1,14 +1,15 @@
 //! The contacts: the numbers that a scene gives for all contacts, and those that a contact overrides.
 
+use super::error::Mistake;
 use super::file::{File, Impactor, PowerLawTable, RateTable, Target};
 use super::given::{Given, given};
+use super::group::{Group, Parameter};
 use super::numbers::{
     DENSITY, FRICTION, HARDENING, IMPACTOR_HARDENING, IMPACTOR_STRENGTH, MASS, Numbers, check_numbers,
 };
 use super::power_law::{self, PowerLaw};
 use super::rate::{self, Rate};
 use super::softer::{self, Body, Both};
-use super::{Group, Mistake, Parameter};
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS, VARIABLES};
 use brinell::contact::loading::AnyLoading;

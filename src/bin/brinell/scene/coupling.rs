@@ -1,8 +1,9 @@
 //! The table `[coupling]`: the mass that the FMU moves, and the co-simulation algorithm of its importer.
 
+use super::Coupling;
+use super::error::Mistake;
 use super::file::{CouplingTable, MasterName};
 use super::limits::positive;
-use super::{Coupling, Mistake};
 use crate::nearest::unknown;
 use toml::Spanned;
 

@@ -1,6 +1,7 @@
 //! The contents of a scene file: tables and keys, without interpretation.
 
-use super::{Mistake, mistakes};
+use super::error::Mistake;
+use super::mistakes;
 use crate::parameters::Given;
 use brinell::contact::Surface;
 use serde::Deserialize;

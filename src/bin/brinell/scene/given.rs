@@ -1,6 +1,6 @@
 //! The tables `[[contact]]` of a scene.
 
-use super::Mistake;
+use super::error::Mistake;
 use super::file::{Contact, File, SurfaceName};
 use super::hardening;
 use super::names::check_identifier;

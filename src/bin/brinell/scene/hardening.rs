@@ -1,6 +1,6 @@
 //! Yield strength and hardening of a body, from any of the ways to specify them.
 
-use super::Mistake;
+use super::error::Mistake;
 use super::file::{Impactor, PowerLawTable, Target};
 use super::power_law;
 use super::softer::Body;

@@ -1,7 +1,8 @@
 //! Hostile scenes: read without a panic, or refused with a place in the file and a message of ordinary length. What is accepted
 //! can be planned and written.
 
-use super::{Scene, SceneError};
+use super::Scene;
+use super::error::SceneError;
 use crate::mutations::{assert_message, cases, text};
 use crate::plan::Plan;
 use crate::table::VARIABLES;

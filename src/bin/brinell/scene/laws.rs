@@ -1,8 +1,9 @@
 //! The laws of a scene, and checks whether they suit its bodies.
 
+use super::Scene;
 use super::contacts::Contacts;
+use super::error::Mistake;
 use super::file::Law;
-use super::{Mistake, Scene};
 use crate::law_check;
 use crate::laws;
 use crate::model::Dampings;

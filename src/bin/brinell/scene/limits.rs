@@ -1,6 +1,6 @@
 //! Ranges of numbers.
 
-use super::Mistake;
+use super::error::Mistake;
 use crate::table;
 use std::ops::RangeInclusive;
 use toml::Spanned;

@@ -1,8 +1,9 @@
 //! Losses below yield: `law.elastic_restitution` and `target.plate_thickness`.
 
+use super::Scene;
 use super::contacts::Contacts;
+use super::error::Mistake;
 use super::file::{File, Target};
-use super::{Mistake, Scene};
 use crate::model::AnyModel;
 use crate::numbers::quantity;
 use brinell::contact::damped::Damped;

@@ -5,6 +5,7 @@ mod checks;
 mod chosen;
 mod contacts;
 mod coupling;
+mod error;
 mod file;
 mod friction;
 mod given;
@@ -29,8 +30,9 @@ use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Model, strength};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+pub use error::{Mistake, SceneError};
 pub use group::{Group, Parameter};
 pub use losses::Loss;
 pub use power_law::PowerLaw;
@@ -101,29 +103,6 @@ pub struct Coupling {
     pub acceleration_input: bool,
     /// Whether `effective_mass` is an input.
     pub mass_input: bool,
-}
-
-/// A scene that cannot be used, with the place and the reason.
-#[derive(Debug, thiserror::Error)]
-pub enum SceneError {
-    #[error("{}: {source}", path.display())]
-    Unreadable { path: PathBuf, source: std::io::Error },
-    #[error("{}:{line}:{column}: {message}", path.display())]
-    Wrong { path: PathBuf, line: usize, column: usize, message: String },
-}
-
-/// An error at a place in the text.
-pub struct Mistake(pub std::ops::Range<usize>, pub String);
-
-impl Mistake {
-    /// The error with its line and column in the `text` of the file at `path`.
-    fn in_file(self, text: &str, path: &Path) -> SceneError {
-        let Mistake(span, message) = self;
-        let before = &text[..span.start];
-        let line = before.matches('\n').count() + 1;
-        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
-        SceneError::Wrong { path: path.into(), line, column, message }
-    }
 }
 
 impl Scene {

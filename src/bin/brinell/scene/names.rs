@@ -1,6 +1,6 @@
 //! Names and texts of the FMU.
 
-use super::Mistake;
+use super::error::Mistake;
 use crate::layout::shortened;
 use crate::xml;
 use toml::Spanned;

@@ -1,9 +1,10 @@
 //! The numbers that a scene gives for all contacts, or for one contact: directly, or by a material.
 
+use super::error::Mistake;
 use super::file::{Impactor, Target};
+use super::group::Parameter;
 use super::hardening::{Flow, Given};
 use super::limits::{check_limits, check_range};
-use super::{Mistake, Parameter};
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS};
 use std::ops::{Range, RangeInclusive};

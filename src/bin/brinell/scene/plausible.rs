@@ -1,6 +1,6 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
-use super::Mistake;
+use super::error::Mistake;
 use super::file::{File, Impactor, Target};
 use crate::numbers::{plain, quantity};
 use std::ops::RangeInclusive;

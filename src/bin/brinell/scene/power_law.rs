@@ -1,6 +1,6 @@
 //! Approximates power-law hardening by linear hardening, over the strains of the scene's impact.
 
-use super::Mistake;
+use super::error::Mistake;
 use super::file::PowerLawTable;
 use super::softer::Body;
 use brinell::contact::rate::FIRST_STRAIN;

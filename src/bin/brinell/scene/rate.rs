@@ -1,9 +1,10 @@
 //! Strain rate: the strength of the softer body in the scene's impact.
 
+use super::error::Mistake;
 use super::file::RateTable;
 use super::power_law::{Linear, PowerLaw};
 use super::softer::{Body, Both};
-use super::{Mistake, Scene, limits};
+use super::{Scene, limits};
 use crate::model::{AnyModel, strengthened};
 use crate::nearest::unknown;
 use brinell::contact::impact::{Impact, Prediction};

@@ -1,8 +1,9 @@
 //! Which of the two bodies yields: the softer one.
 
+use super::Scene;
 use super::contacts::Contacts;
+use super::error::Mistake;
 use super::numbers::{IMPACTOR_HARDENING, IMPACTOR_STRENGTH};
-use super::{Mistake, Scene};
 use crate::numbers::{cell, quantity};
 use brinell::contact::impact::Prediction;
 use std::f64::consts::PI;
