@@ -1,6 +1,6 @@
 //! Motion on a segment that is not a straight line, as a power series in time.
 
-use super::short::{Moments, Point};
+use super::moments::{Moments, Point};
 use crate::contact::numbers::root;
 use libm::fabs;
 

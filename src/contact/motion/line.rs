@@ -1,6 +1,6 @@
 //! Motion on a straight line of the force: sine and cosine, as powers of the phase.
 
-use super::short::{Moments, Point};
+use super::moments::{Moments, Point};
 use libm::fabs;
 
 /// Number of powers of the square of the phase.

@@ -13,6 +13,7 @@ mod fit;
 pub(in crate::contact) mod flight;
 mod line;
 mod moment;
+mod moments;
 mod series;
 mod short;
 mod stretch;

@@ -4,6 +4,7 @@ use super::SMALLEST;
 use super::curve::Curve;
 use super::field::Start;
 use super::line::{LONGEST, Line, POWERS};
+use super::moments::{Moments, Point};
 use super::stretch::{Ended, Stretch};
 use crate::contact::numbers::{quotient, root, smallest};
 use crate::contact::segment::Segment;
@@ -35,25 +36,6 @@ const SLOWEST: f64 = 1e-6;
 
 /// The shortest time \[s\] for this method: a distance over a shorter time may not be a finite speed.
 const SHORTEST: f64 = 1e-100;
-
-/// An instant of a motion, on a time scale from zero to one.
-#[derive(Clone, Copy)]
-pub struct Point {
-    pub time: f64,
-    /// Distance since the start.
-    pub way: f64,
-    /// Change of the speed since the start.
-    pub gain: f64,
-    /// The acceleration, and its decrease per distance.
-    pub net: f64,
-    pub stiffness: f64,
-}
-
-/// A motion that is known at any time from zero to one.
-pub trait Moments {
-    /// The point at `time`.
-    fn at(&self, time: f64) -> Point;
-}
 
 /// The event to find: the end of the segment at this distance, or zero speed.
 #[derive(Clone, Copy)]

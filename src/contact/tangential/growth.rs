@@ -10,7 +10,8 @@
 //! curved over the new ones. There is no measured reference for friction on a contact that has yielded.
 
 use super::cone::{Cone, Point};
-use super::list::{Draft, Vertex};
+use super::list::Draft;
+use super::vertex::Vertex;
 use super::{List, Stuck, Way};
 use crate::contact::numbers::{largest, quotient, root};
 use crate::contact::path::Sum;

@@ -1,7 +1,7 @@
 //! Merges three segments of a full list into two.
 
 use super::cone::Cone;
-use super::list::Vertex;
+use super::vertex::Vertex;
 use crate::contact::numbers::quotient;
 use crate::contact::segment::Segment;
 use libm::fabs;

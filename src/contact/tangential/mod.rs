@@ -45,15 +45,17 @@ mod rough;
 mod saved;
 mod shear;
 mod stuck;
+mod vertex;
 mod way;
 
 pub use contact::{PlaneContact, Rough, RoughContact};
-pub use list::{List, Vertex};
+pub use list::List;
 pub use motion::Motion;
 pub use outputs::{Quantity, Sliding};
 pub use rough::{PlaneSprings, RoughModel, Springs, SpringsOf};
 pub use shear::Shear;
 pub use stuck::Stuck;
+pub use vertex::Vertex;
 pub use way::Way;
 
 use super::material::Body;

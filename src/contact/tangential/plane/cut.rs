@@ -1,8 +1,9 @@
 //! Moves a polyline on a way that ends outside the cones of some of its springs.
 
-use super::list::{Apex, Draft, Vertex};
+use super::list::{Apex, Draft};
 use super::pursuit::Spring;
 use super::vector::{Vector, add, cross, difference, dot, length, times};
+use super::vertex::Vertex;
 use super::{BEND, NEAR, SPACING, Way};
 use crate::contact::numbers::{largest, quotient, root, smallest};
 use crate::contact::segment::Segment;

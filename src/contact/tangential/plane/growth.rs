@@ -1,8 +1,9 @@
 //! The springs of a growing dent in two directions: see [one direction](super::super::growth).
 
 use super::cut::Cut;
-use super::list::{Apex, Vertex};
+use super::list::Apex;
 use super::vector::{Vector, difference, length};
+use super::vertex::Vertex;
 use super::{Stuck, Way};
 use crate::contact::numbers::{largest, quotient};
 use crate::contact::segment::Segment;

@@ -1,7 +1,7 @@
 //! Merges three segments of a full list into two.
 
-use super::list::Vertex;
 use super::vector::{Vector, add, difference, length, times};
+use super::vertex::Vertex;
 use crate::contact::numbers::{largest, quotient};
 use crate::contact::segment::Segment;
 use libm::fabs;

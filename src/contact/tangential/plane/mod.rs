@@ -35,10 +35,12 @@ mod pursuit;
 mod saved;
 mod stuck;
 mod vector;
+mod vertex;
 mod way;
 
-pub use list::{List, Vertex};
+pub use list::List;
 pub use stuck::Stuck;
+pub use vertex::Vertex;
 pub use way::Way;
 
 /// A distance smaller than this part of another one is zero.

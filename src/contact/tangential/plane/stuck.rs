@@ -2,8 +2,9 @@
 
 use super::Way;
 use super::cut::Cut;
-use super::list::{Apex, List, Vertex};
+use super::list::{Apex, List};
 use super::vector::{Vector, ZERO, add, difference, dot, length};
+use super::vertex::Vertex;
 use crate::contact::numbers::{largest, smallest};
 use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
