@@ -37,6 +37,11 @@ COMPLETIONS = {
 }
 
 
+# A crate for the Objective-C runtime asks for two libraries of macOS that zig has no list of, but the program calls none
+# of their functions. Stubs satisfy the linker, which then leaves both out.
+STUBS = [f"-L{ROOT}/packaging/macos", f"-F{ROOT}/packaging/macos", "-Wl,-dead_strip_dylibs"]
+
+
 def main() -> None:
     given = _arguments()
     given.output.mkdir(parents=True, exist_ok=True)
@@ -131,7 +136,8 @@ def _maturins_wheel(name: str, tools: Tools, scratch: Path) -> tuple[str, Files]
         command += ["-Z", "build-std=std,panic_unwind"]
     with tempfile.TemporaryDirectory() as folder:
         variables = environment(it, tools, scratch)
-        command += ["--out", folder, *(["--", "-Clink-arg=-s"] if it.oldest_macos else [])]
+        linked = ["-s", *STUBS] if it.oldest_macos else []
+        command += ["--out", folder, "--", *(f"-Clink-arg={argument}" for argument in linked)]
         subprocess.run(command, cwd=ROOT / "python", env=variables, check=True)
         (wheel,) = Path(folder).glob("*.whl")
         return wheel.stem.split("-")[-1], archives.read_zip(wheel)

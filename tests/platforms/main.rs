@@ -14,6 +14,8 @@ mod hosts;
 mod kinds;
 #[path = "../support/prebuilt.rs"]
 mod prebuilt;
+#[path = "../support/programs.rs"]
+mod programs;
 #[path = "../support/python.rs"]
 mod python;
 #[path = "../support/skips.rs"]
@@ -27,6 +29,7 @@ mod toolchain;
 #[path = "../support/unit.rs"]
 mod unit;
 
+mod arm64_program;
 mod cross_compiled;
 mod first_export;
 mod kinds_of_hosts;

@@ -5,9 +5,10 @@
 use super::debian::{Packages, packages};
 use super::hosts::{Host, Loading, compile, folder};
 use super::python::{environment_of, python, target_folder};
+use std::fs::File;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::{fs, io};
 
 /// A system that runs the libraries of one platform.
@@ -66,14 +67,10 @@ fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
     zlib[64..96].copy_from_slice(mark);
     fs::write(folder.join("usr/lib/x86_64-linux-gnu/wine/x86_64-windows/zlib1.dll"), zlib)?;
     let programs_of_wine = folder.join("usr/lib/wine");
-    let executable = |path: &Path, text: String| {
-        fs::write(path, text)?;
-        fs::set_permissions(path, fs::Permissions::from_mode(0o755))
-    };
     let server = programs_of_wine.join("wineserver64");
     // it ends with the last program, because it holds the output pipe
     let text = format!("#!/bin/sh\nexec '{}' -p0 \"$@\"\n", server.display());
-    executable(&programs_of_wine.join("wineserver"), text)?;
+    executable(&programs_of_wine.join("wineserver"), &text)?;
     // without a display, and without the questions of the first start. fmpy's server for other platforms exits if it
     // can open its lock file, which is always possible in wine; it therefore gets no lock file.
     let text = format!(
@@ -84,8 +81,14 @@ fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
         prefix = folder.join("prefix").display(),
         wine = programs_of_wine.join("wine64").display(),
     );
-    executable(&start, text)?;
+    executable(&start, &text)?;
     Ok(start)
+}
+
+/// Writes a script.
+fn executable(path: &Path, text: &str) -> io::Result<()> {
+    fs::write(path, text)?;
+    fs::set_permissions(path, fs::Permissions::from_mode(0o755))
 }
 
 /// Linux on arm64, through QEMU.
@@ -93,15 +96,55 @@ fn prepare_wine(folder: &Path) -> io::Result<PathBuf> {
 /// # Errors
 /// The reason why it is not available.
 pub fn arm64_linux() -> Result<System, String> {
+    let Qemu { start, name, .. } = qemu()?;
+    let host = Host { command: vec![start, compiled("aarch64-linux-gnu.2.28", "")?], variables: Vec::new() };
+    Ok(System { platform: "aarch64-linux", name, host })
+}
+
+/// QEMU's user mode for arm64, with the C library of arm64.
+pub struct Qemu {
+    /// Its name and version.
+    pub name: String,
+    /// The program that starts an arm64 program.
+    pub start: PathBuf,
+    /// The program that runs any command, and every arm64 program that it starts, by `start`.
+    pub with_arm64: PathBuf,
+}
+
+/// What the header of an arm64 program has in place of the bytes of its magic number, type and processor, with a mask.
+const ARM64_PROGRAM: &str = concat!(
+    r":\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00",
+    r":\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff:"
+);
+
+/// QEMU, unpacked.
+///
+/// # Errors
+/// The reason why it is not available.
+pub fn qemu() -> Result<Qemu, String> {
     let Packages { folder, versions } = packages("qemu", "bookworm", &["qemu-user", "libc6-arm64-cross"], true)?;
     let name = format!("QEMU {}", version_of(&versions, "qemu-user")?);
-    let libraries = folder.join("usr/lib/x86_64-linux-gnu");
-    let (program, root) = (compiled("aarch64-linux-gnu.2.28", "")?, folder.join("usr/aarch64-linux-gnu"));
+    let programs = folder.join("programs");
+    let [start, with_arm64] = ["arm64", "with_arm64"].map(|name| programs.join(name));
     // its libraries are not those of the program
-    let start: Vec<PathBuf> = vec![folder.join("usr/bin/qemu-aarch64"), "-E".into(), "LD_LIBRARY_PATH=".into()];
-    let command = [start, vec!["-L".into(), root, program]].concat();
-    let host = Host { command, variables: vec![("LD_LIBRARY_PATH", libraries)] };
-    Ok(System { platform: "aarch64-linux", name, host })
+    let by_qemu = format!(
+        "#!/bin/sh\nLD_LIBRARY_PATH='{libraries}' exec '{qemu}' -E LD_LIBRARY_PATH= -L '{root}' \"$@\"\n",
+        libraries = folder.join("usr/lib/x86_64-linux-gnu").display(),
+        qemu = folder.join("usr/bin/qemu-aarch64").display(),
+        root = folder.join("usr/aarch64-linux-gnu").display(),
+    );
+    // the kernel's list of interpreters, in a namespace of its own: no root, and nothing changes outside of it
+    let formats = "/proc/sys/fs/binfmt_misc";
+    let in_namespace = format!(
+        "#!/bin/sh\nexec unshare --user --map-root-user --mount sh -c 'mount -t binfmt_misc none {formats} &&\n\
+         printf %s \":arm64:M:{ARM64_PROGRAM}{start}:\" > {formats}/register && exec \"$@\"' sh \"$@\"\n",
+        start = start.display(),
+    );
+    let written = fs::create_dir_all(&programs)
+        .and_then(|()| executable(&start, &by_qemu))
+        .and_then(|()| executable(&with_arm64, &in_namespace));
+    written.map_err(|error| format!("{}: {error}", programs.display()))?;
+    Ok(Qemu { name, start, with_arm64 })
 }
 
 /// The code for macOS in an emulator of the processor; there is no macOS.
@@ -133,12 +176,17 @@ pub fn by_fmpy(fmu: &Path, history: &Path, remote: Option<(&str, &Host)>) -> Res
         let path = std::env::var("PATH").unwrap_or_default();
         command.arg(platform).env("PATH", format!("{programs}:{path}"));
     }
-    let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;
-    let lines = String::from_utf8_lossy(&output.stdout).into_owned();
+    // files, not pipes: wine's services keep both open as long as any program of wine runs, of another test, too
+    let [said, complaints] = ["out", "err"].map(|ending| fmu.with_extension(ending));
+    let open = |path: &Path| File::create(path).map_err(|error| format!("{}: {error}", path.display()));
+    let status = command.stdin(Stdio::null()).stdout(open(&said)?).stderr(open(&complaints)?).status();
+    let status = status.map_err(|error| format!("{command:?}: {error}"))?;
+    let [lines, complaints] = [said, complaints].map(|path| fs::read(path).unwrap_or_default());
+    let lines = String::from_utf8_lossy(&lines);
     // the server of the other system also prints
     let is_row = |line: &&str| line.len() > 16 && line.bytes().all(|byte| byte == b' ' || byte.is_ascii_hexdigit());
-    match output.status.success() {
+    match status.success() {
         true => Ok(lines.lines().filter(is_row).collect::<Vec<_>>().join("\n")),
-        false => Err(format!("{}: {}", output.status, String::from_utf8_lossy(&output.stderr))),
+        false => Err(format!("{status}: {}", String::from_utf8_lossy(&complaints))),
     }
 }

@@ -2,6 +2,9 @@
 
 use super::ExportError;
 use super::deflate::{self, Deflated};
+use crate::parallel;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
 use std::io::{self, Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
@@ -14,22 +17,27 @@ impl Archive {
         Archive(ZipWriter::new(Cursor::new(Vec::new())))
     }
 
-    /// Adds a file.
+    /// Adds files, which are compressed on several processors.
     ///
     /// # Errors
     /// [`ExportError::Zip`]
-    pub fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), ExportError> {
-        match Deflated::new(bytes) {
-            Some(deflated) => self.add_deflated(name, &deflated),
-            None => self.add_written(name, |to| to.write_all(bytes)),
+    pub fn add_all(&mut self, files: &[(String, &[u8])]) -> Result<(), ExportError> {
+        let mut largest_first: Vec<usize> = (0..files.len()).collect();
+        largest_first.sort_by_key(|&index| Reverse(files[index].1.len()));
+        let compressed =
+            parallel::each(&largest_first, |&index| Ok::<_, ExportError>((index, Deflated::new(files[index].1))))?;
+        let compressed: BTreeMap<usize, Option<Deflated>> = compressed.into_iter().collect();
+        for ((name, bytes), compressed) in files.iter().zip(compressed.values()) {
+            match compressed {
+                Some(compressed) => self.add_deflated(name, compressed)?,
+                None => self.add_written(name, |to| to.write_all(bytes))?,
+            }
         }
+        Ok(())
     }
 
     /// Adds a file that is compressed already. The writer takes such a file only from another archive.
-    ///
-    /// # Errors
-    /// [`ExportError::Zip`]
-    pub fn add_deflated(&mut self, name: &str, file: &Deflated) -> Result<(), ExportError> {
+    fn add_deflated(&mut self, name: &str, file: &Deflated) -> Result<(), ExportError> {
         let mut archive = ZipArchive::new(Cursor::new(deflate::archive_of_one(name, file)))?;
         self.0.raw_copy_file(archive.by_index_raw(0)?)?;
         Ok(())
@@ -108,8 +116,6 @@ impl Write for Pieces<'_> {
 /// [`ExportError::Zip`]
 pub fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
     let mut archive = Archive::new();
-    for (name, bytes) in files {
-        archive.add(name, bytes)?;
-    }
+    archive.add_all(files)?;
     archive.finish()
 }

@@ -29,9 +29,8 @@ pub use way::{How, Way};
 use crate::files::write_whole;
 use crate::plan::Plan;
 use crate::platform::Platform;
-use crate::{documentation, model_description, parallel, symbols};
+use crate::{documentation, model_description, symbols};
 use archive::Archive;
-use deflate::Deflated;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use way::{Made, make};
@@ -104,20 +103,16 @@ pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, 
     }
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
     let page = documentation::write(plan);
-    let deflated = parallel::each(&built, |library| Ok::<_, ExportError>(Deflated::new(library)))?;
+    let mut files: Vec<(String, &[u8])> = vec![("model.png".into(), ICON)];
+    for (platform, library) in platforms.iter().zip(&built) {
+        files.push((format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension), library));
+    }
+    files.push(("documentation/index.html".into(), page.as_bytes()));
+    files.push(("documentation/licenses/license.txt".into(), license.as_bytes()));
+    files.push(("resources/scene.toml".into(), scene.text.as_bytes()));
     let mut archive = Archive::new();
     archive.add_written("modelDescription.xml", |to| model_description::write(plan, &guid, to))?;
-    archive.add("model.png", ICON)?;
-    for ((platform, library), deflated) in platforms.iter().zip(&built).zip(&deflated) {
-        let name = format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension);
-        match deflated {
-            Some(deflated) => archive.add_deflated(&name, deflated)?,
-            None => archive.add(&name, library)?,
-        }
-    }
-    archive.add("documentation/index.html", page.as_bytes())?;
-    archive.add("documentation/licenses/license.txt", license.as_bytes())?;
-    archive.add("resources/scene.toml", scene.text.as_bytes())?;
+    archive.add_all(&files)?;
     let archive = archive.finish()?;
     let size = archive.len();
     Ok((archive, Exported { path: PathBuf::new(), guid, size, libraries, how: Some(how) }))

@@ -7,7 +7,7 @@ use super::{ExportError, GUID_TO_COME, Hash, identified, sources};
 use crate::plan::Plan;
 use crate::platform::Platform;
 use crate::prebuilt::{PrebuiltError, StoreError, Unit};
-use crate::{constants, model_description};
+use crate::{constants, model_description, parallel};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
@@ -109,7 +109,7 @@ fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Made, ExportError> {
 fn fill_in(plan: &Plan, platforms: &[Platform]) -> Result<Made, PrebuiltError> {
     let begin = Instant::now();
     let unit = Unit::of(plan)?;
-    let libraries = platforms.iter().map(|platform| unit.library(platform)).collect::<Result<Vec<_>, _>>()?;
+    let libraries = parallel::each(platforms, |platform| unit.library(platform))?;
     let saves = platforms.iter().map(|platform| unit.sizes(platform).and_then(|(_, saves)| saves)).sum();
     let how = How { time: begin.elapsed(), by: By::Prebuilt(unit.library.name(), saves) };
     Ok(Made { guid: unit.guid, libraries, how })

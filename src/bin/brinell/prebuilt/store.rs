@@ -13,6 +13,7 @@ use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// An error of reading a prebuilt library.
 #[derive(Debug, thiserror::Error)]
@@ -82,9 +83,7 @@ fn sha256(bytes: &[u8]) -> String {
 }
 
 /// A hash of the sources that all libraries share.
-fn sources() -> String {
-    Hash::new().with_all(package::sources()).digits()
-}
+static SOURCES: LazyLock<String> = LazyLock::new(|| Hash::new().with_all(package::sources()).digits());
 
 /// Ending of an archive.
 const ARCHIVE: &str = "br";
@@ -129,7 +128,7 @@ impl Store {
         let text = fs::read_to_string(&path).map_err(FileError::at(&path))?;
         let list: List = serde_json::from_str(&text)
             .map_err(|error| StoreError::Damaged { path: path.clone(), reason: error.to_string() })?;
-        if list.sources != sources() {
+        if list.sources != *SOURCES {
             return Err(StoreError::OtherVersion { folder: self.folder(), version: list.brinell });
         }
         Ok(list)
@@ -219,7 +218,7 @@ pub fn write(
     let name = format!("{}.{ARCHIVE}", target.triple);
     let list = List {
         brinell: env!("CARGO_PKG_VERSION").into(),
-        sources: sources(),
+        sources: SOURCES.clone(),
         archive: Listed::new(name, &archive),
         compiling_saves,
         streams,
