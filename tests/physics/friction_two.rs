@@ -109,7 +109,7 @@ fn sixteen_segments_over_many_histories_and_parts() {
     for (name, history) in KINDS {
         let errors = errors::<16, 4>(history, 0..60, [1, 8, 64, 512]);
         println!("{name}: 1, 8, 64 and 512 parts, worst and mean square {errors:?}");
-        assert!(errors.iter().all(|&(largest, mean)| largest < 1e-2 && mean < 1e-3), "{name}: {errors:?}");
+        assert!(errors.iter().all(|&(largest, mean)| largest < 1e-2 && mean < 1.2e-3), "{name}: {errors:?}");
     }
 }
 
