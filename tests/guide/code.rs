@@ -128,11 +128,10 @@ impl Run {
         let mut path = vec![program.parent().unwrap().to_path_buf(), python::python().parent().unwrap().to_path_buf()];
         path.extend(env::split_paths(&env::var_os("PATH").unwrap_or_default()));
         let path: OsString = env::join_paths(path).expect("folders without colons");
-        command
+        python::keeping_modules(&mut command)
             .current_dir(self.folder.path())
             .env("PATH", path)
             .env("PYTHONPATH", root().join("python"))
-            .env("PYTHONDONTWRITEBYTECODE", "1")
             .env("BRINELL", program)
             .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
             .env("MPLBACKEND", "Agg");

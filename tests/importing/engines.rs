@@ -25,12 +25,10 @@ const LARGE: [&str; 2] = ["pydrake.all", "exudyn"];
 /// The interpreter that has these packages, with the module of the project and the program.
 fn interpreter(packages: &[&str]) -> Command {
     let mut command = Command::new(python::engines(packages.iter().any(|package| LARGE.contains(package))));
-    command
+    python::keeping_modules(&mut command)
         .env("PYTHONPATH", root().join("python"))
         .env("BRINELL", env!("CARGO_BIN_EXE_brinell"))
-        .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
-        // the source tree stays clean
-        .env("PYTHONDONTWRITEBYTECODE", "1");
+        .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"));
     command
 }
 

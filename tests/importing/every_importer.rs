@@ -191,13 +191,12 @@ fn python_of(driver: &Driver) -> Result<PathBuf, String> {
 /// Runs a driver to its end. Its result is in `result`, possibly incomplete.
 fn run(driver: &Driver, folder: &Path) -> Result<Value, String> {
     let importers = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers");
-    let python = python_of(driver)?;
+    let interpreter = python_of(driver)?;
     let [result, log] = ["json", "log"].map(|ending| folder.join(driver.name).with_extension(ending));
     let written = File::create(&log).unwrap();
-    let mut process = Command::new(python)
+    let mut process = python::keeping_modules(&mut Command::new(interpreter))
         .arg(importers.join(format!("with_{}.py", driver.name)))
         .args([folder, &result])
-        .env("PYTHONDONTWRITEBYTECODE", "1")
         .stdin(Stdio::null())
         .stdout(written.try_clone().unwrap())
         .stderr(written)

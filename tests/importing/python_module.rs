@@ -56,7 +56,7 @@ fn pytest(file: &str) {
         .iter()
         .map(|scene| (scene.file_stem().unwrap().to_string_lossy().into_owned(), export(scene)))
         .collect();
-    let output = Command::new(python::python())
+    let output = python::keeping_modules(&mut Command::new(python::python()))
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
         .current_dir(folder)
         .env("PYTHONPATH", root.join("python"))
@@ -65,8 +65,6 @@ fn pytest(file: &str) {
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
         .env("BRINELL_TEST_SCENES", root.join("scenes"))
         .env("BRINELL_TEST_TRUTH", root.join("truth"))
-        // the source tree stays clean
-        .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
         .expect("the virtual environment has an interpreter");
     let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);

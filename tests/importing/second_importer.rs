@@ -28,7 +28,7 @@ fn history() -> PathBuf {
 fn forces_by_fmpy(unit: &Path, history: &Path) -> String {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmpy/force_bits.py");
     let mut command = Command::new(python::python());
-    output_of(command.arg(script).args([unit, history]).env("PYTHONDONTWRITEBYTECODE", "1"))
+    output_of(python::keeping_modules(command.arg(script).args([unit, history])))
 }
 
 #[test]

@@ -10,14 +10,12 @@ use std::process::Command;
 pub fn pytest(file: &str, units: &HashMap<String, PathBuf>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fmpy");
     assert!(folder.join(file).is_file(), "there is no tests/fmpy/{file}");
-    let output = Command::new(python::python())
+    let output = python::keeping_modules(&mut Command::new(python::python()))
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", file])
         .current_dir(folder)
         .env("BRINELL_TEST_UNITS", serde_json::to_string(units).unwrap())
         .env("BRINELL_TEST_PROGRAM", env!("CARGO_BIN_EXE_brinell"))
         .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
-        // the source tree stays clean
-        .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
         .expect("the virtual environment has an interpreter");
     let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);

@@ -37,6 +37,13 @@ pub fn engines(large: bool) -> PathBuf {
     ENVIRONMENTS[usize::from(large)].get_or_init(made).clone()
 }
 
+/// `command` of Python, which keeps compiled modules in the target folder: the source tree stays clean, and no process
+/// compiles what another one has compiled.
+pub fn keeping_modules(command: &mut Command) -> &mut Command {
+    let folder = target_folder().join("python-modules");
+    command.env_remove("PYTHONDONTWRITEBYTECODE").env("PYTHONPYCACHEPREFIX", folder)
+}
+
 /// The path of a file of the installed packages, such as `fmpy/c-code` with the official C headers and `fmpy/schema/fmi2` with
 /// the official XML schema.
 pub fn site_packages_file(path: &str) -> PathBuf {
