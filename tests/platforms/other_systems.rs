@@ -19,10 +19,12 @@ use std::collections::BTreeSet;
 use std::io::{Write, stderr};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{env, fs};
 
-/// The folder of the prebuilt libraries for all platforms; `None` without a toolchain to make them.
-fn store() -> Option<PathBuf> {
+/// The folder of the prebuilt libraries for all platforms; `None` without a toolchain to make them. They are made once.
+static STORE: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
     if let Some(named) = env::var_os("BRINELL_PREBUILT").filter(|value| !value.is_empty()) {
         return Some(named.into());
     }
@@ -32,7 +34,7 @@ fn store() -> Option<PathBuf> {
     command.env("BRINELL_TOOLCHAIN", folder).args(["prebuild", "--platforms", "all", "-o"]).arg(&place);
     command::output(&mut command).with_status(0);
     Some(place)
-}
+});
 
 /// An FMU for all platforms, unpacked, and its results in an ordinary program on this system.
 struct Fmu {
@@ -45,7 +47,10 @@ struct Fmu {
 
 impl Fmu {
     fn of(name: &str, text: &str, store: &Path, host: &Host) -> Fmu {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("all_platforms").join(name.replace(['/', ' '], "-"));
+        // tests run at the same time, and two of them may export the same scene
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed).to_string();
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("all_platforms").join(number);
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).expect("the target folder can be written to");
         fs::write(folder.join("scene.toml"), text).expect("the target folder can be written to");
@@ -101,8 +106,8 @@ fn run(system: &System, fmus: &[Fmu]) -> Vec<String> {
 
 /// Runs FMUs of every law and of these kinds on each available system.
 fn assert_same_bits(kinds: &[&str], systems: Vec<(&str, Result<System, String>)>) {
-    let Some(store) = store() else { return };
-    let fmus = fmus(&store, kinds);
+    let Some(store) = &*STORE else { return };
+    let fmus = fmus(store, kinds);
     let laws: BTreeSet<_> = fmus.iter().filter_map(|fmu| fmu.name.split(' ').next()).collect();
     assert!(laws.len() >= 35 || env::var_os("BRINELL_PREBUILT").is_some(), "{laws:?}");
     let mut wrong = Vec::new();
@@ -141,18 +146,18 @@ fn every_law_gives_the_same_bits_in_the_code_for_macos() {
 #[test]
 #[ignore = "350 MB to download: cargo test --release --test platforms other_systems -- --ignored --nocapture"]
 fn fmpy_gets_the_same_bits_from_windows() {
-    let Some(store) = store() else { return };
+    let Some(store) = &*STORE else { return };
     let system = match systems::windows() {
         Ok(system) => system,
         Err(why) => return skipped("fmpy through wine", &why),
     };
     let (scene, history) = (&kinds::one_of_each_kind("big-alabo")[2].1, courses::history());
     let ordinary = compile("ordinary", "host.c", Loading::BySystem, &cc(), &["-ldl"]).expect("a C compiler");
-    let fmu = Fmu::of("by-fmpy", scene, &store, &Host::program(ordinary));
+    let fmu = Fmu::of("by-fmpy", scene, store, &Host::program(ordinary));
     let expected = systems::by_fmpy(&fmu.file, &history, None).unwrap_or_else(|why| panic!("{why}"));
     assert!(expected.lines().count() > 400, "{} lines", expected.lines().count());
     // fmpy uses the other system only if there is no library for its own
-    let mut export = prebuilt::without_compiler(&fmu.folder, &store);
+    let mut export = prebuilt::without_compiler(&fmu.folder, store);
     export.args(["export", "scene.toml", "-o", "windows.fmu", "--platforms", "win64"]);
     command::output(&mut export).with_status(0);
     let for_windows = fmu.folder.join("windows.fmu");
