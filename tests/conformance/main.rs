@@ -17,6 +17,8 @@ mod face;
 mod functions;
 #[path = "../fuzz/judge.rs"]
 mod judge;
+#[path = "../../src/bin/brinell/parallel.rs"]
+mod parallel;
 #[path = "../support/targets.rs"]
 mod targets;
 #[path = "../support/unit.rs"]
@@ -29,6 +31,7 @@ mod table;
 use checks::CHECKS;
 use face::Face;
 use importer::CALLS;
+use std::convert::Infallible;
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -69,33 +72,38 @@ fn worker() {
     }
 }
 
+/// Makes all checks of one FMU; returns the number of calls, and what fails.
+fn conform_one(scene: &Path, passive: bool) -> (u64, Vec<String>) {
+    let program = env::current_exe().expect("a test program");
+    let scratch = tempfile::tempdir().expect("a folder for temporary files");
+    let (log, count) = (scratch.path().join("log"), scratch.path().join("count"));
+    let name = scene.file_stem().expect("a name").to_string_lossy();
+    let library = unit::library(&unit::export(scene));
+    let (mut made, mut wrong) = (0, Vec::new());
+    for check in CHECKS {
+        let mut command: Command = child::worker(&program);
+        command.env(LIBRARY, &library).env(CHECK, check.name).env(COUNT, &count);
+        if !passive {
+            command.env(ACTIVE, "1");
+        }
+        match child::run(&mut command, &log, LIMIT) {
+            Ok(()) => made += fs::read_to_string(&count).expect("the worker's").parse::<u64>().expect("a number"),
+            Err(failure) => wrong.push(format!("{name}, {}: {failure}", check.name)),
+        }
+    }
+    println!("{name}: {made} calls in {} checks", CHECKS.len());
+    (made, wrong)
+}
+
 /// Makes all checks of the FMU of each scene, with the passivity of its law; returns the number of calls.
 ///
 /// # Panics
 /// If any of them fails, with all failures.
 fn conform(scenes: &[(PathBuf, bool)]) -> u64 {
-    let program = env::current_exe().expect("a test program");
-    let scratch = tempfile::tempdir().expect("a folder for temporary files");
-    let (log, count) = (scratch.path().join("log"), scratch.path().join("count"));
-    let (mut all, mut wrong) = (0, Vec::new());
-    for (scene, passive) in scenes {
-        let name = scene.file_stem().expect("a name").to_string_lossy();
-        let library = unit::library(&unit::export(scene));
-        let mut made = 0;
-        for check in CHECKS {
-            let mut command: Command = child::worker(&program);
-            command.env(LIBRARY, &library).env(CHECK, check.name).env(COUNT, &count);
-            if !passive {
-                command.env(ACTIVE, "1");
-            }
-            match child::run(&mut command, &log, LIMIT) {
-                Ok(()) => made += fs::read_to_string(&count).expect("the worker's").parse::<u64>().expect("a number"),
-                Err(failure) => wrong.push(format!("{name}, {}: {failure}", check.name)),
-            }
-        }
-        println!("{name}: {made} calls in {} checks", CHECKS.len());
-        all += made;
-    }
+    let of_one = |(scene, passive): &(PathBuf, bool)| Ok::<_, Infallible>(conform_one(scene, *passive));
+    let Ok(results) = parallel::each(scenes, of_one);
+    let all = results.iter().map(|(made, _)| made).sum();
+    let wrong: Vec<_> = results.into_iter().flat_map(|(_, wrong)| wrong).collect();
     assert!(wrong.is_empty(), "{} checks fail:\n{}", wrong.len(), wrong.join("\n"));
     println!("{all} calls, {} FMUs, {} checks", scenes.len(), CHECKS.len());
     all

@@ -8,15 +8,13 @@
 //! - `rust` blocks are tests of the documentation; see the end of src/lib.rs.
 
 use crate::markdown::{Block, Page};
-use crate::{is_writing, pages, python, read, root, skips};
+use crate::{is_writing, pages, parallel, python, read, root, skips};
+use std::convert::Infallible;
 use std::env;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 use tempfile::TempDir;
 
 /// Packages of engines that a block may import.
@@ -164,22 +162,15 @@ impl Run {
 fn the_code_runs_and_prints_what_is_shown() {
     let mut pages = pages();
     pages.retain(|page| !NOT_RUN.iter().any(|name| page == Path::new(name)));
-    let (next, mistakes) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     // a missing environment is created once, before other threads wait for it
     python::python();
-    let work = || {
-        while let Some(page) = pages.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let blocks = Page::parse(&read(page)).blocks;
-            let mut run = Run::new(page);
-            blocks.iter().for_each(|block| run.run(block));
-            mistakes.lock().expect("no page panics").extend(run.finish());
-        }
+    let mistakes_of = |page: &PathBuf| {
+        let blocks = Page::parse(&read(page)).blocks;
+        let mut run = Run::new(page);
+        blocks.iter().for_each(|block| run.run(block));
+        Ok::<_, Infallible>(run.finish())
     };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(work);
-        }
-    });
-    let mistakes = mistakes.into_inner().expect("no page panics");
+    let Ok(mistakes) = parallel::each(&pages, mistakes_of);
+    let mistakes = mistakes.concat();
     assert!(mistakes.is_empty(), "{}", mistakes.join("\n\n"));
 }

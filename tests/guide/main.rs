@@ -7,6 +7,8 @@ mod book;
 mod code;
 mod links;
 mod markdown;
+#[path = "../../src/bin/brinell/parallel.rs"]
+mod parallel;
 mod promises;
 #[path = "../support/python.rs"]
 mod python;

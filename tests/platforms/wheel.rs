@@ -8,6 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
+use std::thread;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -66,12 +67,16 @@ static INSTALLED: LazyLock<Installed> = LazyLock::new(|| {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheel");
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
-    release(&folder);
     let environment = folder.join("environment");
-    output(Command::new("python3").args(["-m", "venv"]).arg(&environment)).with_status(0);
+    // the tests wait for both
+    thread::scope(|scope| {
+        let made = scope.spawn(|| output(Command::new("python3").args(["-m", "venv"]).arg(&environment)));
+        release(&folder);
+        made.join().expect("a command that can be started").with_status(0);
+    });
     let programs = environment.join(PROGRAMS);
     let mut pip = Command::new(programs.join("python"));
-    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--constraint"]);
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile", "--constraint"]);
     output(pip.arg(root().join("tests/requirements.txt")).arg(file(&folder, ".whl"))).with_status(0);
     Installed { folder, programs }
 });
