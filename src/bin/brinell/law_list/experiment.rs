@@ -9,6 +9,7 @@ use crate::wrong_call::WrongCall;
 use brinell::contact::loading::AnyLoading;
 use serde::Serialize;
 use std::error::Error;
+use std::sync::OnceLock;
 
 /// The measurements, and the results of the laws.
 #[derive(Debug, Serialize)]
@@ -59,8 +60,13 @@ fn rate_errors(rate: &Rate) -> Vec<f64> {
 }
 
 /// Johnson and Cook's constant with the best fit for all hardnesses, by least squares of the relative errors and
-/// golden-section search.
+/// golden-section search. It is found once.
 pub fn fitted() -> f64 {
+    static FITTED: OnceLock<f64> = OnceLock::new();
+    *FITTED.get_or_init(fit)
+}
+
+fn fit() -> f64 {
     let squares = |c: f64| {
         rate_errors(&Rate::JohnsonCook { c, reference_rate: 1.0 }).iter().map(|error| error * error).sum::<f64>()
     };

@@ -1,6 +1,6 @@
 //! `brinell predict`: predicts an impact by energy balance, and explains a measured one.
 
-mod axis;
+pub mod axis;
 pub mod command;
 mod constants;
 mod inverse;

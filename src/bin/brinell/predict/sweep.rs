@@ -64,18 +64,6 @@ impl Sweep {
         Ok(Sweep { axis, impact, laws })
     }
 
-    /// Impacts of `mass` [kg] over a range of speeds [m/s], without those beyond the range of a law.
-    pub fn where_possible(choices: &[Choice], mass: f64, range: (f64, f64)) -> Sweep {
-        let axis = Axis::speeds(range);
-        let values = axis.values(VALUES);
-        let points = |choice: &Choice| {
-            let point = |speed: &f64| Some((*speed, one(choice, &Impact { mass, speed: *speed }).ok()?));
-            values.iter().filter_map(point).collect()
-        };
-        let laws = choices.iter().map(|choice| (choice.name.clone(), points(choice))).collect();
-        Sweep { axis, impact: Impact { mass, speed: range.0 }, laws }
-    }
-
     /// The sweep as columns.
     pub fn columns(&self) -> Columns {
         let mut columns = vec![Column::new(self.axis.name, self.axis.unit)];

@@ -182,10 +182,10 @@ impl Report {
         let stability = stability::measure(&mut contacts, (&impact, &prediction), stiffness, phases, progress)?;
         progress.say("stiff and extreme cases");
         let cases = extremes::measure(contacts.plain(), &alone, quick, progress);
-        progress.say("laws side by side");
         progress.say("oblique impacts");
         // the FMU with friction has no other mass or law
         let oblique = oblique::measure(scene, contacts.rough(), most)?;
+        progress.say("laws side by side");
         let laws = Laws::of(&alone, measurement.map(|own| &own.measured));
         let card = card::of(&alone, contacts.plain(), &laws)?;
         let choice = Choice::of(&lines, &stability);

@@ -8,6 +8,7 @@ use super::ways::{Needs, WAYS, Way};
 use crate::files::private_folder;
 use crate::importer::{Archive, ImportError, Unit};
 use crate::package;
+use crate::parallel;
 use crate::plan::Plan;
 use crate::platform;
 use crate::scene::Scene;
@@ -54,15 +55,24 @@ impl Units {
     /// [`ReportError`] if an FMU can't be built or loaded.
     pub fn build(scene: &Scene, progress: &Progress) -> Result<Units, ReportError> {
         let folder = private_folder("brinell-report-", &std::env::temp_dir())?;
-        let mut loaded = Vec::new();
         let here = [platform::here().map_err(ImportError::from)?];
-        for (needs, name) in kinds(scene) {
+        let kinds: Vec<_> = kinds(scene).collect();
+        let path = |name: &str| folder.path().join(format!("{name}.fmu"));
+        let build = |(needs, name): &(Needs, &str)| -> Result<(), ReportError> {
             progress.say(&format!("building {name}"));
-            let path = folder.path().join("unit.fmu");
-            package::export(&Plan::of(&unit::first_contact(scene, needs)), package::Way::Any, &here, &path)?;
-            let archive = Archive::open(&path)?;
-            loaded.push(Loaded { needs, unit: archive.load()?, archive });
+            package::export(&Plan::of(&unit::first_contact(scene, *needs)), package::Way::Any, &here, &path(name))?;
             progress.done(Work::Building);
+            Ok(())
+        };
+        // the first one also makes what they share
+        let (first, others) = kinds.split_at(1);
+        for kinds in [first, others] {
+            parallel::each(kinds, build)?;
+        }
+        let mut loaded = Vec::new();
+        for (needs, name) in kinds {
+            let archive = Archive::open(&path(name))?;
+            loaded.push(Loaded { needs, unit: archive.load()?, archive });
         }
         Ok(Units(loaded))
     }

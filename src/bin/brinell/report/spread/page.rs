@@ -6,14 +6,18 @@ use crate::html::escape;
 use crate::laws::Choice;
 use crate::measured::Kind;
 use crate::numbers::{percent, quantity};
-use crate::plot::{NameAt, Series, View, css_lines};
+use crate::parallel;
+use crate::plot::{NameAt, Picture, Series, View, css_lines};
 use crate::predict;
-use crate::predict::sweep::Sweep;
+use crate::predict::axis::Axis;
+use crate::predict::sweep::VALUES;
 use crate::report::data::{Table, number, text};
 use crate::report::measurement::NAME;
 use crate::report::{Figure, Part};
 use crate::truth;
 use brinell::contact::TooDeep;
+use brinell::contact::impact::Impact;
+use std::convert::Infallible;
 use std::ops::Range;
 
 /// The range of speeds for restitution, relative to the scene's.
@@ -112,18 +116,33 @@ impl Laws<'_> {
     fn restitution(&self) -> (Figure, Table) {
         let speed = self.scene.impact.speed;
         let range = (SPEEDS.0 * speed, SPEEDS.1 * speed);
-        let sweep = Sweep::where_possible(&self.choices(), self.scene.impact.mass, range);
+        let axis = Axis::speeds(range);
+        let speeds = axis.values(VALUES);
+        let line = |choice: &Choice| {
+            // nothing where the law can't be evaluated
+            let point = |speed: &f64| {
+                let impact = Impact { mass: self.scene.impact.mass, speed: *speed };
+                Some((*speed, choice.model.restitution(&impact)?))
+            };
+            Ok::<_, Infallible>((choice.name.clone(), speeds.iter().filter_map(point).collect()))
+        };
+        let Ok(lines) = parallel::each::<_, (String, Vec<(f64, f64)>), _>(&self.choices(), line);
         let mut table = Table::new("restitution", [("law", ""), ("speed", "m/s"), ("restitution", "")]);
         // hundreds of rows; the picture shows them
         table.on_page = false;
         let row = |law: &str, speed: f64, restitution: f64| vec![text(law), number(speed), number(restitution)];
-        for (law, points) in &sweep.laws {
-            let some = points.iter().step_by(EVERY);
-            table.rows.extend(some.map(|(speed, prediction)| row(law, *speed, prediction.restitution)));
+        for (law, points) in &lines {
+            table.rows.extend(points.iter().step_by(EVERY).map(|(speed, restitution)| row(law, *speed, *restitution)));
         }
         let dots = self.dots(range);
         table.rows.extend(dots.iter().map(|(speed, restitution)| row(TRUTH, *speed, *restitution)));
-        let [mut picture, ..] = sweep.panels();
+        let line = |(label, points)| Series { label, points, dots: false };
+        let mut picture = Picture {
+            x_title: axis.title(),
+            y_title: "coefficient of restitution".into(),
+            logarithmic: (axis.is_logarithmic(), false),
+            series: lines.into_iter().map(line).collect(),
+        };
         if !dots.is_empty() {
             picture.series.push(Series { label: TRUTH.into(), points: dots, dots: true });
         }
