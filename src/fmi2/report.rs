@@ -174,9 +174,9 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
             "startTime = ~ s, stopTime = ~ s: allowed are finite times, a startTime up to ~ s, and a stopTime not before it"
         }
         Fault::NoExperiment => "fmi2SetupExperiment must be called before",
-        Fault::StepSize { step } => {
-            numbers[0] = step;
-            "communicationStepSize = ~ s is not allowed: it must be positive and finite"
+        Fault::StepSize { step, shortest } => {
+            (numbers[0], numbers[1]) = (step, shortest);
+            "communicationStepSize = ~ s is not allowed: it must be finite and above ~ s"
         }
         Fault::CommunicationPoint { given, expected } => {
             (numbers[0], numbers[1]) = (given, expected);

@@ -30,6 +30,10 @@ impl Phase {
 /// contact leaves the range of a law with segments up to this time.
 pub const LATEST: f64 = 1e50;
 
+/// The shortest step of an instance that divides impulses by the step \[s\]. Over a shorter one they would lose their digits; and
+/// if a process takes small numbers as zero, even the step is zero.
+pub const SHORTEST: f64 = 1e-50;
+
 /// Largest difference between a communication point and the end of the last step, in steps. Importers compute `t += h` or
 /// `start + i h`; both are within rounding of the last end. Half a step off is a mistake.
 const TIME_TOLERANCE: f64 = 0.1;
@@ -77,18 +81,19 @@ impl Clock {
         curved: false,
     };
 
-    /// Whether a step from `time` to `end`, of length `step` \[s\], needs no further checks.
+    /// Whether a step from `time` to `end`, of length `step` \[s\], needs no further checks. Steps that are not longer than
+    /// `shortest` \[s\] need one.
     #[inline(always)]
-    pub fn takes(&self, time: f64, end: f64, step: f64) -> bool {
+    pub fn takes(&self, time: f64, end: f64, step: f64, shortest: f64) -> bool {
         // an infinite step ends beyond the limit
         let beyond = end > self.limit;
-        self.follows(time, step) && !beyond
+        self.follows(time, step - shortest) && !beyond
     }
 
     /// The same for a step while plain steps are [held off](Clock::hold), if [inputs may be set](Clock::takes_rate).
     #[inline(always)]
-    pub fn takes_held(&self, time: f64, end: f64, step: f64) -> bool {
-        self.follows(time, step) && end <= self.stop && end <= LATEST
+    pub fn takes_held(&self, time: f64, end: f64, step: f64, shortest: f64) -> bool {
+        self.follows(time, step - shortest) && end <= self.stop && end <= LATEST
     }
 
     /// Whether an input may be set to `rate` \[m/s\] without further checks.
@@ -105,13 +110,13 @@ impl Clock {
         (time - self.time).abs() * (1.0 / TIME_TOLERANCE) < step
     }
 
-    /// Checks a step.
+    /// Checks a step, which must be longer than `shortest` \[s\].
     ///
     /// # Errors
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::TooLate`], [`Fault::BeyondStopTime`].
-    pub fn check(&self, time: f64, step: f64) -> Result<(), Fault> {
-        if !(step > 0.0 && step < f64::INFINITY) {
-            return Err(Fault::StepSize { step });
+    pub fn check(&self, time: f64, step: f64, shortest: f64) -> Result<(), Fault> {
+        if !(step > shortest && step < f64::INFINITY) {
+            return Err(Fault::StepSize { step, shortest });
         }
         let rounding = TIME_ROUNDING * (time.abs() + self.time.abs());
         let follows = time.is_finite() && (time - self.time).abs() <= TIME_TOLERANCE * step + rounding;

@@ -22,7 +22,8 @@ impl<S: Scene> Instance<S> {
         };
         let course = curve.course(rate);
         let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
-        let in_order = self.clock.curved && self.clock.takes_held(time, end, step) && self.clock.takes_rate(rate);
+        let in_order =
+            self.clock.curved && self.clock.takes_held(time, end, step, Self::SHORTEST) && self.clock.takes_rate(rate);
         if !Self::ALONE || S::GUARD.is_some() || !in_order || course.is_held() {
             return false;
         }

@@ -62,10 +62,12 @@ pub enum Fault {
     },
     /// Initialization without a start time.
     NoExperiment,
-    /// A step size that is not positive and finite.
+    /// A step size that is not finite, or too small.
     StepSize {
         /// The step size \[s\].
         step: f64,
+        /// All steps must be longer: zero, or [`SHORTEST`](super::SHORTEST) \[s\].
+        shortest: f64,
     },
     /// A step that does not begin where the last one ended.
     CommunicationPoint {

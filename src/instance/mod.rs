@@ -28,7 +28,7 @@ mod stepping;
 mod validity;
 mod variables;
 
-pub use clock::{LATEST, Phase};
+pub use clock::{LATEST, Phase, SHORTEST};
 pub use fault::{Fault, Warning};
 pub use stepping::Plain;
 
@@ -138,6 +138,12 @@ impl<S: Scene> Settings<S> {
 impl<S: Scene> Instance<S> {
     /// Whether a step is plain if it takes only a few comparisons for each contact.
     const PLAIN: bool = S::FOLLOW.is_none();
+
+    /// All steps are longer than this \[s\].
+    const SHORTEST: f64 = {
+        let divides = S::Momentum::IS_PRESENT || S::FOLLOW.is_some() || S::Contact::HAS_FRICTION;
+        if divides { SHORTEST } else { 0.0 }
+    };
 
     fn histories(&self) -> &[S::Contact] {
         self.contacts.histories.as_ref()

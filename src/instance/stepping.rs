@@ -37,7 +37,7 @@ impl<S: Scene> Instance<S> {
     /// [`Fault::StepSize`], [`Fault::CommunicationPoint`], [`Fault::BeyondStopTime`], [`Fault::TooLate`], [`Fault::TooDeep`],
     /// [`Fault::TooLong`], [`Fault::InputOutOfRange`]; no contact changes then.
     pub fn do_step(&mut self, time: f64, step: f64) -> Result<(), Fault> {
-        self.clock.check(time, step)?;
+        self.clock.check(time, step, Self::SHORTEST)?;
         self.check_tangential_rates(step)?;
         self.advance(time + step, step)?;
         // it may have been asked to look
@@ -56,7 +56,7 @@ impl<S: Scene> Instance<S> {
     #[inline(always)]
     pub fn do_plain_step(&mut self, time: f64, step: f64) -> Plain {
         let end = time + step;
-        let in_order = self.clock.takes(time, end, step);
+        let in_order = self.clock.takes(time, end, step, Self::SHORTEST);
         if S::CONTACTS > 1 {
             // actions of the passivity guard must be logged
             let plain = in_order && Self::PLAIN && S::GUARD.is_none();
@@ -265,7 +265,7 @@ impl<S: Scene> Instance<S> {
     /// The state of `contact` after `step` \[s\].
     fn moved(&self, contact: usize, step: f64) -> Result<Moved<S::Contact>, Fault> {
         let (Some(history), Some(&rate)) = (self.histories().get(contact), self.rates().get(contact)) else {
-            return Err(Fault::StepSize { step });
+            return Err(Fault::StepSize { step, shortest: Self::SHORTEST });
         };
         let mut history = *history;
         let mut course = self.contacts.curves.as_ref().get(contact).copied().unwrap_or_default().course(rate);

@@ -9,6 +9,8 @@
 //! `cargo test --release --test conformance -- --ignored every_law --nocapture`.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
+#[path = "../support/arithmetic.rs"]
+mod arithmetic;
 #[path = "../support/child.rs"]
 mod child;
 #[path = "../support/face.rs"]

@@ -51,7 +51,7 @@ fn derivatives_of_the_tangential_force_are_those_of_its_course() {
             assert_eq!(instance.step(time, part), OK);
             instance.real("tangential_force")
         };
-        let here = after(1e-300);
+        let here = after(1e-40);
         let width = 2e-11;
         let [one, two, three] = [1.0, 2.0, 3.0].map(|parts| after(parts * width) - here);
         let first = (18.0 * one - 9.0 * two + 2.0 * three) / (6.0 * width);

@@ -1,5 +1,6 @@
 //! A call of the C interface, and random ones.
 
+use crate::arithmetic::MODES;
 use crate::face::Face;
 use fastrand::Rng;
 
@@ -96,6 +97,10 @@ pub enum Call {
         at: usize,
         on: bool,
         categories: Vec<&'static str>,
+    },
+    /// Not a call of the standard: the host changes the mode of its arithmetic, or back to that of a new process.
+    Arithmetic {
+        mode: u32,
     },
     /// Not a call of the standard: a step, made whole and in parts from the same state, which must end at the same
     /// values.
@@ -290,5 +295,10 @@ pub fn script(seed: u64, face: &Face, length: usize) -> Vec<Call> {
         Call::Simple { at: 0, which: Simple::Exit },
     ];
     let begin = begin.into_iter().take(random.usize(1..12));
-    begin.chain((0..length).map(|_| random_call(&mut random, face))).collect()
+    let changes_arithmetic = random.u8(..4) == 0;
+    let any = |_| match changes_arithmetic && random.u8(..8) == 0 {
+        true => Call::Arithmetic { mode: random.choice(MODES).copied().filter(|_| random.u8(..4) > 0).unwrap_or(0) },
+        false => random_call(&mut random, face),
+    };
+    begin.chain((0..length).map(any)).collect()
 }

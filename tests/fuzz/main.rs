@@ -8,6 +8,8 @@
 //! makes 1e8 calls. `BRINELL_FUZZ_SEED` sets the first script.
 #![cfg(target_os = "linux")]
 
+#[path = "../support/arithmetic.rs"]
+mod arithmetic;
 #[path = "../support/child.rs"]
 mod child;
 #[path = "../support/face.rs"]

@@ -3,6 +3,7 @@
 mod states;
 mod values;
 
+use crate::arithmetic::{control, set_control};
 use crate::call::{Call, INSTANCES, STATES, Simple, Wrong};
 use crate::face::Face;
 use crate::functions::{memory, variadic};
@@ -57,6 +58,8 @@ pub struct Runner<'a> {
     states: [Option<State>; STATES],
     /// The last serialized state, and its origin.
     bytes: Option<(Vec<c_char>, State)>,
+    /// The arithmetic of a new process.
+    control: u32,
     /// Number of calls of the C interface.
     pub calls: u64,
 }
@@ -88,7 +91,7 @@ fn callbacks(face: &Face) -> fmi2CallbackFunctions {
 
 impl<'a> Runner<'a> {
     pub fn new(face: &'a Face) -> Runner<'a> {
-        Runner { face, instances: [None, None], states: [None, None, None], bytes: None, calls: 0 }
+        Runner { face, instances: [None, None], states: [None, None, None], bytes: None, control: control(), calls: 0 }
     }
 
     /// Runs all calls; the error names the call and the failure.
@@ -112,6 +115,10 @@ impl<'a> Runner<'a> {
             Call::Serialize { at, state, short_by } => self.serialize(*at, *state, *short_by),
             Call::Deserialize { at, state, flip, length } => self.deserialize(*at, *state, *flip, *length),
             Call::Split { at, step, parts } => self.split(*at, *step, *parts),
+            Call::Arithmetic { mode } => {
+                set_control(self.control | mode);
+                Ok(())
+            }
             Call::Setup { at, .. }
             | Call::Simple { at, .. }
             | Call::Get { at, .. }
@@ -376,5 +383,6 @@ impl Drop for Runner<'_> {
             }
         }
         (0..INSTANCES).for_each(|at| self.free(at));
+        set_control(self.control);
     }
 }

@@ -188,7 +188,7 @@ fn a_free_ball_rebounds_obliquely_as_in_the_table() {
 
 #[test]
 fn steps_are_checked_without_pedantry() {
-    pytest("test_steps.py", &steel_ball());
+    pytest("test_steps.py", &[scene("steel_ball"), scene("everything")]);
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn sweep<S: Scene>(name: &str) {
         let accepted = raised(|| instance.check_real((Real::IndentationRate, 0), rate));
         assert_eq!(accepted, (Ok(()), 0), "{}", what("set"));
         instance.set_real((Real::IndentationRate, 0), rate);
-        for length in [0.0, length, 1e-300] {
+        for length in [0.0, length, 1e-49] {
             let time = instance.time();
             let (stepped, flags) = raised(|| instance.do_step(time, length));
             // the motion of bodies of known mass on a very thin plate is stiff: long steps need too many evaluations

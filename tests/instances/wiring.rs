@@ -241,12 +241,8 @@ fn steps_of_any_length_in_any_order_leave_numbers() {
     for trial in 0..200 {
         let mut master = Master::<WiredParallel>::new(default_choice(1e-6), true, true, 1.0, 50.0);
         for _ in 0..60 {
-            let exponent = if trial % 2 == 0 { -9.0 + 9.0 * random.next() } else { -320.0 + 321.0 * random.next() };
+            let exponent = if trial % 2 == 0 { -9.0 + 9.0 * random.next() } else { -50.0 + 51.0 * random.next() };
             let step = 10f64.powf(exponent);
-            // a step must be longer than the last digit of the time
-            if master.instance.time() + step == master.instance.time() && step < 1e-300 {
-                continue;
-            }
             master.step(step);
             for output in KEPT {
                 assert!(master.get(output).is_finite(), "trial {trial}, {step:e} s: {output:?}");

@@ -2,6 +2,9 @@
 //!
 //! `cargo test --release --test physics law_suite` runs one of them.
 
+#[path = "../support/arithmetic.rs"]
+#[cfg(target_arch = "x86_64")]
+mod arithmetic;
 #[path = "../support/friction.rs"]
 mod friction;
 #[path = "../support/physics.rs"]
@@ -9,6 +12,7 @@ mod physics;
 #[path = "../support/printed.rs"]
 mod printed;
 
+mod arithmetic_modes;
 mod corners;
 mod damped_laws;
 mod dents;

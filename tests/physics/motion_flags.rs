@@ -1,31 +1,23 @@
 //! A successful step raises no floating-point exception except inexact and underflow: a host may trap the others.
 #![cfg(target_arch = "x86_64")]
 
+use crate::arithmetic::{control, set_control};
 use crate::physics::{AnyModel, Random, all_models, pair_of};
 use brinell::contact::momentum::impulse;
 use brinell::contact::motion::{Drive, follow};
 use brinell::contact::path::Course;
 use brinell::contact::{Contact, History, Model, Surface, loading, unloading};
-use std::arch::asm;
 
 /// Invalid operation, division by zero and overflow, as bits of the control and status register.
 const TRAPPED: u32 = 0b1101;
 
 /// The result of `step`, and the exceptions of [`TRAPPED`] that it raised.
 fn raised<T>(step: impl FnOnce() -> T) -> (T, u32) {
-    let (mut before, mut after) = (0u32, 0u32);
-    // SAFETY: the register is stored, and loaded with the same contents except for the exception flags
-    unsafe {
-        asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
-        let cleared = before & !0b11_1111;
-        asm!("ldmxcsr [{}]", in(reg) &raw const cleared, options(nostack));
-    }
+    set_control(control() & !0b11_1111);
     // prevents any earlier computation
     let step = std::hint::black_box(step);
     let result = std::hint::black_box(step());
-    // SAFETY: as above
-    unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut after, options(nostack)) };
-    (result, after & TRAPPED)
+    (result, control() & TRAPPED)
 }
 
 /// A log-uniform number from `low` to `high` of either sign, or zero, or the smallest number.

@@ -1,6 +1,7 @@
 //! The checks, by name. Each gets an FMU in a process of its own, and panics where the FMU is wrong.
 
 mod arguments;
+mod arithmetic;
 mod courses;
 mod derivatives;
 mod instances;
@@ -58,6 +59,7 @@ pub const CHECKS: &[Check] = &[
     check("instances in threads", process::instances_in_threads),
     check("memory", process::memory),
     check("floating-point traps", process::floating_point_traps),
+    check("modes of arithmetic", arithmetic::modes),
     check("values along a course", courses::values_along_a_course),
     check("work", courses::work),
     check("impulse", courses::impulse),

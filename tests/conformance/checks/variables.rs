@@ -116,7 +116,7 @@ pub fn start_values(face: &Face) {
 /// Enormous but allowed inputs give finite outputs, or are refused.
 pub fn enormous_inputs(face: &Face) {
     for rate in [1e3, 1e9, 1e30, 1e40, -1e9, -1e40, 1e200, f64::MAX, f64::MIN, 1e-300, -5e-324] {
-        for step in [1e-300, 1e-15, 1e-6, 1.0, 1e6] {
+        for step in [5e-324, 1e-310, 1e-300, 1e-50, 1e-15, 1e-6, 1.0, 1e6] {
             let i = Importer::at(face, Phase::StepComplete);
             let input = face.inputs[0];
             if i.set(&[input], &[rate]) == OK && i.step(i.time, step) == OK {
