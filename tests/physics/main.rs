@@ -46,6 +46,7 @@ mod motion_cuts;
 mod motion_events;
 mod motion_extremes;
 mod motion_flags;
+mod motion_mean_force;
 mod paths;
 mod predictions;
 mod properties;

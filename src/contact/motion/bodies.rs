@@ -274,7 +274,7 @@ impl<'a, L: Loading, U: Unloading> Bodies<'a, L, U> {
             self.rest();
             return Ok(());
         }
-        self.taken += acceleration * stretch.time - (stretch.speed - speed);
+        self.taken += acceleration * stretch.time - stretch.gain;
         self.pass(stretch.time);
         self.indentation = match (stretch.ended, rising) {
             (Ended::AtBorder, true) => piece.upper,

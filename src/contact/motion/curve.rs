@@ -1,14 +1,17 @@
 //! Motion on a segment that is not a straight line, as a power series in time.
 
 use super::moments::{Moments, Point};
-use crate::contact::numbers::root;
+use crate::contact::numbers::{root, smallest};
 use libm::fabs;
 
 /// Largest number of powers.
 const MOST: usize = 22;
 
-/// Largest contribution of the last two powers, relative to the sum, for which the remaining powers are negligible.
+/// Largest contribution of the last two powers to the speed, relative to the sum, for which the remaining powers are negligible.
 const MISSED: f64 = 0.125 * f64::EPSILON;
+
+/// The same relative to the change of speed, which is the impulse: over a short step it is far below the speed.
+const MISSED_OF_IMPULSE: f64 = 1e-13;
 
 /// `1/((k + 1) (k + 2))`, from `k = 1` on.
 const INVERSE: [f64; MOST - 2] = {
@@ -52,7 +55,7 @@ impl Curve {
         let powers = [Power { way: 0.0, root: 0.0, bend: 0.0 }; MOST];
         let mut curve = Curve { force, speed: first, powers, count: 0 };
         let (mut way, mut next, mut last) = (first, second, fabs(2.0 * second));
-        let mut size = fabs(first) + last;
+        let (mut size, mut change) = (fabs(first) + last, last);
         for (index, inverse) in INVERSE.into_iter().enumerate() {
             let (before, after) = curve.powers.split_at_mut_checked(index)?;
             // the newest powers come last, so that no sum waits for them
@@ -66,8 +69,8 @@ impl Curve {
             *after.first_mut()? = Power { way, root, bend };
             (way, next) = (next, -((p + q + r) * way + bend + product) * inverse);
             let gain = fabs((index + 3) as f64 * next);
-            size += gain;
-            if gain + last <= MISSED * size {
+            (size, change) = (size + gain, change + gain);
+            if gain + last <= smallest(MISSED * size, MISSED_OF_IMPULSE * change) {
                 curve.count = index + 1;
                 return Some(curve);
             }

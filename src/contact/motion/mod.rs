@@ -156,8 +156,9 @@ fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f64) -> Optio
     }
     let (sign, bound) = if rising { (1.0, segment.upper - indentation) } else { (-1.0, indentation - segment.lower) };
     let start = Start { indentation, speed, net, acceleration, inverse_mass, time };
-    let (Stretch { way, speed: end, ended, .. }, evaluations) = short::stretch(segment, &start, sign, bound, false)?;
+    let (Stretch { way, speed: end, gain, ended, .. }, evaluations) =
+        short::stretch(segment, &start, sign, bound, false)?;
     let done = ended == Ended::WithStep && history.advance_on_branch(way);
-    let taken = largest(acceleration * time - (end - speed), 0.0);
+    let taken = largest(acceleration * time - gain, 0.0);
     done.then_some(Outcome { speed: end, taken, evaluations, deepest: history.max_indentation() })
 }

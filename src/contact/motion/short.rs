@@ -110,8 +110,9 @@ pub fn stretch(segment: &Segment, start: &Start, sign: f64, bound: f64, may_stop
         Ended::WithStep => (left, ended),
         _ => (time * point.time, ended),
     };
-    let speed = if ended == Ended::Turned { 0.0 } else { speed + point.gain * height / time };
-    Some((Stretch { way: height * point.way, speed, time: passed, ended }, powers as u32))
+    let gained = point.gain * height / time;
+    let (gain, speed) = if ended == Ended::Turned { (-speed, 0.0) } else { (gained, speed + gained) };
+    Some((Stretch { way: height * point.way, speed, gain, time: passed, ended }, powers as u32))
 }
 
 /// The `event` of a `motion` with this initial speed. `time` is an estimate of its time.

@@ -20,6 +20,8 @@ pub struct Stretch {
     pub way: f64,
     /// Closing speed at its end \[m/s\].
     pub speed: f64,
+    /// Change of the closing speed \[m/s\]. Over a short time it has more digits than the difference of the speeds.
+    pub gain: f64,
     /// Duration \[s\].
     pub time: f64,
     /// The reason why it ended.
@@ -68,15 +70,22 @@ impl Stretch {
         let bound = if rising { piece.upper - indentation } else { indentation - piece.lower };
         let moves = bound > 0.0 && (speed != 0.0 || pull > 0.0);
         if !moves {
-            return Ok(Stretch { way: 0.0, speed: 0.0, time: 0.0, ended: Ended::Turned });
+            return Ok(Stretch { way: 0.0, speed: 0.0, gain: -start.speed, time: 0.0, ended: Ended::Turned });
         }
         if bound < SMALLEST {
-            return Ok(Stretch { way: sign * bound, speed, time: 0.0, ended: Ended::AtBorder });
+            return Ok(Stretch {
+                way: sign * bound,
+                speed,
+                gain: speed - start.speed,
+                time: 0.0,
+                ended: Ended::AtBorder,
+            });
         }
         // no farther than with a force that does not grow
         let reach = time * (fabs(speed) + 0.5 * largest(pull, 0.0) * time) * (1.0 + ROUNDING);
         if reach < SMALLEST {
-            return Ok(Stretch { way: sign * reach, speed: speed + net * time, time, ended: Ended::WithStep });
+            let gain = net * time;
+            return Ok(Stretch { way: sign * reach, speed: speed + gain, gain, time, ended: Ended::WithStep });
         }
         let limit = sign * smallest(bound, reach);
         let farthest = if bound < reach { Ended::AtBorder } else { Ended::WithStep };
@@ -88,23 +97,24 @@ impl Stretch {
                 return Ok(stretch);
             }
             let (field, place) = Field::on_segment(&segment, &start, limit, evaluations);
-            return Stretch::over(field, place, limit, farthest, time);
+            return Stretch::over(field, place, limit, farthest, &start);
         }
         let (field, place, smooth) = fitted(piece, &start, limit, evaluations)?;
         let farthest = if smooth == limit { farthest } else { Ended::Within };
-        Stretch::over(field, place, smooth, farthest, time)
+        Stretch::over(field, place, smooth, farthest, &start)
     }
 
-    /// The stretch from `place` over `limit` \[m\], for at most `left` \[s\]. `farthest` is the reason to return if it reaches
-    /// the limit.
+    /// The stretch from `start`, which is at `place`, over `limit` \[m\]. `farthest` is the reason to return if it reaches the
+    /// limit.
     fn over<const N: usize>(
         field: Field,
         place: Place<N>,
         limit: f64,
         farthest: Ended,
-        left: f64,
+        start: &Start,
     ) -> Result<Stretch, NoMotion> {
         let sign = if limit > 0.0 { 1.0 } else { -1.0 };
+        let left = start.time;
         let (t, mut last, mut ended) = match end(&field, &place, limit) {
             End::Turns(t, mark) => (t, mark, Ended::Turned),
             End::Passes(t, mark) => (t, mark, farthest),
@@ -130,7 +140,8 @@ impl Stretch {
             if unknown || whole > time {
                 let mark = travel.after(time, whole)?;
                 let speed = sign * field.speed(mark.energy);
-                return Ok(Stretch { way: mark.way, speed, time: left, ended: Ended::WithStep });
+                let gain = speed - start.speed;
+                return Ok(Stretch { way: mark.way, speed, gain, time: left, ended: Ended::WithStep });
             }
             past += whole;
             from = field.around(&from, to - at, mark);
@@ -139,6 +150,6 @@ impl Stretch {
         // avoids the negative zero
         let speed = field.speed(last.energy);
         let speed = if speed > 0.0 { sign * speed } else { 0.0 };
-        Ok(Stretch { way, speed, time: past, ended })
+        Ok(Stretch { way, speed, gain: speed - start.speed, time: past, ended })
     }
 }
