@@ -42,41 +42,51 @@ const SCRIPTS: u64 = 300;
 
 static SUITES: LazyLock<Suites> = LazyLock::new(Suites::build);
 
-/// A mistake that a build must report: file, text, replacement.
+/// A mistake that a build must report: file, text, replacement. A `~` in the replacement is the text.
 type Mistake = (&'static str, &'static str, &'static str);
 
-const OVERFLOW: Mistake = (
-    "src/instance/stepping.rs",
-    "        let in_order = self.clock.takes(time, end, step);\n",
-    "        let in_order = self.clock.takes(time, end, step);\n\
-     let _ = core::hint::black_box(core::hint::black_box(255u8) + core::hint::black_box(1u8));\n",
-);
+const STEPPING: &str = "src/instance/stepping.rs";
+const LIFECYCLE: &str = "src/fmi2/lifecycle.rs";
 
-const ASSERTION: Mistake = (
-    "src/instance/stepping.rs",
-    "        let in_order = self.clock.takes(time, end, step);\n",
-    "        let in_order = self.clock.takes(time, end, step);\n debug_assert!(core::hint::black_box(false));\n",
-);
+/// A line of every step.
+const STEP: &str = "        let in_order = self.clock.takes(time, end, step, Self::SHORTEST);\n";
+
+const OVERFLOW: Mistake =
+    (STEPPING, STEP, "~let _ = core::hint::black_box(core::hint::black_box(255u8) + core::hint::black_box(1u8));\n");
+
+const ASSERTION: Mistake = (STEPPING, STEP, "~debug_assert!(core::hint::black_box(false));\n");
 
 /// The end of the name is written behind the memory of the component.
-const SHORT: Mistake =
-    ("src/fmi2/lifecycle.rs", "size_of::<Component<S>>() + length", "size_of::<Component<S>>() + length - 2");
+const SHORT: Mistake = (LIFECYCLE, "size_of::<Component<S>>() + length", "~ - 2");
 
-const LEAK: Mistake = ("src/fmi2/lifecycle.rs", "            memory.release(c);\n", "            let _ = memory;\n");
+const LEAK: Mistake = (LIFECYCLE, "            memory.release(c);\n", "            let _ = memory;\n");
 
 /// All instances write to one place.
 const RACE: Mistake = (
-    "src/instance/stepping.rs",
-    "        let in_order = self.clock.takes(time, end, step);\n",
-    "        let in_order = self.clock.takes(time, end, step);\n static mut LAST: f64 = 0.0;\n\
+    STEPPING,
+    STEP,
+    "~static mut LAST: f64 = 0.0;\n\
      #[allow(unsafe_code)]\n { unsafe { core::ptr::write_volatile(&raw mut LAST, end) }; }\n",
 );
+
+/// The mistakes are checked in every run; only the libraries take long.
+#[test]
+fn every_mistake_applies_to_the_sources() {
+    for (file, old, _) in [OVERFLOW, ASSERTION, SHORT, LEAK, RACE] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+        let count = fs::read_to_string(path).expect("a file of the library").matches(old).count();
+        assert_eq!(count, 1, "{file} has this text {count} times, not once: {old}");
+    }
+}
 
 /// Builds the library of `scene` with a mistake, or without.
 #[track_caller]
 fn build(sources: &Sources, scene: &Path, way: &Way, mistake: Option<Mistake>) -> (PathBuf, PathBuf) {
     let place = sources.use_scene(scene);
-    let before = mistake.map(|(file, old, new)| (file, sources.replace(file, old, new).expect("it applies")));
+    let before = mistake.map(|(file, old, new)| {
+        let text = sources.replace(file, old, &new.replace('~', old));
+        (file, text.expect("a test has found the text"))
+    });
     let library = sources.library("checked", way);
     if let Some((file, text)) = before {
         sources.restore(file, &text);
