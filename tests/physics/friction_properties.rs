@@ -129,6 +129,30 @@ fn the_tangential_force_never_exceeds_coulombs_bound_and_friction_never_does_wor
     assert!(excess <= 1e-15 && gain <= 1e-4, "{excess:e} {gain:e}");
 }
 
+#[test]
+fn the_stored_energy_is_never_negative_however_small_a_tangential_motion_is() {
+    let mut random = Random(5);
+    let size = |random: &mut Random, decades: f64| 10f64.powf(-5.0 - decades * random.next());
+    let (mut largest, mut smallest) = (0.0_f64, f64::INFINITY);
+    for seed in 0..3000 {
+        let mut run = Run::<12>::new(hertz(MODULUS, RADIUS));
+        for _ in 0..8 {
+            let rise = size(&mut random, 14.0) * if random.next() < 0.3 { -1.0 } else { 1.0 };
+            let rise = if run.indentation + rise > DEEPEST { -rise } else { rise };
+            let shift = size(&mut random, 45.0) * if random.next() < 0.5 { -1.0 } else { 1.0 };
+            run.step((rise, if random.next() < 0.4 { 0.0 } else { shift }), 1);
+            let energy = run.energy();
+            assert!(energy >= 0.0, "seed {seed}: {energy:e}");
+            assert!(run.pull().abs() <= run.force().max(0.0), "seed {seed}: {:e}", run.pull());
+            if energy > 0.0 {
+                (largest, smallest) = (largest.max(energy), smallest.min(energy));
+            }
+        }
+    }
+    println!("energies from {smallest:.1e} to {largest:.1e} J");
+    assert!(largest > 1e-6 && smallest < 1e-60, "{smallest:e} {largest:e}");
+}
+
 /// Many independent springs as a reference.
 struct Springs {
     indentation: f64,

@@ -1,6 +1,7 @@
 //! Output quantities of the springs.
 
 use super::{SAME, Stuck};
+use crate::contact::numbers::largest;
 use crate::contact::segment::Segment;
 use libm::fabs;
 
@@ -52,16 +53,15 @@ impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
         let vertices = self.list.vertices();
         let ends = vertices.iter().skip(1).map(|next| (next.height, next.force));
         let segments = vertices.iter().zip(ends.chain(core::iter::once((indentation, top))));
-        segments
-            .map(|(vertex, (height, force))| {
-                // r {[w F] + r [int F dh]}, in a form without cancellation on a short segment
-                let rise = height - vertex.height;
-                let tension = displacement - vertex.offset;
-                let shortfall = force - curve.mean_force(vertex.height, height);
-                vertex.slope * (tension * (force - vertex.force) - vertex.slope * rise * shortfall)
-            })
-            // not -0.0, the sum of no numbers
-            .fold(0.0, |sum, energy| sum + energy)
+        let energy = segments.fold(0.0, |sum, (vertex, (height, force))| {
+            // r {[w F] + r [int F dh]}, in a form without cancellation on a short segment
+            let rise = height - vertex.height;
+            let tension = displacement - vertex.offset;
+            let shortfall = force - curve.mean_force(vertex.height, height);
+            sum + vertex.slope * (tension * (force - vertex.force) - vertex.slope * rise * shortfall)
+        });
+        // slopes below `SAME` may count as zero
+        largest(0.0, energy)
     }
 
     /// Slip state of the contact.

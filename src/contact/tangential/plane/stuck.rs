@@ -154,7 +154,7 @@ impl<const N: usize> Stuck<N> {
             sum + pull - dot(vertex.slope, vertex.slope) * shortfall
         });
         // relaxed springs have rounding errors of either sign
-        largest(energy, 0.0)
+        largest(0.0, energy)
     }
 
     /// Slip state of the contact, from its last way.
