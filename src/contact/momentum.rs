@@ -80,18 +80,18 @@ impl<L: Loading, U: Unloading> Walk<'_, L, U> {
     fn go_on(&mut self, end: f64) -> Result<(), TooDeep> {
         let (from, to) = (self.contact.indentation(), self.at(end));
         let rising = to > from;
-        let surface = self.contact.residual_indentation(self.model);
-        let touches = from > surface || (from == surface && rising);
-        if !touches {
-            // a fresh surface forgets the dent at zero
-            let forgets = !rising && self.model.surface == Surface::Fresh && from > 0.0 && to < 0.0;
-            let border = if rising { surface } else { 0.0 };
-            let stops = (rising && to > surface) || forgets;
-            let (time, goal) = if stops { (self.when(border, end), border) } else { (end, to) };
-            self.time = time;
-            return self.contact.go_to(self.model, goal, rising);
-        }
-        let piece = Piece::of(&self.contact, self.model, rising);
+        let piece = match Piece::ahead(&self.contact, self.model, rising) {
+            Ok(piece) => piece,
+            Err(surface) => {
+                // a fresh surface forgets the dent at zero
+                let forgets = !rising && self.model.surface == Surface::Fresh && from > 0.0 && to < 0.0;
+                let border = if rising { surface } else { 0.0 };
+                let stops = (rising && to > surface) || forgets;
+                let (time, goal) = if stops { (self.when(border, end), border) } else { (end, to) };
+                self.time = time;
+                return self.contact.go_to(self.model, goal, rising);
+            }
+        };
         let leaves = if rising { to > piece.upper } else { to < piece.lower };
         let border = if rising { piece.upper } else { piece.lower };
         let (time, goal) = if leaves { (self.when(border, end), border) } else { (end, to) };

@@ -36,23 +36,30 @@ impl<L, U> Clone for Piece<'_, L, U> {
 }
 
 impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
-    /// The piece on which a contact continues, depending on whether it is `rising` or falling.
-    pub fn of(history: &History, model: &'a Model<L, U>, rising: bool) -> Piece<'a, L, U> {
-        Piece::at(model, history.indentation(), history.max_indentation(), rising)
+    /// The piece on which a contact continues if it is `rising` or falling; `Err` with the indentation of the surface \[m\]
+    /// that a contact has left or not yet reached.
+    ///
+    /// The surface is the lower end of the piece, from one evaluation. In another place, the compiler may compute a part of the
+    /// same expression in advance, with the usual rounding, although the host has changed it. A motion down to the lower end
+    /// would then not get below the surface.
+    pub fn ahead(history: &History, model: &'a Model<L, U>, rising: bool) -> Result<Piece<'a, L, U>, f64> {
+        let indentation = history.indentation();
+        let piece = Piece::at(model, indentation, history.max_indentation(), rising);
+        let touches = indentation > piece.lower || (rising && indentation == piece.lower);
+        if touches { Ok(piece) } else { Err(piece.lower) }
     }
 
-    /// The same for a contact at `indentation` that was never deeper than `largest` \[m\].
+    /// The piece of a contact at `indentation` that was never deeper than `largest` \[m\], if it is `rising` or falling.
     pub fn at(model: &'a Model<L, U>, indentation: f64, largest: f64, rising: bool) -> Piece<'a, L, U> {
-        let yields_at = model.loading.yield_point(&model.pair).indentation;
-        if largest <= yields_at && !(rising && indentation >= yields_at) {
-            let segment = model.loading.segment(&model.pair, 0.0);
-            let (kind, upper) = (Kind::Elastic, segment.upper);
+        let upper = model.loading.yield_point(&model.pair).indentation;
+        if largest <= upper && !(rising && indentation >= upper) {
+            let (kind, segment) = (Kind::Elastic, model.loading.segment(&model.pair, 0.0));
             return Piece { model, kind, lower: 0.0, upper, segment, is_whole: true, unloading: None };
         }
         if rising && indentation >= largest {
             let upper = model.loading.next_corner(&model.pair, indentation);
             let segment = model.loading.segment(&model.pair, indentation);
-            let is_whole = segment.upper >= upper;
+            let is_whole = model.loading.is_segmented() || segment.upper >= upper;
             return Piece { model, kind: Kind::Loading, lower: indentation, upper, segment, is_whole, unloading: None };
         }
         Piece::below(model, largest)
@@ -67,7 +74,7 @@ impl<'a, L: Loading, U: Unloading> Piece<'a, L, U> {
     /// The unloading piece from `largest` \[m\], beyond yield.
     fn below(model: &'a Model<L, U>, largest: f64) -> Piece<'a, L, U> {
         let peak = model.peak(largest);
-        let path = model.unloading.path(&model.pair, &peak);
+        let path = model.path_from(&peak);
         let middle = 0.5 * (path.lower + largest);
         let segment = if U::SEGMENTED { path } else { model.unloading.tangent(&model.pair, &peak, &path, middle) };
         // a path that is not a segment has a different tangent at every point

@@ -55,4 +55,5 @@ mod published_laws_fitted;
 mod rate_motion;
 mod reference_impacts;
 mod reference_values;
+mod two_roundings;
 mod work_counters;

@@ -95,18 +95,26 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
             if self.left <= 0.0 {
                 return Ok(());
             }
-            if self.is_apart() { self.fly()? } else { self.press(&mut |_, _| ())? }
+            let below = self.below();
+            if self.is_above(below.lower) { self.fly(below.lower)? } else { self.press_from(below, &mut |_, _| ())? }
         }
         Err(NoMotion::TooLong)
     }
 
-    fn surface(&self) -> f64 {
-        self.contact.plastic.residual_indentation(&self.model.plastic)
+    /// The piece between the largest indentation and the surface of the dent, which is its lower end. One event takes both
+    /// from one evaluation; see [`Piece::ahead`].
+    fn below(&self) -> Piece<'a, L, U> {
+        Piece::at(&self.model.plastic, self.indentation(), self.contact.plastic.max_indentation(), false)
     }
 
     /// Whether there is no contact: the bodies are apart, or at the surface and not closing.
     pub fn is_apart(&self) -> bool {
-        let (indentation, surface) = (self.indentation(), self.surface());
+        self.is_above(self.below().lower)
+    }
+
+    /// The same for a `surface` \[m\].
+    fn is_above(&self, surface: f64) -> bool {
+        let indentation = self.indentation();
         let closes = self.speed > 0.0 || (self.speed == 0.0 && self.acceleration > 0.0);
         indentation < surface || (indentation == surface && !closes)
     }
@@ -116,9 +124,9 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
         self.contact.plastic.go_to(&self.model.plastic, indentation, rising)
     }
 
-    /// Flight: until the bodies touch the surface, until a fresh surface forgets its dent, or until the end of the time.
-    fn fly(&mut self) -> Result<(), TooDeep> {
-        let (surface, indentation) = (self.surface(), self.indentation());
+    /// Flight: until the bodies touch the `surface` \[m\], until a fresh surface forgets its dent, or until the end of the time.
+    fn fly(&mut self, surface: f64) -> Result<(), TooDeep> {
+        let indentation = self.indentation();
         // every contact has its own largest speed
         self.contact.swiftest = 0.0;
         let flight = Flight { speed: self.speed, acceleration: self.acceleration };
@@ -152,10 +160,14 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
 
     /// Motion in contact: until the indentation turns, until the end of the smooth piece, or until the end of the time.
     pub fn press(&mut self, watch: &mut dyn FnMut(&State, f64)) -> Result<(), NoMotion> {
-        let (start, surface) = (self.indentation(), self.surface());
+        self.press_from(self.below(), watch)
+    }
+
+    /// The same, with the piece `below` the largest indentation.
+    fn press_from(&mut self, below: Piece<'a, L, U>, watch: &mut dyn FnMut(&State, f64)) -> Result<(), NoMotion> {
+        let (start, surface) = (self.indentation(), below.lower);
         let largest_so_far = self.contact.plastic.max_indentation();
         let damping = Damping { swiftest: self.contact.swiftest, ..self.contact.damping_for(0.0) };
-        let below = Piece::at(&self.model.plastic, start, largest_so_far, false);
         let rate = self.speed - damping.retreat(below.force(start));
         let net = self.acceleration - below.force(start) * self.inverse_mass;
         if self.is_stuck(&damping, below.force(start)) {

@@ -122,26 +122,19 @@ pub(super) fn on_the_way<L: Loading, U: Unloading>(
             return Ok(sum);
         }
         let rising = to > from;
-        let surface = contact.residual_indentation(model);
-        let touches = from > surface || (from == surface && rising);
-        let goal = if touches {
-            let piece = Piece::of(&contact, model, rising);
-            let goal = if rising { limited(to, piece.upper, true) } else { limited(to, piece.lower, false) };
-            let (force, stiffness) = (|d: f64| piece.force(d), |d: f64| piece.stiffness(d));
-            let part = Part { force: &force, stiffness: &stiffness, segment: piece.whole() };
-            let Spent { work, heat } = part.spent(damping, from, goal, rate);
-            (sum.work, sum.heat) = (sum.work + work, sum.heat + heat);
-            goal
-        } else {
-            // a fresh surface forgets the dent at zero
-            let forgets = !rising && model.surface == Surface::Fresh && from > 0.0 && to < 0.0;
-            if rising {
-                limited(to, surface, true)
-            } else if forgets {
-                0.0
-            } else {
-                to
+        let goal = match Piece::ahead(&contact, model, rising) {
+            Ok(piece) => {
+                let goal = if rising { limited(to, piece.upper, true) } else { limited(to, piece.lower, false) };
+                let (force, stiffness) = (|d: f64| piece.force(d), |d: f64| piece.stiffness(d));
+                let part = Part { force: &force, stiffness: &stiffness, segment: piece.whole() };
+                let Spent { work, heat } = part.spent(damping, from, goal, rate);
+                (sum.work, sum.heat) = (sum.work + work, sum.heat + heat);
+                goal
             }
+            Err(surface) if rising => limited(to, surface, true),
+            // a fresh surface forgets the dent at zero
+            Err(_) if model.surface == Surface::Fresh && from > 0.0 && to < 0.0 => 0.0,
+            Err(_) => to,
         };
         contact.go_to(model, goal, rising)?;
     }
