@@ -8,7 +8,7 @@
 #include <dlfcn.h>
 #include <stdatomic.h>
 
-static atomic_bool counting;
+static atomic_bool counting, exhausted;
 static atomic_long allocated, released;
 
 void count_from_here(void) {
@@ -20,6 +20,8 @@ void count_from_here(void) {
 void stop_counting(void) { counting = false; }
 long allocations(void) { return allocated; }
 long releases(void) { return released; }
+void use_up_memory(void) { exhausted = true; }
+void have_memory(void) { exhausted = false; }
 
 #ifdef NO_COUNTING
 bool counts_allocations = false;
@@ -45,7 +47,7 @@ void *malloc(size_t size) {
 
 void *calloc(size_t number, size_t size) {
     count(&allocated);
-    return __libc_calloc(number, size);
+    return exhausted ? NULL : __libc_calloc(number, size);
 }
 
 void *realloc(void *memory, size_t size) {

@@ -76,8 +76,41 @@ static void errors(fmi2Component c) {
     check_count("errors, their messages and a reset take no memory", allocations() == 0 && releases() == 0);
 }
 
+/* A library that gets no memory says so. What is there goes on after a reset, and no pointer changes. */
+static void no_memory(void) {
+    if (!counts_allocations) {
+        return;
+    }
+    fmi2Component c = ready();
+    fmi2FMUstate state = NULL, none = NULL, old = &environment;
+    size_t size = 0;
+    bool good = fmi.GetFMUstate(c, &state) == fmi2OK && fmi.SerializedFMUstateSize(c, state, &size) == fmi2OK;
+    char *bytes = calloc(1, size);
+    good &= fmi.SerializeFMUstate(c, state, bytes, size) == fmi2OK;
+    int const before = messages;
+    use_up_memory();
+    fmi2Component const refused = fmi.Instantiate(instance_name, fmi2CoSimulation, guid, "", &callbacks, fmi2False, fmi2False);
+    bool told = messages == before + 1 && strstr(last_message, "out of memory") != NULL;
+    good &= fmi.GetFMUstate(c, &none) == fmi2Error && none == NULL;
+    told &= messages == before + 2 && strstr(last_message, "out of memory") != NULL;
+    good &= fmi.SetFMUstate(c, state) == fmi2OK && fmi.DeSerializeFMUstate(c, bytes, size, &old) == fmi2Error;
+    told &= messages == before + 3 && strstr(last_message, "out of memory") != NULL;
+    /* what needs no new memory works */
+    good &= old == &environment && fmi.SetFMUstate(c, state) == fmi2OK && fmi.GetFMUstate(c, &state) == fmi2OK;
+    double const force = step(c, 0, 0.3);
+    have_memory();
+    check("without memory an instance, a state and one from bytes are refused", refused == NULL && good);
+    check("which is told", told);
+    check("and the instance goes on from a state", force > 0);
+    good = fmi.FreeFMUstate(c, &state) == fmi2OK && state == NULL;
+    check("and its state is freed", good);
+    fmi.FreeInstance(c);
+    free(bytes);
+}
+
 void check_memory(void) {
     counting_counts();
+    no_memory();
     fmi2FMUstate state = NULL, other = NULL;
     fmi2Component c = ready();
     stepping(c);

@@ -54,6 +54,9 @@ void count_from_here(void);
 void stop_counting(void);
 long allocations(void);
 long releases(void);
+/* from now on calloc returns NULL; from now on it doesn't */
+void use_up_memory(void);
+void have_memory(void);
 
 void check_null_pointers(void);
 void check_instances(void);

@@ -19,7 +19,7 @@ fn every_test_on_the_page_of_promises_exists() {
     for (file, name) in tests {
         let text =
             fs::read_to_string(root().join("tests").join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
-        let defined = [format!("\nfn {name}("), format!("\ndef {name}(")];
+        let defined = [format!("\nfn {name}("), format!("\npub fn {name}("), format!("\ndef {name}(")];
         assert!(defined.iter().any(|text_of| text.contains(text_of)), "{file} has no test {name}");
     }
 }

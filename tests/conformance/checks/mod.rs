@@ -58,6 +58,7 @@ pub const CHECKS: &[Check] = &[
     check("instances in turn", process::instances_in_turn),
     check("instances in threads", process::instances_in_threads),
     check("memory", process::memory),
+    check("a small stack", process::small_stack),
     check("floating-point traps", process::floating_point_traps),
     check("modes of arithmetic", arithmetic::modes),
     check("values along a course", courses::values_along_a_course),

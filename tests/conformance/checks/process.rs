@@ -1,5 +1,6 @@
-//! What an FMU does to its process: floating-point traps, memory, threads, other instances.
+//! What an FMU does to its process: floating-point traps, memory, stack, threads, other instances.
 
+use crate::checks::{courses, derivatives, logging, states};
 use crate::face::Face;
 use crate::importer::{Importer, OK, Phase, STEP, callbacks};
 use std::ffi::c_int;
@@ -54,6 +55,26 @@ pub fn instances_in_threads(face: &Face) {
             for (number, (thread, alone)) in all.into_iter().zip(&alone).enumerate() {
                 assert_eq!(&thread.join().expect("a thread ends"), alone, "thread {number}");
             }
+        });
+    }
+}
+
+/// The stack of a thread that musl makes \[bytes\]: the smallest of the common C libraries.
+const SMALL_STACK: usize = 128 << 10;
+
+/// Steps, states, derivatives and refusals in a thread with a small stack; one that overflows ends this process.
+pub fn small_stack(face: &Face) {
+    let checks = [
+        courses::values_along_a_course,
+        courses::steps_and_their_parts,
+        states::saving_into_a_state,
+        derivatives::in_every_direction,
+        logging::every_refusal_is_told,
+    ];
+    for check in checks {
+        let small = thread::Builder::new().stack_size(SMALL_STACK);
+        thread::scope(|scope| {
+            small.spawn_scoped(scope, || check(face)).expect("a thread").join().expect("the check passes there, too")
         });
     }
 }
