@@ -29,6 +29,7 @@ use std::collections::HashSet;
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Duration;
 use suites::{Subject, Suites};
 
@@ -75,8 +76,9 @@ fn defects() -> Vec<Defect> {
 struct Tests {
     suites: Suites,
     sources: Sources,
-    /// The C program.
+    /// The C program, which counts memory and uses it up, and the same without that for valgrind.
     program: PathBuf,
+    plain_program: PathBuf,
 }
 
 impl Tests {
@@ -89,17 +91,21 @@ impl Tests {
         match test.split_once(": ") {
             Some(("conformance", check)) => self.suites.conform(&subject, Some(check)),
             Some(("fuzz", count)) => self.suites.fuzz(&subject, count.parse().expect("a number of scripts")),
-            None => self.under_valgrind(test, library),
+            None if test == "c program" => self.call(Command::new(&self.program), library),
+            None => {
+                let mut tool = valgrind(test);
+                tool.arg(&self.plain_program);
+                self.call(tool, library)
+            }
             Some(_) => panic!("no test {test:?}"),
         }
     }
 
-    /// Runs the C program under a tool of valgrind.
-    fn under_valgrind(&self, tool: &str, library: &Path) -> Result<(), String> {
-        let mut command = valgrind(tool);
+    /// Runs the C program by this `command`.
+    fn call(&self, mut command: Command, library: &Path) -> Result<(), String> {
         let mut arguments = arguments();
         arguments[0] = library.to_str().expect("a path of plain characters").into();
-        command.arg(&self.program).args(arguments);
+        command.args(arguments);
         let log = self.program.with_extension("log");
         child::run(&mut command, &log, Duration::from_secs(600)).map_err(|failure| failure.to_string())
     }
@@ -178,8 +184,9 @@ fn the_tests_find_every_deliberate_mistake() {
     let chosen: Vec<&Defect> =
         all.iter().filter(|defect| wanted.split(',').any(|text| defect.name.contains(text))).collect();
     let (made, skipped): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|defect| valgrind || !needs_valgrind(defect));
-    let program = driver::compile("driver-for-defects", &["-DNO_COUNTING"]);
-    let tests = Tests { suites: Suites::build(), sources: Sources::copied("defects"), program };
+    let program = driver::compile("driver-for-defects", &[]);
+    let plain_program = driver::compile("driver-for-defects-in-valgrind", &["-DNO_COUNTING"]);
+    let tests = Tests { suites: Suites::build(), sources: Sources::copied("defects"), program, plain_program };
     assert_good_without_a_mistake(&tests, &made);
     let mut missed = Vec::new();
     for defect in &made {
@@ -218,7 +225,8 @@ fn every_deliberate_mistake_applies_to_the_sources() {
             assert!(file.with_extension("rs").is_file(), "{}: there is no {}", defect.name, defect.test);
             continue;
         }
-        let is_test = ["conformance: ", "fuzz: "].iter().any(|kind| defect.test.starts_with(kind));
-        assert!(is_test || ["memcheck", "helgrind"].contains(&&*defect.test), "{}: {}", defect.name, defect.test);
+        let is_suite = ["conformance: ", "fuzz: "].iter().any(|kind| defect.test.starts_with(kind));
+        let is_program = ["c program", "memcheck", "helgrind"].contains(&&*defect.test);
+        assert!(is_suite || is_program, "{}: {}", defect.name, defect.test);
     }
 }
