@@ -141,13 +141,37 @@ fn a_closed_pipe_ends_quietly_and_the_work_is_done() {
         let status = without_reader(folder.path(), &all(&["export", &scene]), of_errors);
         assert_eq!(status, Some(0), "of errors: {of_errors}");
         assert!(folder.path().join("steel_ball.fmu").is_file(), "of errors: {of_errors}");
-        for arguments in [&["laws"][..], &["predict", &scene], &["check", "steel_ball.fmu"], &["materials"]] {
+        for arguments in [&["laws"][..], &["predict", &scene], &["check", "steel_ball.fmu"], &["completions", "zsh"]] {
             assert_eq!(without_reader(folder.path(), &all(arguments), of_errors), Some(0), "{arguments:?}");
         }
         // an error still counts
         let status = without_reader(folder.path(), &all(&["check", "none.fmu"]), of_errors);
         assert_eq!(status, Some(1), "of errors: {of_errors}");
         assert_eq!(without_reader(folder.path(), &all(&["nothing"]), of_errors), Some(2), "of errors: {of_errors}");
+    }
+}
+
+#[test]
+fn a_full_disk_behind_standard_output_is_an_error_with_a_message() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    run(folder.path(), ["export", &scene]).with_status(0);
+    for arguments in [
+        &["export", &scene][..],
+        &["check", "steel_ball.fmu"],
+        &["predict", &scene],
+        &["predict", &scene, "--json"],
+        &["laws"],
+        &["completions", "bash"],
+        &["--version"],
+        &["--help"],
+    ] {
+        let mut command = Command::new("sh");
+        command.current_dir(folder.path()).env("BRINELL_CACHE", crate::command::cache());
+        command.args(["-c", "exec \"$@\" > /dev/full", "sh", env!("CARGO_BIN_EXE_brinell")]);
+        let run = output(command.args(arguments)).with_status(1);
+        let said = "brinell: standard output can't be written to: No space left";
+        assert!(run.err.contains(said) && !run.err.contains("panicked"), "{arguments:?}: {}", run.err);
     }
 }
 

@@ -8,7 +8,7 @@ use clap::CommandFactory;
 use clap_complete::Shell;
 use serde_json::json;
 use std::path::Path;
-use std::{fs, io};
+use std::fs;
 
 /// Version of the program, which is that of the package.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -45,13 +45,10 @@ fn folders(prebuilt: &PrebuiltFolder) -> Vec<&'static str> {
 }
 
 /// `brinell completions`: the script that completes the program's arguments in `shell`, on standard output.
-///
-/// # Errors
-/// An error of the standard output.
-pub fn completions(shell: Shell) -> io::Result<()> {
+pub fn completions(shell: Shell) {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "brinell", &mut script);
-    io::Write::write_all(&mut io::stdout(), &script)
+    print!("{}", String::from_utf8_lossy(&script));
 }
 
 /// `brinell man`: writes the manual pages of the program and of each command to `folder`: `brinell.1`, `brinell-export.1` and

@@ -74,7 +74,7 @@ use std::process::ExitCode;
 use wrong_call::WrongCall;
 
 fn main() -> ExitCode {
-    leave_quietly_when_nobody_reads();
+    leave_when_nothing_can_be_printed();
     interrupt::clean_up_when_interrupted();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -97,8 +97,13 @@ const WRONG_CALL: u8 = 2;
 fn not_understood(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         // it is not an error if the reader has closed the pipe
-        let _ = error.print();
-        return ExitCode::SUCCESS;
+        return match error.print() {
+            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+                layout::tell(&format!("brinell: {UNWRITABLE}: {error}"));
+                ExitCode::FAILURE
+            }
+            _ => ExitCode::SUCCESS,
+        };
     }
     let text = error.render().to_string();
     layout::tell(&format!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text).trim_end()));
@@ -109,15 +114,21 @@ fn not_understood(error: &clap::Error) -> ExitCode {
 /// Windows.
 const CLOSED_PIPE: &[&str] = if cfg!(windows) { &["(os error 109)", "(os error 232)"] } else { &["(os error 32)"] };
 
-/// A reader such as `head` may close the pipe before everything is printed. This ends the program and is not an error.
-fn leave_quietly_when_nobody_reads() {
+/// The beginning of the message about a full disk, or the like.
+const UNWRITABLE: &str = "standard output can't be written to";
+
+/// A reader such as `head` may close the pipe before everything is printed. This ends the program and is not an error. That the
+/// output can't be written, because a disk is full, is one.
+fn leave_when_nothing_can_be_printed() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         let message = panic.payload().downcast_ref::<String>().map_or("", String::as_str);
-        if message.starts_with("failed printing to stdout") && CLOSED_PIPE.iter().any(|code| message.ends_with(code)) {
-            std::process::exit(0);
+        let Some(reason) = message.strip_prefix("failed printing to stdout: ") else { return usual(panic) };
+        if !CLOSED_PIPE.iter().any(|code| reason.ends_with(code)) {
+            layout::tell(&format!("brinell: {UNWRITABLE}: {reason}"));
+            std::process::exit(1);
         }
-        usual(panic);
+        std::process::exit(0);
     }));
 }
 
@@ -152,7 +163,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             toolchain::run(&toolchain::Wanted { folder: folder.as_deref(), std: *std, mirror }, json)?;
         }
         Some(Command::Materials) => materials::run(json),
-        Some(Command::Completions { shell }) => about::completions(*shell)?,
+        Some(Command::Completions { shell }) => about::completions(*shell),
         Some(Command::Man { output }) => about::manual(output)?,
         Some(Command::Constants { scene }) => {
             print!("{}", constants::write(&Plan::of(&Scene::read(scene)?), "unpacked"));
