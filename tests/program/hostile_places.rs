@@ -81,6 +81,20 @@ fn a_symbolic_link_stays_and_its_target_is_written() {
 }
 
 #[test]
+fn a_scene_is_not_replaced_by_its_fmu() {
+    let folder = empty_folder();
+    let path = folder.path().join("ball.toml");
+    fs::copy(scene("steel_ball"), &path).unwrap();
+    let before = fs::read(&path).unwrap();
+    symlink("ball.toml", folder.path().join("link.fmu")).unwrap();
+    for goal in ["ball.toml", "./ball.toml", "link.fmu"] {
+        let refused = run(folder.path(), ["export", "ball.toml", "-o", goal]).with_status(1);
+        assert!(refused.err.contains(goal) && refused.err.contains("the scene itself"), "{}", refused.err);
+        assert!(fs::read(&path).unwrap() == before, "{goal}: the scene was overwritten");
+    }
+}
+
+#[test]
 fn a_pipe_is_written_to_and_not_replaced() {
     let folder = empty_folder();
     let pipe = folder.path().join("pipe.csv");

@@ -8,10 +8,10 @@ use crate::scene::Scene;
 use crate::summary::Summary;
 use std::path::{Path, PathBuf};
 
-/// The command: makes the FMU of `scene` in this `way` for `platforms`, and writes it to `output` or to the current folder.
-/// Returns its path.
+/// The command: makes the FMU of `scene`, the file at `source`, in this `way` for `platforms`, and writes it to `output` or to the
+/// current folder. Returns its path.
 pub fn run(
-    scene: &Scene,
+    (scene, source): (&Scene, Option<&Path>),
     (way, platforms): (Way, &[Platform]),
     output: Option<&Path>,
     as_json: bool,
@@ -19,6 +19,9 @@ pub fn run(
     let path = output.map_or_else(|| format!("{}.fmu", scene.name).into(), Path::to_path_buf);
     // errors that would occur at the end are reported before the work
     files::check_goal(&path)?;
+    if let Some(source) = source {
+        files::check_kept(&path, source)?;
+    }
     crate::layout::tell(&format!("building {} ...", path.display()));
     let plan = Plan::of(scene);
     let exported = package::export(&plan, way, platforms, &path)?;

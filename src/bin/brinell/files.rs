@@ -85,6 +85,19 @@ pub fn check_goal(path: &Path) -> Result<(), FileError> {
     draft().tempfile_in(folder).map_err(FileError::at(path)).map(drop)
 }
 
+/// Rejects a target that is the file `input` of the command: the user's scene would be lost.
+///
+/// # Errors
+/// [`FileError`]
+pub fn check_kept(path: &Path, input: &Path) -> Result<(), FileError> {
+    let real = |path: &Path| fs::canonicalize(path).ok().filter(|path| path.is_file());
+    if real(path).is_some_and(|path| Some(path) == real(input)) {
+        let error = io::Error::new(io::ErrorKind::AlreadyExists, "this is the scene itself, which isn't overwritten");
+        return Err(FileError::at(path)(error));
+    }
+    Ok(())
+}
+
 /// Rejects a folder that cannot be written to or created.
 ///
 /// # Errors

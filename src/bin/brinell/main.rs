@@ -142,14 +142,15 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     match &arguments.command {
         None => {
             let platforms = PlatformArguments::default().chosen(Way::Any)?;
-            let unit = export::run(&Scene::default_scene()?, (Way::Any, &platforms), None, json)?;
+            let unit = export::run((&Scene::default_scene()?, None), (Way::Any, &platforms), None, json)?;
             return Ok(check::exported(&unit, json)?);
         }
         Some(Command::Check(arguments)) => return Ok(check::run(arguments, json)?),
         Some(Command::Report(arguments)) => return report::run(arguments, json),
         Some(Command::Export { scene, output, platforms, way }) => {
             let way = way.chosen();
-            export::run(&Scene::read_aloud(scene)?, (way, &platforms.chosen(way)?), output.as_deref(), json)?;
+            let scene = (&Scene::read_aloud(scene)?, Some(scene.as_path()));
+            export::run(scene, (way, &platforms.chosen(way)?), output.as_deref(), json)?;
         }
         Some(Command::Prebuild(arguments)) => prebuilt::command::run(arguments, json)?,
         Some(Command::New(arguments)) => new::run(arguments, json)?,
