@@ -3,13 +3,17 @@
  *   END    ends the process with success when it is loaded
  *   CRASH  aborts when it is loaded
  *   HANG   never returns when it is loaded
+ *   FORK   ends the process and leaves another one that holds its pipes
+ *   TALK   prints gigabytes in one line and ends the process
  *   FORCE=x  every Real is x, whatever is set
  */
 #include "phases.h"
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #ifndef FORCE
@@ -25,6 +29,18 @@ __attribute__((constructor)) static void load(void)
 #elif defined HANG
     for (;;)
         pause();
+#elif defined FORK
+    if (fork() == 0) {
+        sleep(60);
+        _exit(0);
+    }
+    _exit(0);
+#elif defined TALK
+    static char piece[1 << 20];
+    memset(piece, 'x', sizeof piece);
+    for (int i = 0; i < 2000; i++)
+        fwrite(piece, 1, sizeof piece, stderr);
+    _exit(0);
 #endif
 }
 

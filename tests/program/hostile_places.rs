@@ -237,6 +237,25 @@ fn a_library_that_never_returns_is_a_failed_check() {
     assert!(run.err.contains("unit.fmu") && run.err.contains("2 s"), "{}", run.err);
 }
 
+/// A process that the library has left behind keeps the pipes open.
+#[test]
+fn a_library_that_leaves_a_process_behind_does_not_delay_the_answer() {
+    let begin = Instant::now();
+    let run = said_of("-DFORK");
+    assert!(run.err.contains("ended the process"), "{}", run.err);
+    assert!(begin.elapsed() < Duration::from_secs(50), "after {:?}", begin.elapsed());
+}
+
+#[test]
+fn a_library_that_prints_gigabytes_is_told_in_little_memory_and_few_words() {
+    let (folder, temporary) = (stranger("-DTALK"), empty_folder());
+    let mut command = Command::new("sh");
+    command.args(["-c", "ulimit -v 600000; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_brinell"), "check", "unit.fmu"]);
+    let run = output(command.current_dir(folder.path()).env("TMPDIR", temporary.path())).with_status(1);
+    assert!(run.err.contains("ended the process") && run.err.contains("xxx ... xxx"), "{}", run.err.len());
+    assert!(run.err.len() < 1000, "{} bytes", run.err.len());
+}
+
 #[test]
 fn a_nan_force_and_an_endless_impact_are_failed_checks() {
     for (option, said) in [

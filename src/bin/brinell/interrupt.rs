@@ -9,6 +9,7 @@ use std::io::{self, Read};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::mpsc::{self, Receiver};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use std::{fs, thread};
@@ -162,29 +163,75 @@ pub fn output(command: &mut Command) -> io::Result<Output> {
 pub fn output_within(command: &mut Command, limit: Option<Duration>) -> io::Result<Option<Output>> {
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let child = Child::spawn(command)?;
-    let (stdout, stderr) = (child.take_stdout(), child.take_stderr());
-    thread::scope(|scope| {
-        let stdout = scope.spawn(|| read(stdout));
-        let stderr = scope.spawn(|| read(stderr));
+    let status = Heard::start(child.take_stdout()).and_then(|stdout| {
+        let stderr = Heard::start(child.take_stderr())?;
         let status = match limit.and_then(|limit| Instant::now().checked_add(limit)) {
             None => child.wait().map(Some),
             Some(deadline) => child.wait_deadline(deadline),
         };
-        if !matches!(status, Ok(Some(_))) {
-            let _ = child.kill();
-            let _ = child.wait();
-        }
-        let joined = |text: thread::ScopedJoinHandle<'_, Vec<u8>>| text.join().unwrap_or_default();
-        let (stdout, stderr) = (joined(stdout), joined(stderr));
-        Ok(status?.map(|status| Output { status, stdout, stderr }))
-    })
+        Ok((status?, stdout, stderr))
+    });
+    if !matches!(status, Ok((Some(_), ..))) {
+        let _ = child.kill();
+        let _ = child.wait();
+    }
+    let (Some(status), stdout, stderr) = status? else { return Ok(None) };
+    let patience = Instant::now() + PATIENCE;
+    Ok(Some(Output { status, stdout: stdout.until(patience), stderr: stderr.until(patience) }))
 }
 
-/// All bytes from a pipe; an error keeps the bytes before it.
-fn read(pipe: Option<impl Read>) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    if let Some(mut pipe) = pipe {
-        let _ = pipe.read_to_end(&mut bytes);
+/// How long an ended process may keep its pipes open: by then all is read, unless a process that it has left behind holds them.
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// The largest part of the begin and of the end of an output that is kept [bytes].
+const KEPT: usize = 1 << 20;
+
+/// What a thread reads from a pipe.
+struct Heard {
+    bytes: Arc<Mutex<Vec<u8>>>,
+    end: Receiver<()>,
+}
+
+impl Heard {
+    /// Begins to read `pipe`.
+    ///
+    /// # Errors
+    /// [`io::Error`] if there can be no other thread.
+    fn start(pipe: Option<impl Read + Send + 'static>) -> io::Result<Heard> {
+        let bytes = Arc::new(Mutex::new(Vec::new()));
+        let (ended, end) = mpsc::channel();
+        let to = Arc::clone(&bytes);
+        thread::Builder::new().spawn(move || {
+            if let Some(pipe) = pipe {
+                read(pipe, &to);
+            }
+            let _ = ended.send(());
+        })?;
+        Ok(Heard { bytes, end })
     }
-    bytes
+
+    /// What was read up to the end of the pipe, or to this moment.
+    fn until(self, moment: Instant) -> Vec<u8> {
+        let _ = self.end.recv_timeout(moment.saturating_duration_since(Instant::now()));
+        std::mem::take(&mut *self.bytes.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+/// Reads a pipe to its end, without the middle of an endless output. An error keeps the bytes before it.
+fn read(mut pipe: impl Read, to: &Mutex<Vec<u8>>) {
+    let mut piece = vec![0; 1 << 16];
+    loop {
+        let count = match pipe.read(&mut piece) {
+            Ok(0) => return,
+            Ok(count) => count,
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            Err(_) => return,
+        };
+        let mut bytes = to.lock().unwrap_or_else(PoisonError::into_inner);
+        bytes.extend_from_slice(&piece[..count]);
+        if bytes.len() > 3 * KEPT {
+            let end = bytes.len() - KEPT;
+            bytes.drain(KEPT..end);
+        }
+    }
 }

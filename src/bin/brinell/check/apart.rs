@@ -3,6 +3,7 @@
 use super::CheckError;
 use crate::files::{private_folder, write_whole};
 use crate::interrupt;
+use crate::layout::without_middle;
 use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::Path;
@@ -49,7 +50,7 @@ pub fn check(path: &Path, as_json: bool, limit: Duration) -> Result<Found, Check
 fn ended(path: &Path, output: &Output) -> CheckError {
     let said = String::from_utf8_lossy(&output.stderr);
     let last = said.lines().rev().find(|line| !line.trim().is_empty());
-    let said = last.map(|line| format!("; its last line was: {}", line.trim())).unwrap_or_default();
+    let said = last.map(|line| format!("; its last line was: {}", without_middle(line.trim()))).unwrap_or_default();
     CheckError::Ended { path: path.into(), status: output.status, said }
 }
 
