@@ -231,6 +231,33 @@ fn a_library_that_ends_the_process_that_loads_it_is_a_failed_check() {
     }
 }
 
+/// Compiles a library that crashes when its process ends, and has the functions of the FMU's own one.
+const LATE: &str = "
+import subprocess, sys, zipfile
+source, goal = sys.argv[1:]
+open('late.c', 'w').write('#include <stdlib.h>\\n__attribute__((destructor)) static void late(void) { abort(); }')
+with zipfile.ZipFile(source) as old, zipfile.ZipFile(goal, 'w') as new:
+    own = next(name for name in old.namelist() if name.endswith('.so'))
+    open('own.so', 'wb').write(old.read(own))
+    link = ['-L.', '-Wl,--no-as-needed', '-l:own.so', '-Wl,-rpath,$ORIGIN', '-Wl,-z,nodelete']
+    subprocess.run(['cc', '-shared', '-fPIC', 'late.c', '-o', 'late.so', *link], check=True)
+    for name in old.namelist():
+        new.writestr(name, open('late.so', 'rb').read() if name == own else old.read(name))
+    new.writestr(own.rsplit('/', 1)[0] + '/own.so', old.read(own))
+";
+
+/// A library that stays loaded can crash after all has been found.
+#[test]
+fn a_library_that_crashes_at_the_very_end_is_a_failed_check() {
+    let folder = empty_folder();
+    let mut python = Command::new("python3");
+    python.current_dir(folder.path()).args(["-c", LATE]).arg(unit::export(&unit::scene("steel_ball"))).arg("unit.fmu");
+    output(&mut python).with_status(0);
+    let run = run(folder.path(), ["check", "unit.fmu"]).with_status(1);
+    assert!(run.err.contains("ended the process") && run.err.contains("signal: 6"), "{run:#?}");
+    assert_eq!(run.out, "");
+}
+
 #[test]
 fn a_library_that_never_returns_is_a_failed_check() {
     let run = said_of("-DHANG");

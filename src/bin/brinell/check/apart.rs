@@ -43,7 +43,8 @@ pub fn check(path: &Path, as_json: bool, limit: Duration) -> Result<Found, Check
         return Err(CheckError::Hangs { path: path.into(), limit: limit.as_secs() });
     };
     let found = fs::read(&file).and_then(|text| serde_json::from_slice(&text).map_err(io::Error::other));
-    found.map_err(|_| ended(path, &output))
+    // a library may also crash after the findings, while the process ends
+    found.ok().filter(|_| output.status.success()).ok_or_else(|| ended(path, &output))
 }
 
 /// The process ended without findings.
