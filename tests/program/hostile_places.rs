@@ -53,6 +53,34 @@ fn an_interrupted_export_leaves_neither_files_nor_a_compiler() {
     }
 }
 
+/// `nohup` ignores SIGHUP, and a shell script SIGINT for its jobs in the background.
+#[test]
+fn a_signal_that_the_caller_ignores_does_not_end_an_export() {
+    for signal in ["INT", "HUP"] {
+        let (folder, cache) = (empty_folder(), empty_folder());
+        let mut command = Command::new("sh");
+        command.args(["-c", "trap '' INT HUP; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_brinell"), "export"]);
+        command.arg(scene("steel_ball")).current_dir(folder.path()).env("BRINELL_CACHE", cache.path());
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the program");
+        wait_for("the compiler's start", || {
+            builds(cache.path()).iter().any(|build| processes_below(&cache.path().join(build)) > 0)
+        });
+        output(Command::new("kill").args([format!("-{signal}"), child.id().to_string()])).with_status(0);
+        assert_eq!(child.wait().expect("a child").code(), Some(0), "after SIG{signal}");
+        assert_eq!(contents(folder.path()), ["steel_ball.fmu"], "after SIG{signal}");
+    }
+}
+
+#[test]
+fn a_file_beyond_the_limit_of_the_user_is_an_error_and_leaves_nothing() {
+    let folder = empty_folder();
+    let mut command = Command::new("sh");
+    command.current_dir(folder.path()).args(["-c", "ulimit -f 1; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_brinell")]);
+    let run = output(command.args(curve_to("curve.csv"))).with_status(1);
+    assert!(run.err.contains("curve.csv: File too large"), "{run:#?}");
+    assert_eq!(contents(folder.path()), [""; 0]);
+}
+
 /// The arguments that write the default scene's curve to `goal`.
 fn curve_to(goal: &str) -> [String; 4] {
     ["curve".into(), scene("steel_ball").display().to_string(), "-o".into(), goal.into()]

@@ -34,8 +34,11 @@ fn register() -> MutexGuard<'static, Register> {
     REGISTER.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Installs the handler. Without it, an interruption leaves temporary files, but does no other harm.
+/// Installs the handler. Without it, an interruption leaves temporary files, but does no other harm. Signals that the caller ignores,
+/// as `nohup` does, stay ignored.
 pub fn clean_up_when_interrupted() {
+    #[cfg(unix)]
+    let ignored = signals::ignored();
     let _ = ctrlc::set_handler(|| {
         let register = register();
         for child in &register.children {
@@ -47,6 +50,51 @@ pub fn clean_up_when_interrupted() {
         }
         std::process::exit(INTERRUPTED);
     });
+    #[cfg(unix)]
+    signals::ignore(&ignored);
+}
+
+/// Signals that have no effect.
+#[cfg(unix)]
+#[allow(unsafe_code, reason = "the standard library has no signals")]
+mod signals {
+    use std::ffi::c_int;
+
+    /// SIGHUP, SIGINT and SIGTERM, which end the program.
+    const ENDS: [c_int; 3] = [1, 2, 15];
+
+    /// SIGXFSZ, of a file beyond the limit of the user: without it, writing gives an error, and temporary files are removed.
+    const TOO_LARGE: c_int = 25;
+
+    /// `SIG_IGN`.
+    const IGNORE: usize = 1;
+
+    unsafe extern "C" {
+        fn signal(number: c_int, action: usize) -> usize;
+    }
+
+    /// Those of [`ENDS`] that the caller of the program ignores.
+    pub fn ignored() -> Vec<c_int> {
+        let is_ignored = |number: &c_int| {
+            // SAFETY: no handler is installed yet; ignoring a signal and restoring its action is always allowed.
+            unsafe {
+                let before = signal(*number, IGNORE);
+                if before != IGNORE {
+                    signal(*number, before);
+                }
+                before == IGNORE
+            }
+        };
+        ENDS.into_iter().filter(is_ignored).collect()
+    }
+
+    /// Ignores these signals, and the one of a file that becomes too large.
+    pub fn ignore(numbers: &[c_int]) {
+        for number in numbers.iter().chain(&[TOO_LARGE]) {
+            // SAFETY: ignoring a signal is always allowed.
+            unsafe { signal(*number, IGNORE) };
+        }
+    }
 }
 
 /// Removes a file or a folder, if possible.
