@@ -81,6 +81,16 @@ fn a_file_beyond_the_limit_of_the_user_is_an_error_and_leaves_nothing() {
     assert_eq!(contents(folder.path()), [""; 0]);
 }
 
+#[test]
+fn a_new_scene_that_does_not_fit_on_the_disk_leaves_nothing() {
+    let folder = empty_folder();
+    let mut command = Command::new("sh");
+    command.current_dir(folder.path()).args(["-c", "ulimit -f 0; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_brinell")]);
+    let run = output(command.args(["new", "ball"])).with_status(1);
+    assert!(run.err.contains("ball.toml: File too large"), "{run:#?}");
+    assert_eq!(contents(folder.path()), [""; 0]);
+}
+
 /// The arguments that write the default scene's curve to `goal`.
 fn curve_to(goal: &str) -> [String; 4] {
     ["curve".into(), scene("steel_ball").display().to_string(), "-o".into(), goal.into()]

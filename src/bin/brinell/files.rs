@@ -82,7 +82,7 @@ pub fn check_goal(path: &Path) -> Result<(), FileError> {
         return Err(FileError::at(path)(error));
     }
     // only creating a file shows whether it is possible; the file is deleted immediately
-    draft().tempfile_in(folder).map_err(FileError::at(path)).map(drop)
+    interrupt::probe(&draft(), folder).map_err(FileError::at(path))
 }
 
 /// Rejects a target that is the file `input` of the command: the user's scene would be lost.
@@ -109,7 +109,7 @@ pub fn check_folder(path: &Path) -> Result<(), FileError> {
     }
     // a missing folder is created in its nearest existing ancestor
     let there = path.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
-    draft().tempfile_in(there).map_err(FileError::at(path)).map(drop)
+    interrupt::probe(&draft(), there).map_err(FileError::at(path))
 }
 
 /// The folder that contains `path`.

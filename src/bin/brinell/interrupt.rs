@@ -139,6 +139,16 @@ impl Drop for Folder {
     }
 }
 
+/// Creates a file in `parent` that `builder` names, and removes it.
+///
+/// # Errors
+/// The error of the file system.
+pub fn probe(builder: &Builder<'_, '_>, parent: &Path) -> io::Result<()> {
+    // an interruption waits until the file is gone
+    let _register = register();
+    builder.tempfile_in(parent).map(drop)
+}
+
 /// Writes `bytes` to a temporary file in `parent` that `builder` names, then renames it to `goal`.
 ///
 /// # Errors

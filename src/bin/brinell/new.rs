@@ -52,5 +52,9 @@ fn write_new(path: &Path, text: &str) -> Result<(), FileError> {
     }
     files::check_goal(path)?;
     let mut file = std::fs::File::create_new(path).map_err(&file_error)?;
-    file.write_all(text.as_bytes()).map_err(&file_error)
+    file.write_all(text.as_bytes()).map_err(|error| {
+        // half a scene would be in the way of the next attempt
+        let _ = std::fs::remove_file(path);
+        file_error(error)
+    })
 }
