@@ -4,7 +4,9 @@
 
 use crate::command::{Run, brinell, contents, empty_folder, output, run, scene};
 use crate::unit;
+use std::ffi::OsStr;
 use std::fs;
+use std::os::unix::ffi::OsStrExt;
 use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -368,6 +370,22 @@ fn paths_with_spaces_and_other_letters_work() {
     let mut command = brinell(&inside);
     output(command.env("TMPDIR", &inside).args(["check", "kugel ö.fmu"])).with_status(0);
     assert_eq!(contents(&inside), ["ca che", "kugel ö.fmu", "szene ä.toml"]);
+}
+
+/// JSON has only Unicode.
+#[test]
+fn a_path_that_is_not_unicode_is_in_the_json_with_a_replacement() {
+    let folder = empty_folder();
+    let inside = folder.path().join(OsStr::from_bytes(b"caf\xe9"));
+    fs::create_dir(&inside).unwrap();
+    fs::copy(scene("steel_ball"), inside.join("ball.toml")).unwrap();
+    let name = OsStr::from_bytes(b"b\xe4ll.fmu");
+    let call = |arguments: &[&OsStr]| output(brinell(&inside).args(arguments).arg("--json")).with_status(0).json();
+    let os = OsStr::new;
+    let exported = call(&[os("export"), os("ball.toml"), os("-o"), name]);
+    for answer in [exported, call(&[os("check"), name]), call(&[os("merge"), name, name, os("-o"), name])] {
+        assert_eq!(answer["fmu"], "b\u{fffd}ll.fmu", "{answer}");
+    }
 }
 
 /// A check of 100,000 contacts, with a model description of 600 MB, in little memory.

@@ -20,7 +20,7 @@ pub fn version(as_json: bool) {
     let prebuilt = prebuilt_folder::find();
     if as_json {
         let platform = platform.map(|(folder, target)| json!({ "folder": folder, "target": target }));
-        let prebuilt = prebuilt.map(|it| json!({ "platforms": folders(&it), "folder": it.path }));
+        let prebuilt = prebuilt.map(|it| json!({ "platforms": folders(&it), "folder": it.path.to_string_lossy() }));
         let all = json!({ "version": VERSION, "library": library, "platform": platform, "prebuilt": prebuilt });
         println!("{all}");
         return;

@@ -120,6 +120,14 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
+/// A path in JSON, which has no others than those in Unicode: a replacement character stands for what isn't.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn path_in_json<S: serde::Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&path.display())
+}
+
 /// Prints `text`, or writes it to the user's file.
 ///
 /// # Errors

@@ -59,7 +59,7 @@ pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeE
     let mut platforms: Vec<_> = files.iter().filter_map(|(name, _)| platform(name)).collect();
     platforms.dedup();
     if as_json {
-        println!("{}", json!({ "fmu": output, "size": archive.len(), "platforms": platforms }));
+        println!("{}", json!({ "fmu": output.to_string_lossy(), "size": archive.len(), "platforms": platforms }));
     } else {
         println!("{}\n  {} bytes, for {}", output.display(), archive.len(), platforms.join(", "));
     }

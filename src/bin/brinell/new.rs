@@ -35,7 +35,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     })?;
     write_new(&path, &text)?;
     if as_json {
-        println!("{}", json!({ "scene": path }));
+        println!("{}", json!({ "scene": path.to_string_lossy() }));
     } else {
         let file = path.display();
         println!("{file}\nnext:  brinell predict {file}\n       brinell export {file}");

@@ -82,7 +82,7 @@ impl Summary<'_> {
             })
             .collect();
         let mut object = json!({
-            "fmu": exported.path, "guid": exported.guid, "size": exported.size, "library_size": exported.library_size(),
+            "fmu": exported.path.to_string_lossy(), "guid": exported.guid, "size": exported.size, "library_size": exported.library_size(),
             "imports": exported.imports(), "libraries": libraries, "made": exported.how.as_ref().map(How::json), "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
             "makes_energy": self.plan.makes_energy, "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
             "variables": variables.iter().map(Entry::label).collect::<Vec<_>>(), "variable_count": self.variable_count(),

@@ -92,6 +92,7 @@ fn in_own_process(path: &Path, as_json: bool, limit: Duration) -> Result<bool, C
 /// The result of a check.
 #[derive(Debug, Serialize)]
 pub struct Outcome {
+    #[serde(serialize_with = "crate::files::path_in_json")]
     pub fmu: PathBuf,
     pub platforms: Vec<String>,
     pub variables: usize,

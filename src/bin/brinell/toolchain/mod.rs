@@ -143,7 +143,7 @@ fn tell(toolchain: &Toolchain, wanted: &Wanted, as_json: bool) -> Result<(), Too
     let folder = toolchain.folder.display();
     if as_json {
         let mut object = list(toolchain);
-        object["folder"] = json!(toolchain.folder);
+        object["folder"] = json!(toolchain.folder.to_string_lossy());
         object["size"] = json!(size);
         println!("{object}");
         return Ok(());
