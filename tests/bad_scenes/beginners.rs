@@ -52,6 +52,26 @@ fn an_invalid_name_is_refused_and_nothing_is_written() {
     assert!(contents(folder.path()).is_empty());
 }
 
+/// The shell of Windows writes UTF-16, an old editor Latin-1.
+#[test]
+fn a_scene_in_another_encoding_than_utf_8_is_refused_with_its_place() {
+    let folder = empty_folder();
+    let utf16: Vec<u8> = format!("\u{feff}{SCENE}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let latin1 = [SCENE.as_bytes(), b"# gr\xf6\xdfer\n"].concat();
+    for (bytes, parts) in [(utf16, ["scene.toml:1:1: byte 0xFF", "UTF-16"]), (latin1, ["scene.toml:8:5: byte 0xF6", "UTF-8"])] {
+        fs::write(folder.path().join("scene.toml"), bytes).unwrap();
+        let message = run(folder.path(), ["predict", "scene.toml"]).with_status(1).err;
+        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_file_that_never_ends_is_no_scene() {
+    let message = run(empty_folder().path(), ["predict", "/dev/zero"]).with_status(1).err;
+    assert!(message.contains("/dev/zero: it is larger than 256 MB"), "{message}");
+}
+
 /// The message of `brinell predict` about a wrong scene.
 #[track_caller]
 fn said(text: &str) -> String {

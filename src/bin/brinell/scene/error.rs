@@ -12,6 +12,22 @@ pub enum SceneError {
     Wrong { path: PathBuf, line: usize, column: usize, message: String },
 }
 
+/// The text of a file with these `bytes`, which must be UTF-8.
+///
+/// # Errors
+/// [`SceneError::Wrong`] with the place of the first byte that isn't.
+pub fn text(bytes: Vec<u8>, path: &Path) -> Result<String, SceneError> {
+    let is_utf16 = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]);
+    String::from_utf8(bytes).map_err(|error| {
+        let end = error.utf8_error().valid_up_to();
+        let (before, wrong) = error.as_bytes().split_at(end);
+        let before = String::from_utf8_lossy(before);
+        let encoding = if is_utf16 { "the file is in UTF-16" } else { "this isn't UTF-8" };
+        let message = format!("byte 0x{:02X}: {encoding}; save the scene in UTF-8", wrong[0]);
+        Mistake(end..end, message).in_file(&before, path)
+    })
+}
+
 /// An error at a place in the text.
 pub struct Mistake(pub Range<usize>, pub String);
 

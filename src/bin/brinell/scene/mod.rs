@@ -30,6 +30,7 @@ use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Model, strength};
+use std::io::{self, Read};
 use std::path::Path;
 
 pub use error::{Mistake, SceneError};
@@ -38,6 +39,19 @@ pub use losses::Loss;
 pub use power_law::PowerLaw;
 pub use rate::{InImpact, QuasiStatic, Rate, STEPS, TABOR};
 pub use softer::{Body, Both};
+
+/// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.
+const LARGEST: u64 = 256 << 20;
+
+/// The contents of the file at `path`, which may be a device that never ends.
+fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(io::Error::other(format!("it is larger than {} MB, which no scene needs", LARGEST >> 20)));
+    }
+    Ok(bytes)
+}
 
 const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
 
@@ -120,7 +134,7 @@ impl Scene {
     /// [`SceneError`] with line and column of the first error, and what is allowed there.
     pub fn read(path: &Path) -> Result<Scene, SceneError> {
         let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
-        Scene::parse(std::fs::read_to_string(path).map_err(unreadable)?, path)
+        Scene::parse(error::text(bytes(path).map_err(unreadable)?, path)?, path)
     }
 
     /// The same, with plausibility warnings on standard error.
