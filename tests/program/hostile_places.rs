@@ -171,6 +171,21 @@ fn a_new_file_has_the_permissions_of_the_umask_and_an_old_one_keeps_its_own() {
     }
 }
 
+#[test]
+fn a_read_only_file_is_refused_before_any_work_and_stays() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    for (arguments, goal) in [(&["export", &scene, "-o", "old.fmu"][..], "old.fmu"), (&["curve", &scene, "-o", "old.csv"], "old.csv")]
+    {
+        let path = folder.path().join(goal);
+        fs::write(&path, "old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o444)).unwrap();
+        let refused = run(folder.path(), arguments).with_status(1);
+        assert!(refused.err.starts_with(&format!("brinell: {goal}: this file is read-only")), "{}", refused.err);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    }
+}
+
 /// Runs the program with a pipe that nobody reads.
 fn without_reader(folder: &Path, arguments: &[String], of_errors: bool) -> Option<i32> {
     let mut command = brinell(folder);

@@ -16,7 +16,8 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let goal = goal_of(path).map_err(&file_error)?;
     match &goal {
         Goal::Stream => fs::OpenOptions::new().write(true).open(path).and_then(|mut stream| stream.write_all(bytes)),
-        Goal::File(file) => interrupt::write_and_rename(&draft(), folder_of(file), file, bytes),
+        Goal::File(file) => check_writable(file)
+            .and_then(|()| interrupt::write_and_rename(&draft(), folder_of(file), file, bytes)),
     }
     .map_err(&file_error)
 }
@@ -43,6 +44,14 @@ fn goal_of(path: &Path) -> io::Result<Goal> {
         goal = folder_of(&goal).join(target);
     }
     Err(io::Error::other("too many symbolic links lead from here"))
+}
+
+/// Rejects a file that its owner has protected. Renaming would replace it all the same, but not on Windows.
+fn check_writable(file: &Path) -> io::Result<()> {
+    if fs::metadata(file).is_ok_and(|there| there.permissions().readonly()) {
+        return Err(io::Error::new(io::ErrorKind::PermissionDenied, "this file is read-only, and isn't replaced"));
+    }
+    Ok(())
 }
 
 /// A temporary file with the permissions of the umask.
@@ -76,6 +85,7 @@ pub fn check_goal(path: &Path) -> Result<(), FileError> {
         return Err(FileError::at(path)(error));
     }
     let Goal::File(file) = goal_of(path).map_err(FileError::at(path))? else { return Ok(()) };
+    check_writable(&file).map_err(FileError::at(path))?;
     let folder = folder_of(&file);
     if !folder.is_dir() {
         let error = io::Error::new(io::ErrorKind::NotFound, format!("there is no folder {}", folder.display()));
