@@ -149,6 +149,55 @@ with zipfile.ZipFile(sys.argv[1]) as old, zipfile.ZipFile(sys.argv[2], 'w') as n
     contains(&message(&folder), &["no binary for this platform", "commodore64"]);
 }
 
+/// What the model description says of an FMU that this program can't load.
+#[test]
+fn a_model_description_of_another_kind_of_unit_is_refused_with_the_reason() {
+    for (from, to, said) in [
+        ("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\"", &["fmiVersion", "3.0"][..]),
+        ("CoSimulation", "ModelExchange", &["CoSimulation", "co-simulation"]),
+        ("modelIdentifier=\"steel_ball\"", "modelIdentifier=\"other\"", &["binaries/linux64", "other.so"]),
+        ("modelIdentifier=\"steel_ball\"", "modelIdentifier=\"/tmp/steel_ball\"", &["/tmp/steel_ball", "no name"]),
+        ("modelIdentifier=\"steel_ball\"", "modelIdentifier=\"../linux64/steel_ball\"", &["no name of a library"]),
+    ] {
+        let change = format!("data.replace(b'{from}', b'{to}') if name.endswith('.xml') else data");
+        contains(&message(&changed(&change)), said);
+    }
+}
+
+#[test]
+fn a_wrong_number_in_the_model_description_is_told_with_its_variable() {
+    for (from, to, said) in [
+        ("start=\"0.005\"", "start=\"5 mm\"", &["impactor.radius", "start", "5 mm"][..]),
+        ("valueReference=\"0\"", "valueReference=\"-1\"", &["indentation_rate", "valueReference", "-1"]),
+    ] {
+        let change = format!("data.replace(b'{from}', b'{to}') if name.endswith('.xml') else data");
+        contains(&message(&changed(&change)), said);
+    }
+    // white space around a number is allowed
+    let change = "data.replace(b'start=\"0.005\"', b'start=\" 0.005 \"') if name.endswith('.xml') else data";
+    run(changed(change).path(), ["check", "unit.fmu"]).with_status(0);
+}
+
+#[test]
+fn a_scene_that_is_not_utf_8_is_not_a_missing_one() {
+    contains(&message(&changed("b'\\xe4' + data if name.endswith('scene.toml') else data")), &["scene.toml", "UTF-8"]);
+}
+
+/// Each empty file takes a place in the file system.
+#[test]
+fn an_archive_with_a_million_files_is_not_unpacked() {
+    let folder = empty_folder();
+    let make = "
+import sys, zipfile
+with zipfile.ZipFile(sys.argv[1], 'w') as new:
+    for number in range(100001):
+        new.writestr(f'resources/{number}', '')
+";
+    let mut python = Command::new("python3");
+    assert!(python.args(["-c", make]).arg(folder.path().join("unit.fmu")).status().expect("python3 is there").success());
+    contains(&message(&folder), &["more than 100000 files"]);
+}
+
 #[test]
 fn a_library_of_garbage_is_refused() {
     let message = message(&changed("b'garbage' * 1000 if name.endswith('.so') else data"));

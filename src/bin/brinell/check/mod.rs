@@ -8,7 +8,7 @@ mod trial;
 
 use crate::files::FileError;
 use crate::importer::{Archive, Description, ImportError, Instance};
-use crate::layout::paragraph;
+use crate::layout::{paragraph, without_middle};
 use crate::numbers::quantity;
 use crate::scene::{Scene, SceneError};
 use apart::Found;
@@ -203,7 +203,8 @@ impl std::fmt::Display for Outcome {
         let ImpactNumbers { mass, speed } = self.impact;
         let assumed = if self.impact_is_assumed { " (the scene names no impact: a solid ball is assumed)" } else { "" };
         writeln!(f, "{}", self.fmu.display())?;
-        writeln!(f, "  platforms: {}; {} variables", self.platforms.join(", "), self.variables)?;
+        let platforms = without_middle(&self.platforms.join(", "));
+        writeln!(f, "  platforms: {platforms}; {} variables", self.variables)?;
         write_some(f, &self.wrong_starts, |wrong| format!("start value differs: {wrong}"))?;
         let trials = || self.plain.iter().chain(&self.contacts);
         if trials().any(|trial| trial.skipped.is_none()) {

@@ -10,6 +10,9 @@ use zip::ZipArchive;
 /// The largest size of an unpacked archive [bytes]. An FMU of 100,000 contacts with all outputs takes a third of it.
 pub const LARGEST: u64 = 2 << 30;
 
+/// The largest number of files. Each takes a place in the file system, whatever its size.
+pub const MOST_FILES: usize = 100_000;
+
 /// The remaining number of bytes.
 pub struct Bound {
     left: u64,
@@ -44,6 +47,9 @@ impl Bound {
 /// [`ImportError::TooLarge`], [`ImportError::Unpack`], [`ImportError::Zip`]
 pub fn unpack<R: Read + Seek>(archive: &mut ZipArchive<R>, folder: &Path) -> Result<(), ImportError> {
     let mut bound = Bound::of(archive)?;
+    if archive.len() > MOST_FILES {
+        return Err(ImportError::TooMany);
+    }
     for index in 0..archive.len() {
         let mut file = archive.by_index(index)?;
         if file.is_dir() {
@@ -54,8 +60,13 @@ pub fn unpack<R: Read + Seek>(archive: &mut ZipArchive<R>, folder: &Path) -> Res
             return Err(ImportError::Unpack(io::Error::other(format!("the name {name:?} leads out of the archive"))));
         };
         let goal = folder.join(inside);
+        let name = shortened(&String::from_utf8_lossy(file.name_raw()));
+        let named = |source| ImportError::Entry { name: format!("{name:?}"), source };
         let made = fs::create_dir_all(goal.parent().unwrap_or(folder)).and_then(|()| File::create(&goal));
-        bound.copy(&mut file, &mut made.map_err(ImportError::Unpack)?)?;
+        bound.copy(&mut file, &mut made.map_err(&named)?).map_err(|error| match error {
+            ImportError::Unpack(source) => named(source),
+            other => other,
+        })?;
     }
     Ok(())
 }

@@ -1,11 +1,12 @@
 //! The contents of a model description.
 
 use super::ImportError;
-use crate::layout::without_middle;
+use crate::layout::{shortened, without_middle};
 use crate::xml;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::HashMap;
 use std::io::{self, BufRead};
+use std::str::FromStr;
 
 /// A variable of the model description.
 #[derive(Clone, Debug)]
@@ -84,13 +85,13 @@ impl Description {
                             description.output_derivatives = get("maxOutputDerivativeOrder").parse().unwrap_or(0);
                         }
                         "ScalarVariable" => {
-                            let reference = get("valueReference").parse().map_err(|error| wrong(&error))?;
+                            let reference = number(&get("valueReference"), &get("name"), "valueReference")?;
                             current = Some((get("name"), reference, Causality::named(&get("causality"))));
                         }
                         kind @ ("Real" | "Integer" | "Enumeration") => {
                             if let Some((name, reference, causality)) = current.take() {
-                                let start = attributes.get("start").map(|start| start.parse());
-                                let start = start.transpose().map_err(|error| wrong(&error))?.unwrap_or(f64::NAN);
+                                let start = attributes.get("start").map(|start| number(start, &name, "start"));
+                                let start = start.transpose()?.unwrap_or(f64::NAN);
                                 let variable = Variable { reference, is_real: kind == "Real", causality, start };
                                 description.variables.push((name.into(), variable));
                             }
@@ -130,6 +131,17 @@ impl Causality {
             _ => Causality::Other,
         }
     }
+}
+
+/// The number `text` of an attribute of `variable`. XML Schema allows spaces around it.
+fn number<T: FromStr>(text: &str, variable: &str, attribute: &str) -> Result<T, ImportError>
+where
+    T::Err: std::fmt::Display,
+{
+    text.trim_matches([' ', '\t', '\r', '\n']).parse().map_err(|error| {
+        let (text, variable) = (shortened(text), shortened(variable));
+        ImportError::Xml(format!("the variable {variable:?} has {attribute} = {text:?}: {error}"))
+    })
 }
 
 /// Rejects characters that are invalid in XML, with their position.

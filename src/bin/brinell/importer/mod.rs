@@ -10,6 +10,7 @@ mod unit;
 
 use crate::files::private_folder;
 use crate::interrupt::Folder;
+use crate::layout::{shortened, without_middle};
 use crate::numbers::exact;
 use crate::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
@@ -27,6 +28,18 @@ pub use unit::{Instance, Unit};
 pub enum ImportError {
     #[error("{0}")]
     Unreadable(io::Error),
+    #[error("{name} in it can't be unpacked: {source}")]
+    Entry { name: String, source: io::Error },
+    #[error("it has more than {} files, which no FMU needs", bounded::MOST_FILES)]
+    TooMany,
+    #[error("modelDescription.xml is not of FMI 2.0 (fmiVersion is {0:?})")]
+    Version(String),
+    #[error("modelDescription.xml has no element CoSimulation with a modelIdentifier: it is no FMU for co-simulation")]
+    NoCoSimulation,
+    #[error("modelDescription.xml has modelIdentifier = {0:?}, which is no name of a library")]
+    Identifier(String),
+    #[error("binaries/{platform} has no {library}, which modelDescription.xml names")]
+    OtherLibrary { platform: &'static str, library: String },
     #[error("{name} is missing or can't be read: {source}")]
     Part { name: &'static str, source: io::Error },
     #[error("it can't be unpacked: {0}")]
@@ -56,6 +69,9 @@ pub enum ImportError {
     #[error("the impact hasn't ended after {steps} steps")]
     Endless { steps: u32 },
 }
+
+/// The scene of an FMU that this program has made.
+const SCENE: &str = "resources/scene.toml";
 
 /// An error with its causes.
 fn chain(error: &dyn std::error::Error) -> String {
@@ -87,21 +103,40 @@ impl Archive {
         let platform = |name: &String| Some(name.strip_prefix("binaries/")?.split('/').next()?.to_string());
         let description_path = folder.path().join("modelDescription.xml");
         let description = Description::read(|| fs::File::open(&description_path).map(BufReader::new))?;
-        let scene = fs::read_to_string(folder.path().join("resources/scene.toml")).ok();
+        let scene = match fs::read_to_string(folder.path().join(SCENE)) {
+            Ok(scene) => Some(scene),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            Err(source) => return Err(ImportError::Part { name: SCENE, source }),
+        };
         Ok(Archive { description, platforms: names.iter().filter_map(platform).collect(), scene, folder })
     }
 
     /// Loads the binary for this machine.
     pub fn load(&self) -> Result<Unit, ImportError> {
+        let Description { identifier, fmi_version, .. } = &self.description;
+        if fmi_version != "2.0" {
+            return Err(ImportError::Version(shortened(fmi_version)));
+        }
+        if identifier.is_empty() {
+            return Err(ImportError::NoCoSimulation);
+        }
+        // a path would lead to a library outside the archive
+        if identifier.contains(['/', '\\', ':', '\0']) {
+            return Err(ImportError::Identifier(shortened(identifier)));
+        }
         let loadable = platform::loadable()?;
         let path = |platform: &Platform| {
-            let name = format!("{}.{}", self.description.identifier, platform.extension);
+            let name = format!("{identifier}.{}", platform.extension);
             self.folder.path().join("binaries").join(platform.folder).join(name)
         };
         let Some(path) = loadable.iter().map(path).find(|path| path.exists()) else {
+            if let Some(platform) = loadable.iter().find(|platform| self.platforms.contains(platform.folder)) {
+                let library = format!("{}.{}", shortened(identifier), platform.extension);
+                return Err(ImportError::OtherLibrary { platform: platform.folder, library });
+            }
             let present = match self.platforms.iter().cloned().collect::<Vec<_>>().join(", ") {
                 none if none.is_empty() => "nor for any other".into(),
-                some => format!("only for {some}"),
+                some => format!("only for {}", without_middle(&some)),
             };
             return Err(ImportError::Binary { wanted: loadable[0].folder.into(), present });
         };
