@@ -58,7 +58,9 @@ fn a_scene_in_another_encoding_than_utf_8_is_refused_with_its_place() {
     let folder = empty_folder();
     let utf16: Vec<u8> = format!("\u{feff}{SCENE}").encode_utf16().flat_map(u16::to_le_bytes).collect();
     let latin1 = [SCENE.as_bytes(), b"# gr\xf6\xdfer\n"].concat();
-    for (bytes, parts) in [(utf16, ["scene.toml:1:1: byte 0xFF", "UTF-16"]), (latin1, ["scene.toml:8:5: byte 0xF6", "UTF-8"])] {
+    for (bytes, parts) in
+        [(utf16, ["scene.toml:1:1: byte 0xFF", "UTF-16"]), (latin1, ["scene.toml:8:5: byte 0xF6", "UTF-8"])]
+    {
         fs::write(folder.path().join("scene.toml"), bytes).unwrap();
         let message = run(folder.path(), ["predict", "scene.toml"]).with_status(1).err;
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");

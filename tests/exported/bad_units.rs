@@ -194,7 +194,9 @@ with zipfile.ZipFile(sys.argv[1], 'w') as new:
         new.writestr(f'resources/{number}', '')
 ";
     let mut python = Command::new("python3");
-    assert!(python.args(["-c", make]).arg(folder.path().join("unit.fmu")).status().expect("python3 is there").success());
+    assert!(
+        python.args(["-c", make]).arg(folder.path().join("unit.fmu")).status().expect("python3 is there").success()
+    );
     contains(&message(&folder), &["more than 100000 files"]);
 }
 

@@ -175,7 +175,8 @@ fn a_new_file_has_the_permissions_of_the_umask_and_an_old_one_keeps_its_own() {
 fn a_read_only_file_is_refused_before_any_work_and_stays() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    for (arguments, goal) in [(&["export", &scene, "-o", "old.fmu"][..], "old.fmu"), (&["curve", &scene, "-o", "old.csv"], "old.csv")]
+    for (arguments, goal) in
+        [(&["export", &scene, "-o", "old.fmu"][..], "old.fmu"), (&["curve", &scene, "-o", "old.csv"], "old.csv")]
     {
         let path = folder.path().join(goal);
         fs::write(&path, "old").unwrap();

@@ -173,6 +173,33 @@ fn two_exports_of_one_scene_at_the_same_time_do_not_disturb_each_other() {
     });
 }
 
+/// After a loss of power a file may be empty, or have other bytes.
+#[test]
+fn damaged_files_in_the_cache_are_made_anew() {
+    let own = with_parts();
+    let export = || exported(|command| command.env("BRINELL_CACHE", own.path()));
+    let plain = export();
+    let empty = |_: Vec<u8>| Vec::new();
+    let half = |bytes: Vec<u8>| bytes[..bytes.len() / 2].to_vec();
+    let changed = |mut bytes: Vec<u8>| {
+        let middle = bytes.len() / 3;
+        bytes[middle] ^= 1;
+        bytes
+    };
+    for damage in [empty as fn(Vec<u8>) -> Vec<u8>, half, changed] {
+        for prefix in ["library-", "lib"] {
+            for name in contents(own.path()).iter().filter(|name| name.starts_with(prefix)) {
+                let path = own.path().join(name);
+                let damaged = damage(fs::read(&path).unwrap());
+                fs::remove_file(&path).unwrap();
+                fs::write(&path, damaged).unwrap();
+            }
+            assert_same(&plain, &export());
+        }
+    }
+    assert_eq!(contents(own.path()).len(), 3, "one library, and two parts");
+}
+
 /// An FMU has some tens of kilobytes, but every change of a parameter creates a new one.
 #[test]
 fn a_new_cache_does_not_affect_the_fmu_and_fmus_do_not_accumulate_in_it() {

@@ -7,8 +7,8 @@ use crate::{package, platform};
 use clap::CommandFactory;
 use clap_complete::Shell;
 use serde_json::json;
-use std::path::Path;
 use std::fs;
+use std::path::Path;
 
 /// Version of the program, which is that of the package.
 const VERSION: &str = env!("CARGO_PKG_VERSION");

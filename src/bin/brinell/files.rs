@@ -16,8 +16,9 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let goal = goal_of(path).map_err(&file_error)?;
     match &goal {
         Goal::Stream => fs::OpenOptions::new().write(true).open(path).and_then(|mut stream| stream.write_all(bytes)),
-        Goal::File(file) => check_writable(file)
-            .and_then(|()| interrupt::write_and_rename(&draft(), folder_of(file), file, bytes)),
+        Goal::File(file) => {
+            check_writable(file).and_then(|()| interrupt::write_and_rename(&draft(), folder_of(file), file, bytes))
+        }
     }
     .map_err(&file_error)
 }

@@ -1,6 +1,7 @@
 //! The build folder. Compiler and linker run there. Whoever can write to it controls their results; it is therefore
 //! below a folder that only the user can write to.
 
+use super::Hash;
 use super::error::{ExportError, FolderError};
 use crate::files::{FileError, private_folder};
 use crate::interrupt::Folder;
@@ -52,13 +53,37 @@ impl Cache {
         private_folder(BUILD, &self.folder)
     }
 
-    /// The compiled part with this file name, if it is there. It is then kept for another while.
-    pub fn part(&self, name: &str) -> Option<PathBuf> {
-        let path = self.folder.join(name);
-        let file = fs::OpenOptions::new().append(true).open(&path).ok()?;
-        // a part that can't be marked is only removed too early, and made again
-        let _ = file.set_modified(SystemTime::now());
-        Some(path)
+    /// The compiled part with this `name` and `ending`, if it is there as it was made. It is then kept for another while. A part that
+    /// was damaged, as a file is whose disk lost power, is removed.
+    pub fn part(&self, name: &str, ending: &str) -> Option<(PathBuf, Vec<u8>)> {
+        let begin = format!("{name}-");
+        for entry in fs::read_dir(&self.folder).ok()?.flatten() {
+            let file = entry.file_name();
+            let Some(sum) = file.to_str().and_then(|file| file.strip_prefix(&begin)?.strip_suffix(ending)) else {
+                continue;
+            };
+            let path = entry.path();
+            // neither a folder nor a pipe
+            if !entry.file_type().is_ok_and(|kind| kind.is_file()) {
+                continue;
+            }
+            match fs::read(&path) {
+                Ok(bytes) if sum_of(&bytes) == sum => {
+                    let file = fs::OpenOptions::new().append(true).open(&path);
+                    // a part that can't be marked is only removed too early, and made again
+                    let _ = file.and_then(|file| file.set_modified(SystemTime::now()));
+                    return Some((path, bytes));
+                }
+                _ => drop(fs::remove_file(&path)),
+            }
+        }
+        None
+    }
+
+    /// Keeps the `file` with these `bytes` as the compiled part with this `name` and `ending`.
+    pub fn keep(&self, file: &Path, bytes: &[u8], name: &str, ending: &str) {
+        // atomic; without it the next export compiles again. Harmless on a file system without links, and if another export was faster
+        let _ = fs::hard_link(file, self.folder.join(format!("{name}-{}{ending}", sum_of(bytes))));
     }
 
     /// Removes the build folders of interrupted exports, outdated parts, and the oldest libraries. What can't be removed only takes
@@ -85,6 +110,11 @@ impl Cache {
             let _ = if too_many(place, age) { fs::remove_file(path) } else { Ok(()) };
         }
     }
+}
+
+/// The hash of a part's contents.
+fn sum_of(bytes: &[u8]) -> String {
+    Hash::new().with_bytes(bytes).digits()
 }
 
 /// `BRINELL_CACHE`, or the folder of this name in the user's cache on the operating system `os`.

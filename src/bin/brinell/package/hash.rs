@@ -19,6 +19,14 @@ impl Hash {
         self
     }
 
+    /// Adds the contents of a file.
+    #[must_use]
+    pub fn with_bytes(mut self, bytes: &[u8]) -> Hash {
+        self.0.update(bytes);
+        self.end_text();
+        self
+    }
+
     /// Adds all `texts`.
     #[must_use]
     pub fn with_all<'a>(self, texts: impl IntoIterator<Item = &'a str>) -> Hash {

@@ -40,6 +40,9 @@ const IN_ORDER_OF_SOURCE: [&str; 2] = ["-Cllvm-args=--enable-misched=false", "-C
 /// For x86-64 Linux: no tables instead of branches. Each table is one of pointers or of numbers that compress badly.
 const NO_TABLES: &str = "-Cllvm-args=--switch-to-lookup=false";
 
+/// The ending of a library's name in the cache.
+const ENDING: &str = ".bin";
+
 /// The file of the version resource.
 const VERSION: &str = "version.res";
 
@@ -180,17 +183,16 @@ impl Build<'_> {
         let arguments = self.arguments(source);
         // a prebuilt library is made once, and compared with others
         let known = matches!(source, Source::Scene { .. }).then(|| self.name_in_cache(source, &arguments));
-        let kept = known.as_deref().and_then(|name| self.cache.part(name)).and_then(|path| fs::read(path).ok());
-        if let Some(library) = kept {
+        if let Some((_, library)) = known.as_deref().and_then(|name| self.cache.part(name, ENDING)) {
             return Ok(library);
         }
         self.compile(source, &arguments)?;
         let library = self.folder.join(self.file_name(source));
+        let bytes = fs::read(&library).map_err(FileError::at(&library))?;
         if let Some(name) = known {
-            // atomic; without it the next export compiles again
-            let _ = fs::hard_link(&library, self.cache.folder.join(name));
+            self.cache.keep(&library, &bytes, &name, ENDING);
         }
-        Ok(fs::read(&library).map_err(FileError::at(&library))?)
+        Ok(bytes)
     }
 
     fn file_name(&self, source: &Source) -> String {
@@ -221,7 +223,7 @@ impl Build<'_> {
         plain.chain(linked).chain([Parts::UNIT_ROOT, "-o", &library].map(String::from)).collect()
     }
 
-    /// The name of the library in the cache: a hash of all that it is made of.
+    /// The name of the library in the cache, without its ending: a hash of all that it is made of.
     fn name_in_cache(&self, source: &Source, arguments: &[String]) -> String {
         let memory = if source.is_standalone() { "standalone" } else { "" };
         let (file, text) = source.file();
@@ -229,7 +231,7 @@ impl Build<'_> {
         let all = all
             .chain(arguments.iter().map(String::as_str))
             .chain(link::files().into_iter().flat_map(|(name, text)| [name, text]));
-        format!("{LIBRARY}{}.bin", Hash::new().with_all(all.chain(super::sources())).digits())
+        format!("{LIBRARY}{}", Hash::new().with_all(all.chain(super::sources())).digits())
     }
 
     /// Compiles the library in the folder.

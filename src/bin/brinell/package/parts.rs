@@ -126,10 +126,10 @@ impl Parts<'_> {
         let arguments = [self.settings().as_slice(), arguments].concat();
         let made_from = [rustc.identity.as_str()].into_iter().chain(arguments.iter().copied());
         let made_from = made_from.chain(sources.iter().flat_map(|(name, text)| [*name, *text]));
-        let (name, ending) = file.split_once('.').unwrap_or((file, ""));
-        let known = format!("{name}-{}.{ending}", Hash::new().with_all(made_from).digits());
+        let (name, ending) = file.split_at(file.find('.').unwrap_or(file.len()));
+        let name = format!("{name}-{}", Hash::new().with_all(made_from).digits());
         let here = folder.join(file);
-        if let Some(known) = cache.part(&known) {
+        if let Some((known, _)) = cache.part(&name, ending) {
             let copied = fs::hard_link(&known, &here).or_else(|_| fs::copy(&known, &here).map(drop));
             return copied.map_err(FileError::at(&known)).map_err(|error| self.no_space(error));
         }
@@ -137,8 +137,9 @@ impl Parts<'_> {
         // one crate refers to another by a hash of all that it holds, so the name of the folder must not be in it
         let anywhere = format!("--remap-path-prefix={}=.", folder.display());
         rustc.run(folder, arguments.into_iter().chain([anywhere.as_str()]), &[])?;
-        // atomic; harmless on a file system without links, and if another export was faster
-        let _ = fs::hard_link(&here, cache.folder.join(known));
+        if let Ok(bytes) = fs::read(&here) {
+            cache.keep(&here, &bytes, &name, ending);
+        }
         Ok(())
     }
 
