@@ -14,9 +14,11 @@ mod unit;
 
 mod build_failures;
 mod commands;
-mod hostile_places;
+mod interrupted;
 mod isolation;
 mod report;
 mod report_page;
 mod report_peers;
+mod strangers;
 mod two_bodies_that_yield;
+mod writing;

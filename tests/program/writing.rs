@@ -1,0 +1,213 @@
+//! What the program writes, and where: links, devices, protected files, full disks, closed pipes, and unusual paths.
+#![cfg(target_os = "linux")]
+
+use crate::command::{brinell, contents, empty_folder, output, run, scene};
+use std::ffi::OsStr;
+use std::fs;
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The arguments that write the default scene's curve to `goal`.
+fn curve_to(goal: &str) -> [String; 4] {
+    ["curve".into(), scene("steel_ball").display().to_string(), "-o".into(), goal.into()]
+}
+
+#[test]
+fn a_symbolic_link_stays_and_its_target_is_written() {
+    let folder = empty_folder();
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("deep")).unwrap();
+    fs::write(path("deep/old.csv"), "old").unwrap();
+    // a chain of links, and one to a missing file
+    symlink("deep/old.csv", path("middle.csv")).unwrap();
+    symlink("middle.csv", path("link.csv")).unwrap();
+    symlink("deep/new.csv", path("dangling.csv")).unwrap();
+    for (link, target) in [("link.csv", "deep/old.csv"), ("dangling.csv", "deep/new.csv")] {
+        run(folder.path(), curve_to(link)).with_status(0);
+        assert!(fs::symlink_metadata(path(link)).unwrap().is_symlink(), "{link} was replaced");
+        assert!(fs::symlink_metadata(path(target)).unwrap().is_file());
+        assert!(fs::read_to_string(path(target)).unwrap().len() > 1000, "{target} wasn't written");
+    }
+    assert_eq!(contents(folder.path()).len(), 4, "nothing else is there");
+    symlink("round.csv", path("round.csv")).unwrap();
+    let refused = run(folder.path(), curve_to("round.csv")).with_status(1);
+    assert!(refused.err.contains("round.csv") && refused.err.contains("symbolic links"), "{}", refused.err);
+}
+
+#[test]
+fn a_scene_is_not_replaced_by_its_fmu() {
+    let folder = empty_folder();
+    let path = folder.path().join("ball.toml");
+    fs::copy(scene("steel_ball"), &path).unwrap();
+    let before = fs::read(&path).unwrap();
+    symlink("ball.toml", folder.path().join("link.fmu")).unwrap();
+    for goal in ["ball.toml", "./ball.toml", "link.fmu"] {
+        let refused = run(folder.path(), ["export", "ball.toml", "-o", goal]).with_status(1);
+        assert!(refused.err.contains(goal) && refused.err.contains("the scene itself"), "{}", refused.err);
+        assert!(fs::read(&path).unwrap() == before, "{goal}: the scene was overwritten");
+    }
+}
+
+#[test]
+fn a_pipe_is_written_to_and_not_replaced() {
+    let folder = empty_folder();
+    let pipe = folder.path().join("pipe.csv");
+    output(Command::new("mkfifo").arg(&pipe)).with_status(0);
+    let reader = Command::new("cat").arg(&pipe).stdout(Stdio::piped()).spawn().expect("cat");
+    run(folder.path(), curve_to("pipe.csv")).with_status(0);
+    let read = reader.wait_with_output().expect("a child").stdout;
+    assert!(read.len() > 1000, "{} bytes came through", read.len());
+    assert!(fs::symlink_metadata(&pipe).unwrap().file_type().is_fifo(), "the pipe was replaced");
+    assert_eq!(contents(folder.path()), ["pipe.csv"]);
+}
+
+/// The permissions of `path`.
+fn mode(path: &Path) -> u32 {
+    fs::metadata(path).expect("it was written").permissions().mode() & 0o777
+}
+
+#[test]
+fn a_new_file_has_the_permissions_of_the_umask_and_an_old_one_keeps_its_own() {
+    for (umask, expected) in [("022", 0o644), ("077", 0o600), ("002", 0o664), ("000", 0o666)] {
+        let folder = empty_folder();
+        let goal = folder.path().join("curve.csv");
+        let script = format!("umask {umask}; exec \"$@\"");
+        let write = || {
+            let mut command = Command::new("sh");
+            command.current_dir(folder.path()).args(["-c", &script, "sh", env!("CARGO_BIN_EXE_brinell")]);
+            output(command.args(curve_to("curve.csv"))).with_status(0);
+        };
+        write();
+        assert_eq!(mode(&goal), expected, "umask {umask}");
+        fs::set_permissions(&goal, fs::Permissions::from_mode(0o640)).unwrap();
+        write();
+        assert_eq!(mode(&goal), 0o640, "umask {umask}");
+    }
+}
+
+#[test]
+fn a_read_only_file_is_refused_before_any_work_and_stays() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    for (arguments, goal) in
+        [(&["export", &scene, "-o", "old.fmu"][..], "old.fmu"), (&["curve", &scene, "-o", "old.csv"], "old.csv")]
+    {
+        let path = folder.path().join(goal);
+        fs::write(&path, "old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o444)).unwrap();
+        let refused = run(folder.path(), arguments).with_status(1);
+        assert!(refused.err.starts_with(&format!("brinell: {goal}: this file is read-only")), "{}", refused.err);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    }
+}
+
+/// Runs the program with a pipe that nobody reads.
+fn without_reader(folder: &Path, arguments: &[String], of_errors: bool) -> Option<i32> {
+    let mut command = brinell(folder);
+    command.args(arguments).stdin(Stdio::null());
+    if of_errors {
+        command.stdout(Stdio::null()).stderr(Stdio::piped())
+    } else {
+        command.stdout(Stdio::piped()).stderr(Stdio::null())
+    };
+    let mut child = command.spawn().expect("the program");
+    drop((child.stdout.take(), child.stderr.take()));
+    child.wait().expect("a child").code()
+}
+
+#[test]
+fn a_closed_pipe_ends_quietly_and_the_work_is_done() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let all = |arguments: &[&str]| arguments.iter().map(ToString::to_string).collect::<Vec<_>>();
+    for of_errors in [false, true] {
+        let _ = fs::remove_file(folder.path().join("steel_ball.fmu"));
+        let status = without_reader(folder.path(), &all(&["export", &scene]), of_errors);
+        assert_eq!(status, Some(0), "of errors: {of_errors}");
+        assert!(folder.path().join("steel_ball.fmu").is_file(), "of errors: {of_errors}");
+        for arguments in [&["laws"][..], &["predict", &scene], &["check", "steel_ball.fmu"], &["completions", "zsh"]] {
+            assert_eq!(without_reader(folder.path(), &all(arguments), of_errors), Some(0), "{arguments:?}");
+        }
+        // an error still counts
+        let status = without_reader(folder.path(), &all(&["check", "none.fmu"]), of_errors);
+        assert_eq!(status, Some(1), "of errors: {of_errors}");
+        assert_eq!(without_reader(folder.path(), &all(&["nothing"]), of_errors), Some(2), "of errors: {of_errors}");
+    }
+}
+
+#[test]
+fn a_full_disk_behind_standard_output_is_an_error_with_a_message() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    run(folder.path(), ["export", &scene]).with_status(0);
+    for arguments in [
+        &["export", &scene][..],
+        &["check", "steel_ball.fmu"],
+        &["predict", &scene],
+        &["predict", &scene, "--json"],
+        &["laws"],
+        &["completions", "bash"],
+        &["--version"],
+        &["--help"],
+    ] {
+        let mut command = Command::new("sh");
+        command.current_dir(folder.path()).env("BRINELL_CACHE", crate::command::cache());
+        command.args(["-c", "exec \"$@\" > /dev/full", "sh", env!("CARGO_BIN_EXE_brinell")]);
+        let run = output(command.args(arguments)).with_status(1);
+        let said = "brinell: standard output can't be written to: No space left";
+        assert!(run.err.contains(said) && !run.err.contains("panicked"), "{arguments:?}: {}", run.err);
+    }
+}
+
+#[test]
+fn a_file_beyond_the_limit_of_the_user_is_an_error_and_leaves_nothing() {
+    let folder = empty_folder();
+    let mut command = Command::new("sh");
+    command.current_dir(folder.path()).args(["-c", "ulimit -f 1; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_brinell")]);
+    let run = output(command.args(curve_to("curve.csv"))).with_status(1);
+    assert!(run.err.contains("curve.csv: File too large"), "{run:#?}");
+    assert_eq!(contents(folder.path()), [""; 0]);
+}
+
+#[test]
+fn a_new_scene_that_does_not_fit_on_the_disk_leaves_nothing() {
+    let folder = empty_folder();
+    let mut command = Command::new("sh");
+    command.current_dir(folder.path()).args(["-c", "ulimit -f 0; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_brinell")]);
+    let run = output(command.args(["new", "ball"])).with_status(1);
+    assert!(run.err.contains("ball.toml: File too large"), "{run:#?}");
+    assert_eq!(contents(folder.path()), [""; 0]);
+}
+
+/// Paths that are difficult to pass on.
+#[test]
+fn paths_with_spaces_and_other_letters_work() {
+    let folder = empty_folder();
+    let inside: PathBuf = folder.path().join("a b/Größe ‘x’ #%s");
+    fs::create_dir_all(&inside).unwrap();
+    fs::copy(scene("steel_ball"), inside.join("szene ä.toml")).unwrap();
+    let mut command = brinell(&inside);
+    command.env("BRINELL_CACHE", inside.join("ca che")).env("TMPDIR", &inside);
+    output(command.args(["export", "szene ä.toml", "-o", "kugel ö.fmu"])).with_status(0);
+    let mut command = brinell(&inside);
+    output(command.env("TMPDIR", &inside).args(["check", "kugel ö.fmu"])).with_status(0);
+    assert_eq!(contents(&inside), ["ca che", "kugel ö.fmu", "szene ä.toml"]);
+}
+
+/// JSON has only Unicode.
+#[test]
+fn a_path_that_is_not_unicode_is_in_the_json_with_a_replacement() {
+    let folder = empty_folder();
+    let inside = folder.path().join(OsStr::from_bytes(b"caf\xe9"));
+    fs::create_dir(&inside).unwrap();
+    fs::copy(scene("steel_ball"), inside.join("ball.toml")).unwrap();
+    let name = OsStr::from_bytes(b"b\xe4ll.fmu");
+    let call = |arguments: &[&OsStr]| output(brinell(&inside).args(arguments).arg("--json")).with_status(0).json();
+    let os = OsStr::new;
+    let exported = call(&[os("export"), os("ball.toml"), os("-o"), name]);
+    for answer in [exported, call(&[os("check"), name]), call(&[os("merge"), name, name, os("-o"), name])] {
+        assert_eq!(answer["fmu"], "b\u{fffd}ll.fmu", "{answer}");
+    }
+}
