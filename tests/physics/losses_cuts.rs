@@ -133,6 +133,57 @@ fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies_and_wherever_the_for
     assert!(cases > 100);
 }
 
+#[test]
+fn bodies_that_leave_a_surface_that_lags_behind_them_may_come_back_within_the_same_step() {
+    let mut cases = 0;
+    for (name, plastic) in all_models(crate::physics::mild()) {
+        let yields = plastic.pair.yield_point(1.1);
+        let (mass, depth) = (1.0, 0.1 * yields.indentation);
+        for (restitution, slowness) in [(0.3, 1.0), (0.3, 100.0), (0.6, 1.0)] {
+            let speed = -(yields.force * yields.indentation / mass).sqrt() / slowness;
+            // up to three yield indentations, down again, and a tenth of that longer
+            let acceleration = speed * speed / (6.0 * yields.indentation);
+            let model = Lossy { plastic, loss: AnyLoss::Fitted(Fitted { restitution }) };
+            let drive = Drive { mass, acceleration };
+            let time = -2.2 * speed / acceleration;
+            let case = Case { name: name.clone(), model, drive, gap: -depth, speed, time };
+            let [whole, parts] =
+                [1, 100].map(|parts| run(&case, parts).unwrap_or_else(|| panic!("{case:?} fails in {parts} steps")));
+            let off = difference(&whole, &parts);
+            assert!(off < 2e-9, "{case:?} in 100 steps is off by {off:e}: {whole:?} in one, {parts:?}");
+            let start = History::start(&case.model, case.gap).expect("within range");
+            let given = 0.5 * mass * speed * speed + start.elastic_energy(&case.model);
+            let balance = given + mass * acceleration * (whole.indentation + case.gap)
+                - (whole.kinetic + whole.elastic + whole.dissipated - start.dissipated_energy(&case.model));
+            assert!(balance.abs() < 1e-9 * whole.energy, "{case:?}: {balance:e} of {:e} J", whole.energy);
+            cases += 1;
+        }
+    }
+    assert!(cases > 50, "only {cases} cases");
+}
+
+#[test]
+fn bodies_that_are_pulled_back_hard_feel_the_whole_law_on_their_way() {
+    let mut cases = 0;
+    for (name, plastic) in all_models(crate::physics::mild()) {
+        let yields = plastic.pair.yield_point(1.1);
+        // the force at yield is far below the pull, as the change of speed by it is below the error of the integration
+        let (speed, depth) = (1.0, 2000.0 * yields.indentation);
+        let acceleration = -speed * speed / (2.0 * depth);
+        let mass = 1e11 * yields.force / -acceleration;
+        let loss = AnyLoss::Fitted(Fitted { restitution: 0.8 });
+        let (model, drive) = (Lossy { plastic, loss }, Drive { mass, acceleration });
+        let time = -2.5 * speed / acceleration;
+        let case = Case { name: name.clone(), model, drive, gap: 0.0, speed, time };
+        let [whole, parts] =
+            [1, 100].map(|parts| run(&case, parts).unwrap_or_else(|| panic!("{case:?} fails in {parts} steps")));
+        let off = (whole.dissipated - parts.dissipated).abs() / parts.dissipated;
+        assert!(off < 1e-3, "{case:?} in 100 steps is off by {off:e}: {whole:?} in one, {parts:?}");
+        cases += 1;
+    }
+    assert!(cases > 20, "only {cases} cases");
+}
+
 /// How often every pair of laws is tried; `BRINELL_ROUNDS` asks for more.
 fn rounds() -> u32 {
     std::env::var("BRINELL_ROUNDS").map_or(1, |text| text.parse().expect("a number"))

@@ -66,8 +66,8 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
     /// The first event within the `step` \[s\] from the state `from` to `next`, and its time \[s\].
     pub(super) fn first_event(&self, from: &State, next: &State, step: f64) -> Option<(Event, f64)> {
         let (mut end, mut first) = (*next, None);
-        // an event may hide another one before it
-        for event in [Event::Border, Event::Turn, Event::Lead, Event::Slack] {
+        // an event may hide another one before it: bodies without force may leave the piece, turn, and be back at the end
+        for event in [Event::Turn, Event::Border, Event::Lead, Event::Slack] {
             match (event, self.damping.form) {
                 (Event::Lead, Form::Radiation | Form::Mobility) | (Event::Slack, Form::Mobility) => continue,
                 _ => {}
