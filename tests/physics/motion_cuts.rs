@@ -122,3 +122,30 @@ fn a_step_is_the_sum_of_its_parts_whatever_pulls_the_bodies() {
     }
     assert!(turns.iter().all(|&seen| seen > 0), "cases by their impacts: {turns:?}");
 }
+
+/// A body that touches at a speed far below what its acceleration gives it afterwards is where one is that touches at rest, a
+/// little earlier: near the surface, the contact force is negligible.
+#[test]
+fn a_touch_that_is_slow_beside_the_motion_after_it_is_as_exact_as_any() {
+    for (name, model) in all_models(pair_of(0.005, 2e11, 4e8)) {
+        let yields = model.pair.yield_point(1.1);
+        let mass = 1.0;
+        // the body stays in the elastic range of the laws that have one
+        let acceleration = 0.05 * yields.force / mass;
+        let scale = (0.1 * yields.indentation / acceleration).sqrt();
+        for time in [0.1 * scale, 0.3 * scale, scale] {
+            for part in [1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12, 1e-14] {
+                let speed = part * acceleration * time;
+                let end = |speed: f64, time: f64| {
+                    let mut history = History::start(&model, 0.0).expect("within range");
+                    let outcome = follow(&mut history, &model, &Drive { mass, acceleration }, speed, time);
+                    (history.indentation(), outcome.expect("within range").speed)
+                };
+                let (slow, rest) = (end(speed, time), end(0.0, time + speed / acceleration));
+                let largest = acceleration * time;
+                let off = ((slow.0 - rest.0) / rest.0).abs().max((slow.1 - rest.1).abs() / largest);
+                assert!(off < 1e-12 + part * part, "{name}: {off:e} after {time:e} s from {part:e} of the speed");
+            }
+        }
+    }
+}

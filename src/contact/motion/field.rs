@@ -6,7 +6,7 @@
 
 use super::moment::Moment;
 use super::series::{SEGMENT, Series};
-use crate::contact::numbers::{largest, power_of_two, root};
+use crate::contact::numbers::{largest, power_of_two, quotient, root};
 use crate::contact::segment::Segment;
 use core::cell::Cell;
 use libm::fabs;
@@ -140,6 +140,15 @@ impl<'a> Field<'a> {
     /// dF/d(indentation) over the mass at `t` from `place` \[1/s^2\].
     pub fn stiffness<const N: usize>(&self, place: &Place<N>, t: f64) -> f64 {
         place.series.stiffness(t) / self.square
+    }
+
+    /// The distance in roots over which the acceleration at `place` alone would give the bodies the energy that they have there,
+    /// if it is shorter than `longest`; otherwise that.
+    pub fn turn<const N: usize>(&self, place: &Place<N>, longest: f64) -> f64 {
+        let pull = 2.0 * fabs(self.scaled(place.mark.net)) * self.scaled(self.square);
+        let energy = place.mark.energy;
+        let is_near = energy < pull * longest * longest;
+        root(quotient(energy, pull, is_near, longest * longest))
     }
 
     /// Height of a place above the origin of its piece \[m\].

@@ -3,7 +3,7 @@
 use super::field::{Field, Mark, Place};
 use super::turning::behind;
 use super::{MOST_EVALUATIONS, NoMotion};
-use crate::contact::numbers::{largest, quotient, root};
+use crate::contact::numbers::{largest, quotient, root, smallest};
 use crate::contact::quadrature::{POINTS, SMOOTH, Sampled, sixteen};
 use libm::{fabs, sqrt};
 
@@ -25,10 +25,18 @@ pub struct Travel<'a, const N: usize> {
     from: f64,
     /// Whether the bodies move from the fast end to the slow one.
     slows: bool,
+    /// Width of the first panel from the slow end on; it is infinite where one panel may cover the scale.
+    grade: f64,
 }
 
 /// The narrowest panel, as a fraction of the scale: it resolves a speed that nearly vanishes at an end to rounding.
 const NARROWEST: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// If the time changes its course closer to the slow end than this, on the scale, a panel over the whole scale may miss it.
+const CLOSE: f64 = 0.1;
+
+/// It is so close that its part of the time is below rounding.
+const NEGLIGIBLE: f64 = 1e-17;
 
 /// The least energy used as a divisor.
 const LEAST: f64 = 1e-300;
@@ -45,11 +53,24 @@ impl<'a, const N: usize> Travel<'a, N> {
         if let Some((back, turned)) = behind(&field, &slow, far, fast.energy) {
             let length = far - back;
             // both are negative in the upward direction
-            return Travel { field, start, slow: turned, length, first: 0.0, from: sqrt(-back / length), slows };
+            let from = sqrt(-back / length);
+            let travel = Travel { field, start, slow: turned, length, first: 0.0, from, slows, grade: f64::INFINITY };
+            return travel.graded(2.0 * turned.series.root);
         }
         let gain = field.slope(&slow, 0.0, slow.mark.net) * far;
         let (speed, end) = (sqrt(slow.mark.energy), sqrt(slow.mark.energy + largest(gain, 0.0)));
-        Travel { field, start, slow, length: far, first: speed / (speed + end), from: 0.0, slows }
+        let first = speed / (speed + end);
+        let travel = Travel { field, start, slow, length: far, first, from: 0.0, slows, grade: f64::INFINITY };
+        travel.graded(field.turn(&slow, far))
+    }
+
+    /// The same motion with panels that resolve a distance `near` from the slow end, in roots. This close to it is another root
+    /// of the energy, where a power of the force begins.
+    fn graded(self, near: f64) -> Travel<'a, N> {
+        let near = smallest(near, fabs(self.length));
+        let grade = self.scale(if self.length < 0.0 { -near } else { near });
+        let matters = grade > NEGLIGIBLE && grade < CLOSE;
+        Travel { grade: if matters { grade } else { f64::INFINITY }, ..self }
     }
 
     /// The root, measured from the slow end, at `s`, and its derivative with respect to `s`.
@@ -75,7 +96,7 @@ impl<'a, const N: usize> Travel<'a, N> {
 
     /// The time between two points of the scale \[s\]. The width of the panels adapts to the smoothness of the rate.
     fn between(&self, from: f64, to: f64) -> Result<f64, NoMotion> {
-        let (mut at, mut width, mut time) = (from, to - from, 0.0);
+        let (mut at, mut width, mut time) = (from, smallest(to - from, largest(from, self.grade)), 0.0);
         while at < to {
             let end = if width < to - at { at + width } else { to };
             let Sampled { integral, tail } = sixteen(at, end, |s| self.rate(s));
