@@ -4,7 +4,7 @@ use crate::physics::{AnyModel, Random, all_models, pair_of};
 use brinell::contact::impact::{Impact, predict};
 use brinell::contact::losses::{AnyLoss, Fitted, History, Model, Plate, Solid, Waves, follow};
 use brinell::contact::motion::Drive;
-use brinell::contact::{Contact, Loading, Surface};
+use brinell::contact::{self, Contact, Loading, Surface};
 
 type Lossy = Model<brinell::contact::loading::AnyLoading, brinell::contact::unloading::AnyUnloading, AnyLoss>;
 
@@ -182,6 +182,51 @@ fn bodies_that_are_pulled_back_hard_feel_the_whole_law_on_their_way() {
         cases += 1;
     }
     assert!(cases > 20, "only {cases} cases");
+}
+
+/// Bodies near rest are slower than the rounding of the forces on them. A step of some oscillations then took a thousand times
+/// the evaluations, or failed.
+#[test]
+fn bodies_come_to_rest_in_steps_of_few_evaluations_wherever_they_rest() {
+    let mut random = Random(99);
+    let mut most = 0;
+    for (name, plastic) in all_models(crate::physics::mild()) {
+        let modulus = random.log_uniform(1e9, 1e12);
+        let pair = pair_of(random.log_uniform(1e-4, 1.0), modulus, modulus / random.log_uniform(50.0, 1000.0));
+        let plastic = AnyModel { pair, ..plastic };
+        let yields = pair.yield_point(1.1);
+        for restitution in [0.3, 0.7, 0.9] {
+            // where the bodies rest, or how deep they have been before
+            let (rest, dent) = (random.log_uniform(1e-4, 0.1), [0.0, random.log_uniform(2.0, 100.0)]);
+            let mass = random.log_uniform(1e-9, 1e3);
+            let resting = contact::history::History::start(&plastic, -rest * yields.indentation).expect("within range");
+            let acceleration = resting.force() / mass;
+            let swing = (yields.indentation * rest / acceleration).sqrt();
+            let speed = acceleration * swing * random.log_uniform(0.1, 3.0);
+            for dent in dent {
+                let model = Lossy { plastic, loss: AnyLoss::Fitted(Fitted { restitution }) };
+                let depth = dent * yields.indentation;
+                let mut history = History::start(&model, -depth).expect("within range");
+                // up to the surface of the dent
+                let bottom = history.plastic().residual_indentation(&plastic);
+                history.advance(&model, -1.0, depth - bottom).expect("within range");
+                let drive = Drive { mass, acceleration };
+                let (mut speed, mut steps) = (speed, 0);
+                while steps == 0 || speed != 0.0 && steps < 30 {
+                    let what = format!("{name}, e = {restitution}, dent {dent}, rest {rest}, step {steps}");
+                    let outcome = follow(&mut history, &model, &drive, speed, 20.0 * swing);
+                    let outcome = outcome.unwrap_or_else(|reason| panic!("{what}: {reason:?}"));
+                    most = most.max(outcome.evaluations);
+                    assert!(outcome.evaluations < 100_000, "{what}: {} evaluations", outcome.evaluations);
+                    speed = outcome.speed;
+                    steps += 1;
+                }
+                let left = speed.abs() / (acceleration * swing);
+                assert!(left < 0.1, "{name}, e = {restitution}, dent {dent}: {left} of the speed is left");
+            }
+        }
+    }
+    println!("at most {most} evaluations in a step");
 }
 
 /// How often every pair of laws is tried; `BRINELL_ROUNDS` asks for more.

@@ -1,7 +1,8 @@
 //! The motion of bodies of known mass under a contact with losses, and of bodies that press on a plate.
 //!
 //! From event to event as without losses; between two events a pair of Runge-Kutta methods follows the motion. The heat is
-//! what the energy balance of the step leaves, so that the balance is exact whatever the errors of the integration are.
+//! what the energy balance of the contact leaves, so that the balance is exact whatever the errors of the integration are. A
+//! flight spends nothing: rounding of its energy, which may be much larger, is no heat.
 
 use super::history::History;
 use super::runge_kutta::{Ended, State, Stretch};
@@ -34,8 +35,10 @@ pub(super) struct Bodies<'a, L, U, K> {
     pub speed: f64,
     /// Whether the indentation has just turned, and then where to.
     turned: Option<bool>,
-    /// Distance by which the bodies have come closer in the step \[m\].
+    /// Distance by which the bodies have come closer since the last event \[m\].
     way: f64,
+    /// Energy that the bodies have spent in contact, over their mass \[J/kg\].
+    spent: f64,
     /// Distance by which the target has given way \[m\].
     retreat: f64,
     /// Energy that the target has carried away by giving way \[J\].
@@ -72,6 +75,7 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
             speed,
             turned: None,
             way: 0.0,
+            spent: 0.0,
             retreat: 0.0,
             heat: 0.0,
             taken: 0.0,
@@ -96,9 +100,22 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
                 return Ok(());
             }
             let below = self.below();
-            if self.is_above(below.lower) { self.fly(below.lower)? } else { self.press_from(below, &mut |_, _| ())? }
+            if self.is_above(below.lower) { self.fly(below.lower)? } else { self.spend(below)? }
         }
         Err(NoMotion::TooLong)
+    }
+
+    /// Motion in contact to the next event, with the energy that the bodies spend.
+    fn spend(&mut self, below: Piece<'a, L, U>) -> Result<(), NoMotion> {
+        let (speed, taken) = (self.speed, self.taken);
+        self.way = 0.0;
+        self.press_from(below, &mut |_, _| ())?;
+        // without force they spend nothing, and the difference would be rounding
+        if self.taken != taken {
+            // v0^2 - v1^2 without loss of digits
+            self.spent += 0.5 * (speed - self.speed) * (speed + self.speed) + self.acceleration * self.way;
+        }
+        Ok(())
     }
 
     /// The piece between the largest indentation and the surface of the dent, which is its lower end. One event takes both
@@ -138,20 +155,16 @@ impl<'a, L: Loading, U: Unloading, K: Loss> Bodies<'a, L, U, K> {
         if let Some(arrival) = parting {
             self.deepest = largest(self.deepest, self.contact.plastic.max_indentation());
             self.left -= arrival.time;
-            self.way -= indentation;
             self.speed = -arrival.speed;
             return self.go_to(0.0, false);
         }
         if let Some(arrival) = closing {
             self.left -= arrival.time;
-            self.way += surface - indentation;
             self.speed = arrival.speed;
             self.contact.swiftest = self.speed;
             return self.go_to(surface, true);
         }
-        let way = flight.way(self.left);
-        let goal = indentation + way;
-        self.way += way;
+        let goal = indentation + flight.way(self.left);
         self.speed = flight.speed_after(self.left);
         self.left = 0.0;
         // rounding must not turn a flight into a contact
@@ -281,13 +294,9 @@ pub fn follow<L: Loading, U: Unloading, K: Loss>(
     let before = history.plastic.work(&model.plastic);
     let mut bodies = Bodies::new(history, model, (1.0 / mass, acceleration, speed), step)?;
     bodies.run()?;
-    let Bodies { contact: mut next, speed: end, way, taken, evaluations, deepest, .. } = bodies;
-    // v0^2 - v1^2 without loss of digits
-    let kinetic = 0.5 * (speed - end) * (speed + end);
-    let spent = mass * (kinetic + acceleration * way);
-    // without force the bodies spend nothing, and the difference would be rounding; but a surface that lags behind them relaxes
-    let spent = if taken == 0.0 { 0.0 } else { spent };
-    let heat = spent - (next.plastic.work(&model.plastic) - before);
+    let Bodies { contact: mut next, speed: end, spent, taken, evaluations, deepest, .. } = bodies;
+    // also without force a surface that lags behind the bodies relaxes
+    let heat = mass * spent - (next.plastic.work(&model.plastic) - before);
     next.take(model, heat)?;
     *history = next;
     let most = if model.plastic.is_segmented() { MOST_EVALUATIONS } else { MOST_EVALUATIONS / COSTLY };

@@ -49,6 +49,9 @@ const SMALL: f64 = 1e-4;
 /// The same relative to the indentation, whose last digits are rounded: a dent is much deeper than the height above it may be.
 const ROUNDED: f64 = 1e-3;
 
+/// Last digits by which the rounding of two opposite forces may be off.
+const DIGITS: f64 = 4.0;
+
 /// Largest indentation of a stage \[m\].
 const FARTHEST: f64 = 1e20;
 
@@ -141,7 +144,7 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
     /// The state after `step` \[s\], and its relative error.
     fn step(&self, from: &State, step: f64) -> (State, f64) {
         let mut slopes = [(0.0, 0.0, 0.0, 0.0); 7];
-        let mut next = *from;
+        let (mut next, mut pull) = (*from, 0.0);
         for (stage, row) in STAGES.iter().enumerate() {
             let State { mut way, mut retreat, mut speed, mut heat, .. } = *from;
             for (weight, slope) in row.iter().zip(&slopes) {
@@ -159,6 +162,7 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
             if let Some(slope) = slopes.get_mut(stage) {
                 let (force, _) = self.force_and_rate(&next);
                 let given = self.damping.retreat(force);
+                pull = largest(pull, fabs(force * self.inverse_mass));
                 *slope = (speed, given, self.acceleration - force * self.inverse_mass, given * force);
             }
         }
@@ -172,10 +176,19 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         let moved = fabs(self.start - self.surface) + fabs(next.way) + fabs(next.retreat);
         let height = moved + ROUNDED * fabs(self.start);
         let speeds = fabs(from.speed) + fabs(next.speed) + fabs(next.speed - from.speed);
+        // bodies near rest are slower than the rounding of the forces, which balance
+        let speed = largest(speed - self.noise(pull, moved) * step, 0.0);
         let relative = |error: f64, size: f64| quotient(error, size, size > 0.0, 0.0);
         // where the force begins, the distance is a fractional power of time: its first steps are never accurate by themselves
         let given = fabs(next.retreat) + fabs(next.retreat - from.retreat) + SMALL * moved + ROUNDED * fabs(self.start);
         (next, largest(largest(relative(way, height), relative(retreat, given)), relative(speed, speeds)))
+    }
+
+    /// Rounding of the acceleration \[m/s^2\] where the contact force alone gives the acceleration `pull` \[m/s^2\] at this `height`
+    /// \[m\] above the surface. In a deep dent, the last digit of the indentation is a larger part of the height.
+    fn noise(&self, pull: f64, height: f64) -> f64 {
+        let digits = 1.0 + quotient(fabs(self.start), height, height > 0.0, 0.0);
+        DIGITS * f64::EPSILON * (fabs(self.acceleration) + pull * digits)
     }
 
     /// Whether the bodies have come to rest: forces in balance, and too slow to move noticeably.
