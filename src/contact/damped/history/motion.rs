@@ -1,7 +1,8 @@
 //! The motion of bodies of known mass under a rate-dependent law.
 //!
 //! From touch to separation, a pair of Runge-Kutta methods follows the motion; between contacts it is a parabola. The heat is
-//! what the energy balance of the step leaves, so that the balance is exact whatever the errors of the integration are.
+//! what the energy balance of the contact leaves, so that the balance is exact whatever the errors of the integration are. A
+//! flight spends nothing: rounding of its energy, which may be much larger, is no heat.
 
 mod integration;
 
@@ -38,10 +39,8 @@ struct Bodies<D> {
     state: State,
     /// The largest indentation and speed of the present contact \[m, m/s\].
     scale: State,
-    /// Whether there was a contact.
-    pressed: bool,
-    /// Distance by which the bodies have come closer \[m\].
-    way: f64,
+    /// Energy that the bodies have spent in contact, over their mass \[J/kg\].
+    spent: f64,
     /// Closing speed removed by the contact force so far \[m/s\].
     taken: f64,
     /// Time left \[s\].
@@ -75,8 +74,7 @@ pub fn follow<D: Damped + Copy>(
         acceleration,
         state,
         scale: State { depth: largest(state.depth, 0.0), speed: largest(fabs(speed), swing) },
-        pressed: false,
-        way: 0.0,
+        spent: 0.0,
         taken: 0.0,
         left: step,
         deepest: history.max_indentation(),
@@ -84,12 +82,8 @@ pub fn follow<D: Damped + Copy>(
     };
     let before = history.stored();
     bodies.run()?;
-    let Bodies { contact: mut next, state: end, way, taken, evaluations, deepest, pressed, .. } = bodies;
-    // v0^2 - v1^2 without loss of digits
-    let spent = mass * (0.5 * (speed - end.speed) * (speed + end.speed) + acceleration * way);
-    // bodies that stay apart spend nothing; the difference would be rounding
-    let heat = if pressed { spent - (next.stored() - before) } else { 0.0 };
-    next.dissipated = next.dissipated.plus(heat);
+    let Bodies { contact: mut next, state: end, spent, taken, evaluations, deepest, .. } = bodies;
+    next.dissipated = next.dissipated.plus(mass * spent - (next.stored() - before));
     let finite = next.stored() + next.dissipated.total() < f64::INFINITY && next.force(end.speed) < f64::INFINITY;
     if !finite {
         return Err(TooDeep { indentation: end.depth }.into());
@@ -126,13 +120,10 @@ impl<D: Damped + Copy> Bodies<D> {
         let flight = Flight { speed, acceleration: self.acceleration };
         if let Some(arrival) = flight.arrival(-depth, self.left) {
             self.left -= arrival.time;
-            self.way -= depth;
             return self.go_to(State { depth: 0.0, speed: arrival.speed });
         }
-        let (way, end) = (flight.way(self.left), flight.speed_after(self.left));
-        self.way += way;
+        let (goal, end) = (depth + flight.way(self.left), flight.speed_after(self.left));
         self.left = 0.0;
-        let goal = depth + way;
         // rounding must not turn a flight into a contact
         self.go_to(State { depth: if goal > 0.0 { 0.0 } else { goal }, speed: end })
     }
@@ -147,7 +138,6 @@ impl<D: Damped + Copy> Bodies<D> {
             self.scale = State { depth: 0.0, speed };
         }
         self.note_speed();
-        self.pressed = true;
         if depth > 0.0 && self.rests() {
             self.rest();
             return Ok(());
@@ -196,6 +186,7 @@ impl<D: Damped + Copy> Bodies<D> {
     /// Bodies at rest stay where they are. What is left of their speed is below all digits of the motion.
     fn rest(&mut self) {
         self.taken += self.acceleration * self.left + self.state.speed;
+        self.spent += 0.5 * self.state.speed * self.state.speed;
         (self.state.speed, self.left) = (0.0, 0.0);
     }
 
@@ -212,7 +203,8 @@ impl<D: Damped + Copy> Bodies<D> {
     fn pass(&mut self, time: f64, next: State) -> Result<(), TooDeep> {
         let State { depth, speed } = self.state;
         self.left -= time;
-        self.way += next.depth - depth;
+        // v0^2 - v1^2 without loss of digits
+        self.spent += 0.5 * (speed - next.speed) * (speed + next.speed) + self.acceleration * (next.depth - depth);
         self.taken += self.acceleration * time - (next.speed - speed);
         let scale = self.scale;
         self.scale = State { depth: largest(scale.depth, next.depth), speed: largest(scale.speed, fabs(next.speed)) };
