@@ -184,6 +184,26 @@ fn bodies_that_are_pulled_back_hard_feel_the_whole_law_on_their_way() {
     assert!(cases > 20, "only {cases} cases");
 }
 
+#[test]
+fn a_flight_after_the_contact_is_no_heat_however_fast_it_gets() {
+    for (name, plastic) in all_models(crate::physics::mild()) {
+        let yields = plastic.pair.yield_point(1.1);
+        let (speed, mass) = (1.0, 100.0 * yields.force * yields.indentation);
+        // the contact takes a small part of the energy, and the flight gives a billion times as much
+        let acceleration = -speed * speed / (40.0 * yields.indentation);
+        for restitution in [0.3, 0.9] {
+            let loss = AnyLoss::Fitted(Fitted { restitution });
+            let (model, drive) = (Lossy { plastic, loss }, Drive { mass, acceleration });
+            let case = |time: f64| Case { name: name.clone(), model, drive, gap: 0.0, speed, time };
+            let short = run(&case(-3.0 * speed / acceleration), 1).expect("within range");
+            let long = run(&case(-1e6 * speed / acceleration), 1).expect("within range");
+            assert!(long.kinetic > 1e9 * short.kinetic && short.dissipated != 0.0, "{name}: {short:?}, {long:?}");
+            let off = (long.dissipated / short.dissipated - 1.0).abs();
+            assert!(off < 1e-8, "{name}, e = {restitution}: {off:e}");
+        }
+    }
+}
+
 /// Bodies near rest are slower than the rounding of the forces on them. A step of some oscillations then took a thousand times
 /// the evaluations, or failed.
 #[test]
