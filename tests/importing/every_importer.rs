@@ -27,8 +27,9 @@ use std::time::{Duration, Instant};
 enum Interpreter {
     /// The environment of all tests.
     Common,
-    /// A virtual environment with the packages of that and those of this requirements file.
-    Beside { requirements: &'static str, large: bool },
+    /// A virtual environment with the packages of that and those of this requirements file. Some platforms have no package of
+    /// the tool, whose module this is.
+    Beside { requirements: &'static str, module: &'static str, large: bool },
     /// A virtual environment with this requirements file only, because it wants other versions.
     Own { requirements: &'static str },
     /// The interpreter in `BRINELL_IMPORTER_PYTHON` with this Python package, if no registry provides an installable one.
@@ -49,15 +50,20 @@ impl Interpreter {
     }
 }
 
-const LIGHT: Interpreter = Beside { requirements: "light", large: false };
-const MORE: Interpreter = Beside { requirements: "more", large: true };
+const fn light(module: &'static str) -> Interpreter {
+    Beside { requirements: "light", module, large: false }
+}
+
+const fn more(module: &'static str) -> Interpreter {
+    Beside { requirements: "more", module, large: true }
+}
 
 const DRIVERS: [Driver; 10] = [
     Driver { name: "fmpy", interpreter: Common },
-    Driver { name: "libcosim", interpreter: LIGHT },
-    Driver { name: "ecos", interpreter: LIGHT },
-    Driver { name: "container", interpreter: MORE },
-    Driver { name: "pathsim", interpreter: MORE },
+    Driver { name: "libcosim", interpreter: light("libcosimpy") },
+    Driver { name: "ecos", interpreter: light("ecospy") },
+    Driver { name: "container", interpreter: more("fmu_manipulation_toolbox") },
+    Driver { name: "pathsim", interpreter: more("pathsim_fmi") },
     Driver { name: "cofmupy", interpreter: Own { requirements: "cofmupy" } },
     Driver { name: "gemseo", interpreter: Own { requirements: "gemseo" } },
     Driver {
@@ -168,8 +174,18 @@ fn reference() -> Vec<f64> {
     forces
 }
 
-/// The interpreter that has the tool.
+/// The interpreter that has the tool of this name.
+///
+/// # Errors
+/// The reason why the tool cannot be run here.
+pub fn interpreter_of(name: &str) -> Result<PathBuf, String> {
+    python_of(DRIVERS.iter().find(|driver| driver.name == name).expect("a driver has this name"))
+}
+
 fn python_of(driver: &Driver) -> Result<PathBuf, String> {
+    if driver.name == "ecos" {
+        can_unpack()?;
+    }
     let name = |requirements| format!("importers-{requirements}");
     let file = |requirements| {
         Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/importers/requirements-{requirements}.txt"))
@@ -177,7 +193,13 @@ fn python_of(driver: &Driver) -> Result<PathBuf, String> {
     let failed = |reason: String| format!("can't be installed: {}", last_line(&reason));
     match driver.interpreter {
         Common => Ok(python::python()),
-        Beside { requirements: of, .. } => python::environment_beside(&name(of), &file(of)).map_err(failed),
+        Beside { requirements: of, module, .. } => {
+            let python = python::environment_beside(&name(of), &file(of)).map_err(failed)?;
+            // not imported: the driver may have to load libraries before
+            let found = format!("import importlib.util; assert importlib.util.find_spec('{module}')");
+            let output = Command::new(&python).args(["-c", &found]).output().map_err(|error| error.to_string())?;
+            output.status.success().then_some(python).ok_or_else(|| format!("can't be installed: there is no {module}"))
+        }
         Own { requirements: of } => python::environment_of(&name(of), &file(of)).map_err(failed),
         Given { package, since } => {
             let python = PathBuf::from(env::var_os("BRINELL_IMPORTER_PYTHON").unwrap_or_default());
@@ -192,16 +214,15 @@ fn python_of(driver: &Driver) -> Result<PathBuf, String> {
 ///
 /// # Errors
 /// What is missing.
-pub fn ecos_can_unpack() -> Result<(), String> {
+fn can_unpack() -> Result<(), String> {
     let missing =
         |_| "it calls the program `unzip`, which isn't installed (Debian and Ubuntu: apt install unzip)".into();
     Command::new("unzip").arg("-v").stdin(Stdio::null()).output().map(|_| ()).map_err(missing)
 }
 
 /// Runs a driver to its end. Its result is in `result`, possibly incomplete.
-fn run(driver: &Driver, folder: &Path) -> Result<Value, String> {
+fn run(driver: &Driver, interpreter: &Path, folder: &Path) -> Result<Value, String> {
     let importers = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers");
-    let interpreter = python_of(driver)?;
     let [result, log] = ["json", "log"].map(|ending| folder.join(driver.name).with_extension(ending));
     let written = File::create(&log).unwrap();
     let mut process = python::keeping_modules(&mut Command::new(interpreter))
@@ -298,13 +319,15 @@ fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitutio
             table.not_run.push((driver.name.into(), "large; BRINELL_IMPORTERS=all adds it".into()));
             continue;
         }
-        if let ("ecos", Err(reason)) = (driver.name, ecos_can_unpack()) {
-            table.not_run.push((driver.name.into(), reason));
-            continue;
-        }
-        match run(driver, &folder) {
+        let interpreter = match python_of(driver) {
+            Ok(interpreter) => interpreter,
+            Err(reason) => {
+                table.not_run.push((driver.name.into(), reason));
+                continue;
+            }
+        };
+        match run(driver, &interpreter, &folder) {
             Ok(result) => table.rows.extend(right.rows(&result)),
-            Err(reason) if reason.starts_with("can't be installed") => table.not_run.push((driver.name.into(), reason)),
             Err(reason) => {
                 // the results before the crash
                 let done = result_of(driver, &folder).unwrap_or_default();
@@ -328,7 +351,7 @@ fn every_importer_gets_the_same_forces_and_every_master_the_predicted_restitutio
 #[test]
 fn a_unit_for_the_other_kind_of_master_is_seen_in_the_table() {
     let (folder, right) = (folder("swapped", true), Right::found());
-    let result = run(&DRIVERS[0], &folder).unwrap_or_else(|reason| panic!("{reason}"));
+    let result = run(&DRIVERS[0], &python::python(), &folder).unwrap_or_else(|reason| panic!("{reason}"));
     let rows: Vec<_> = right.rows(&result).collect();
     for order in ["serial", "parallel"] {
         for row in rows.iter().filter(|row| row.order == order) {

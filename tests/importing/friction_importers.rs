@@ -4,7 +4,6 @@
 use crate::driver::{assert_good, attribute, headers};
 use crate::every_importer;
 use crate::loaded::{OK, Unit};
-use crate::python;
 use crate::skips;
 use crate::unit;
 use std::fs;
@@ -75,17 +74,16 @@ fn other_importers_get_the_forces_of_the_c_interface() {
     let lines = history().into_iter().map(|[normal, one, two]| format!("{normal:?} {one:?} {two:?}\n"));
     fs::write(folder.join("history.txt"), lines.collect::<String>()).expect("the target folder can be written to");
     let importers = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/importers");
-    let python = match python::environment_beside("importers-light", &importers.join("requirements-light.txt")) {
-        Ok(python) => python,
-        Err(reason) => return skips::skipped("friction in libcosim and Ecos", &reason),
-    };
     let expected = reference();
     assert!(expected.iter().any(|[force, ..]| *force == 0.0) && expected.iter().any(|[_, one, _]| *one < 0.0));
     for tool in ["libcosim", "ecos"] {
-        if let ("ecos", Err(reason)) = (tool, every_importer::ecos_can_unpack()) {
-            skips::skipped("friction in Ecos", &reason);
-            continue;
-        }
+        let python = match every_importer::interpreter_of(tool) {
+            Ok(python) => python,
+            Err(reason) => {
+                skips::skipped(&format!("friction in {tool}"), &reason);
+                continue;
+            }
+        };
         let result: PathBuf = folder.join(tool).with_extension("json");
         let _ = fs::remove_file(&result);
         let mut process = Command::new(&python);
