@@ -123,6 +123,39 @@ fn the_message_about_a_number_with_a_unit_gives_the_number_in_si() {
 }
 
 #[test]
+fn a_value_of_another_kind_is_told_in_words_of_the_file() {
+    for (from, to, hint) in [
+        ("[impactor]\nradius = 5e-3", "impactor = 5", "expected a table in `impactor = 5`"),
+        ("[impactor]\nradius = 5e-3", "fmu = 5", "expected a table in `fmu = 5`"),
+        (
+            "[impactor]",
+            "[contact]\nname = \"left\"\n[impactor]",
+            "this is a table, expected a list in `[contact]`; write `[[contact]]`",
+        ),
+        ("radius = 5e-3", "radius = 1e400", "scene.toml:3:10: the number is too large: numbers are below 1.797"),
+        ("radius = 5e-3", "radius = [1]", "expected a number in `radius = [1]`"),
+    ] {
+        let text = SCENE.replacen(from, to, 1);
+        let text = if to.starts_with(['[', 'r']) {
+            text
+        } else {
+            text.replacen(to, "", 1).replacen('\n', &format!("\n{to}\n"), 1)
+        };
+        let said = said(&text).replace("\n  ", " ");
+        assert!(said.contains(hint), "nothing of {hint} in {said}");
+    }
+}
+
+/// A scene from a stranger may have commands for the terminal in it.
+#[test]
+fn control_characters_of_a_scene_are_not_printed() {
+    for text in ["\u{1b}[31m = 3\n".into(), SCENE.replacen("ball", "\u{1b}]0;title\u{7}", 1)] {
+        let said = said(&text);
+        assert!(said.contains("scene.toml:1:") && !said.contains(['\u{1b}', '\u{7}']), "{said:?}");
+    }
+}
+
+#[test]
 fn an_implausible_number_causes_a_question() {
     for (from, to, question) in [
         ("5e-3", "5", "scene.toml:3:10: impactor.radius = 5 m; did you mean 5e-3?"),

@@ -5,7 +5,7 @@ use crate::command::{brinell, cache, contents, empty_folder, output, scene};
 use crate::skips;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::{env, fs};
 use tempfile::TempDir;
 
@@ -185,7 +185,11 @@ fn a_file_that_cannot_grow_is_reported_with_the_folder() {
 /// A file system of this number of kilobytes, if one can be created.
 #[test]
 fn a_full_disk_is_reported_with_the_folder() {
-    let can_mount = Command::new("unshare").args(["-rm", "true"]).status().is_ok_and(|status| status.success());
+    let can_mount = Command::new("unshare")
+        .args(["-rm", "true"])
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success());
     if !can_mount {
         return skips::skipped("a full disk", "no file system can be mounted");
     }

@@ -63,6 +63,19 @@ fn a_pipe_is_written_to_and_not_replaced() {
     assert_eq!(contents(folder.path()), ["pipe.csv"]);
 }
 
+#[test]
+fn an_fmu_on_standard_output_is_followed_by_nothing() {
+    let folder = empty_folder();
+    let goal = folder.path().join("piped.fmu");
+    let mut command = brinell(folder.path());
+    command.args(["export".into(), scene("steel_ball").display().to_string(), "-o".into(), "/dev/stdout".into()]);
+    let piped = command.stdin(Stdio::null()).output().expect("the program");
+    assert!(piped.status.success(), "{piped:?}");
+    fs::write(&goal, &piped.stdout).unwrap();
+    run(folder.path(), ["export", &scene("steel_ball").display().to_string()]).with_status(0);
+    assert!(fs::read(&goal).unwrap() == fs::read(folder.path().join("steel_ball.fmu")).unwrap());
+}
+
 /// The permissions of `path`.
 fn mode(path: &Path) -> u32 {
     fs::metadata(path).expect("it was written").permissions().mode() & 0o777

@@ -75,7 +75,7 @@ pub fn assert_good(output: &Output) -> usize {
 pub fn has_valgrind() -> bool {
     let has = Command::new("valgrind").arg("--version").output().is_ok();
     if !has {
-        skips::skipped("valgrind", "the Debian package valgrind has it");
+        skips::skipped("the memory checker", "valgrind isn't installed (Debian and Ubuntu: apt install valgrind)");
     }
     has
 }

@@ -38,10 +38,13 @@ pub fn engines(large: bool) -> PathBuf {
 }
 
 /// `command` of Python, which keeps compiled modules in the target folder: the source tree stays clean, and no process
-/// compiles what another one has compiled.
+/// compiles what another one has compiled. Temporary files and settings are there, too: fmpy leaves unpacked FMUs behind.
 pub fn keeping_modules(command: &mut Command) -> &mut Command {
-    let folder = target_folder().join("python-modules");
-    command.env_remove("PYTHONDONTWRITEBYTECODE").env("PYTHONPYCACHEPREFIX", folder)
+    let [modules, temporary, settings] =
+        ["python-modules", "python-temporary", "python-settings"].map(|name| target_folder().join(name));
+    fs::create_dir_all(&temporary).expect("the target folder can be written to");
+    command.env_remove("PYTHONDONTWRITEBYTECODE").env("PYTHONPYCACHEPREFIX", modules);
+    command.env("TMPDIR", temporary).env("MPLCONFIGDIR", settings)
 }
 
 /// The path of a file of the installed packages, such as `fmpy/c-code` with the official C headers and `fmpy/schema/fmi2` with
@@ -112,13 +115,16 @@ fn environment(
     // test programs may run at the same time with one common environment; the lock ends with the process
     let lock = File::create(folder.with_extension("lock")).expect("the target folder can be written to");
     lock.lock().expect("the target folder is on a file system with locks");
+    let hint = "the tests in Python need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
+    // another version doesn't find the packages
+    let version = succeed(Command::new("python3").arg("--version"), hint)?.stdout;
+    let wanted = [b"# ", &*version, wanted].concat();
     // the copy of the requirements is written last: an environment without it is incomplete
     let marker = folder.join("requirements.txt");
     if fs::read(&marker).is_ok_and(|made| made == wanted) && interpreter.exists() {
         return Ok(interpreter);
     }
     let _ = fs::remove_dir_all(&folder);
-    let hint = "the tests in Python need Python 3.11 or newer with venv (Debian and Ubuntu: apt install python3-venv)";
     succeed(Command::new("python3").args(["-m", "venv"]).args(options).arg(&folder), hint)?;
     if install(&interpreter)? {
         fs::write(&marker, wanted).expect("the target folder can be written to");

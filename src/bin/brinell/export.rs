@@ -26,6 +26,10 @@ pub fn run(
     let plan = Plan::of(scene);
     let exported = package::export(&plan, way, platforms, &path)?;
     let summary = Summary::of(&plan);
+    // the stream may be standard output itself, where the summary would be behind the archive
+    if files::is_stream(&path) {
+        return Ok(exported.path);
+    }
     if as_json {
         println!("{}", summary.json(&exported));
     } else {

@@ -47,6 +47,11 @@ fn goal_of(path: &Path) -> io::Result<Goal> {
     Err(io::Error::other("too many symbolic links lead from here"))
 }
 
+/// Whether `path` is a device or a pipe, which is written to and not replaced.
+pub fn is_stream(path: &Path) -> bool {
+    matches!(goal_of(path), Ok(Goal::Stream))
+}
+
 /// Rejects a file that its owner has protected. Renaming would replace it all the same, but not on Windows.
 fn check_writable(file: &Path) -> io::Result<()> {
     if fs::metadata(file).is_ok_and(|there| there.permissions().readonly()) {

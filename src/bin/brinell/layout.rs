@@ -16,6 +16,12 @@ pub fn paragraph(heading: &str, text: &str) -> String {
     format!("{}\n", if text.is_empty() { heading.trim_end() } else { &filled })
 }
 
+/// `text` with a replacement character for each control character but line ends: it may come from a stranger's file, and must not
+/// give commands to the terminal.
+pub fn harmless(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() && c != '\n' { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
 /// At most 80 characters of `text`, for a message.
 pub fn shortened(text: &str) -> String {
     const MOST: usize = 80;
@@ -41,7 +47,7 @@ pub fn without_middle(text: &str) -> String {
 pub fn tell(message: &str) {
     let for_program = std::env::args_os().any(|argument| argument == "--json");
     // a closed standard error must not stop the work
-    let _ = writeln!(io::stderr(), "{}", if for_program { message.into() } else { wrapped(message) });
+    let _ = writeln!(io::stderr(), "{}", if for_program { message.into() } else { wrapped(&harmless(message)) });
 }
 
 /// `message` in lines of at most [`WIDTH`] characters, unless a word is longer. Continuation lines are indented by two more columns.

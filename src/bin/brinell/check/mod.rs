@@ -8,7 +8,7 @@ mod trial;
 
 use crate::files::FileError;
 use crate::importer::{Archive, Description, ImportError, Instance};
-use crate::layout::{paragraph, without_middle};
+use crate::layout::{harmless, paragraph, without_middle};
 use crate::numbers::quantity;
 use crate::scene::{Scene, SceneError};
 use apart::Found;
@@ -181,7 +181,7 @@ impl Outcome {
         if as_json {
             serde_json::to_string(self).expect("an outcome has no map with other keys than text") + "\n"
         } else {
-            self.to_string()
+            harmless(&self.to_string())
         }
     }
 }

@@ -58,9 +58,24 @@ pub fn words(message: &str, line: &str, meant: &str) -> String {
     }
     // the parser names Rust types but not the key; the key is in the line
     let line = shortened(line);
-    let message =
-        message.replace("expected f64", "expected a number").replace("expected i64", "expected a whole number");
-    format!("{} in `{line}`", without_middle(&with_exact_number(&message)))
+    let message = with_exact_number(&in_words_of_the_file(message));
+    let list = message.ends_with("a list") && line.starts_with('[') && !line.starts_with("[[");
+    let help = if list { format!("; write `[{}]`", line.trim_end()) } else { String::new() };
+    format!("{} in `{line}`{help}", without_middle(&message))
+}
+
+/// The `message` of the parser with the words of TOML instead of Rust's.
+fn in_words_of_the_file(message: &str) -> String {
+    if message == "floating-point number overflowed" {
+        return format!("the number is too large: numbers are below {}", exact(f64::MAX));
+    }
+    let message = match message.split_once("expected struct ") {
+        Some((before, _)) => format!("{before}expected a table"),
+        None => message.replace("invalid type: map", "this is a table"),
+    };
+    let words = [("expected f64", "expected a number"), ("expected i64", "expected a whole number")];
+    let words = words.into_iter().chain([("expected a sequence", "expected a list")]);
+    words.fold(message, |message, (theirs, ours)| message.replace(theirs, ours))
 }
 
 /// The `message` of the parser, which writes all digits of a number: 1e300 would have three hundred zeros.
