@@ -254,12 +254,6 @@ fn a_file_that_is_not_toml_is_refused() {
 }
 
 #[test]
-fn a_file_that_is_not_utf_8_is_refused() {
-    let message = message_of(b"name = \"\xff\"\n");
-    assert!(message.starts_with("brinell: scene.toml: ") && message.contains("UTF-8"), "{message}");
-}
-
-#[test]
 fn a_missing_file_is_named() {
     let folder = empty_folder();
     let run = run(folder.path(), ["export", "no such.toml"]).with_status(1);
