@@ -1,11 +1,11 @@
 //! Derivatives of outputs by time and by inputs, against differences of outputs.
 
 use crate::physics::{self, Random, mild};
-use crate::scenes::{Choice, OUTPUTS, choose, ready, set_rate};
-use crate::{DampedOne, DampedSeveral, One, STEP, Several, every_pairing, some_pairings};
+use crate::scenes::{Choice, Chosen, DampedMassive, LossyMassive, OUTPUTS, choose, ready, set_rate};
+use crate::{DampedOne, DampedSeveral, MassiveOne, One, STEP, Several, every_pairing, some_pairings};
 use brinell::contact::damped::AnyDamped;
-use brinell::instance::Fault;
-use brinell::scene::{Real, Scene};
+use brinell::instance::{Fault, Instance};
+use brinell::scene::{Present, Real, Scene};
 
 /// Compares derivatives with respect to time with differences of the outputs over the following steps.
 #[test]
@@ -83,6 +83,42 @@ fn derivatives_before_the_first_step_are_numbers() {
                 assert_eq!(instance.output_derivative((Real::Force, 0), 2), Ok(0.0), "{name}");
             }
         }
+    }
+}
+
+/// The bodies that an instance moves have their own speed from the first step on. Before, it is the input.
+#[test]
+fn derivatives_by_the_input_during_initialization_are_those_of_the_outputs() {
+    fn check<S: Scene>(name: &str) {
+        let at = |rate: f64| {
+            let mut instance = Instance::<S>::new().unwrap();
+            instance.set_experiment(0.0, None).unwrap();
+            instance.enter_initialization().unwrap();
+            set_rate(&mut instance, 0, rate);
+            instance
+        };
+        for rate in [-0.4, -1e-3, 1e-3, 0.5, 2.0] {
+            let width = 1e-4 * f64::abs(rate);
+            let (above, here, below) = (at(rate + width), at(rate), at(rate - width));
+            for output in OUTPUTS {
+                let exact = here.derivative_by_input((output, 0), (Real::IndentationRate, 0)).unwrap();
+                let slope = (above.real((output, 0)) - below.real((output, 0))) / (2.0 * width);
+                let size = here.real((output, 0)).abs() / rate.abs();
+                let error = (exact - slope).abs();
+                assert!(error <= 1e-6 * slope.abs() + 1e-9 * size, "{name}, {output:?} at {rate}: {exact} for {slope}");
+            }
+        }
+    }
+    for (name, choice) in some_pairings() {
+        choose(Choice { initial_gap: -1e-6, ..choice });
+        check::<One>(&name);
+        check::<MassiveOne>(&name);
+        check::<Chosen<LossyMassive, 1, Present>>(&name);
+    }
+    for (name, damped) in AnyDamped::ALL {
+        choose(Choice { damped, initial_gap: -1e-6, ..some_pairings()[0].1 });
+        check::<DampedOne>(name);
+        check::<Chosen<DampedMassive, 1, Present>>(name);
     }
 }
 

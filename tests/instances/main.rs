@@ -13,6 +13,7 @@ mod damped_motion;
 mod derivatives;
 mod exceptions;
 mod hostile_states;
+mod input_derivatives;
 mod orders_of_execution;
 mod rate_unit;
 mod stability_warning;

@@ -1,9 +1,10 @@
 //! The ends of laws: a fit must reject what is beyond its range, not return numbers that are not finite.
 
-use crate::physics::{AnyModel, Random, all_models, model, pair_of};
-use brinell::contact::impact::{Impact, predict};
+use crate::physics::{AnyModel, MASS, Random, all_models, mild, model, pair_of};
+use brinell::contact::damped::AnyDamped;
+use brinell::contact::impact::{Impact, predict, restitution};
 use brinell::contact::quadrature::logarithmic_integral;
-use brinell::contact::{History, Pair};
+use brinell::contact::{History, Pair, damped, losses};
 
 /// Log-uniform numbers from `10^low` to `10^high`.
 fn decades(random: &mut Random, low: f64, high: f64) -> f64 {
@@ -86,6 +87,31 @@ fn a_prediction_is_of_numbers_or_there_is_none() {
         }
     }
     assert!(found > 10 * none, "{found} predictions and {none} refused");
+}
+
+/// Of every kind of law: a negative speed has a positive energy, too.
+#[test]
+fn only_impacts_of_a_positive_finite_mass_and_speed_are_predicted() {
+    let plastic = model("big-alabo", "contact-radius");
+    let lossy = losses::Model { plastic, loss: losses::Fitted { restitution: 0.9 } };
+    let good = Impact { mass: MASS, speed: 1.0 };
+    let bad = [0.0, -0.0, -1e-3, -1.0, -1e3, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, -f64::NAN];
+    let none = bad.into_iter().flat_map(|number| [Impact { mass: number, ..good }, Impact { speed: number, ..good }]);
+    // their energies are positive, but overflow or have lost digits
+    let extreme = [Impact { mass: 1e300, speed: 1e100 }, Impact { mass: 1e-300, speed: 1e-100 }];
+    let both = [Impact { mass: -MASS, speed: -1.0 }];
+    let damped =
+        AnyDamped::ALL.map(|(name, law)| (name, damped::Model { pair: mild(), law, restitution: 0.6, mass: MASS }));
+    let check = |impact: Impact, some: bool| {
+        assert_eq!(predict(&plastic, &impact).is_some(), some, "{impact:?}");
+        assert_eq!(restitution(&plastic, &impact).is_some(), some, "{impact:?}");
+        assert_eq!(losses::impact::predict(&lossy, &impact).is_some(), some, "with losses, {impact:?}");
+        for (name, damped) in &damped {
+            assert_eq!(damped::impact::predict(damped, &impact).is_some(), some, "{name}, {impact:?}");
+        }
+    };
+    check(good, true);
+    none.chain(extreme).chain(both).for_each(|impact| check(impact, false));
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! A contact with friction behaves like every contact: steps on courses, momentum, prediction, saved states.
 
 use crate::friction::assert_close;
-use crate::physics::{Random, mild};
+use crate::physics::{MASS, Random, mild};
 use brinell::contact::path::Course;
-use brinell::contact::tangential::{Friction, RoughContact, RoughModel, Sliding, Springs};
-use brinell::contact::{Contact, History, loading, unloading};
+use brinell::contact::tangential::{Friction, Quantity, RoughContact, RoughModel, Sliding, Springs};
+use brinell::contact::{Contact, History, damped, loading, losses, rate, unloading};
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const STEP: f64 = 1e-6;
@@ -153,4 +153,39 @@ fn a_rejected_step_leaves_the_contact_unchanged() {
     let before = contact;
     Contact::step(&mut contact, &Course::held(1e200), 1.0, || model).expect_err("too deep");
     assert_eq!(contact, before);
+}
+
+#[test]
+fn a_contact_without_friction_has_no_tangential_quantities_whatever_its_law() {
+    fn check<M, C: Contact<M> + Copy>(name: &str, model: &M) {
+        let mut contact = C::start(model, -1e-6).expect("within range");
+        let course = Course { rate: 1.0, slope: 2.0, bend: 3.0 };
+        for direction in [0, 1] {
+            contact.set_tangential_course(direction, &course);
+            let none = Course::held(0.0);
+            assert_eq!(
+                (contact.tangential_course(direction), contact.tangential_end(direction)),
+                (none, none),
+                "{name}"
+            );
+        }
+        let of_direction = [0, 1].map(|direction| {
+            [Quantity::Force(direction), Quantity::MeanForce(direction), Quantity::Impulse(direction)]
+        });
+        let others = [Quantity::Energy, Quantity::FrictionWork, Quantity::StickRadius];
+        for quantity in of_direction.into_iter().flatten().chain(others) {
+            let (first, second) = contact.tangential_derivatives(model, quantity, &course, &[course; 2]);
+            let all = [contact.tangential(model, quantity), first, second];
+            assert!(all.iter().all(|number| number.is_nan()), "{name}: {all:?}");
+        }
+        assert_eq!(contact.sliding(), Sliding::Apart, "{name}");
+    }
+    let slow = plastic().normal;
+    check::<_, History>("elastoplastic", &slow);
+    check::<_, rate::History>("rate", &rate::Model { slow, rate: rate::Rate::CowperSymonds { d: 40.4, q: 5.0 } });
+    let loss = losses::Fitted { restitution: 0.9 };
+    check::<_, losses::History<_>>("losses", &losses::Model { plastic: slow, loss });
+    for (name, law) in damped::AnyDamped::ALL {
+        check::<_, damped::History<_>>(name, &damped::Model { pair: mild(), law, restitution: 0.6, mass: MASS });
+    }
 }

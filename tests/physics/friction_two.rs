@@ -186,6 +186,43 @@ fn the_tangential_force_never_exceeds_coulombs_bound_and_friction_hardly_does_wo
     }
 }
 
+/// A polyline has a vertex where the way turns, and nowhere else.
+#[test]
+fn a_way_that_sticks_has_a_segment_for_each_direction_however_it_is_divided() {
+    for parts in [1, 2, 7, 100, 1000] {
+        for angle in [0.0, 0.3, 2.0, 4.0] {
+            let mut run = Run::<16>::new();
+            for (index, slope) in [0.0, 1e-6, 0.3, 0.999, 0.5].into_iter().enumerate() {
+                let shift = 2e-6 * slope;
+                let turn: f64 = angle + index as f64;
+                run.in_parts((2e-6, [shift * turn.cos(), shift * turn.sin()]), parts);
+                assert_eq!(run.stuck.segments(), index + 1, "slope {slope} in {parts} parts at {angle}");
+            }
+        }
+    }
+}
+
+/// From the last slide on, only the tension of the springs matters: a large displacement would hide small ones.
+#[test]
+fn a_contact_that_has_slid_a_kilometre_goes_on_like_one_that_has_slid_a_millimetre() {
+    for seed in 0..30 {
+        let angle = 0.7 * seed as f64;
+        let direction = [angle.cos(), angle.sin()];
+        let [mut near, mut far] = [1e-6, 1.0].map(|part| {
+            let mut run = Run::<16>::new();
+            run.step((1e-5, [0.0; 2]));
+            (0..1000).for_each(|_| run.step((0.0, direction.map(|along| along * part))));
+            run
+        });
+        for step in like_the_table(seed, 25).into_iter().skip(1) {
+            near.step(step);
+            far.step(step);
+            let error = distance(near.pull(), far.pull()) / near.force();
+            assert!(error <= 1e-9, "seed {seed}: {error:e}");
+        }
+    }
+}
+
 #[test]
 fn a_rotated_history_has_the_rotated_force() {
     let mut worst = 0.0_f64;

@@ -292,3 +292,33 @@ fn quick_steps_with_derivatives_are_those_that_are_not() {
         assert_eq!(quick.real((Real::Indentation, 0)), before, "{refused:?}: none is set");
     }
 }
+
+/// Otherwise its warning would come with a later step, or never.
+#[test]
+fn a_step_with_derivatives_that_leads_too_deep_is_not_quick() {
+    let step = 1e-6;
+    let valid = model("big-alabo", "contact-radius").valid_depth();
+    for start in [0.0, 0.5] {
+        for end in [0.6, 0.999, 1.001, 2.0] {
+            for bend in [false, true] {
+                let mut instance = ready();
+                instance.set_real((Real::IndentationRate, 0), start * valid / step);
+                instance.do_step(0.0, step).unwrap();
+                instance.set_real((Real::IndentationRate, 0), 0.0);
+                // the way is half of the slope times the square of the time, or a sixth of the bend times its cube
+                let way = (end - start) * valid;
+                let derivative =
+                    if bend { (2, 6.0 * way / (step * step * step)) } else { (1, 2.0 * way / (step * step)) };
+                assert!(instance.set_plain_derivatives([derivative].into_iter()));
+                let is_quick = instance.do_course_step(step, step);
+                let is_deep = end > 1.0;
+                assert_eq!(
+                    (is_quick, instance.is_deep()),
+                    (!is_deep, is_deep),
+                    "from {start} to {end}, {derivative:?}"
+                );
+                assert!((instance.real((Real::Indentation, 0)) / (end * valid) - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+}

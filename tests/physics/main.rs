@@ -55,5 +55,6 @@ mod published_laws_fitted;
 mod rate_motion;
 mod reference_impacts;
 mod reference_values;
+mod scale_of_mass;
 mod two_roundings;
 mod work_counters;
