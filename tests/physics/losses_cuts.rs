@@ -204,8 +204,8 @@ fn a_flight_after_the_contact_is_no_heat_however_fast_it_gets() {
     }
 }
 
-/// Bodies near rest are slower than the rounding of the forces on them. A step of some oscillations then took a thousand times
-/// the evaluations, or failed.
+/// Bodies near rest are slower than the rounding of the forces on them. A step of some oscillations then took forty times the
+/// evaluations, or failed.
 #[test]
 fn bodies_come_to_rest_in_steps_of_few_evaluations_wherever_they_rest() {
     let mut random = Random(99);
