@@ -12,6 +12,7 @@ mod scenes;
 mod damped_motion;
 mod derivatives;
 mod exceptions;
+mod friction;
 mod hostile_states;
 mod input_derivatives;
 mod orders_of_execution;
