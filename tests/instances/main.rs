@@ -250,6 +250,14 @@ fn states_of_parameters_that_do_not_fit_come_back_from_their_own_words() {
     assert!(restored.load(&bytes), "its own words are refused");
     assert_eq!(words(&restored), saved);
     assert_eq!(bits(&outputs(&restored)), bits(&outputs(&instance)));
+    // the bodies from before are a radius and a modulus, after phase, flags, three times and three values
+    for (word, number) in [8, 9].into_iter().flat_map(|word| [0.0, -0.0, -5e-3, f64::NAN].map(|number| (word, number)))
+    {
+        let mut bytes = bytes.clone();
+        assert!(f64::from_bits(saved[word]) > 0.0);
+        bytes[word] = number.to_le_bytes();
+        assert!(!Instance::<One>::new().unwrap().load(&bytes), "{number} in word {word}");
+    }
     restored.set_experiment(0.0, None).unwrap();
     restored.enter_initialization().unwrap();
     assert!(matches!(restored.exit_initialization(), Err(Fault::NoPointContact { .. })));
