@@ -353,6 +353,32 @@ fn factors_follow_the_bodies() {
     }
 }
 
+/// The integral knows where the force begins and ends, so a cut anywhere is no loss.
+#[test]
+fn the_mean_force_of_a_step_is_the_mean_of_those_of_its_parts() {
+    for (name, law) in every_law() {
+        for out in [0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0] {
+            let mut history = History::start(&model_of(law, 0.4), 0.0).unwrap();
+            history.advance(1.0, 2e-5).unwrap();
+            let time = 3e-5 / out;
+            let whole = history.mean_force(-out, time);
+            for parts in [2, 3, 10] {
+                let mut moved = history;
+                let sum: f64 = (0..parts)
+                    .map(|_| {
+                        let part = time / f64::from(parts);
+                        let mean = moved.mean_force(-out, part);
+                        moved.advance(-out, part).unwrap();
+                        mean
+                    })
+                    .sum();
+                let error = (sum / f64::from(parts) - whole).abs() / history.force(1.0);
+                assert!(error <= 1e-5, "{name} at {out} m/s in {parts} parts: {error:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_mean_force_of_a_step_is_that_of_many_small_ones() {
     for (name, law) in every_law() {
