@@ -156,6 +156,28 @@ impl Both {
     }
 }
 
+impl Both {
+    /// Lets an importer move a body of this `mass` [kg] in steps that are far too long, on both; the messages, which must be
+    /// the same.
+    pub fn drive_with_long_steps(&self, mass: f64) -> Vec<String> {
+        let mut pair = Pair::new(&self.compiled, &self.prebuilt);
+        pair.both(|unit| unit.enter_initialization());
+        assert_eq!(pair.both(|unit| unit.status_of("fmi2ExitInitializationMode")), OK);
+        let reference =
+            |name: &str| self.variables.iter().find(|variable| variable.name == name).map(|it| it.reference);
+        let [rate, force] = ["indentation_rate", "force"].map(|name| [reference(name).expect("every scene has it")]);
+        let (mut speed, step, mut messages) = (1.0, 2e-3, Vec::new());
+        for index in 0..4 {
+            pair.both(|unit| unit.set(&rate, &[speed]));
+            messages.push(pair.both(|unit| (unit.step(f64::from(index) * step, step), take_message())).1);
+            let mut now = [0.0];
+            assert_eq!(pair.compiled.get(&force, &mut now), OK);
+            speed -= step * now[0] / mass;
+        }
+        messages
+    }
+}
+
 /// A random number below `count`.
 fn below(random: &mut Random, count: usize) -> usize {
     (random.next() * count as f64) as usize
