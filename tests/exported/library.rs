@@ -48,6 +48,18 @@ fn it_is_small() {
     assert!(size < LARGEST_OF_DEFAULT, "{size} bytes");
 }
 
+/// Messages are the part of a feature that an optimizer cannot see to be superfluous.
+#[test]
+fn it_has_no_words_of_features_that_the_scene_lacks() {
+    let library = fs::read(unit::library(&unit::export(&unit::scene("steel_ball")))).unwrap();
+    assert!(contains(&library, "indentation_rate"), "its messages are text");
+    for word in ["tangential", "parallel", "external_acceleration", "effective_mass", "passivity"] {
+        assert!(!contains(&library, word), "{word}");
+    }
+    let rough = fs::read(unit::library(&unit::export(&unit::scene("two_directions")))).unwrap();
+    assert!(contains(&rough, "tangential_rate") && !contains(&rough, "parallel"));
+}
+
 /// Nothing unwinds through a library that cannot panic, and nobody needs to know which compiler made it.
 #[test]
 fn it_has_no_tables_for_unwinding_and_no_comment() {
