@@ -257,6 +257,33 @@ fn a_ball_dropped_from_half_a_metre_comes_to_rest() {
     }
 }
 
+/// The last, smallest swings once took more evaluations than a step is allowed: the forces are almost in balance, and their
+/// difference has no more than its first digits.
+#[test]
+fn a_ball_is_followed_until_it_does_not_move_at_all() {
+    for (loading, unloading) in
+        [("hertz", "contact-radius"), ("big-alabo", "contact-radius"), ("brinell", "brinell"), ("thornton", "thornton")]
+    {
+        for restitution in [0.3, 0.5, 0.8, 0.9] {
+            for (step, height) in [(1e-4, 1e-5), (1e-3, 1e-5), (1e-3, 0.01), (1e-2, 0.01)] {
+                let lossy = with(&model(loading, unloading), AnyLoss::Fitted(Fitted { restitution }));
+                let what = format!("{loading}, {restitution} from {height} m in steps of {step} s");
+                let mut contact = History::start(&lossy, height).unwrap();
+                let drive = Drive { mass: MASS, acceleration: 9.81 };
+                let (mut speed, mut time) = (0.0, 0.0);
+                while speed != 0.0 || contact.force(0.0) == 0.0 {
+                    let outcome = follow(&mut contact, &lossy, &drive, speed, step);
+                    speed = outcome.unwrap_or_else(|reason| panic!("{what}, after {time} s: {reason:?}")).speed;
+                    time += step;
+                    assert!(time < 3.0, "{what}: still {speed:e} m/s");
+                }
+                let weight = MASS * 9.81;
+                assert!((contact.force(0.0) / weight - 1.0).abs() < 1e-8, "{what}: {} N", contact.force(0.0));
+            }
+        }
+    }
+}
+
 #[test]
 fn saved_contacts_go_on_with_the_same_bits() {
     for loss in losses() {

@@ -49,8 +49,8 @@ const SMALL: f64 = 1e-4;
 /// The same relative to the indentation, whose last digits are rounded: a dent is much deeper than the height above it may be.
 const ROUNDED: f64 = 1e-3;
 
-/// Last digits by which the rounding of two opposite forces may be off.
-const DIGITS: f64 = 4.0;
+/// Last digits by which the sum of opposite forces over the stages of a step may be off.
+const DIGITS: f64 = 16.0;
 
 /// Largest indentation of a stage \[m\].
 const FARTHEST: f64 = 1e20;
@@ -175,9 +175,9 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         let [way, retreat, speed] = errors.map(fabs);
         let moved = fabs(self.start - self.surface) + fabs(next.way) + fabs(next.retreat);
         let height = moved + ROUNDED * fabs(self.start);
-        let speeds = fabs(from.speed) + fabs(next.speed) + fabs(next.speed - from.speed);
         // bodies near rest are slower than the rounding of the forces, which balance
-        let speed = largest(speed - self.noise(pull, moved) * step, 0.0);
+        let noise = self.noise(pull, moved) * step / TOLERANCE;
+        let speeds = fabs(from.speed) + fabs(next.speed) + fabs(next.speed - from.speed) + noise;
         let relative = |error: f64, size: f64| quotient(error, size, size > 0.0, 0.0);
         // where the force begins, the distance is a fractional power of time: its first steps are never accurate by themselves
         let given = fabs(next.retreat) + fabs(next.retreat - from.retreat) + SMALL * moved + ROUNDED * fabs(self.start);
