@@ -135,12 +135,14 @@ impl Clock {
         Ok(())
     }
 
-    /// Sets start and stop time \[s\].
+    /// Sets start and stop time \[s\]. An infinite stop time is none.
     ///
     /// # Errors
-    /// [`Fault::Experiment`] for a start beyond [`LATEST`], a stop that is not finite or before the start.
+    /// [`Fault::Experiment`] for a start beyond [`LATEST`], a stop that is NaN or before the start.
     pub fn set_experiment(&mut self, start: f64, stop: Option<f64>) -> Result<(), Fault> {
-        let stop_is_fine = stop.is_none_or(|stop| stop.is_finite() && stop >= start);
+        let stop = stop.filter(|&stop| stop != f64::INFINITY);
+        // false for NaN
+        let stop_is_fine = stop.is_none_or(|stop| stop >= start);
         // a NaN is in no range
         let start_is_fine = (-LATEST..=LATEST).contains(&start);
         if !start_is_fine || !stop_is_fine {

@@ -135,7 +135,7 @@ def test_the_last_experiment_before_initialization_counts():
 
 
 @pytest.mark.parametrize("start, stop", [
-    (float("nan"), None), (float("inf"), None), (0.0, float("nan")), (0.0, float("inf")), (1.0, 0.5), (0.0, -1e-9),
+    (float("nan"), None), (float("inf"), None), (0.0, float("nan")), (0.0, float("-inf")), (1.0, 0.5), (0.0, -1e-9),
 ])
 def test_impossible_times_are_refused(start, stop):
     made = instance()

@@ -38,6 +38,13 @@ pub fn times(face: &Face) {
         assert_eq!(i.setup(start, stop), ERROR, "{start} to {stop:?}");
         assert_eq!(i.enter(), ERROR);
     }
+    let i = Importer::new(face);
+    assert_eq!(
+        (i.setup(0.0, Some(f64::INFINITY)), i.enter(), i.exit()),
+        (OK, OK, OK),
+        "an infinite stop time is no end"
+    );
+    assert_eq!(i.step(0.0, STEP), OK);
     // the stop time: rounding is no step beyond it, a hundredth of a step is one
     for (over, expected) in [(0.0, OK), (1e-6, OK), (1e-2, ERROR), (1.0, ERROR)] {
         let i = Importer::new(face);
