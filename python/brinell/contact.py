@@ -138,8 +138,6 @@ class Contact:
             given = self._variables.given(initial_gap, parameters, keywords)
             before, self._given = self._given, self._given | given
             self._instance.call("Reset")
-            # an FMU gives each kind of warning once, until logging is enabled again
-            self._instance.call("SetDebugLogging", True, 0, None)
             try:
                 self._start()
             except ContactError:

@@ -33,6 +33,8 @@ pub type fmi2StatusKind = c_int;
 
 /// Success.
 pub const fmi2OK: fmi2Status = 0;
+/// The status of a message that warns; no call returns it.
+pub const fmi2Warning: fmi2Status = 1;
 /// Not available; the instance has not changed.
 pub const fmi2Discard: fmi2Status = 2;
 /// Rejected; the instance can only be read, reset, restored and freed.

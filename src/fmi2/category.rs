@@ -1,6 +1,6 @@
 //! The categories of log messages, and the bits for the categories that are logged.
 
-use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status, fmi2String};
+use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status, fmi2String, fmi2Warning};
 use super::complaint::Complaint;
 use super::text::is_same;
 use core::ffi::CStr;
@@ -12,7 +12,7 @@ pub enum Category {
     Discard,
     /// `logStatusError`
     Error,
-    /// `logStatusWarning`: something that the user should know; the simulation continues.
+    /// `logStatusWarning`: something that the user should know; the call succeeds.
     Warning,
 }
 
@@ -23,7 +23,7 @@ pub const DISCARD: u8 = 1;
 const ERROR: u8 = 2;
 
 /// The bit of [`Warning::Guarded`](crate::instance::Warning::Guarded). Each warning is given once: its bit is then cleared
-/// until the importer enables its category again.
+/// until the importer resets the instance or enables its category again.
 pub const GUARD: u8 = 4;
 /// The bit of [`Warning::Deep`](crate::instance::Warning::Deep).
 pub const DEEP: u8 = 8;
@@ -35,8 +35,11 @@ pub const MISWIRED: u8 = 32;
 /// The bit of [`Warning::Unstable`](crate::instance::Warning::Unstable).
 pub const UNSTABLE: u8 = 64;
 
+/// The bit of warnings as such, which remains when one has been given.
+pub const WARNING: u8 = 128;
+
 /// The bits of [`Category::Warning`].
-const WARNINGS: u8 = GUARD | DEEP | FAST | MISWIRED | UNSTABLE;
+pub const WARNINGS: u8 = WARNING | GUARD | DEEP | FAST | MISWIRED | UNSTABLE;
 
 impl Category {
     /// The name of the category in the model description.
@@ -52,17 +55,35 @@ impl Category {
     pub fn of(complaint: &Complaint) -> Category {
         match complaint {
             Complaint::Unavailable => Category::Discard,
+            Complaint::UnknownCategory => Category::Warning,
             _ => Category::Error,
         }
     }
 
-    /// The status that a call with such a message returns.
+    /// The status that the logger gets with such a message.
     pub fn status(self) -> fmi2Status {
         match self {
             Category::Discard => fmi2Discard,
             Category::Error => fmi2Error,
+            Category::Warning => fmi2Warning,
+        }
+    }
+
+    /// The status that a call with such a message returns.
+    pub fn result(self) -> fmi2Status {
+        match self {
             // many importers stop at any other status
             Category::Warning => fmi2OK,
+            _ => self.status(),
+        }
+    }
+
+    /// Whether messages of this category are logged if those with these `bits` are.
+    pub fn is_logged(self, bits: u8) -> bool {
+        match self {
+            Category::Discard => bits & DISCARD != 0,
+            Category::Error => true,
+            Category::Warning => bits & WARNING != 0,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::abi::fmi2ComponentEnvironment;
 use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2Error, fmi2OK, fmi2Status, fmi2String};
-use super::category::{Category, DEEP, DISCARD, FAST, GUARD, MISWIRED, UNSTABLE};
+use super::category::{Category, DEEP, FAST, GUARD, MISWIRED, UNSTABLE};
 use super::complaint::Complaint;
 use super::handle::Handle;
 use super::memory::Memory;
@@ -22,7 +22,7 @@ pub struct Component<S: Scene> {
     pub logger: Logger,
     /// The source of its memory.
     pub memory: Memory,
-    /// The logged categories. Errors are always logged.
+    /// The logged categories, and the warnings that have not been given yet. Errors are always logged.
     pub categories: u8,
 }
 
@@ -133,7 +133,7 @@ impl<S: Scene> Component<S> {
         }
     }
 
-    /// Logs why `function` rejects a call, and returns the status. An error ends the simulation.
+    /// Logs what is wrong with a call of `function`, and returns the status. An error ends the simulation.
     #[cold]
     #[inline(never)]
     fn refuse(&mut self, function: Function, complaint: &Complaint) -> fmi2Status {
@@ -141,11 +141,11 @@ impl<S: Scene> Component<S> {
         if category == Category::Error {
             self.instance.fail();
         }
-        if category != Category::Discard || self.categories & DISCARD != 0 {
+        if category.is_logged(self.categories) {
             // SAFETY: the name is null-terminated.
             unsafe { self.logger.log::<S>(self.name(), function.name(), complaint) };
         }
-        category.status()
+        category.result()
     }
 }
 

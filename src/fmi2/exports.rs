@@ -60,7 +60,8 @@ pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
     unsafe { lifecycle::free_instance::<Exported>(c) }
 }
 
-/// Enables or disables logging of the named categories, or of all if none is named. Errors are always logged.
+/// Enables or disables logging of the named categories, or of all if none is named. Errors are always logged, and warnings unless
+/// their category is switched off by its name.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetDebugLogging(
     c: fmi2Component,
@@ -109,7 +110,8 @@ pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
     unsafe { lifecycle::terminate::<Exported>(c) }
 }
 
-/// Resets the instance to its state after fmi2Instantiate. Name, callbacks and log settings do not change.
+/// Resets the instance to its state after fmi2Instantiate. Name, callbacks and log settings do not change; warnings are given
+/// again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> fmi2Status {
     // SAFETY: guaranteed by the caller.

@@ -1,7 +1,7 @@
 //! Versions, instantiation, logging, initialization, termination, reset.
 
 use super::abi::*;
-use super::category::{ALL_CATEGORIES, Category};
+use super::category::{ALL_CATEGORIES, Category, DISCARD, WARNING, WARNINGS};
 use super::complaint::Complaint;
 use super::component::{Component, Logger, array, call};
 use super::handle::Handle;
@@ -110,7 +110,7 @@ unsafe fn make<S: Scene>(
         let component = &mut *component;
         component.logger = logger;
         component.memory = memory;
-        component.categories = if logging_on { ALL_CATEGORIES } else { 0 };
+        component.categories = if logging_on { ALL_CATEGORIES } else { WARNINGS };
         if let Err(fault) = component.instance.reset() {
             memory.release(made);
             return Err(fault.into());
@@ -133,7 +133,8 @@ pub unsafe fn free_instance<S: Scene>(c: fmi2Component) {
     }
 }
 
-/// Enables or disables logging of the named categories, or of all if none is named. Errors are always logged.
+/// Enables or disables logging of the named categories, or of all if none is named. Errors are always logged; warnings, unless
+/// their category is named and not all are: importers switch all of them off by themselves. An unknown category is a warning.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -147,20 +148,23 @@ pub unsafe fn set_debug_logging<S: Scene>(
     unsafe {
         call::<S>(c, order::SET_DEBUG_LOGGING, |component| {
             let mut bits = if nCategories == 0 { ALL_CATEGORIES } else { 0 };
+            let mut unknown = false;
             for &name in array(categories, nCategories, "categories")? {
                 if name.is_null() {
                     return Err(Complaint::NullPointer { argument: "categories" });
                 }
-                bits |= Category::bits(name).ok_or(Complaint::UnknownCategory)?;
+                let known = Category::bits(name);
+                unknown |= known.is_none();
+                bits |= known.unwrap_or(0);
             }
             if loggingOn != fmi2False {
                 component.categories |= bits;
                 // warnings that apply already are given again
                 component.instance.look();
             } else {
-                component.categories &= !bits;
+                component.categories &= !(if bits == ALL_CATEGORIES { DISCARD } else { bits });
             }
-            Ok(())
+            if unknown { Err(Complaint::UnknownCategory) } else { Ok(()) }
         })
     }
 }
@@ -219,11 +223,19 @@ pub unsafe fn terminate<S: Scene>(c: fmi2Component) -> fmi2Status {
     }
 }
 
-/// Resets the instance to its state after fmi2Instantiate. Name, callbacks and log settings do not change.
+/// Resets the instance to its state after fmi2Instantiate. Name, callbacks and log settings do not change; warnings are given
+/// again.
 ///
 /// # Safety
 /// See [the module](super#safety).
 pub unsafe fn reset<S: Scene>(c: fmi2Component) -> fmi2Status {
     // SAFETY: the caller's component.
-    unsafe { call::<S>(c, order::RESET, |component| Ok(component.instance.reset()?)) }
+    unsafe {
+        call::<S>(c, order::RESET, |component| {
+            if component.categories & WARNING != 0 {
+                component.categories |= WARNINGS;
+            }
+            Ok(component.instance.reset()?)
+        })
+    }
 }

@@ -41,12 +41,12 @@ static bool is_complete(const char *text) {
 
 /* A message has a declared category, is complete without arguments, and is one line without a line end. */
 static bool is_good(fmi2Status status, const char *category, const char *message) {
-    static const char *const categories[] = {"logStatusError", "logStatusDiscard"};
-    static const fmi2Status statuses[] = {fmi2Error, fmi2Discard};
+    static const char *const categories[] = {"logStatusError", "logStatusDiscard", "logStatusWarning"};
+    static const fmi2Status statuses[] = {fmi2Error, fmi2Discard, fmi2Warning};
     if (category == NULL || message == NULL || !is_complete(message) || *message == 0 || strchr(message, '\n') != NULL) {
         return false;
     }
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3; i++) {
         if (strcmp(category, categories[i]) == 0) {
             return status == statuses[i];
         }

@@ -138,7 +138,7 @@ static void nothing_of_nothing(void) {
 
 /* Foreign text that an FMU might repeat in its message must not become a printf conversion. */
 static void foreign_text(void) {
-    REFUSED(SetDebugLogging, fmi2True, 1, (fmi2String[]){"%s%n%n#r0#"});
+    ACCEPTED(SetDebugLogging, fmi2True, 1, (fmi2String[]){"%s%n%n#r0#"});
     int before_it = messages;
     check("a GUID with commands of printf is refused with a message",
           fmi.Instantiate(instance_name, fmi2CoSimulation, "%s%n#", "", &callbacks, fmi2False, fmi2True) == NULL &&

@@ -9,6 +9,7 @@ use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 pub const OK: c_int = 0;
+pub const WARNING: c_int = 1;
 pub const DISCARD: c_int = 2;
 pub const ERROR: c_int = 3;
 

@@ -8,7 +8,7 @@ from ctypes import c_double, c_int
 
 import pytest
 import test_coupling
-from unit import ERROR, OK, unit
+from unit import ERROR, WARNING, unit
 
 MASS = 4e-3
 PATTERNS = ["equal", "alternating", "any"]
@@ -33,7 +33,7 @@ class Master:
 
     def __init__(self, name, order, speed, gap=0.0, gravity=0.0):
         self.order, self.speed, self.gravity, self.mass = order, speed, gravity, MASS
-        self.contact = unit(name).instance(logging=True)
+        self.contact = unit(name).instance()
         self.contact.initialize(initial_gap=gap)
         self.wired = "external_acceleration" in self.contact.unit.reference
 
@@ -107,7 +107,7 @@ def test_a_master_of_the_other_order_is_told_once_with_the_line_to_change(name, 
     assert re.match(r"fmi2DoStep: indentation_rate = \S+ m/s, expected \S+ m/s: the master applies mean_force ", message)
     line = 'write master = "parallel" under [coupling]' if kind == "serial" else 'leave out master = "parallel" under [coupling]'
     assert line in message
-    assert master.contact.log[0][1:3] == (OK, "logStatusWarning")
+    assert master.contact.log[0][1:3] == (WARNING, "logStatusWarning")
 
 
 def test_the_mass_is_a_tunable_parameter_and_an_input_to_the_same_effect():
@@ -225,7 +225,7 @@ def test_a_bouncing_ball_ends_and_starts_again():
 
 
 def test_steps_that_are_unstable_with_the_mass_of_the_impact_are_told_once():
-    contact = unit("coupled").instance(logging=True)
+    contact = unit("coupled").instance()
     contact.initialize(initial_gap=1e-4)
     speed, size = 1.0, 2e-3
     for _ in range(4):
@@ -237,7 +237,7 @@ def test_steps_that_are_unstable_with_the_mass_of_the_impact_are_told_once():
 
 
 def test_a_prescribed_motion_of_the_same_length_is_not_told():
-    contact = unit("coupled").instance(logging=True)
+    contact = unit("coupled").instance()
     contact.initialize()
     for count in range(200):
         contact.step(2e-3, rate=1e-3 * math.cos(0.3 * count))

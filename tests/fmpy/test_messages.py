@@ -6,7 +6,7 @@ from ctypes import byref, c_char_p, c_int
 
 import pytest
 from fmpy import fmi2
-from unit import DISCARD, ERROR, OK, unit
+from unit import DISCARD, ERROR, OK, WARNING, unit
 
 DECLARED = {category.name for category in unit("steel_ball").description.logCategories}
 
@@ -25,7 +25,6 @@ def wrong_calls(instance):
         lambda: instance.try_("CancelStep"),
         lambda: instance.try_("GetReal", None, 1, None),
         lambda: instance.try_deserialize(b"nonsense")[0],
-        lambda: debug_logging(instance, ["%s%n%d"]),
     ]
     for number, mistake in enumerate(mistakes, start=1):
         assert mistake() == ERROR
@@ -96,10 +95,14 @@ def test_switching_a_category_has_an_effect():
 
 
 @pytest.mark.parametrize("category", ["", "logEvents", "logall", "logStatusErrors", "%s%s%n", "x" * 100_000])
-def test_an_unknown_category_is_refused(category):
+@pytest.mark.parametrize("on", [False, True])
+def test_an_unknown_category_is_a_warning(category, on):
     instance = unit("steel_ball").ready()
-    assert debug_logging(instance, [category]) in (DISCARD, ERROR)
-    assert len(instance.log) == 1
+    assert debug_logging(instance, [category], on) == OK
+    ((_, status, category, message),) = instance.log
+    assert (status, category) == (WARNING, "logStatusWarning") and "unknown log category" in message
+    assert "%" not in message
+    instance.step(1e-6, 1.0)
 
 
 @pytest.mark.parametrize("arguments, reason", [

@@ -4,7 +4,7 @@ import re
 
 import fmpy
 import pytest
-from unit import OK, bits, unit
+from unit import OK, WARNING, bits, unit
 
 # rigid sphere of 5 mm: a = 0.3 R at the depth that the FMU reports
 RADIUS = 5e-3
@@ -20,7 +20,7 @@ def ready(name, logging=True, gap=None):
 
 
 def warnings(instance):
-    assert all(status == OK and category == "logStatusWarning" for _, status, category, _ in instance.log), instance.log
+    assert all(status == WARNING and category == "logStatusWarning" for _, status, category, _ in instance.log), instance.log
     return [message for _, _, _, message in instance.log]
 
 
@@ -43,15 +43,19 @@ def press(instance, way, steps, name="indentation_rate"):
         instance.step(abs(way) / steps)
 
 
-def switch_on(instance):
+def switch(instance, on):
     names = (fmpy.fmi2.fmi2String * 1)(b"logStatusWarning")
-    assert instance.try_("SetDebugLogging", True, 1, names) == OK
+    assert instance.try_("SetDebugLogging", on, 1, names) == OK
+
+
+def switch_on(instance):
+    switch(instance, True)
 
 
 @pytest.mark.parametrize("name", PLAIN)
 def test_the_depth_is_where_the_contact_radius_is_three_tenths_of_the_sphere(name):
     depth = depth_of(name)
-    instance = ready(name, logging=False)
+    instance = ready(name)
     press(instance, depth, 1)
     # the message has nine digits
     assert abs(instance.get("contact_radius") / (0.3 * RADIUS) - 1.0) < 1e-8
@@ -84,10 +88,24 @@ def test_it_is_told_in_whatever_steps_the_way_is_made(name):
 
 
 @pytest.mark.parametrize("name", PLAIN)
-def test_it_is_not_told_without_logging(name):
+def test_it_is_told_without_logging_unless_the_category_is_switched_off(name):
     instance = ready(name, logging=False)
     press(instance, RADIUS, 10)
+    assert len(warnings(instance)) == 1
+    instance = ready(name)
+    switch(instance, False)
+    press(instance, RADIUS, 10)
     assert instance.log == []
+
+
+@pytest.mark.parametrize("name", PLAIN)
+def test_it_is_told_again_after_a_reset(name):
+    instance = ready(name, logging=False)
+    for count in (1, 2, 3):
+        press(instance, RADIUS, 10)
+        assert len(warnings(instance)) == count
+        instance.call("Reset")
+        instance.initialize()
 
 
 def test_it_is_told_by_the_first_step_of_a_contact_that_begins_beyond():
@@ -98,7 +116,8 @@ def test_it_is_told_by_the_first_step_of_a_contact_that_begins_beyond():
 
 
 def test_it_is_told_again_when_the_category_is_switched_on_again():
-    instance = ready("plain", logging=False)
+    instance = ready("plain")
+    switch(instance, False)
     press(instance, RADIUS, 10)
     switch_on(instance)
     assert instance.log == [], "nothing is told before a step"
@@ -119,7 +138,8 @@ def test_the_message_names_the_contact_that_goes_beyond():
 
 
 def test_contacts_that_are_beyond_already_are_told_when_the_category_is_switched_on():
-    instance = ready("own_densities", logging=False)
+    instance = ready("own_densities")
+    switch(instance, False)
     press(instance, 1e-3, 5, "row[2].indentation_rate")
     switch_on(instance)
     instance.step(1e-9)
@@ -158,7 +178,8 @@ def test_what_is_told_changes_nothing(name):
     ways = [1e-4, 1e-4, 1e-4, -1e-5, 3e-5, 2e-4, -1e-3, 1e-3]
 
     def forces(logging, looks=False):
-        instance = ready(name, logging=logging)
+        instance = ready(name)
+        switch(instance, logging)
         result = []
         for way in ways:
             for part in range(16):
@@ -243,12 +264,8 @@ def test_the_speed_is_told_again_and_independently_of_the_width():
     assert len(warnings(instance)) == 4
 
 
-def test_without_density_or_logging_no_speed_is_told():
+def test_without_density_no_speed_is_told():
     instance = ready("plain")
-    instance.set(indentation_rate=1e6)
-    instance.step(1e-12)
-    assert instance.log == []
-    instance = ready("steel_ball", logging=False)
     instance.set(indentation_rate=1e6)
     instance.step(1e-12)
     assert instance.log == []

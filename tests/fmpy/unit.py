@@ -7,6 +7,7 @@ import os
 import shutil
 from ctypes import byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p, create_string_buffer
 from functools import cache
+from weakref import WeakValueDictionary
 
 import fmpy
 from fmpy import fmi2
@@ -72,6 +73,20 @@ class Refused(Exception):
         self.status = status
 
 
+# fmpy has one logger for the process, the last one, and lets it be freed: this one serves all instances, by a number
+_instances = WeakValueDictionary()
+
+
+def _logged(number, name, status, category, message):
+    if number in _instances:
+        _instances[number].log.append((name.decode(), status, category.decode(), message.decode()))
+
+
+_callbacks = fmi2.fmi2CallbackFunctions()
+_callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(_logged)
+addLoggerProxy(byref(_callbacks))
+
+
 class Instance:
     """One instance. `try_` calls return the status; the others raise `Refused` unless it is fmi2OK."""
 
@@ -82,8 +97,9 @@ class Instance:
         self.log = []
         self.callbacks = fmi2.fmi2CallbackFunctions()
         if logger:
-            self.callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(self._logged)
-            addLoggerProxy(byref(self.callbacks))
+            self.callbacks.logger = _callbacks.logger
+            self.callbacks.componentEnvironment = id(self)
+            _instances[id(self)] = self
         self.component = unit.slave.fmi2Instantiate(
             None if name is None else name.encode(),
             kind,
@@ -93,9 +109,6 @@ class Instance:
             False,
             logging,
         )
-
-    def _logged(self, _environment, name, status, category, message):
-        self.log.append((name.decode(), status, category.decode(), message.decode()))
 
     def __del__(self):
         if self.component is not None:

@@ -5,6 +5,7 @@ A driver `with_TOOL.py FOLDER RESULT` finds in FOLDER `contact.fmu`, `serial.fmu
 `tests/importing/every_importer.rs` judges it. A driver has ways: a name, the order of execution, and what to do.
 """
 
+import ctypes
 import importlib.metadata
 import json
 import os
@@ -69,15 +70,48 @@ class Watch:
         self.seconds += time.perf_counter() - start
 
 
+# a part of the warning about the wrong order of execution
+WARNING = b"the master applies mean_force"
+
+
+def flush():
+    sys.stdout.flush()
+    sys.stderr.flush()
+    ctypes.CDLL(None).fflush(None)
+
+
+@contextmanager
+def printed():
+    """What tool and FMU print, as the bytes of a file; it is printed in the end."""
+    flush()
+    kept = os.dup(1), os.dup(2)
+    with tempfile.TemporaryFile() as file:
+        os.dup2(file.fileno(), 1)
+        os.dup2(file.fileno(), 2)
+        text = bytearray()
+        try:
+            yield text
+        finally:
+            flush()
+            for copy, place in zip(kept, (1, 2)):
+                os.dup2(copy, place)
+                os.close(copy)
+            file.seek(0)
+            text += file.read()
+            os.write(1, text)
+
+
 def answer(make, steps):
-    """The result of `make(watch)` with the steps per second, or its error."""
+    """The result of `make(watch)` with the steps per second and whether the user reads of a wrong order, or its error."""
     watch = Watch()
-    try:
-        value = make(watch)
-    except Exception as error:
-        traceback.print_exc()
-        return {"error": f"{type(error).__name__}: {error}"}
-    return {"value": value, "steps_per_second": steps / watch.seconds if watch.seconds else None}
+    with printed() as text:
+        try:
+            value = make(watch)
+        except Exception as error:
+            traceback.print_exc()
+            return {"error": f"{type(error).__name__}: {error}"}
+    speed = steps / watch.seconds if watch.seconds else None
+    return {"value": value, "steps_per_second": speed, "told": WARNING in text}
 
 
 def balls(ball, order, name):

@@ -26,6 +26,8 @@ pub struct Row {
     pub heavy: Option<f64>,
     /// Steps per second of the history, or of the ball if there is none.
     pub steps_per_second: Option<f64>,
+    /// Whether the user of the tool reads the warning about the wrong order of execution, at each step size of the ball.
+    pub told: Vec<bool>,
     /// The reason why there are no other results.
     pub failure: Option<String>,
 }
@@ -90,6 +92,7 @@ pub fn rows<'a>(
             let found: Vec<_> = found.iter().map(|force| force.as_f64().unwrap_or(f64::NAN)).collect();
             row.agreement = Some(difference(&found, forces));
         }
+        row.told = ball.iter().map(|at| at["told"] == true).collect();
         row.errors = ball.iter().map(|at| -at["value"].as_f64().unwrap_or(f64::NAN) / restitution - 1.0).collect();
         let error =
             |(at, speed): (&Value, &f64)| (at["value"].as_f64().unwrap_or(f64::NAN) - speed).abs() / restitution;
@@ -115,8 +118,8 @@ impl Table {
 
     fn markdown(&self) -> String {
         let mut text = String::from(
-            "| importer | version | order | difference of force | restitution at 1 us | 100 us | 2 ms | with gravity | steps/s |\n\
-             |---|---|---|---|---|---|---|---|---|\n",
+            "| importer | version | order | difference of force | restitution at 1 us | 100 us | 2 ms | with gravity | steps/s | \
+             wrong order |\n|---|---|---|---|---|---|---|---|---|---|\n",
         );
         for row in &self.rows {
             let agreement = row.agreement.map_or_else(|| "-".into(), number);
@@ -125,11 +128,16 @@ impl Table {
                 *place = number(error.abs());
             }
             let speed = row.steps_per_second.map_or_else(|| "-".into(), |speed| format!("{speed:.1e}"));
+            let told = match &*row.told {
+                [] => "-",
+                told if told.contains(&true) => "shown",
+                _ => "not shown",
+            };
             let cells = match &row.failure {
-                Some(failure) => format!("{failure} | | | | | "),
+                Some(failure) => format!("{failure} | | | | | | "),
                 None => {
                     let heavy = row.heavy.map_or_else(|| "-".into(), number);
-                    format!("{agreement} | {} | {heavy} | {speed}", errors.join(" | "))
+                    format!("{agreement} | {} | {heavy} | {speed} | {told}", errors.join(" | "))
                 }
             };
             let _ = writeln!(text, "| {} | {} | {} | {cells} |", row.name, row.version, row.order);

@@ -16,7 +16,7 @@ type Xml<'a> = Writer<&'a mut dyn Write>;
 const LOG_CATEGORIES: [(&str, &str); 4] = [
     (
         "logStatusWarning",
-        "the law is not valid there, the passivity guard acts, or the coupling is wrong; each told once",
+        "the law is not valid there, the passivity guard acts, or the coupling is wrong; each told once, also without loggingOn",
     ),
     ("logStatusDiscard", "information that is not available"),
     ("logStatusError", "refused calls; logged in any case"),

@@ -177,7 +177,7 @@ pub fn no_logger(face: &Face) {
         let f = functions(face);
         let c = (f.instantiate)(c"one".as_ptr(), 1, face.guid.as_ptr(), null(), &raw const silent, 0, 1);
         assert_eq!((f.do_step)(c, 0.0, STEP, 1), ERROR);
-        assert_eq!((f.set_debug_logging)(c, 1, 1, &c"%s%n".as_ptr()), ERROR);
+        assert_eq!((f.set_debug_logging)(c, 1, 1, &c"%s%n".as_ptr()), OK);
         assert_eq!((f.reset)(c), OK);
         (f.free_instance)(c);
     }

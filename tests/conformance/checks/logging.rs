@@ -2,7 +2,7 @@
 
 use crate::checks::order::phase_of;
 use crate::face::Face;
-use crate::importer::{DISCARD, ERROR, Importer, Message, NAME, OK, Phase, STEP};
+use crate::importer::{DISCARD, ERROR, Importer, Message, NAME, OK, Phase, STEP, WARNING};
 use std::ptr::null;
 
 /// Checks the form of a message: a declared category that fits the status, and a format of printf without conversions.
@@ -13,7 +13,8 @@ fn check(face: &Face, message: &Message) {
     let expected = match *status {
         DISCARD => "logStatusDiscard",
         ERROR => "logStatusError",
-        _ => "logStatusWarning",
+        WARNING => "logStatusWarning",
+        _ => panic!("{message:?}: a message with this status has nothing to say"),
     };
     assert_eq!(category, expected, "{message:?}");
     let plain = text.replace("%%", "").replace("##", "");
@@ -67,12 +68,12 @@ pub fn a_good_run_is_silent(face: &Face) {
         }
         assert_eq!(i.terminate(), OK);
         // a unit that moves the bodies warns, since nothing here applies its force
-        let messages: Vec<_> = i.messages().into_iter().filter(|message| !logging || message.status != OK).collect();
+        let messages: Vec<_> = i.messages().into_iter().filter(|message| message.status != WARNING).collect();
         assert!(messages.is_empty(), "{messages:?}");
     }
 }
 
-/// The declared categories are accepted, one by one and together, and no others.
+/// The declared categories are accepted, one by one and together. Others are, too, with a warning, and those beside them count.
 pub fn categories(face: &Face) {
     for needed in ["logStatusDiscard", "logStatusError", "logAll"] {
         assert!(face.categories.iter().any(|category| category == needed), "{needed} isn't declared");
@@ -93,25 +94,31 @@ pub fn categories(face: &Face) {
     {
         for on in [true, false] {
             for categories in [vec![unknown], vec!["logAll", unknown]] {
-                let i = Importer::new(face);
-                assert_eq!(i.log(on, &categories), ERROR, "{unknown:?}");
+                let i = Importer::named(face, NAME, !on);
+                assert_eq!(i.log(on, &categories), OK, "{unknown:?}");
                 let messages = i.messages();
                 assert!(messages.len() == 1 && messages[0].text.contains("logStatusError"), "{messages:?}");
+                assert_eq!(messages[0].status, WARNING);
                 check(face, &messages[0]);
+                assert_eq!((i.setup(0.0, None), i.enter(), i.exit()), (OK, OK, OK), "it goes on after {unknown:?}");
+                let discards = on == (categories.len() == 2);
+                assert_eq!(discarded(&i).len(), usize::from(discards), "after {categories:?} is set to {on}");
             }
         }
     }
 }
 
+/// The messages about a question that is discarded.
+fn discarded(i: &Importer) -> Vec<Message> {
+    // SAFETY: a place for a text
+    assert_eq!(unsafe { (i.f().get_string_status)(i.c, 1, &mut null()) }, DISCARD);
+    i.messages()
+}
+
 /// A discarded question is told if its category is on, and only then.
 pub fn discarded_questions(face: &Face) {
-    let ask = |i: &Importer| {
-        // SAFETY: a place for a text
-        assert_eq!(unsafe { (i.f().get_string_status)(i.c, 1, &mut null()) }, DISCARD);
-        i.messages()
-    };
     let i = Importer::at(face, Phase::StepComplete);
-    let told = ask(&i);
+    let told = discarded(&i);
     assert_eq!(told.len(), 1);
     check(face, &told[0]);
     for (on, category, expected) in [
@@ -123,38 +130,52 @@ pub fn discarded_questions(face: &Face) {
         (true, "logStatusDiscard", 1),
     ] {
         assert_eq!(i.log(on, &[category]), OK);
-        assert_eq!(ask(&i).len(), expected, "after {category} is set to {on}");
+        assert_eq!(discarded(&i).len(), expected, "after {category} is set to {on}");
     }
     assert_eq!(i.log(false, &[]), OK);
-    assert!(ask(&i).is_empty());
+    assert!(discarded(&i).is_empty());
     assert_eq!(phase_of(&i), Phase::StepComplete);
     // errors are always told
     assert_eq!(i.step(i.time, -STEP), ERROR);
     assert_eq!(i.messages().len(), 1);
 }
 
-/// Leaving the range of the law is a warning, told once, and again after its category is switched on; never an error.
+/// Leaving the range of the law is a warning, told once with logging and without, and again after fmi2Reset or after its
+/// category is switched on; never an error. It is silent only if its category is named, not if all are switched off, as
+/// importers do by themselves.
 pub fn warnings(face: &Face) {
     let leave = |i: &mut Importer| {
         i.press(900.0);
         i.press(-900.0);
         i.messages()
     };
-    let mut i = Importer::at(face, Phase::StepComplete);
-    let told = leave(&mut i);
-    // an FMU without a density doesn't know the wave speed
-    for message in &told {
-        check(face, message);
-        assert_eq!((message.status, &*message.category), (OK, "logStatusWarning"));
+    let restarted = |i: &mut Importer| {
+        assert_eq!(i.reset(), OK);
+        i.go(Phase::StepComplete);
+        leave(i)
+    };
+    for logging in [true, false] {
+        let mut i = Importer::named(face, NAME, logging);
+        i.go(Phase::StepComplete);
+        let told = leave(&mut i);
+        assert!(!told.is_empty(), "900 m/s are beyond every law");
+        for message in &told {
+            check(face, message);
+            assert_eq!(message.status, WARNING);
+        }
+        let again = leave(&mut i);
+        for message in &again {
+            let before = told.iter().any(|other| other.text.split(" = ").next() == message.text.split(" = ").next());
+            assert!(!before, "told twice: {message:?}");
+        }
+        let all: Vec<&str> = face.categories.iter().map(String::as_str).collect();
+        for off in [&[][..], &["logAll"], &all] {
+            assert_eq!(i.log(false, off), OK);
+            assert_eq!(restarted(&mut i), told, "after {off:?} is switched off");
+        }
+        assert_eq!(i.log(false, &["logStatusWarning"]), OK);
+        assert!(leave(&mut i).is_empty() && restarted(&mut i).is_empty());
+        assert_eq!(i.log(true, &["logStatusWarning"]), OK);
+        assert!(!leave(&mut i).is_empty());
     }
-    let again = leave(&mut i);
-    for message in &again {
-        let before = told.iter().any(|other| other.text.split(" = ").next() == message.text.split(" = ").next());
-        assert!(!before, "told twice: {message:?}");
-    }
-    assert_eq!(i.log(false, &["logStatusWarning"]), OK);
-    assert!(leave(&mut i).is_empty());
-    let mut quiet = Importer::named(face, NAME, false);
-    quiet.go(Phase::StepComplete);
-    assert!(leave(&mut quiet).is_empty());
 }
