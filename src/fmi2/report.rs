@@ -200,7 +200,9 @@ fn describe_fault<S: Scene>(message: &mut Message, fault: Fault) -> &'static str
         }
         Fault::DerivativeOrder { order, largest } => {
             numbers[0] = f64::from(order);
-            if largest > 1 {
+            if S::Contact::DERIVATIVES == 0 && largest == 0 {
+                "outputs of this FMU have no derivatives: the indentation on a plate is not the distance of the bodies"
+            } else if largest > 1 {
                 "there is no derivative of order ~: allowed is 1 or 2"
             } else {
                 "there is no derivative of order ~: allowed is 1"

@@ -5,10 +5,10 @@ use super::complaint::Complaint;
 use super::component::{Component, array, array_mut, call};
 use super::handle::Handle;
 use super::order;
-use super::variables::{any_real, real};
+use super::variables::{any_real, get_any_real, real};
 use crate::contact::Contact;
-use crate::instance::{Instance, Plain};
-use crate::scene::{Presence, Scene};
+use crate::instance::{Fault, Plain};
+use crate::scene::{Presence, Real, Scene};
 
 /// Reference of the input of the first contact.
 const INPUT: fmi2ValueReference = 0;
@@ -198,7 +198,34 @@ pub unsafe fn get_real_output_derivatives<S: Scene>(
     }
 }
 
-/// Derivatives of outputs in the direction `dvKnown` of the inputs, at the present time.
+/// The derivative of the output `unknown` of `contact` with respect to the parameter with this `index`, in Initialization Mode: that
+/// of a parabola through three values that the FMU shows.
+fn by_parameter<S: Scene>(
+    component: &mut Component<S>,
+    unknown: fmi2ValueReference,
+    contact: usize,
+    index: usize,
+) -> Result<f64, Fault> {
+    let places = component.instance.neighbours(contact, index).ok_or(Fault::NotAnInput)?;
+    let [here, first, second] = places;
+    // the present value comes last, and remains
+    let [second_value, first_value, value] = [second, first, here].map(|place| {
+        let mut value = f64::NAN;
+        if component.instance.try_parameter(contact, index, place) {
+            let c = core::ptr::from_mut(component).cast();
+            // SAFETY: a component, one reference and one value.
+            unsafe { get_any_real::<S>(c, &raw const unknown, 1, &raw mut value) };
+        }
+        value
+    });
+    let (to_first, to_second) = (first - here, second - here);
+    let (slope, other) = ((first_value - value) / to_first, (second_value - value) / to_second);
+    let derivative = (slope * to_second - other * to_first) / (to_second - to_first);
+    if derivative.is_finite() { Ok(derivative) } else { Err(Fault::DerivativeNotFinite) }
+}
+
+/// Derivatives of outputs in the direction `dvKnown` of the inputs, at the present time, and in Initialization Mode also of
+/// parameters.
 ///
 /// # Safety
 /// See [the module](super#safety).
@@ -224,10 +251,15 @@ pub unsafe fn get_directional_derivative<S: Scene>(
                 let mut sum = 0.0;
                 for (&known, &direction) in knowns.iter().zip(directions) {
                     let input = any_real::<S>(known)?;
-                    match output {
-                        Some(output) => sum += component.instance.derivative_by_input(output, input)? * direction,
-                        None => Instance::<S>::check_known(input.0)?,
-                    }
+                    component.instance.check_known(input.0)?;
+                    sum += direction
+                        * match (output, input.0) {
+                            (Some((variable, contact)), Real::Parameter(index)) if variable.is_output() => {
+                                by_parameter(component, unknown, contact, index)?
+                            }
+                            (Some(output), _) => component.instance.derivative_by_input(output, input)?,
+                            (None, _) => 0.0,
+                        };
                 }
                 *derivative = sum;
             }

@@ -88,7 +88,7 @@ pub unsafe fn get_real<S: Scene>(
 /// # Safety
 /// The caller's component, and arrays of the given length.
 #[inline(never)]
-unsafe fn get_any_real<S: Scene>(
+pub(super) unsafe fn get_any_real<S: Scene>(
     c: fmi2Component,
     vr: *const fmi2ValueReference,
     nvr: usize,

@@ -3,6 +3,7 @@
 use super::*;
 use crate::contact::Regime;
 use crate::contact::behaviour::slopes;
+use crate::contact::numbers::largest;
 use crate::contact::path::Course;
 use crate::contact::tangential::Quantity;
 use crate::scene::Real;
@@ -177,7 +178,7 @@ impl<S: Scene> Instance<S> {
         if !variable.is_output() {
             return Err(Fault::NoDerivative { of: "outputs" });
         }
-        Self::check_known(input)?;
+        self.check_known(input)?;
         let derivative = match (contact == by, input) {
             (true, Real::IndentationRate) => self.by_own_input(variable, contact).unwrap_or(f64::NAN),
             (true, input) if S::Contact::HAS_FRICTION => match input.tangential_rate() {
@@ -189,13 +190,44 @@ impl<S: Scene> Instance<S> {
         if derivative.is_finite() { Ok(derivative) } else { Err(Fault::DerivativeNotFinite) }
     }
 
-    /// Checks that a variable is one by which derivatives exist.
+    /// Checks that a variable is one by which derivatives exist now: an input, and before the initialization ends a parameter.
     ///
     /// # Errors
     /// [`Fault::NotAnInput`]
     #[inline(always)]
-    pub fn check_known(input: Real) -> Result<(), Fault> {
-        if input == Real::IndentationRate || S::has_input(input) { Ok(()) } else { Err(Fault::NotAnInput) }
+    pub fn check_known(&self, known: Real) -> Result<(), Fault> {
+        let is_known = match known {
+            Real::Parameter(_) => self.phase() == Phase::Initialization,
+            _ => known == Real::IndentationRate || S::has_input(known),
+        };
+        if is_known { Ok(()) } else { Err(Fault::NotAnInput) }
+    }
+
+    /// The value of the parameter with this `index`, and two others at which to differentiate an output of `contact`: on both
+    /// sides, and on one side where the parameter is at a limit, or where bodies just touch and the derivative is that of bodies
+    /// apart. `None` if there is no such parameter.
+    ///
+    /// A parabola through the three has the derivative to some 1e-10 of the output over the parameter, or over what the parameter is
+    /// compared with if it may be zero: 1, or the modulus for hardening. At a corner of the law it is the mean of both sides.
+    pub fn neighbours(&self, contact: usize, index: usize) -> Option<[f64; 3]> {
+        /// Distance of the neighbours, as a fraction: near the cube root of the rounding error.
+        const WIDTH: f64 = 1.0 / 131_072.0;
+        let (Settable { unit, minimum, maximum, .. }, _) = S::settable(index)?;
+        let value = *self.settings.values.as_ref().get(index)?;
+        let least = match unit {
+            _ if minimum > 0.0 => 0.0,
+            b"" => 1.0,
+            b"Pa" => self.settings.bodies.as_ref().get(S::group(contact))?.modulus,
+            _ => 0.0,
+        };
+        let size = largest(value.abs(), least);
+        let width = if size > 0.0 { WIDTH * size } else { SLOW };
+        let (below, above) = (value - width, value + width);
+        Some(match () {
+            () if above > maximum => [value, below, below - width],
+            () if below < minimum || size == 0.0 => [value, above, above + width],
+            () => [value, below, above],
+        })
     }
 
     #[inline(always)]

@@ -79,6 +79,22 @@ fn start_of<S: Scene>(group: usize, values: &S::Values) -> Result<(Pair, S::Cont
     Ok((pair, history.map_err(|deep| too_deep(first_of::<S>(group), deep))?))
 }
 
+impl<S: Scene> Contacts<S> {
+    /// Puts `contact` at its start, which is `history`.
+    fn place(&mut self, contact: usize, history: S::Contact) {
+        let Some(slot) = self.histories.as_mut().get_mut(contact) else { return };
+        let before = *slot;
+        *slot = history;
+        // inputs survive
+        for direction in 0..S::Contact::DIRECTIONS {
+            slot.set_tangential_course(direction, &before.tangential_course(direction));
+        }
+        let force = history.force(0.0);
+        self.momenta.as_mut().get_mut(contact).into_iter().for_each(|momentum| *momentum = Momentum::start(force));
+        self.endings.as_mut().get_mut(contact).into_iter().for_each(|ending| *ending = Ending::start(force));
+    }
+}
+
 impl<S: Scene> Instance<S> {
     /// An instance before anything is set. With many contacts it is large: [`Instance::reset`] initializes one in place.
     ///
@@ -166,34 +182,33 @@ impl<S: Scene> Instance<S> {
                 start_of::<S>(group, values)?;
             }
         }
-        let mut histories = self.contacts.histories.as_mut().iter_mut();
         let mut first = 0;
         for (group, bodies) in bodies.as_mut().iter_mut().enumerate() {
             let (pair, history) = start_of::<S>(group, values)?;
             bodies.take(&pair);
             let end = S::end(group);
-            for slot in histories.by_ref().take(end - first) {
-                let before = *slot;
-                *slot = history;
-                // inputs survive
-                for direction in 0..S::Contact::DIRECTIONS {
-                    slot.set_tangential_course(direction, &before.tangential_course(direction));
-                }
+            for contact in first..end {
+                self.contacts.place(contact, history);
             }
             first = end;
         }
-        let Contacts { histories, momenta, endings, accounts, miswired, watched, looks, .. } = &mut self.contacts;
-        for (momentum, history) in momenta.as_mut().iter_mut().zip(histories.as_ref()) {
-            *momentum = Momentum::start(history.force(0.0));
-        }
-        for (ending, history) in endings.as_mut().iter_mut().zip(histories.as_ref()) {
-            *ending = Ending::start(history.force(0.0));
-        }
+        let Contacts { accounts, miswired, watched, looks, .. } = &mut self.contacts;
         accounts.as_mut().fill(Account::default());
         miswired.as_mut().fill(Miswired::default());
         watched.as_mut().fill(Watched::default());
         looks.as_mut().fill(0);
         self.note_forces();
         Ok(())
+    }
+
+    /// Puts `contact` alone where it starts if the parameter with this `index` has this `value`, whatever its limits. Returns
+    /// false where the bodies then do not fit together. It serves to differentiate outputs, and must be undone.
+    pub fn try_parameter(&mut self, contact: usize, index: usize, value: f64) -> bool {
+        let (group, Settings { bodies, values, .. }) = (S::group(contact), &mut self.settings);
+        values.as_mut().get_mut(index).into_iter().for_each(|slot| *slot = value);
+        let Ok((pair, history)) = start_of::<S>(group, values) else { return false };
+        bodies.as_mut().get_mut(group).into_iter().for_each(|bodies| bodies.take(&pair));
+        self.contacts.place(contact, history);
+        true
     }
 }

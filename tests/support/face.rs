@@ -51,6 +51,8 @@ pub struct Face {
     pub limits: HashMap<u32, (f64, f64)>,
     /// References of Real outputs by name.
     pub named: HashMap<String, u32>,
+    /// The variables whose values before the first step follow from others, with those, by their places among `variables`.
+    pub initial_unknowns: Vec<(usize, Vec<usize>)>,
 }
 
 /// The value of an attribute.
@@ -70,6 +72,21 @@ fn enumerations(description: &str) -> HashMap<&str, Vec<i32>> {
         element.split("<Item").skip(1).filter_map(|item| attribute(item, "value")?.parse().ok()).collect()
     };
     types.filter_map(|element| Some((attribute(element, "name")?, items(element)))).collect()
+}
+
+/// The initial unknowns with their dependencies. Indices in the XML start from 1.
+fn initial_unknowns(description: &str) -> Vec<(usize, Vec<usize>)> {
+    let (_, list) = description.split_once("<InitialUnknowns>").expect("every FMU has some");
+    let (list, _) = list.split_once("</InitialUnknowns>").expect("an element ends");
+    let place = |index: &str| index.parse::<usize>().expect("an index") - 1;
+    let places = |list: &str| list.split_whitespace().map(place).collect();
+    list.split("<Unknown")
+        .skip(1)
+        .map(|unknown| {
+            let given = |name| attribute(unknown, name).expect("every unknown has it");
+            (place(given("index")), places(given("dependencies")))
+        })
+        .collect()
 }
 
 impl Variable {
@@ -138,6 +155,7 @@ impl Face {
             limits: reals().map(|variable| (variable.reference, variable.limits())).collect(),
             yields: description.contains("yield_strength"),
             passive: true,
+            initial_unknowns: initial_unknowns(&description),
             named: outputs().map(|variable| (variable.name.clone(), variable.reference)).collect(),
             variables,
         };

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 /// Scenes of laws and keys that the project's own scenes lack: name, loading law, unloading law, additional lines of the
 /// target and of the law.
-const FURTHER: [(&str, &str, &str, &str, &str); 3] = [
+const FURTHER: [(&str, &str, &str, &str, &str); 4] = [
+    ("lossy", "brinell", "brinell", "", "elastic_restitution = 0.98\n"),
     ("fresh", "brinell", "brinell", "surface = \"fresh\"\n", ""),
     ("guarded", "jackson-green", "contact-radius", "", "passivity_guard = true\n"),
     ("thornton", "thornton", "thornton", "", ""),
@@ -18,8 +19,13 @@ const BODIES: &str = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild ste
 const OUTPUTS: &str = "[fmu]\noutputs = [\"indentation\", \"residual_indentation\", \"work\", \"elastic_energy\", \"dissipated_energy\", \
                        \"impulse\", \"predicted_force\", \"regime\"]\n";
 
-/// Memory from the importer, and parameters of each contact of a group.
-const MORE: [(&str, &str); 2] = [
+/// Memory from the importer, parameters of each contact of a group, and a hardening target with friction.
+const MORE: [(&str, &str); 3] = [
+    (
+        "hardened",
+        "hardening_modulus = 2e9\n[law]\nloading = \"brinell\"\n[friction]\ncoefficient = 0.3\n[fmu]\noutputs = \
+         [\"residual_indentation\", \"contact_radius\", \"mean_pressure\", \"elastic_energy\", \"stick_radius\", \"sliding\"]\n",
+    ),
     ("standalone", "[fmu]\nstandalone = true\noutputs = [\"indentation\", \"work\"]\n"),
     (
         "own_parameters",

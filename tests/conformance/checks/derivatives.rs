@@ -16,7 +16,7 @@ fn input_derivative(i: &Importer, reference: u32, order: c_int, value: f64) -> c
     unsafe { (i.f().set_real_input_derivatives)(i.c, &reference, 1, &order, &value) }
 }
 
-fn directional(i: &Importer, unknown: u32, known: u32, direction: f64) -> (c_int, f64) {
+pub fn directional(i: &Importer, unknown: u32, known: u32, direction: f64) -> (c_int, f64) {
     let mut value = f64::NAN;
     // SAFETY: one element each
     let status = unsafe { (i.f().get_directional_derivative)(i.c, &unknown, 1, &known, 1, &direction, &raw mut value) };

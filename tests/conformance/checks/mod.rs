@@ -4,6 +4,7 @@ mod arguments;
 mod arithmetic;
 mod courses;
 mod derivatives;
+mod initial;
 mod instances;
 mod logging;
 mod order;
@@ -55,6 +56,8 @@ pub const CHECKS: &[Check] = &[
     check("derivatives of a course", derivatives::are_those_of_the_course),
     check("derivatives of inputs", derivatives::of_inputs),
     check("derivatives in every direction", derivatives::in_every_direction),
+    check("dependencies before the first step", initial::dependencies),
+    check("derivatives before the first step", initial::derivatives),
     check("instances in turn", process::instances_in_turn),
     check("instances in threads", process::instances_in_threads),
     check("memory", process::memory),
