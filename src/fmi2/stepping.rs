@@ -254,7 +254,9 @@ pub unsafe fn get_directional_derivative<S: Scene>(
                     component.instance.check_known(input.0)?;
                     sum += direction
                         * match (output, input.0) {
-                            (Some((variable, contact)), Real::Parameter(index)) if variable.is_output() => {
+                            (Some((variable, contact)), Real::Parameter(index))
+                                if variable.is_output() && !variable.is_number() =>
+                            {
                                 by_parameter(component, unknown, contact, index)?
                             }
                             (Some(output), _) => component.instance.derivative_by_input(output, input)?,

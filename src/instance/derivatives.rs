@@ -141,7 +141,9 @@ impl<S: Scene> Instance<S> {
             }
             Real::Work => return Some(work),
             Real::Impulse => return Some((force, stiffness * rate)),
-            Real::MeanForce
+            Real::RegimeNumber
+            | Real::SlidingNumber
+            | Real::MeanForce
             | Real::PredictedForce
             | Real::PredictedTangentialForce
             | Real::SecondPredictedTangentialForce => return Some((0.0, 0.0)),

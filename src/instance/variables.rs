@@ -170,6 +170,8 @@ impl<S: Scene> Instance<S> {
             },
             Real::PredictedForce => self.predicted_force(contact, history),
             Real::ClosingSpeed if Self::MOVES => self.own_speed(contact).unwrap_or(rate),
+            Real::RegimeNumber => self.integer((Integer::Regime, contact)).into(),
+            Real::SlidingNumber => self.integer((Integer::Sliding, contact)).into(),
             Real::ExternalAcceleration if S::has_input(variable) => self.acceleration(contact, f64::NAN),
             Real::EffectiveMass if S::has_input(variable) => self.mass(contact),
             Real::TangentialRate => history.tangential_course(0).rate,

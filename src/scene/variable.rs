@@ -157,6 +157,8 @@ pub enum Real {
     ClosingSpeed,
     /// Acceleration by all forces except the contact force, an input \[m/s^2\].
     ExternalAcceleration,
+    /// Number of the regime.
+    RegimeNumber,
     /// Tangential rate, an input \[m/s\].
     TangentialRate,
     /// Tangential rate in the second direction, an input \[m/s\].
@@ -183,6 +185,8 @@ pub enum Real {
     FrictionWork,
     /// Radius of the stick area \[m\].
     StickRadius,
+    /// Number of the state of sliding.
+    SlidingNumber,
     /// Effective mass, as an input \[kg\].
     EffectiveMass,
     /// The settable parameter with this index among [`Scene::Values`](super::Scene::Values).
@@ -199,6 +203,11 @@ impl Real {
     pub fn is_input(self) -> bool {
         matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::EffectiveMass)
             || self.tangential_rate().is_some()
+    }
+
+    /// Whether it is the number of a state, and jumps.
+    pub fn is_number(self) -> bool {
+        matches!(self, Real::RegimeNumber | Real::SlidingNumber)
     }
 
     /// The direction of which it is the tangential rate, counted from 0.

@@ -238,6 +238,9 @@ impl<'a> Importer<'a> {
         let enumerations = self.face.variables.iter().filter(|variable| !variable.is_real);
         for (variable, value) in enumerations.zip(&integers) {
             assert!(variable.items.contains(value), "{} is {value}", variable.name);
+            if let Some(&number) = self.face.named.get(&format!("{}_number", variable.name)) {
+                assert_eq!(self.real(number), f64::from(*value), "{}", variable.name);
+            }
         }
         reals.iter().map(|value| value.to_bits()).chain(integers.iter().map(|value| *value as u64)).collect()
     }

@@ -17,14 +17,14 @@ const BODIES: &str = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild ste
 
 /// Outputs that every law has.
 const OUTPUTS: &str = "[fmu]\noutputs = [\"indentation\", \"residual_indentation\", \"work\", \"elastic_energy\", \"dissipated_energy\", \
-                       \"impulse\", \"predicted_force\", \"regime\"]\n";
+                       \"impulse\", \"predicted_force\", \"regime\", \"regime_number\"]\n";
 
 /// Memory from the importer, parameters of each contact of a group, and a hardening target with friction.
 const MORE: [(&str, &str); 3] = [
     (
         "hardened",
         "hardening_modulus = 2e9\n[law]\nloading = \"brinell\"\n[friction]\ncoefficient = 0.3\n[fmu]\noutputs = \
-         [\"residual_indentation\", \"contact_radius\", \"mean_pressure\", \"elastic_energy\", \"stick_radius\", \"sliding\"]\n",
+         [\"residual_indentation\", \"contact_radius\", \"mean_pressure\", \"elastic_energy\", \"stick_radius\", \"sliding\", \"sliding_number\"]\n",
     ),
     ("standalone", "[fmu]\nstandalone = true\noutputs = [\"indentation\", \"work\"]\n"),
     (

@@ -98,6 +98,7 @@ mod tests {
             PredictedForce,
             ClosingSpeed,
             ExternalAcceleration,
+            RegimeNumber,
             TangentialRate,
             SecondTangentialRate,
             TangentialForce,
@@ -111,6 +112,7 @@ mod tests {
             TangentialEnergy,
             FrictionWork,
             StickRadius,
+            SlidingNumber,
             EffectiveMass,
         ];
         match all[0] {
@@ -130,6 +132,7 @@ mod tests {
             | PredictedForce
             | ClosingSpeed
             | ExternalAcceleration
+            | RegimeNumber
             | TangentialRate
             | SecondTangentialRate
             | TangentialForce
@@ -143,6 +146,7 @@ mod tests {
             | TangentialEnergy
             | FrictionWork
             | StickRadius
+            | SlidingNumber
             | EffectiveMass
             | Parameter(_) => {}
         }
