@@ -84,7 +84,7 @@ mod exporter {
         Ok(manifest.parent().ok_or("libm has no folder")?.into())
     }
 
-    /// The prototypes of the 34 functions. A C program that includes the standard's header and then this one compiles only if
+    /// The prototypes of the functions. A C program that includes the standard's header and then this one compiles only if
     /// every signature agrees; `tests/importing/abi.rs` checks this.
     fn write_header(root: &Path, header: &Path) {
         let config = cbindgen::Config {

@@ -53,6 +53,9 @@ pub const fmi2LastSuccessfulTime: fmi2StatusKind = 2;
 /// A value of fmi2StatusKind: whether the FMU wants to end the simulation.
 pub const fmi2Terminated: fmi2StatusKind = 3;
 
+/// What a unit for Model Exchange answers about events. No function here looks at it.
+pub enum fmi2EventInfo {}
+
 /// The importer's log function; `message` is a printf format.
 pub type fmi2CallbackLogger =
     unsafe extern "C" fn(fmi2ComponentEnvironment, fmi2String, fmi2Status, fmi2String, fmi2String, ...);

@@ -4,6 +4,7 @@
 //! and plain functions are easier to read.
 
 use super::abi::*;
+use super::order::Function;
 use super::{lifecycle, states, status, stepping, variables};
 
 #[cfg(feature = "prebuilt")]
@@ -392,4 +393,120 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
 ) -> fmi2Status {
     // SAFETY: guaranteed by the caller.
     unsafe { states::deserialize_fmu_state::<Exported>(c, serializedState, size, FMUstate) }
+}
+
+// The functions of Model Exchange: some loaders ask for all symbols of the standard. Every call is rejected.
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterEventMode(c: fmi2Component) -> fmi2Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe { lifecycle::no_model_exchange::<Exported>(c, const { Function::of_model_exchange("fmi2EnterEventMode") }) }
+}
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2NewDiscreteStates(c: fmi2Component, fmi2eventInfo: *mut fmi2EventInfo) -> fmi2Status {
+    let _ = fmi2eventInfo;
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        lifecycle::no_model_exchange::<Exported>(c, const { Function::of_model_exchange("fmi2NewDiscreteStates") })
+    }
+}
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: fmi2Component) -> fmi2Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        lifecycle::no_model_exchange::<Exported>(
+            c,
+            const { Function::of_model_exchange("fmi2EnterContinuousTimeMode") },
+        )
+    }
+}
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
+    c: fmi2Component,
+    noSetFMUStatePriorToCurrentPoint: fmi2Boolean,
+    enterEventMode: *mut fmi2Boolean,
+    terminateSimulation: *mut fmi2Boolean,
+) -> fmi2Status {
+    let _ = (noSetFMUStatePriorToCurrentPoint, enterEventMode, terminateSimulation);
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        lifecycle::no_model_exchange::<Exported>(
+            c,
+            const { Function::of_model_exchange("fmi2CompletedIntegratorStep") },
+        )
+    }
+}
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetTime(c: fmi2Component, time: fmi2Real) -> fmi2Status {
+    let _ = time;
+    // SAFETY: guaranteed by the caller.
+    unsafe { lifecycle::no_model_exchange::<Exported>(c, const { Function::of_model_exchange("fmi2SetTime") }) }
+}
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetContinuousStates(c: fmi2Component, x: *const fmi2Real, nx: usize) -> fmi2Status {
+    let _ = (x, nx);
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        lifecycle::no_model_exchange::<Exported>(c, const { Function::of_model_exchange("fmi2SetContinuousStates") })
+    }
+}
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDerivatives(c: fmi2Component, derivatives: *mut fmi2Real, nx: usize) -> fmi2Status {
+    let _ = (derivatives, nx);
+    // SAFETY: guaranteed by the caller.
+    unsafe { lifecycle::no_model_exchange::<Exported>(c, const { Function::of_model_exchange("fmi2GetDerivatives") }) }
+}
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetEventIndicators(
+    c: fmi2Component,
+    eventIndicators: *mut fmi2Real,
+    ni: usize,
+) -> fmi2Status {
+    let _ = (eventIndicators, ni);
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        lifecycle::no_model_exchange::<Exported>(c, const { Function::of_model_exchange("fmi2GetEventIndicators") })
+    }
+}
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetContinuousStates(c: fmi2Component, x: *mut fmi2Real, nx: usize) -> fmi2Status {
+    let _ = (x, nx);
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        lifecycle::no_model_exchange::<Exported>(c, const { Function::of_model_exchange("fmi2GetContinuousStates") })
+    }
+}
+
+/// Rejected: there is no Model Exchange.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
+    c: fmi2Component,
+    x_nominal: *mut fmi2Real,
+    nx: usize,
+) -> fmi2Status {
+    let _ = (x_nominal, nx);
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        lifecycle::no_model_exchange::<Exported>(
+            c,
+            const { Function::of_model_exchange("fmi2GetNominalsOfContinuousStates") },
+        )
+    }
 }

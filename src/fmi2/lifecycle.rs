@@ -6,7 +6,7 @@ use super::complaint::Complaint;
 use super::component::{Component, Logger, array, call};
 use super::handle::Handle;
 use super::memory::Memory;
-use super::order;
+use super::order::{self, Function};
 use super::text::{extent, is_same};
 use crate::scene::Scene;
 use core::ffi::c_char;
@@ -221,6 +221,16 @@ pub unsafe fn terminate<S: Scene>(c: fmi2Component) -> fmi2Status {
             Ok(())
         })
     }
+}
+
+/// A function of Model Exchange, which this FMU does not have.
+///
+/// # Safety
+/// See [the module](super#safety).
+#[inline(never)]
+pub unsafe fn no_model_exchange<S: Scene>(c: fmi2Component, function: Function) -> fmi2Status {
+    // SAFETY: the caller's component.
+    unsafe { call::<S>(c, function, |_| Err(Complaint::Unsupported)) }
 }
 
 /// Resets the instance to its state after fmi2Instantiate. Name, callbacks and log settings do not change; warnings are given

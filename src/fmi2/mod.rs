@@ -1,4 +1,5 @@
-//! The C interface of FMI 2.0 for co-simulation: 34 functions, and the only `unsafe` of the library.
+//! The C interface of FMI 2.0 for co-simulation: 34 functions, the ten of Model Exchange as refusals, and the only `unsafe` of
+//! the library.
 //!
 //! The functions are written once for any [`Scene`](crate::scene::Scene). `exports` instantiates them as C symbols for the
 //! scene that the exporter has written, or for the one in the block of a prebuilt library.

@@ -23,7 +23,9 @@ const NAMES: &str = "\
     SetDebugLoggingSetupExperimentEnterInitializationModeExitInitializationModeTerminateResetSetInteger\
     SetBooleanSetStringGetFMUstateSetFMUstateFreeFMUstateSerializedFMUstateSizeDeSerializeFMUstate\
     GetDirectionalDerivativeSetRealInputDerivativesGetRealOutputDerivativesDoStepCancelStepGetStatus\
-    GetRealStatusGetIntegerStatusGetBooleanStatusGetStringStatus";
+    GetRealStatusGetIntegerStatusGetBooleanStatusGetStringStatusEnterEventModeNewDiscreteStates\
+    EnterContinuousTimeModeCompletedIntegratorStepSetTimeSetContinuousStatesGetDerivativesGetEventIndicators\
+    GetContinuousStatesGetNominalsOfContinuousStates";
 
 const INSTANTIATED: u8 = Phase::Instantiated as u8;
 const INITIALIZATION: u8 = Phase::Initialization as u8;
@@ -50,6 +52,11 @@ impl Function {
             }
             begin += 1;
         }
+    }
+
+    /// The function of Model Exchange with this `name`. It is rejected in every phase, with a message of its own.
+    pub const fn of_model_exchange(name: &str) -> Function {
+        Function::new(name, ANY)
     }
 
     /// Its name after [`PREFIX`], for messages.

@@ -14,7 +14,9 @@
     X(GetString) X(SetReal) X(SetInteger) X(SetBoolean) X(SetString) X(GetFMUstate) X(SetFMUstate) X(FreeFMUstate) \
     X(SerializedFMUstateSize) X(SerializeFMUstate) X(DeSerializeFMUstate) X(GetDirectionalDerivative) \
     X(SetRealInputDerivatives) X(GetRealOutputDerivatives) X(DoStep) X(CancelStep) X(GetStatus) X(GetRealStatus) \
-    X(GetIntegerStatus) X(GetBooleanStatus) X(GetStringStatus)
+    X(GetIntegerStatus) X(GetBooleanStatus) X(GetStringStatus) X(EnterEventMode) X(NewDiscreteStates) \
+    X(EnterContinuousTimeMode) X(CompletedIntegratorStep) X(SetTime) X(SetContinuousStates) X(GetDerivatives) \
+    X(GetEventIndicators) X(GetContinuousStates) X(GetNominalsOfContinuousStates)
 
 #define MEMBER(name) fmi2##name##TYPE *name;
 struct unit { FUNCTIONS(MEMBER) };

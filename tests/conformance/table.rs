@@ -1,4 +1,4 @@
-//! The table of allowed calls of section 4.2.4 of FMI 2.0, as data: all 34 functions in every state of an instance.
+//! The table of allowed calls of section 4.2.4 of FMI 2.0, as data: all functions in every state of an instance.
 //!
 //! SAFETY of all calls: the component lives, and arrays have as many elements as announced.
 
@@ -51,7 +51,7 @@ const fn leading(function: &'static str, answers: &'static str, then: Phase, cal
 
 /// Not in the table of the standard, and accepted here, as importers do it and it does no harm: fmi2Terminate of an
 /// instance that was never initialized, and a second one.
-pub const ROWS: [Row; 34] = [
+pub const ROWS: [Row; 44] = [
     row("fmi2GetTypesPlatform", "+++++", |i| text(unsafe { (i.f().get_types_platform)() }, "default")),
     row("fmi2GetVersion", "+++++", |i| text(unsafe { (i.f().get_version)() }, "2.0")),
     row("fmi2SetDebugLogging", "+++++", |i| i.log(true, &[])),
@@ -115,6 +115,21 @@ pub const ROWS: [Row; 34] = [
     row("fmi2GetIntegerStatus", "--ddd", |i| unsafe { (i.f().get_integer_status)(i.c, 2, &mut 0) }),
     row("fmi2GetBooleanStatus", "--+++", |i| unsafe { (i.f().get_boolean_status)(i.c, 3, &mut 0) }),
     row("fmi2GetStringStatus", "--ddd", |i| unsafe { (i.f().get_string_status)(i.c, 1, &mut null()) }),
+    // there is no Model Exchange
+    row("fmi2EnterEventMode", "-----", |i| unsafe { (i.f().enter_event_mode)(i.c) }),
+    row("fmi2NewDiscreteStates", "-----", |i| unsafe { (i.f().new_discrete_states)(i.c, null_mut()) }),
+    row("fmi2EnterContinuousTimeMode", "-----", |i| unsafe { (i.f().enter_continuous_time_mode)(i.c) }),
+    row("fmi2CompletedIntegratorStep", "-----", |i| unsafe {
+        (i.f().completed_integrator_step)(i.c, 1, &mut 0, &mut 0)
+    }),
+    row("fmi2SetTime", "-----", |i| unsafe { (i.f().set_time)(i.c, i.time) }),
+    row("fmi2SetContinuousStates", "-----", |i| unsafe { (i.f().set_continuous_states)(i.c, null(), 0) }),
+    row("fmi2GetDerivatives", "-----", |i| unsafe { (i.f().get_derivatives)(i.c, null_mut(), 0) }),
+    row("fmi2GetEventIndicators", "-----", |i| unsafe { (i.f().get_event_indicators)(i.c, null_mut(), 0) }),
+    row("fmi2GetContinuousStates", "-----", |i| unsafe { (i.f().get_continuous_states)(i.c, null_mut(), 0) }),
+    row("fmi2GetNominalsOfContinuousStates", "-----", |i| unsafe {
+        (i.f().get_nominals_of_continuous_states)(i.c, null_mut(), 0)
+    }),
 ];
 
 fn text(pointer: *const fmi2Char, expected: &str) -> c_int {

@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Largest size of a library [bytes]: that of an FMU that knows the mass.
-const LARGEST: u64 = 62_000;
+const LARGEST: u64 = 64_500;
 
 /// The same with friction: the springs, their growth with the dent, and their merge.
 const LARGEST_WITH_FRICTION: u64 = 100_000;
 
 /// Largest size of the library of the default scene [bytes].
-const LARGEST_OF_DEFAULT: u64 = 34_300;
+const LARGEST_OF_DEFAULT: u64 = 36_200;
 
 fn libraries() -> Vec<PathBuf> {
     unit::scenes().iter().map(|scene| unit::library(&unit::export(scene))).collect()
@@ -92,13 +92,13 @@ fn an_output_that_is_not_requested_is_not_in_the_library() {
 }
 
 #[test]
-fn it_exports_the_34_functions_and_nothing_else() {
+fn it_exports_the_functions_of_the_standard_and_nothing_else() {
     for library in libraries() {
         let Some(symbols) = tool("nm", &["-D", "--defined-only"], &library) else { return };
         let names: Vec<_> = symbols.lines().filter_map(|line| line.rsplit(' ').next()).collect();
         assert!(names.iter().all(|name| name.starts_with("fmi2")), "{names:?}");
-        assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), 34, "{names:?}");
-        assert_eq!(names.len(), 34, "{names:?}");
+        assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), 44, "{names:?}");
+        assert_eq!(names.len(), 44, "{names:?}");
     }
 }
 

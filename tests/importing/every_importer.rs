@@ -58,10 +58,11 @@ const fn more(module: &'static str) -> Interpreter {
     Beside { requirements: "more", module, large: true }
 }
 
-const DRIVERS: [Driver; 10] = [
+const DRIVERS: [Driver; 11] = [
     Driver { name: "fmpy", interpreter: Common },
     Driver { name: "libcosim", interpreter: light("libcosimpy") },
     Driver { name: "ecos", interpreter: light("ecospy") },
+    Driver { name: "fmuloader", interpreter: light("fmuloader") },
     Driver { name: "container", interpreter: more("fmu_manipulation_toolbox") },
     Driver { name: "pathsim", interpreter: more("pathsim_fmi") },
     Driver { name: "cofmupy", interpreter: Own { requirements: "cofmupy" } },

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Declares the table: the names of the functions are those of the standard without `fmi2`, in snake case.
 macro_rules! functions {
     ($($field:ident = $name:literal ($($argument:ty),*) $(-> $result:ty)?;)*) => {
-        /// All functions of FMI 2.0 co-simulation.
+        /// All functions of FMI 2.0.
         pub struct Functions {
             $(pub $field: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
             // keeps the functions valid
@@ -80,6 +80,20 @@ functions! {
     get_integer_status = "fmi2GetIntegerStatus" (fmi2Component, fmi2StatusKind, *mut fmi2Integer) -> fmi2Status;
     get_boolean_status = "fmi2GetBooleanStatus" (fmi2Component, fmi2StatusKind, *mut fmi2Boolean) -> fmi2Status;
     get_string_status = "fmi2GetStringStatus" (fmi2Component, fmi2StatusKind, *mut fmi2String) -> fmi2Status;
+    enter_event_mode = "fmi2EnterEventMode" (fmi2Component) -> fmi2Status;
+    new_discrete_states = "fmi2NewDiscreteStates" (fmi2Component, *mut fmi2EventInfo) -> fmi2Status;
+    enter_continuous_time_mode = "fmi2EnterContinuousTimeMode" (fmi2Component) -> fmi2Status;
+    completed_integrator_step = "fmi2CompletedIntegratorStep" (
+        fmi2Component, fmi2Boolean, *mut fmi2Boolean, *mut fmi2Boolean
+    ) -> fmi2Status;
+    set_time = "fmi2SetTime" (fmi2Component, fmi2Real) -> fmi2Status;
+    set_continuous_states = "fmi2SetContinuousStates" (fmi2Component, *const fmi2Real, usize) -> fmi2Status;
+    get_derivatives = "fmi2GetDerivatives" (fmi2Component, *mut fmi2Real, usize) -> fmi2Status;
+    get_event_indicators = "fmi2GetEventIndicators" (fmi2Component, *mut fmi2Real, usize) -> fmi2Status;
+    get_continuous_states = "fmi2GetContinuousStates" (fmi2Component, *mut fmi2Real, usize) -> fmi2Status;
+    get_nominals_of_continuous_states = "fmi2GetNominalsOfContinuousStates" (
+        fmi2Component, *mut fmi2Real, usize
+    ) -> fmi2Status;
 }
 
 unsafe extern "C" {
