@@ -313,7 +313,7 @@ fn fmi_crate(folder: &Path, forces: &[f64]) -> Row {
 }
 
 /// Tools that don't show the warnings of an FMU unless they are told to.
-const SILENT: [&str; 2] = ["Ecos", "Ecos, SSP 1.0"];
+const SILENT: [&str; 4] = ["Ecos", "Ecos, SSP 1.0", "FMI++", "PyFMI"];
 
 /// Adds the rows of `driver` to `table`. With the FMUs for the other kind of importer, the ball has a large error, so that the
 /// table can fail; and the user of the tool reads why, with its settings as they are.
