@@ -108,6 +108,12 @@ def test_a_master_of_the_other_order_is_told_once_with_the_line_to_change(name, 
     line = 'write master = "parallel" under [coupling]' if kind == "serial" else 'leave out master = "parallel" under [coupling]'
     assert line in message
     assert master.contact.log[0][1:3] == (WARNING, "logStatusWarning")
+    master.contact.call("Reset")
+    master.contact.initialize()
+    master.speed = 1.0
+    for _ in range(100):
+        master.step(size)
+    assert len(master.told()) == 2, "and again after a reset"
 
 
 def test_the_mass_is_a_tunable_parameter_and_an_input_to_the_same_effect():

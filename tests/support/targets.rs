@@ -19,8 +19,19 @@ const BODIES: &str = "[impactor]\nradius = 5e-3\n[target]\nmaterial = \"mild ste
 const OUTPUTS: &str = "[fmu]\noutputs = [\"indentation\", \"residual_indentation\", \"work\", \"elastic_energy\", \"dissipated_energy\", \
                        \"impulse\", \"predicted_force\", \"regime\", \"regime_number\"]\n";
 
-/// Memory from the importer, parameters of each contact of a group, and a hardening target with friction.
-const MORE: [(&str, &str); 3] = [
+/// Memory from the importer, parameters of each contact of a group, a hardening target with friction, and bodies that the unit moves:
+/// with a mass from outside, and with a law that depends on the rate.
+const MORE: [(&str, &str); 5] = [
+    (
+        "mass_input",
+        "[law]\nloading = \"brinell\"\n[coupling]\neffective_mass = 4e-3\ninputs = [\"effective_mass\"]\n[fmu]\noutputs = \
+         [\"indentation\", \"contact_radius\", \"elastic_energy\", \"mean_force\", \"predicted_force\", \"closing_speed\"]\n",
+    ),
+    (
+        "moved_and_damped",
+        "[law]\nloading = \"hunt-crossley\"\nrestitution = 0.7\n[coupling]\neffective_mass = 4e-3\nmaster = \"parallel\"\n\
+         [fmu]\noutputs = [\"stiffness\", \"dissipated_energy\", \"mean_force\", \"predicted_force\", \"closing_speed\"]\n",
+    ),
     (
         "hardened",
         "hardening_modulus = 2e9\n[law]\nloading = \"brinell\"\n[friction]\ncoefficient = 0.3\n[fmu]\noutputs = \
