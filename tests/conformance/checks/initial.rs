@@ -33,7 +33,9 @@ fn has_gap(face: &Face) -> bool {
 fn begun(face: &Face, gap: Option<f64>, rate: f64) -> Importer<'_> {
     let i = Importer::at(face, Phase::Initialization);
     for variable in face.variables.iter().filter(|variable| variable.name.ends_with("initial_gap")) {
-        gap.map(|gap| assert_eq!(i.set(&[variable.reference], &[gap]), OK, "{:?}", i.log));
+        if let Some(gap) = gap {
+            assert_eq!(i.set(&[variable.reference], &[gap]), OK, "{:?}", i.log);
+        }
     }
     i.set_rates(rate);
     i
@@ -149,7 +151,9 @@ pub fn derivatives(face: &Face) {
                     "hardening_modulus" | "coefficient" => variable.minimum,
                     _ => None,
                 };
-                limit.map(|limit| assert_eq!(i.set(&[variable.reference], &[limit]), OK, "{:?}", i.log));
+                if let Some(limit) = limit {
+                    assert_eq!(i.set(&[variable.reference], &[limit]), OK, "{:?}", i.log);
+                }
             }
             let bits = i.bits();
             for (place, dependencies) in unknowns(face) {
