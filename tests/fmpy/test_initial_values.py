@@ -128,6 +128,7 @@ def test_initial_outputs_follow_the_input_as_the_model_description_lists(name):
 def test_a_contact_that_starts_indented_shows_the_force_of_its_first_step(name):
     if "initial_gap" not in unit(name).parameters:
         pytest.skip("it starts apart")
+    moves = "closing_speed" in unit(name).outputs
     for rate in (0.5, 1e-3, -1e-3):
         instance = initializing(name, initial_gap=-1e-6)
         instance.set(indentation_rate=rate)
@@ -135,10 +136,10 @@ def test_a_contact_that_starts_indented_shows_the_force_of_its_first_step(name):
         instance.call("ExitInitializationMode")
         assert instance.get("force") == first
         instance.step(1e-13, rate)
-        if rate > 0.0 or not unit(name).moves_bodies():
+        if rate > 0.0 or not moves:
             assert instance.get("force") == pytest.approx(first, rel=1e-5)
         instance.call("Reset")
         instance.initialize(0.0, None, initial_gap=-1e-6)
         instance.set(indentation_rate=rate)
-        if not unit(name).moves_bodies():
+        if not moves:
             assert instance.get("force") == first
