@@ -171,7 +171,8 @@ fn an_implausible_number_causes_a_question() {
         ),
         (
             "[target]",
-            "[law]\nloading = \"brinell\"\n[impactor.power_law]\ncoefficient = 400\nexponent = 0.2\n[target]",
+            "youngs_modulus = 206e9\npoissons_ratio = 0.3\npower_law = { coefficient = 400, exponent = 0.2 }\n\
+             [law]\nloading = \"brinell\"\n[target]",
             "impactor.power_law.coefficient = 400 Pa; did you mean 400e6?",
         ),
         (
