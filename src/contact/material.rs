@@ -86,6 +86,23 @@ impl Pair {
         Pair { yield_strength, youngs_modulus: body.youngs_modulus, poissons_ratio: body.poissons_ratio, ..self }
     }
 
+    /// Plane-strain modulus of the body that yields \[Pa\].
+    pub fn yielding_modulus(&self) -> f64 {
+        self.youngs_modulus / (1.0 - self.poissons_ratio * self.poissons_ratio)
+    }
+
+    /// Radius \[m\] of the rigid sphere that presses the yielding body as the other body does: `R E_y/E*`, with the
+    /// [modulus](Pair::yielding_modulus) `E_y` of the yielding body.
+    ///
+    /// It is `R` if the other body is rigid, and `2 R` for two equal bodies: by symmetry the plane between them stays flat. In
+    /// general it is Hertz's radius: the depths of elastic bodies, and so the curvatures that they take on, are as `1/E`. An
+    /// elastic body under one that has yielded far takes on less curvature; the radius then comes nearer to `R`.
+    ///
+    /// Reference: Johnson 1985, section 4.2.
+    pub fn indenter_radius(&self) -> f64 {
+        self.radius * (self.yielding_modulus() / self.modulus)
+    }
+
     /// `K_h = (4/3) E* sqrt(R)` \[N/m^1.5\], the constant of Hertz's law `F = K_h d^1.5`.
     ///
     /// Reference: Johnson 1985, eq. 4.23.

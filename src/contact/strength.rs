@@ -38,11 +38,16 @@ pub const KNOTS: [f64; 11] = [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500
 ///   `s0^2 d_y` (theory: 0.825, 0.955, 1.110, 1.198 for `nu = 0.2, 0.3, 0.4, 0.45`; K. L. Johnson, *Contact
 ///   Mechanics*, Cambridge 1985, section 6.2);
 /// - `t_nu = 1 + (1/s0 - 1) w/(1 + w)` with `w = s0^2.944 (k^0.5854 - 1)/21.26`;
-/// - `t_H = 1 + 0.9452 h s0^0.779 (k^0.3895 - 1)` with `h = eta/(1 + 1.318 eta)` and `eta = H/E*`.
+/// - `t_H = 1 + 0.9452 h s0^0.779 (k^0.3895 - 1)` with `h = eta/(1 + 1.318 eta)` and
+///   `eta = (1 - nu^2) H/E`.
 ///
-/// `eta` belongs to the pair: `(1 - nu^2) H/E` for a rigid impactor. Two assumptions: this `eta` is also right for an
-/// elastic impactor, and the two effects are independent; the latter is right within 0.8 % of the force (`truth/both`). Fitted
-/// for `nu` from 0.2 to 0.45 and `H/E` up to 0.1.
+/// `eta` belongs to the body that yields, whatever the other one is. Of two equal bodies each is pressed by the flat plane
+/// between them, and doesn't know what is behind it. The depth in yield depths, `k`, is the same for one body and for both,
+/// and so is the curve. Under an elastic body the `k` of the yielding body alone is larger than that of the pair, with
+/// hardening as without it.
+///
+/// The two effects are taken as independent, which is right within 0.8 % of the force (`truth/both`). Fitted for `nu` from 0.2
+/// to 0.45 and `H/E` up to 0.1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strength {
     /// `s0`.
@@ -70,8 +75,8 @@ impl Strength {
         let [first, second] = GROWTH;
         let more = pair.poissons_ratio - POISSONS_RATIO;
         let logarithm = more * (first + second * more);
-        // this quotient does not overflow; one with a soft pair in the denominator may
-        let hardening = hardening_modulus / (pair.modulus + SATURATION * hardening_modulus);
+        // this quotient does not overflow; one with a soft body in the denominator may
+        let hardening = hardening_modulus / (pair.yielding_modulus() + SATURATION * hardening_modulus);
         Strength {
             at_yield: exp(logarithm),
             ease: exp(-logarithm) - 1.0,

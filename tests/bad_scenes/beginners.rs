@@ -164,6 +164,27 @@ fn an_implausible_number_causes_a_question() {
         ("300e6", "300", "target.yield_strength = 300 Pa; did you mean 300e6?"),
         ("206e9", "1e9", "is more than a fifth of youngs_modulus"),
         ("[target]", "[target]\ndensity = 7.85", "target.density = 7.85 kg/m^3; did you mean 7850?"),
+        (
+            "yield_strength = 300e6",
+            "power_law = { coefficient = 400, exponent = 0.2 }\n[law]\nloading = \"brinell\"",
+            "target.power_law.coefficient = 400 Pa; did you mean 400e6?",
+        ),
+        (
+            "[target]",
+            "youngs_modulus = 206e9\npoissons_ratio = 0.3\npower_law = { coefficient = 400, exponent = 0.2 }\n\
+             [law]\nloading = \"brinell\"\n[target]",
+            "impactor.power_law.coefficient = 400 Pa; did you mean 400e6?",
+        ),
+        (
+            "300e6",
+            "300e6\nhardening_modulus = 2000\n[law]\nloading = \"brinell\"",
+            "target.hardening_modulus = 2000 Pa; did you mean 2e9?",
+        ),
+        (
+            "300e6",
+            "300e6\ntangent_modulus = 2\n[law]\nloading = \"brinell\"",
+            "target.tangent_modulus = 2 Pa; did you mean",
+        ),
         ("5e-3", "5e-3\ndensity = 7.85", "impactor.density = 7.85 kg/m^3; did you mean 7850?"),
     ] {
         let doubted = doubted(&with_impact().replacen(from, to, 1));

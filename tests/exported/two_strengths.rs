@@ -77,6 +77,37 @@ fn scenes_with_exchanged_materials_have_the_same_force() {
 }
 
 #[test]
+fn two_equal_balls_that_harden_have_the_force_of_one_on_a_rigid_plane() {
+    let ball = format!("radius = 10e-3\n{STEEL}hardening_modulus = 10e9\n");
+    let text = |impactor: &str, target: &str| {
+        format!("name = \"unit\"\n[impactor]\n{impactor}[target]\n{target}[law]\nloading = \"brinell\"\n")
+    };
+    let two = load("two_equal_balls", &text(&ball, &ball));
+    // the rigid sphere on a plane is the ball on a rigid plane
+    let one = load("one_ball", &text("radius = 10e-3\n", &ball.replace("radius = 10e-3\n", "")));
+    let mut random = Random(3);
+    for _ in 0..20 {
+        let (strength, hardening) = (between(&mut random, 5e7, 5e9), between(&mut random, 1e6, 4e10));
+        let target = [("target.yield_strength", strength), ("target.hardening_modulus", hardening)];
+        let impactor = [("impactor.yield_strength", strength), ("impactor.hardening_modulus", hardening)];
+        let (mut two, mut one) = (two.ready_with(&[impactor, target].concat()), one.ready_with(&target));
+        let rates = [two.real_of("indentation_rate"), one.real_of("indentation_rate")];
+        let places = [two.real_of("force"), one.real_of("force")];
+        let mut time = 0.0;
+        for _ in 0..100 {
+            let (rate, step) = (between(&mut random, 1e-3, 10.0) * (1.4 * random.next() - 0.4).signum(), 1e-7);
+            assert_eq!((two.set(&rates[..1], &[rate]), one.set(&rates[1..], &[0.5 * rate])), (OK, OK));
+            assert_eq!((two.step(time, step), one.step(time, step)), (OK, OK));
+            time += step;
+            let mut forces = [0.0; 2];
+            two.get(&places[..1], &mut forces[..1]);
+            one.get(&places[1..], &mut forces[1..]);
+            assert!((forces[0] - forces[1]).abs() <= 1e-9 * forces[0].max(1.0), "{strength} {hardening}: {forces:?}");
+        }
+    }
+}
+
+#[test]
 fn a_parameter_may_make_the_other_body_the_softer_one() {
     let hard = format!("{STEEL}hardening_modulus = 5e9\n");
     let soft = format!("{ALUMINIUM}hardening_modulus = 2e9\n");

@@ -109,9 +109,37 @@ def test_outputs_are_finite_before_the_first_step(name):
 
 
 @every_unit
-def test_initial_outputs_do_not_follow_the_input(name):
-    instance = initializing(name)
-    before = instance.outputs()
-    instance.set(indentation_rate=0.5)
-    given = {"closing_speed": 0.5} if "closing_speed" in before else {}
-    assert instance.outputs() == {**before, **given}
+def test_initial_outputs_follow_the_input_as_the_model_description_lists(name):
+    listed = {output for output, knowns in dependencies(name).items() if "indentation_rate" in knowns}
+    followed = set()
+    for base in bases(name):
+        instance = initializing(name, **base)
+        before = instance.outputs()
+        for rate in (0.5, -0.5):
+            instance.set(indentation_rate=rate)
+            set_in_initialization = instance.outputs()
+            followed |= {output for output in before if set_in_initialization[output] != before[output]}
+        instance.call("ExitInitializationMode")
+        assert instance.outputs() == set_in_initialization
+    assert followed == listed
+
+
+@every_unit
+def test_a_contact_that_starts_indented_shows_the_force_of_its_first_step(name):
+    if "initial_gap" not in unit(name).parameters:
+        pytest.skip("it starts apart")
+    moves = "closing_speed" in unit(name).outputs
+    for rate in (0.5, 1e-3, -1e-3):
+        instance = initializing(name, initial_gap=-1e-6)
+        instance.set(indentation_rate=rate)
+        first = instance.get("force")
+        instance.call("ExitInitializationMode")
+        assert instance.get("force") == first
+        instance.step(1e-13, rate)
+        if rate > 0.0 or not moves:
+            assert instance.get("force") == pytest.approx(first, rel=1e-5)
+        instance.call("Reset")
+        instance.initialize(0.0, None, initial_gap=-1e-6)
+        instance.set(indentation_rate=rate)
+        if not moves:
+            assert instance.get("force") == first

@@ -214,7 +214,9 @@ fn the_force_of_rate_dependent_laws_follows_the_input() {
         );
         write_scene(&name, &text)
     });
-    pytest("test_force_follows_the_rate.py", &scenes);
+    for file in ["test_force_follows_the_rate.py", "test_initial_values.py"] {
+        pytest(file, &scenes);
+    }
 }
 
 /// The bodies of scenes/coupled.toml with these lines of `[fmu]` and what follows it.

@@ -269,7 +269,9 @@ fn a_contact_that_starts_pressed_in_counts_its_first_closing_rate_as_the_touch()
     let model = model_of(hunt_crossley(DampingFactor::HuntCrossley), 0.5);
     let mut history = History::start(&model, -1e-6).unwrap();
     let elastic = mild().hertz_stiffness() * 1e-9;
-    assert_close("no damping yet", history.force(3.0), elastic, 1e-12);
+    assert_close("at rest", history.force(0.0), elastic, 1e-12);
+    assert_close("damped at once", history.force(3.0), 1.75 * elastic, 1e-12);
+    assert_close("not yet closing", history.force(-3.0), elastic, 1e-12);
     history.advance(-0.1, 1e-6).unwrap();
     history.advance(4.0, 0.1e-6).unwrap();
     let depth = 1e-6 - 0.1e-6 + 0.4e-6;
@@ -399,6 +401,33 @@ fn the_mean_force_of_a_step_is_that_of_many_small_ones() {
             }
             let slow = sum / f64::from(parts);
             assert!((mean - slow).abs() < 2e-4 * largest, "{name} at {rate} m/s: {mean:e} N instead of {slow:e} N");
+        }
+    }
+}
+
+#[test]
+fn a_contact_that_starts_indented_shows_the_force_of_its_first_step() {
+    for (name, law) in AnyDamped::ALL {
+        for restitution in [0.1, 0.5, 0.9] {
+            let model = model_of(law, restitution);
+            for depth in logarithmic(1e-9, 1e-3, 25) {
+                for rate in [-100.0, -1.0, -1e-6, 0.0, 1e-6, 1.0, 100.0] {
+                    let before = History::start(&model, -depth).expect("within range");
+                    let mut after = before;
+                    after.advance(rate, 1e-12 * depth / 100.0).expect("within range");
+                    let close = |one: f64, other: f64| (one - other).abs() <= 1e-6 * one.abs().max(other.abs());
+                    let what = format!("{name} {restitution} {depth} {rate}");
+                    assert!(
+                        close(before.force(rate), after.force(rate)),
+                        "{what}: {} {}",
+                        before.force(rate),
+                        after.force(rate)
+                    );
+                    assert!(close(before.stiffness(rate), after.stiffness(rate)), "{what}");
+                    let dampings = [&before, &after].map(|history| Contact::<Model<AnyDamped>>::damping(history, rate));
+                    assert!(dampings[0] >= 0.0, "{what}: {dampings:?}");
+                }
+            }
         }
     }
 }

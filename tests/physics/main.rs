@@ -17,6 +17,7 @@ mod corners;
 mod damped_laws;
 mod dents;
 mod ends_of_laws;
+mod equal_bodies;
 mod friction_contact;
 mod friction_growth;
 mod friction_impact;

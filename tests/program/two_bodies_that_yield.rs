@@ -62,6 +62,42 @@ fn the_stronger_impactor_yields_from_its_own_first_yield_on() {
 }
 
 #[test]
+fn two_equal_balls_are_one_on_a_rigid_plane_whatever_they_harden_by() {
+    let folder = empty_folder();
+    let steel = "youngs_modulus = 206e9\npoissons_ratio = 0.3\n";
+    let rate = "rate = { model = \"cowper-symonds\", d = 40.4, q = 5 }\n";
+    for flow in [
+        "yield_strength = 300e6\nhardening_modulus = 1e9\n",
+        "yield_strength = 300e6\nhardening_modulus = 20e9\n",
+        "power_law = { coefficient = 700e6, exponent = 0.2 }\n",
+        &format!("yield_strength = 300e6\nhardening_modulus = 1e9\n{rate}"),
+    ] {
+        let two = format!("[impactor]\nradius = 10e-3\n{steel}{flow}[target]\nradius = 10e-3\n{steel}{flow}");
+        // the rigid sphere on a plane is the ball on a rigid plane
+        let one = format!("[impactor]\nradius = 10e-3\n[target]\n{steel}{flow}");
+        for speed in [0.1, 1.0, 20.0] {
+            let predict = |bodies: &str, mass: f64, speed: f64| {
+                let text = format!(
+                    "name = \"unit\"\n{bodies}[law]\nloading = \"brinell\"\n[impact]\nmass = {mass}\nspeed = {speed}\n"
+                );
+                fs::write(folder.path().join("scene.toml"), text).unwrap();
+                run(folder.path(), ["predict", "scene.toml", "--json"]).with_status(0).json()
+            };
+            let (two, one) = (predict(&two, 5e-3, speed), predict(&one, 10e-3, 0.5 * speed));
+            for (key, ratio) in
+                [("restitution", 1.0), ("largest_force", 1.0), ("largest_indentation", 2.0), ("dent", 2.0)]
+            {
+                let (two, one) = (number(&two["laws"][0][key]), ratio * number(&one["laws"][0][key]));
+                assert!((two - one).abs() <= 1e-9 * one, "{flow} {key} at {speed} m/s: {two} {one}");
+            }
+            let strength = |answer: &Value| answer["strength"]["yield_strength"].as_f64();
+            let pair = (strength(&two), strength(&one));
+            assert!(pair.0.zip(pair.1).is_none_or(|(two, one)| (two / one - 1.0).abs() < 1e-9), "{flow}: {pair:?}");
+        }
+    }
+}
+
+#[test]
 fn two_equal_spheres_are_a_rigid_sphere_of_half_the_radius_on_half_the_modulus() {
     let folder = empty_folder();
     let end = "yield_strength = 300e6\n[law]\nloading = \"brinell\"\n[impact]\nmass = 4.11e-3\n";

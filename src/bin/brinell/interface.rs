@@ -107,7 +107,7 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
         // with a law that depends on the rate, bodies that the FMU moves have their own speed from the first step on
         let has_own_speed = scene.coupling.is_some() && scene.follows_rate();
         let follows = has_damping && !has_own_speed;
-        let damped_at_start = has_damping && is_damped_at_start(variable, scene);
+        let damped_at_start = has_damping && scene.is_rate_dependent();
         let follows_at_start = damped_at_start || variable.follows_rate == Follows::AtStart;
         let is_listed = |name: &str| variable.depends_on.iter().any(|other| other == "*" || other == name);
         let depends = |name: &str| match name {
@@ -179,13 +179,6 @@ pub fn is_tunable(scene: &Scene, name: &str) -> bool {
 fn start(variable: &Variable, scene: &Scene, group: usize) -> f64 {
     // the mass is the only input with a value in the scene
     scene.group_value(group, &variable.name).unwrap_or(0.0)
-}
-
-/// Whether `variable`, which depends on the rate, depends on the damping of the law before the first step. A damping that
-/// begins at the first touch is zero then; the next step begins with the touch.
-fn is_damped_at_start(variable: &Variable, scene: &Scene) -> bool {
-    let looks_ahead = variable.follows_rate == Follows::Always;
-    scene.loss.is_some() || scene.damped.is_some_and(|(_, law)| looks_ahead || !law.scaled_by_touch())
 }
 
 /// Whether the elastic part of a rate-dependent law also depends on the mass.

@@ -1,8 +1,9 @@
 //! Strain rate: the strength of a target in an impact, from its closing speed.
 //!
 //! The strength is constant within an impact. It is that at the mean strain rate of the loading: Tabor's strain,
-//! `0.2 a/R` at the largest contact radius, over the time from first contact to that radius. Both depend on the strength,
-//! so that it is a fixed point.
+//! `0.2 a/R_y` at the largest contact radius, over the time from first contact to that radius. Both depend on the strength,
+//! so that it is a fixed point. `R_y` is the radius of the [rigid sphere](super::Pair::indenter_radius) that the yielding body
+//! meets.
 
 mod behaviour;
 mod follow;
@@ -17,7 +18,7 @@ use super::numbers::largest;
 use super::unloading::Unloading;
 use libm::{fabs, log, pow};
 
-/// Factor of Tabor's representative strain: strain over (contact radius over effective radius).
+/// Factor of Tabor's representative strain: strain over (contact radius over radius of the rigid indenter).
 ///
 /// Reference: D. Tabor, *The Hardness of Metals*, Oxford 1951, chapter V.
 pub const TABOR: f64 = 0.2;
@@ -86,7 +87,7 @@ pub struct InImpact {
     pub steps: u32,
 }
 
-/// The strength in an impact on a pair of this effective `radius` \[m\]. `predict` is the prediction of the impact for a
+/// The strength in an impact, for a rigid indenter of this `radius` \[m\] on the body that yields. `predict` is the prediction of the impact for a
 /// strain and a factor. Without a `rate` model the factor is 1 and only the strain is found. `None` where a prediction
 /// fails.
 pub fn in_impact(
@@ -130,6 +131,8 @@ impl<L: Loading + Copy, U: Unloading + Copy> Model<L, U> {
 
     /// The strength in an `impact`; `None` where it cannot be predicted.
     pub fn in_impact(&self, impact: &Impact) -> Option<InImpact> {
-        in_impact(Some(&self.rate), self.slow.pair.radius, |_, factor| impact::predict(&self.at(factor), impact))
+        in_impact(Some(&self.rate), self.slow.pair.indenter_radius(), |_, factor| {
+            impact::predict(&self.at(factor), impact)
+        })
     }
 }

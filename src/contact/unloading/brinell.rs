@@ -27,7 +27,8 @@ pub struct Brinell {
 }
 
 impl Brinell {
-    /// The constants from `fit/fit_brinell.py`. `decline` is chosen by judgement, since only one depth depends on it.
+    /// The constants from `fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
+    /// the pair has: [`Strengthened`](super::Strengthened) takes account of both. `decline` is chosen by judgement, since only one depth depends on it.
     pub const REFERENCE: Brinell = Brinell { height: 0.6976, onset: 0.0313, decline: 0.7 };
 
     /// The shape `g` of the path from `peak`.

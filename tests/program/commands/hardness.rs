@@ -119,3 +119,23 @@ fn scenes_that_are_not_brinell_tests_are_refused() {
         assert!(failed.err.starts_with("brinell: ") && failed.err.contains(said), "{failed:#?}");
     }
 }
+
+#[test]
+fn a_slow_test_takes_the_strength_under_a_slow_load() {
+    let rates =
+        ["model = \"johnson-cook\", c = 0.014, reference_rate = 1e-3", "model = \"cowper-symonds\", d = 40.4, q = 5"];
+    for law in ["brinell", "big-alabo"] {
+        let law = format!("[law]\nloading = {law:?}\n");
+        for arguments in
+            [["--load", "5kN", "--laws", "brinell,johnson"].as_slice(), &["--load", "5kN", "--brinell", "90"]]
+        {
+            let slow = tested(&format!("{BALL}{law}"), arguments);
+            for rate in rates {
+                for more in ["[impact]\nmass = 4e-3\nspeed = 20.0\n", "[coupling]\neffective_mass = 4e-3\n"] {
+                    let text = format!("{BALL}rate = {{ {rate} }}\n{law}{more}");
+                    assert_eq!(tested(&text, arguments)["laws"], slow["laws"], "{text}");
+                }
+            }
+        }
+    }
+}

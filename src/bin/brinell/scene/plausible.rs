@@ -1,7 +1,7 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
 use super::error::Mistake;
-use super::file::{File, Impactor, Target};
+use super::file::{File, Impactor, PowerLawTable, Target};
 use crate::numbers::{plain, quantity};
 use std::ops::RangeInclusive;
 use toml::Spanned;
@@ -36,6 +36,14 @@ const STRENGTH: Expected = Expected {
     why: "metals have 5 MPa to 3 GPa, stones, glasses and ceramics 0.1 to 30 GPa, polymers 1 to 200 MPa",
 };
 
+/// The slope of the flow stress over the strain, from soft polymers to the elastic slope of the stiffest solids.
+const HARDENING: Expected = Expected {
+    range: 1e5..=1.3e12,
+    unit: "Pa",
+    factors: &[1e6, 1e9],
+    why: "metals harden with 10 MPa to 50 GPa, polymers with 0.1 MPa to 1 GPa",
+};
+
 /// From foam to osmium.
 const DENSITY: Expected = Expected {
     range: 20.0..=23_000.0,
@@ -51,31 +59,38 @@ const STRENGTH_OVER_MODULUS: f64 = 0.2;
 pub fn doubts(file: &File) -> Vec<Mistake> {
     let mut doubts = Vec::new();
     let mut bodies = |owner: &str, impactor: Option<&Impactor>, target: Option<&Target>| {
-        if let Some(Impactor { radius, youngs_modulus, yield_strength, density, .. }) = impactor {
-            let of_impactor = [
-                ("radius", radius, &RADIUS),
-                ("youngs_modulus", youngs_modulus, &MODULUS),
-                ("yield_strength", yield_strength, &STRENGTH),
-                ("density", density, &DENSITY),
+        if let Some(body) = impactor {
+            let numbers = [
+                ("radius", &body.radius, &RADIUS),
+                ("youngs_modulus", &body.youngs_modulus, &MODULUS),
+                ("yield_strength", &body.yield_strength, &STRENGTH),
+                ("hardening_modulus", &body.hardening_modulus, &HARDENING),
+                ("tangent_modulus", &body.tangent_modulus, &HARDENING),
+                ("density", &body.density, &DENSITY),
             ];
-            doubts.extend(of_impactor.into_iter().filter_map(|(key, value, expected)| {
+            doubts.extend(numbers.into_iter().filter_map(|(key, value, expected)| {
                 expected.doubt(&format!("{owner}impactor.{key}"), value.as_ref()?)
             }));
+            doubts.extend(of_power_law(&format!("{owner}impactor"), body.power_law.as_ref()));
         }
-        let Some(Target { radius, youngs_modulus, yield_strength, density, .. }) = target else { return };
-        let of_target = [
-            ("radius", radius, &RADIUS),
-            ("youngs_modulus", youngs_modulus, &MODULUS),
-            ("yield_strength", yield_strength, &STRENGTH),
-            ("density", density, &DENSITY),
+        let Some(body) = target else { return };
+        let numbers = [
+            ("radius", &body.radius, &RADIUS),
+            ("youngs_modulus", &body.youngs_modulus, &MODULUS),
+            ("yield_strength", &body.yield_strength, &STRENGTH),
+            ("hardening_modulus", &body.hardening_modulus, &HARDENING),
+            ("tangent_modulus", &body.tangent_modulus, &HARDENING),
+            ("density", &body.density, &DENSITY),
         ];
         let before = doubts.len();
-        doubts.extend(of_target.into_iter().filter_map(|(key, value, expected)| {
+        doubts.extend(numbers.into_iter().filter_map(|(key, value, expected)| {
             // a wide target is nearly flat
             let is_flat = |value: &Spanned<f64>| key == "radius" && value.get_ref().abs() > *RADIUS.range.end();
             expected.doubt(&format!("{owner}target.{key}"), value.as_ref().filter(|value| !is_flat(value))?)
         }));
-        if let (true, Some(strength), Some(modulus)) = (before == doubts.len(), yield_strength, youngs_modulus) {
+        doubts.extend(of_power_law(&format!("{owner}target"), body.power_law.as_ref()));
+        let (strength, modulus) = (body.yield_strength.as_ref(), body.youngs_modulus.as_ref());
+        if let (true, Some(strength), Some(modulus)) = (before == doubts.len(), strength, modulus) {
             doubts.extend(too_strong(owner, strength, modulus));
         }
     };
@@ -86,6 +101,11 @@ pub fn doubts(file: &File) -> Vec<Mistake> {
         bodies(&owner, Some(&contact.impactor), Some(&contact.target));
     }
     doubts
+}
+
+/// The doubt about the power law of a `body`: its coefficient is the flow stress at a strain of 1.
+fn of_power_law(body: &str, law: Option<&Spanned<PowerLawTable>>) -> Option<Mistake> {
+    STRENGTH.doubt(&format!("{body}.power_law.coefficient"), &law?.get_ref().coefficient)
 }
 
 impl Expected {

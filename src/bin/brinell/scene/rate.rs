@@ -117,7 +117,7 @@ impl Scene {
     }
 
     /// The strength of the softer body of `group` in an `impact`. It is a fixed point, since depth and duration of the
-    /// impact depend on the strength. The strain is Tabor's, `0.2 a/R` at the largest contact radius. The strain rate
+    /// impact depend on the strength. The strain is Tabor's, `0.2 a/R_y` at the largest contact radius. The strain rate
     /// is this strain over the loading time. `None` beyond the range of the law.
     pub fn in_impact(&self, group: usize, impact: &Impact) -> Option<InImpact> {
         self.in_impact_with(group, impact, self.quasi_static(group), self.rate(group))
@@ -135,7 +135,7 @@ impl Scene {
         let predict = |strain: f64, factor: f64| {
             self.with_strength(group, hardening_of(given, line(strain)), factor).predict(impact)
         };
-        let radius = self.pair_of(group)?.radius;
+        let radius = self.pair_of(group)?.indenter_radius();
         let found = rate::in_impact(rate.as_ref(), radius, predict)?;
         let rate::InImpact { strain, strain_rate, factor, .. } = found;
         let QuasiStatic { yield_strength, hardening_modulus } = hardening_of(given, line(strain));
@@ -180,13 +180,33 @@ impl Scene {
 
     /// The scene with the strengths that its softer bodies have in its own impact, or all of them in the given one. `None`
     /// beyond the range of the law.
-    pub fn with_strengths_for(mut self, given: Option<&Impact>) -> Option<Scene> {
+    pub fn with_strengths_for(self, given: Option<&Impact>) -> Option<Scene> {
         if !self.depends_on_impact() {
             return Some(self);
         }
         let impact = |group: usize| given.copied().unwrap_or_else(|| self.impact_of(group));
         let found = self.by_bodies(|group| self.in_impact(group, &impact(group)));
         let found: Vec<InImpact> = found.into_iter().collect::<Option<_>>()?;
+        Some(self.with_strengths(&found))
+    }
+
+    /// The scene with the strengths that its bodies have under a slow load. A power law keeps the straight line of the
+    /// scene's impact. `None` beyond the range of the law.
+    pub fn under_slow_load(self) -> Option<Scene> {
+        if !self.depends_on_impact() {
+            return Some(self);
+        }
+        let slow = |group: usize| {
+            let found = self.in_impact(group, &self.impact_of(group))?;
+            let QuasiStatic { yield_strength, hardening_modulus } = hardening_of(self.quasi_static(group), found.line);
+            Some(InImpact { yield_strength, hardening_modulus, factor: 1.0, strain_rate: 0.0, ..found })
+        };
+        let found: Vec<InImpact> = self.by_bodies(slow).into_iter().collect::<Option<_>>()?;
+        Some(self.with_strengths(&found))
+    }
+
+    /// The scene with the strengths `found` for the softer body of each group.
+    fn with_strengths(mut self, found: &[InImpact]) -> Scene {
         let finds = self.finds_strength();
         let flows = (0..self.contacts.len()).map(|group| Both {
             impactor: self.flow_in(group, Body::Impactor, &found[group]),
@@ -213,7 +233,7 @@ impl Scene {
             self.factors = found.iter().map(|found| found.factor).collect();
         }
         self.yield_strength = Some(found[0].yield_strength);
-        Some(self)
+        self
     }
 
     /// Yield strength and hardening modulus of a `body` of `group` as parameters of the unit, for the strain and the strain rate

@@ -86,11 +86,10 @@ pub fn check(contacts: &Contacts, index: usize, given: bool) -> Result<(), Mista
         });
     };
     let is_rigid = contacts.number(index, "impactor.youngs_modulus").is_none();
-    let target = contacts.number(index, "target.yield_strength").map_or(f64::INFINITY, |target| *target.get_ref());
-    if given && is_rigid && *strength.get_ref() < target {
+    if given && is_rigid {
         let message = format!(
-            "impactor.yield_strength = {:?} is that of the softer body, and a rigid impactor cannot yield: give \
-             impactor.youngs_modulus and poissons_ratio, or a material",
+            "impactor.yield_strength = {:?}: a rigid impactor cannot yield; give impactor.youngs_modulus and poissons_ratio, or \
+             a material, or leave the strength out",
             strength.get_ref()
         );
         return Err(Mistake(strength.span(), contacts.said(index, &message)));
@@ -152,9 +151,9 @@ pub fn notes(scene: &Scene, prediction: &Prediction) -> Vec<String> {
     let pressure = prediction.max_force / (PI * radius * radius);
     if pressure > FIRST_YIELD * hard {
         notes.push(format!(
-            "The mean pressure reaches {} times the yield strength of the {other}, {}. From {FIRST_YIELD} on it yields, too; \
-             the prediction keeps it elastic. Where both yield, the contact is softer than this, at most as soft as with two \
-             bodies of the strength of the {name}.",
+            "The mean pressure reaches {} times the yield strength of the {other}, {}. From {FIRST_YIELD} on it yields, too. The \
+             prediction is that of two bodies of the strength of the {name}. With a stronger {other} the contact is harder: by \
+             finite elements with equal moduli, up to 5 % in force at the same depth if it is 1.2 times as strong, 9 % if twice.",
             cell(pressure / hard, 1.0),
             quantity(hard, "Pa")
         ));

@@ -96,6 +96,7 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         if !self.pushes(rate) {
             return 0.0;
         }
+        // without a touch speed, any closing rate gives the same force
         self.damping_force(1.0) * self.law.damping(self.indentation.total()).value
     }
 

@@ -81,6 +81,13 @@ impl<D: Damped + Copy> History<D> {
         }
     }
 
+    /// The contact with a motion at `rate` \[m/s\]: one that starts indented then knows its touch speed.
+    fn moving(&self, rate: f64) -> History<D> {
+        let mut moving = *self;
+        moving.touch(self.indentation.total(), rate);
+        moving
+    }
+
     /// `C d'`, where laws that scale by the touch speed use `d'` over that speed \[N\]; zero before the first touch.
     fn damping_force(&self, rate: f64) -> f64 {
         // the ratio comes first: a tiny touch speed must not divide the factor
@@ -97,7 +104,7 @@ impl<D: Damped + Copy> History<D> {
     /// Whether the surface pushes at `rate` \[m/s\]; it never pulls.
     fn pushes(&self, rate: f64) -> bool {
         let indentation = self.indentation.total();
-        indentation > 0.0 && self.sum_of_forces(indentation, rate) > 0.0
+        indentation > 0.0 && self.moving(rate).sum_of_forces(indentation, rate) > 0.0
     }
 
     /// The position between `low` and `high` \[m\] below which the force has another sign than at `high`; `low` if the sign
@@ -126,7 +133,7 @@ impl<D: Damped + Copy> History<D> {
     /// Normal force at `rate` \[m/s\], in N; zero while apart, and where the surface would have to pull.
     pub fn force(&self, rate: f64) -> f64 {
         let indentation = self.indentation.total();
-        let force = if indentation > 0.0 { self.sum_of_forces(indentation, rate) } else { 0.0 };
+        let force = if indentation > 0.0 { self.moving(rate).sum_of_forces(indentation, rate) } else { 0.0 };
         if force > 0.0 { force } else { 0.0 }
     }
 
@@ -137,7 +144,7 @@ impl<D: Damped + Copy> History<D> {
         }
         let indentation = self.indentation.total();
         self.factors.elastic * self.law.elastic(indentation).slope
-            + self.damping_force(rate) * self.law.damping(indentation).slope
+            + self.moving(rate).damping_force(rate) * self.law.damping(indentation).slope
     }
 
     /// Indentation \[m\]; negative while apart.
