@@ -177,7 +177,7 @@ fn one_contact_without_yield_strength_among_others_is_refused() {
     );
     let scene = scene.replacen("\"left\"", "\"left\"\ntarget = { yield_strength = 3e8 }", 1);
     let marked = scene.replacen("[[contact]]\nname = \"right\"", "§[[contact]]\nname = \"right\"", 1);
-    refused_text(&marked, &["contact `right`", "\"big-alabo\"", "target.yield_strength", "every contact"]);
+    refused_text(&marked, &["contact `right`", "\"brinell\"", "target.yield_strength", "every contact"]);
     // an elastic law needs none
     let folder = empty_folder();
     fs::write(folder.path().join("scene.toml"), format!("{scene}[law]\nloading = \"hertz\"\n")).unwrap();

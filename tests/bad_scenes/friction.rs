@@ -53,7 +53,10 @@ fn laws_without_a_tangential_force_are_refused_with_the_reason() {
 #[test]
 fn the_passivity_guard_and_a_known_mass_are_refused_with_friction() {
     let friction = "§[friction]\ncoefficient = 0.3\n";
-    refused_with(&format!("[law]\npassivity_guard = true\n{friction}"), &["law.passivity_guard", "wasn't measured"]);
+    refused_with(
+        &format!("[law]\nunloading = \"thornton\"\npassivity_guard = true\n{friction}"),
+        &["law.passivity_guard", "wasn't measured"],
+    );
     for more in ["", "master = \"parallel\"\n", "inputs = [\"external_acceleration\"]\n"] {
         refused_with(
             &format!("[coupling]\neffective_mass = 4e-3\n{more}{friction}"),

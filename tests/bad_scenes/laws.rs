@@ -54,8 +54,9 @@ fn a_strength_of_the_impactor_that_cannot_act_is_refused() {
         &["the hardening of the impactor needs impactor.yield_strength"],
     );
     refused(
-        "radius = 5e-3",
-        "radius = 5e-3\nmaterial = \"mild steel\"\nyield_strength = 2e8\nhardening_modulus = §1e9",
+        "[impactor]\nradius = 5e-3",
+        "[law]\nloading = \"big-alabo\"\n[impactor]\nradius = 5e-3\nmaterial = \"mild steel\"\nyield_strength = 2e8\n\
+         hardening_modulus = §1e9",
         &["the hardening of the impactor has no effect on law.loading = \"big-alabo\"", "it belongs to \"brinell\""],
     );
     refused(
@@ -117,7 +118,7 @@ fn a_constant_that_a_law_has_not_got_is_refused_with_those_that_it_has() {
         &["unknown parameter of law.loading = \"power\" `exponnet`", "`coefficient`", "`exponent`"],
     );
     refused_with(
-        "[law]\nunloading_parameters = { §factor = 1.0 }",
+        "[law]\nunloading = \"contact-radius\"\nunloading_parameters = { §factor = 1.0 }",
         &["`factor`", "\"contact-radius\", which has none"],
     );
     refused_with(
@@ -139,7 +140,7 @@ fn a_constant_of_a_law_out_of_range_is_refused_with_the_range() {
         &["law.unloading_parameters.stiffness_ratio = 0.5", "allowed is 1.0 to 1000000.0"],
     );
     refused_with(
-        "[law]\nloading_parameters = { second_region = §0.5 }",
+        "[law]\nloading = \"big-alabo\"\nloading_parameters = { second_region = §0.5 }",
         &["law.loading_parameters.second_region = 0.5", "allowed is 1.0 to 1000000.0 d_y"],
     );
 }
@@ -159,7 +160,7 @@ fn constants_that_belong_to_a_fit_as_a_whole_are_refused() {
 #[test]
 fn constants_out_of_order_are_refused() {
     refused_with(
-        "[law]\nloading_parameters = { second_region = §90.0 }",
+        "[law]\nloading = \"big-alabo\"\nloading_parameters = { second_region = §90.0 }",
         &["law.loading_parameters.second_region = 90.0 must be below fully_plastic = 82.5"],
     );
     refused_with(

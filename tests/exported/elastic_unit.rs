@@ -13,9 +13,10 @@ use std::process::Command;
 const OUTPUTS: &str = "outputs = [\"indentation\", \"max_indentation\", \"residual_indentation\", \"contact_radius\", \
                        \"mean_pressure\", \"stiffness\", \"work\", \"elastic_energy\", \"dissipated_energy\", \"regime\"]";
 
-/// A scene with every output, elastic or not.
+/// A scene with every output, elastic or not. The law that yields has its constants one by one.
 fn scene(yields: bool) -> PathBuf {
-    let (name, strength) = if yields { ("plastic", "yield_strength = 3e8") } else { ("elastic", "") };
+    let law = "yield_strength = 3e8\n[law]\nloading = \"big-alabo\"";
+    let (name, strength) = if yields { ("plastic", law) } else { ("elastic", "") };
     let text = format!(
         "name = \"{name}\"\n[impactor]\nradius = 5e-3\n[target]\nyoungs_modulus = 206e9\npoissons_ratio = 0.3\n\
          {strength}\n[fmu]\n{OUTPUTS}\n[impact]\nmass = 4e-3\nspeed = 1.0\n"

@@ -31,11 +31,22 @@ fn help_and_version_go_to_standard_output() {
 #[test]
 fn without_arguments_the_default_scene_is_exported_and_checked() {
     let folder = empty_folder();
-    let run = run(folder.path(), [] as [&str; 0]).with_status(0);
+    let first = run(folder.path(), [] as [&str; 0]).with_status(0);
     assert_eq!(contents(folder.path()), ["steel_ball.fmu"]);
     for part in ["steel_ball.fmu", "predicted", "simulated", "largest force", "restitution", "agreement within"] {
-        assert!(run.out.contains(part), "nothing of {part:?} in {run:#?}");
+        assert!(first.out.contains(part), "nothing of {part:?} in {first:#?}");
     }
+    // both laws by their names, and what the recommended one says of this impact
+    let end =
+        first.out.split_once("law: ").expect("a line about the law").1.split_whitespace().collect::<Vec<_>>().join(" ");
+    let scene = scene("steel_ball").display().to_string();
+    let said = run(folder.path(), ["predict", &scene, "--laws", "brinell"]).with_status(0).out;
+    for name in ["largest force", "depth of the dent", "restitution"] {
+        let value =
+            said.lines().find_map(|line| line.trim().strip_prefix(name)).expect("a line of the prediction").trim();
+        assert!(end.contains(value), "no {name} of {value} in {end}");
+    }
+    assert!(end.starts_with("big-alabo (Big-Alabo, Harrison and Cartmell); without [law] it is brinell ("), "{end}");
 }
 
 #[test]

@@ -8,8 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Largest size of a library [bytes]: that of an FMU that knows the mass.
-const LARGEST: u64 = 64_500;
+/// Largest size of a library [bytes]: that of an FMU that knows the mass, with the law `brinell`.
+const LARGEST: u64 = 68_500;
 
 /// The same with friction: the springs, their growth with the dent, and their merge.
 const LARGEST_WITH_FRICTION: u64 = 100_000;

@@ -116,7 +116,8 @@ fn materials_have_a_density_and_say_so() {
 #[test]
 fn export_and_its_page_say_what_predict_says() {
     let folder = empty_folder();
-    fs::write(folder.path().join("scene.toml"), SCENE.replace("speed = 1.0", "speed = 60.0")).unwrap();
+    let law = "speed = 60.0\n[law]\nloading = \"big-alabo\"";
+    fs::write(folder.path().join("scene.toml"), SCENE.replace("speed = 1.0", law)).unwrap();
     let exported = run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu", "--json"]).with_status(0).json();
     let warnings = exported["warnings"].as_array().unwrap();
     assert_eq!(warnings.len(), 2, "{exported}");

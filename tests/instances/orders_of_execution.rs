@@ -43,7 +43,7 @@ impl<S: Scene> AnyMaster for Master<S> {
     }
 }
 
-/// Sizes of steps [s]; the contact of the default law takes 29.5 us.
+/// Sizes of steps [s]; the contact of `big-alabo` takes 29.5 us.
 const SIZES: [f64; 5] = [1e-6, 7e-6, 1e-4, 5e-4, 2e-3];
 
 #[test]

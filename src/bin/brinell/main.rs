@@ -142,8 +142,13 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     match &arguments.command {
         None => {
             let platforms = PlatformArguments::default().chosen(Way::Any)?;
-            let unit = export::run((&Scene::default_scene()?, None), (Way::Any, &platforms), None, json)?;
-            return Ok(check::exported(&unit, json)?);
+            let scene = Scene::default_scene()?;
+            let unit = export::run((&scene, None), (Way::Any, &platforms), None, json)?;
+            let agrees = check::exported(&unit, json)?;
+            if !json {
+                print!("\n{}", predict::by_the_default_law(&scene)?);
+            }
+            return Ok(agrees);
         }
         Some(Command::Check(arguments)) => return Ok(check::run(arguments, json)?),
         Some(Command::Report(arguments)) => return report::run(arguments, json),

@@ -6,6 +6,9 @@ use crate::table;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
 
+/// The loading law of a scene that names none. A contact in which nothing yields is elastic: "hertz".
+pub const DEFAULT_LOADING: &str = "brinell";
+
 /// The unloading law for a loading law that is named alone: the one with which it was published, otherwise "contact-radius".
 pub fn default_unloading(loading: &str) -> &'static str {
     table::loading_law(loading).unloading.as_deref().unwrap_or("contact-radius")

@@ -3,15 +3,18 @@
 use super::{ASKED, List, Measured, Rated, Told, materials};
 use crate::layout::{paragraph, table};
 use crate::numbers::significant;
+use crate::pairing;
 use crate::parameters::Constant;
 
 /// All laws.
 pub fn list(list: &List) -> String {
     let mut text = paragraph(
         "",
-        "Loading laws. Error of the force against finite elements up to 1000 yield indentations d_y (truth/README.md), on the \
+        &"Loading laws. Error of the force against finite elements up to 1000 yield indentations d_y (truth/README.md), on the \
          bodies of the default scene. Energy for all bodies that an FMU can have; the largest restitution is that of targets with \
-         a Poisson's ratio nu from 0 on. `brinell laws NAME` shows one law with its formulas and its curve.",
+         a Poisson's ratio nu from 0 on. A scene without law.loading has LAW. `brinell laws NAME` shows one law with its \
+         formulas and its curve."
+            .replace("LAW", pairing::DEFAULT_LOADING),
     );
     text.push('\n');
     text += &measured(&list.loading);

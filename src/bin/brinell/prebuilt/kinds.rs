@@ -136,7 +136,8 @@ pub struct Laws {
 }
 
 impl Laws {
-    /// Every loading law with its default unloading law, and every rate-dependent law with each of its dampings.
+    /// Every loading law with its default unloading law, and every rate-dependent law with each of its dampings. The law of
+    /// scenes that name none comes first: the first laws of a kind say what compiling saves.
     pub fn all() -> Vec<Laws> {
         let loading = AnyLoading::ALL.into_iter().map(|(loading, _)| {
             let partner = (loading != "hertz").then(|| pairing::default_unloading(loading));
@@ -147,7 +148,9 @@ impl Laws {
             let partners = if dampings.is_empty() { vec![None] } else { dampings.into_iter().map(Some).collect() };
             partners.into_iter().map(move |partner| Laws { loading, partner })
         });
-        loading.chain(damped).collect()
+        let mut all: Vec<_> = loading.chain(damped).collect();
+        all.sort_by_key(|laws| laws.loading != pairing::DEFAULT_LOADING);
+        all
     }
 
     /// The rate-dependent law, if there is one.
@@ -234,7 +237,9 @@ impl Library {
 #[cfg(test)]
 mod tests {
     use super::{KINDS, Laws, Library};
+    use crate::scene::Scene;
     use std::collections::HashSet;
+    use std::path::Path;
 
     #[test]
     fn every_law_is_prebuilt_in_every_kind_that_it_goes_with() {
@@ -243,6 +248,18 @@ mod tests {
         assert_eq!(names.len(), all.len(), "each has a name of its own");
         let damped = Laws::all().iter().filter(|laws| laws.damped().is_some()).count();
         assert_eq!(all.len(), (Laws::all().len() - damped) * KINDS.len() + damped * 3);
+    }
+
+    #[test]
+    fn of_each_kind_the_library_of_a_scene_without_a_law_comes_first() {
+        let text = "name = \"plain\"\nimpactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n";
+        let scene = Scene::parse(text.into(), Path::new("plain.toml")).expect("a scene");
+        let laws = Laws { loading: scene.loading.0, partner: scene.unloading.map(|(name, _)| name) };
+        let all = Library::all();
+        for kind in &KINDS {
+            let first = all.iter().find(|library| library.kind.name == kind.name).expect("no kind is empty");
+            assert_eq!(first.laws, laws, "{}", kind.name);
+        }
     }
 
     /// Otherwise the library of a later kind would never be used.

@@ -13,11 +13,16 @@ pub mod sweep;
 mod text;
 pub mod time_history;
 
-use crate::laws::Choice;
+use crate::laws::{self, Choice};
+use crate::layout;
 use crate::numbers::{exact, quantity, significant};
+use crate::pairing;
+use crate::scene::Scene;
+use crate::table;
 use brinell::contact::Loading;
 use brinell::contact::Regime;
 use brinell::contact::impact::{Impact, Prediction};
+use std::error::Error;
 
 /// Standard gravity [m/s^2].
 const GRAVITY: f64 = 9.80665;
@@ -106,6 +111,27 @@ pub fn speed_of_height(height: f64) -> f64 {
 pub fn one(choice: &Choice, impact: &Impact) -> Result<Prediction, PredictError> {
     let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass: impact.mass, speed: impact.speed };
     choice.model.predict(impact).ok_or_else(beyond)
+}
+
+/// What the law of `scene` is, and what the law of scenes that name none says of the same impact.
+///
+/// # Errors
+/// As for [`one`] and [`laws::choose`].
+pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
+    let choices = laws::choose(scene, &[pairing::DEFAULT_LOADING.to_string()])?;
+    let said = one(&choices[0], &scene.impact_of(0))?;
+    let title = |name| &table::loading_law(name).title;
+    let text = format!(
+        "{} ({}); without [law] it is {} ({}): {}, dent {}, restitution {}",
+        scene.loading.0,
+        title(scene.loading.0),
+        pairing::DEFAULT_LOADING,
+        title(pairing::DEFAULT_LOADING),
+        quantity(said.max_force, "N"),
+        quantity(said.residual_indentation, "m"),
+        significant(said.restitution, 4)
+    );
+    Ok(layout::paragraph("  law: ", &text))
 }
 
 /// The quantities of a prediction: name, value, unit.

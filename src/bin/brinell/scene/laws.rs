@@ -79,7 +79,7 @@ fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<A
 pub fn check_loading(given: &Law, contacts: &Contacts) -> Result<(&'static str, AnyLoading), Mistake> {
     let name = given.loading.as_ref();
     let yields = contacts.any_yields();
-    let default = if yields { "big-alabo" } else { "hertz" };
+    let default = if yields { pairing::DEFAULT_LOADING } else { "hertz" };
     let asked = name.map_or(default, |name| name.get_ref().as_str());
     let span = name.map_or(0..0, Spanned::span);
     let law = AnyLoading::ALL.into_iter().find(|(name, _)| *name == asked).ok_or_else(|| {
