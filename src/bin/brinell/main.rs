@@ -57,7 +57,6 @@ mod summary;
 mod symbols;
 mod table;
 mod tangential_curve;
-mod toolchain;
 mod truth;
 mod units;
 mod validity;
@@ -160,9 +159,6 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
         Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,
         Some(Command::Merge { fmus, output }) => merge::run(fmus, output, json)?,
-        Some(Command::Toolchain { folder, std, mirror }) => {
-            toolchain::run(&toolchain::Wanted { folder: folder.as_deref(), std: *std, mirror }, json)?;
-        }
         Some(Command::Materials) => materials::run(json),
         Some(Command::Completions { shell }) => about::completions(*shell),
         Some(Command::Man { output }) => about::manual(output)?,

@@ -17,11 +17,9 @@ mod way;
 
 pub use archive::archive;
 pub use error::ExportError;
-pub use folder::Cache;
 pub use hash::Hash;
 pub use library::{Builder, Source};
-pub use rustc::Rustc;
-pub use toolchain::Toolchain;
+
 pub use universal::join;
 pub use way::{Origin, Way};
 
