@@ -20,7 +20,6 @@ mod hardness;
 mod html;
 mod importer;
 mod interface;
-mod interrupt;
 mod law_check;
 mod law_list;
 mod law_text;
@@ -74,7 +73,6 @@ use wrong_call::WrongCall;
 
 fn main() -> ExitCode {
     leave_when_nothing_can_be_printed();
-    interrupt::clean_up_when_interrupted();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return not_understood(&error),

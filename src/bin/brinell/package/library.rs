@@ -8,13 +8,13 @@ use super::parts::Parts;
 use super::rustc::Rustc;
 use super::{Hash, resource, universal};
 use crate::files::FileError;
-use crate::interrupt::Folder;
 use crate::parallel;
 use crate::plan::Plan;
 use crate::platform::{self, Platform, System, Target};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use tempfile::TempDir;
 
 /// Options of the crate of an FMU, which is optimized as one unit with the crates that it uses.
 const UNIT: [&str; 5] =
@@ -76,7 +76,7 @@ impl Source<'_> {
 pub struct Builder {
     cache: Cache,
     compilers: Compilers,
-    folder: Folder,
+    folder: TempDir,
     /// Number of libraries started so far.
     count: AtomicUsize,
 }
