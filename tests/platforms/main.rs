@@ -34,6 +34,5 @@ mod cross_compiled;
 mod first_export;
 mod kinds_of_hosts;
 mod other_systems;
-mod toolchain_command;
 mod wheel;
 mod windows_program;

@@ -174,9 +174,9 @@ fn in_shell(before: &str, cache: &Path) -> Option<String> {
 /// compiler.
 #[test]
 fn a_file_that_cannot_grow_is_reported_with_the_folder() {
-    for (blocks, ignored) in [(1, "trap '' XFSZ"), (20, "trap '' XFSZ"), (1000, "trap '' XFSZ"), (1000, "true")] {
+    for blocks in [1, 20, 1000] {
         let cache = empty_folder();
-        let message = in_shell(&format!("{ignored}; ulimit -f {blocks}"), cache.path()).expect("too little room");
+        let message = in_shell(&format!("trap '' XFSZ; ulimit -f {blocks}"), cache.path()).expect("too little room");
         contains(&message, &["there is no space left to build in", cache.path().to_str().unwrap(), "BRINELL_CACHE"]);
         assert!(contents(cache.path()).iter().all(|name| !name.starts_with("libm")), "half of a file was left");
     }

@@ -14,7 +14,6 @@ mod unit;
 
 mod build_failures;
 mod commands;
-mod interrupted;
 mod isolation;
 mod report;
 mod report_page;

@@ -174,26 +174,6 @@ fn a_full_disk_behind_standard_output_is_an_error_with_a_message() {
     }
 }
 
-#[test]
-fn a_file_beyond_the_limit_of_the_user_is_an_error_and_leaves_nothing() {
-    let folder = empty_folder();
-    let mut command = Command::new("sh");
-    command.current_dir(folder.path()).args(["-c", "ulimit -f 1; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_brinell")]);
-    let run = output(command.args(curve_to("curve.csv"))).with_status(1);
-    assert!(run.err.contains("curve.csv: File too large"), "{run:#?}");
-    assert_eq!(contents(folder.path()), [""; 0]);
-}
-
-#[test]
-fn a_new_scene_that_does_not_fit_on_the_disk_leaves_nothing() {
-    let folder = empty_folder();
-    let mut command = Command::new("sh");
-    command.current_dir(folder.path()).args(["-c", "ulimit -f 0; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_brinell")]);
-    let run = output(command.args(["new", "ball"])).with_status(1);
-    assert!(run.err.contains("ball.toml: File too large"), "{run:#?}");
-    assert_eq!(contents(folder.path()), [""; 0]);
-}
-
 /// Paths that are difficult to pass on.
 #[test]
 fn paths_with_spaces_and_other_letters_work() {

@@ -79,10 +79,6 @@ pub fn one_of_each_kind(law: &str) -> Vec<(&'static str, String)> {
         ("everything", scene(law, &momentum, &format!("{BODIES}[fmu]\ninitial_gap = 1e-6\n{IMPACT}watch = false\n"))),
     ];
     if !is_rate_dependent(law) {
-        scenes.push((
-            "least",
-            scene(law, &["indentation", "dissipated_energy"], "[fmu]\ninput_derivatives = false\ninitial_gap = 1e-6\n"),
-        ));
         let inputs = "master = \"parallel\"\ninputs = [\"external_acceleration\", \"effective_mass\"]\n";
         scenes.push(("serial", coupled(law, &known, &soft_impactor(law))));
         scenes.push(("parallel", coupled(law, &known, inputs)));

@@ -4,21 +4,15 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The cache in which tests build; it contains the toolchain unless another folder is named.
-fn cache() -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
-}
-
-/// The folder of the toolchain: that of `BRINELL_TOOLCHAIN`, or the one in the cache of the tests. With
+/// The folder of the toolchain: that of `BRINELL_TOOLCHAIN`, or one below `target`. With
 /// `BRINELL_PLATFORMS=all`, it is downloaded if missing, about 100 MB. `None`, with a message that no test runner hides, if
 /// there is none.
 pub fn toolchain() -> Option<PathBuf> {
     let named = env::var_os("BRINELL_TOOLCHAIN").filter(|value| !value.is_empty()).map(PathBuf::from);
-    let folder = named.unwrap_or_else(|| cache().join("toolchain"));
+    let folder = named.unwrap_or_else(|| Path::new(env!("CARGO_TARGET_TMPDIR")).join("toolchain"));
     if env::var_os("BRINELL_PLATFORMS").is_some_and(|value| value == "all") {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
-        command.arg("toolchain").arg("--folder").arg(&folder).env("BRINELL_CACHE", cache());
-        let status = command.status().expect("cargo has built the program");
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("packaging/toolchain.py");
+        let status = Command::new("python3").arg(script).arg(&folder).status().expect("the tests need Python");
         assert!(status.success(), "the toolchain can't be fetched");
     }
     if folder.join("packages.json").is_file() {

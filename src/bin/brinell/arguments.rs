@@ -72,20 +72,6 @@ pub enum Command {
         #[arg(short, long)]
         output: PathBuf,
     },
-    /// Fetch a compiler for all platforms into a folder of its own
-    ///
-    /// About 100 MB are downloaded. An interrupted download continues where it stopped.
-    Toolchain {
-        /// The folder [default: that of BRINELL_TOOLCHAIN, or `toolchain` in the cache]
-        #[arg(long, value_name = "DIR")]
-        folder: Option<PathBuf>,
-        /// Also fetch what builds whole Rust programs: the source of the standard library, and the library for this machine
-        #[arg(long)]
-        std: bool,
-        /// Where Debian's security updates come from
-        #[arg(long, value_name = "URL", default_value = "https://deb.debian.org/debian-security")]
-        mirror: String,
-    },
     /// List the built-in materials
     Materials,
     /// Print the script that completes the arguments of this program in a shell

@@ -1,10 +1,10 @@
 //! Reading and writing of files for the user.
 
 pub use crate::file_error::FileError;
-use crate::interrupt::{self, Folder};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use tempfile::{NamedTempFile, TempDir};
 
 /// Writes a temporary file and renames it. The target is never incomplete. A symbolic link is kept, and the file it points to is
 /// written. A device or a pipe is written to, not replaced. A new file gets the permissions of the umask.
@@ -16,11 +16,21 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let goal = goal_of(path).map_err(&file_error)?;
     match &goal {
         Goal::Stream => fs::OpenOptions::new().write(true).open(path).and_then(|mut stream| stream.write_all(bytes)),
-        Goal::File(file) => {
-            check_writable(file).and_then(|()| interrupt::write_and_rename(&draft(), folder_of(file), file, bytes))
-        }
+        Goal::File(file) => check_writable(file)
+            .and_then(|()| draft().tempfile_in(folder_of(file)))
+            .and_then(|draft| fill_and_rename(draft, file, bytes)),
     }
     .map_err(&file_error)
+}
+
+fn fill_and_rename(mut draft: NamedTempFile, goal: &Path, bytes: &[u8]) -> io::Result<()> {
+    draft.write_all(bytes)?;
+    // a replaced file keeps its permissions
+    if let Ok(before) = fs::metadata(goal) {
+        fs::set_permissions(draft.path(), before.permissions())?;
+    }
+    draft.persist(goal)?;
+    Ok(())
 }
 
 /// The largest number of symbolic links in a chain, as on Linux.
@@ -73,11 +83,11 @@ fn draft() -> tempfile::Builder<'static, 'static> {
 ///
 /// # Errors
 /// [`FileError`]
-pub fn private_folder(prefix: &str, parent: &Path) -> Result<Folder, FileError> {
+pub fn private_folder(prefix: &str, parent: &Path) -> Result<TempDir, FileError> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-    Folder::new(builder.prefix(prefix), parent)
+    builder.prefix(prefix).tempdir_in(parent).map_err(FileError::at(parent))
 }
 
 /// Rejects a target that cannot be written, before any work is done: a folder, or a file in a folder that does not exist or
@@ -98,7 +108,7 @@ pub fn check_goal(path: &Path) -> Result<(), FileError> {
         return Err(FileError::at(path)(error));
     }
     // only creating a file shows whether it is possible; the file is deleted immediately
-    interrupt::probe(&draft(), folder).map_err(FileError::at(path))
+    draft().tempfile_in(folder).map(drop).map_err(FileError::at(path))
 }
 
 /// Rejects a target that is the file `input` of the command: the user's scene would be lost.
@@ -125,7 +135,7 @@ pub fn check_folder(path: &Path) -> Result<(), FileError> {
     }
     // a missing folder is created in its nearest existing ancestor
     let there = path.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
-    interrupt::probe(&draft(), there).map_err(FileError::at(path))
+    draft().tempfile_in(there).map(drop).map_err(FileError::at(path))
 }
 
 /// The folder that contains `path`.

@@ -20,7 +20,6 @@ mod hardness;
 mod html;
 mod importer;
 mod interface;
-mod interrupt;
 mod law_check;
 mod law_list;
 mod law_text;
@@ -57,7 +56,6 @@ mod summary;
 mod symbols;
 mod table;
 mod tangential_curve;
-mod toolchain;
 mod truth;
 mod units;
 mod validity;
@@ -75,7 +73,6 @@ use wrong_call::WrongCall;
 
 fn main() -> ExitCode {
     leave_when_nothing_can_be_printed();
-    interrupt::clean_up_when_interrupted();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return not_understood(&error),
@@ -165,9 +162,6 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
         Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,
         Some(Command::Merge { fmus, output }) => merge::run(fmus, output, json)?,
-        Some(Command::Toolchain { folder, std, mirror }) => {
-            toolchain::run(&toolchain::Wanted { folder: folder.as_deref(), std: *std, mirror }, json)?;
-        }
         Some(Command::Materials) => materials::run(json),
         Some(Command::Completions { shell }) => about::completions(*shell),
         Some(Command::Man { output }) => about::manual(output)?,

@@ -2,7 +2,7 @@
 
 use crate::interface::Entry;
 use crate::layout::paragraph;
-use crate::package::{Exported, How, Packed};
+use crate::package::{Exported, Origin, Packed};
 use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, VARIABLES};
@@ -83,7 +83,7 @@ impl Summary<'_> {
             .collect();
         let mut object = json!({
             "fmu": exported.path.to_string_lossy(), "guid": exported.guid, "size": exported.size, "library_size": exported.library_size(),
-            "imports": exported.imports(), "libraries": libraries, "made": exported.how.as_ref().map(How::json), "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
+            "imports": exported.imports(), "libraries": libraries, "made": exported.origin.as_ref().map(Origin::json), "warnings": warnings, "shared_bodies": self.plan.shared_bodies,
             "makes_energy": self.plan.makes_energy, "passivity_guard": guard.as_ref().map(|guard| &guard.ranges),
             "variables": variables.iter().map(Entry::label).collect::<Vec<_>>(), "variable_count": self.variable_count(),
             "constants": constants.iter().map(|constant| &constant.name).collect::<Vec<_>>(),
@@ -118,8 +118,8 @@ impl Summary<'_> {
             let taken = if imports.is_empty() { "nothing".into() } else { imports.join(", ") };
             print!("{}", paragraph(&format!("  {platform:<15}"), &format!("{size} bytes; takes {taken} from {from}")));
         }
-        if let Some(how) = &exported.how {
-            line("made", &how.words());
+        if let Some(origin) = &exported.origin {
+            line("made", &origin.words());
         }
         let Plan { scene, constants, guard, warnings, .. } = self.plan;
         line("law", &law(scene));

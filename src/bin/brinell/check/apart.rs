@@ -1,8 +1,8 @@
 //! The process that loads the library of an FMU. If it crashes, hangs or exits, the check fails.
 
 use super::CheckError;
+use super::bounded_output::output_within;
 use crate::files::{private_folder, write_whole};
-use crate::interrupt;
 use crate::layout::without_middle;
 use serde::{Deserialize, Serialize};
 use std::io;
@@ -39,7 +39,7 @@ pub fn check(path: &Path, as_json: bool, limit: Duration) -> Result<Found, Check
     if as_json {
         command.arg("--json");
     }
-    let Some(output) = interrupt::output_within(&mut command, Some(limit)).map_err(CheckError::NoProcess)? else {
+    let Some(output) = output_within(&mut command, limit).map_err(CheckError::NoProcess)? else {
         return Err(CheckError::Hangs { path: path.into(), limit: limit.as_secs() });
     };
     let found = fs::read(&file).and_then(|text| serde_json::from_slice(&text).map_err(io::Error::other));

@@ -1,6 +1,7 @@
 //! `brinell check`: loads an FMU like any importer and runs the impact of its scene.
 
 mod apart;
+mod bounded_output;
 mod master;
 mod oblique;
 mod row;

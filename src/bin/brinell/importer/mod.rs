@@ -9,7 +9,6 @@ mod hostile_tests;
 mod unit;
 
 use crate::files::private_folder;
-use crate::interrupt::Folder;
 use crate::layout::{shortened, without_middle};
 use crate::numbers::exact;
 use crate::platform::{self, NoPlatform, Platform};
@@ -18,6 +17,7 @@ use std::ffi::c_int;
 use std::io::BufReader;
 use std::path::Path;
 use std::{env, fs, io};
+use tempfile::TempDir;
 
 pub use bounded::Bound;
 pub use description::{Causality, Description};
@@ -83,7 +83,7 @@ fn chain(error: &dyn std::error::Error) -> String {
 
 /// An unpacked archive.
 pub struct Archive {
-    folder: Folder,
+    folder: TempDir,
     pub description: Description,
     /// Platforms with a binary.
     pub platforms: BTreeSet<String>,

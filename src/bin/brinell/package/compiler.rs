@@ -14,7 +14,7 @@ pub struct Compilers {
     cache: PathBuf,
     /// The user's compiler, or the reason why there is none.
     own: Result<Rustc, ExportError>,
-    toolchain: Toolchain,
+    toolchain: Option<Toolchain>,
     /// The compiler of the toolchain, started only when needed; or the reason why it fails.
     fetched: OnceLock<Result<Rustc, ExportError>>,
 }
@@ -23,7 +23,7 @@ impl Compilers {
     /// Looks for the user's compiler.
     pub fn find(cache: &Path) -> Compilers {
         let own = Rustc::find(cache);
-        Compilers { cache: cache.into(), own, toolchain: Toolchain::of(cache), fetched: OnceLock::new() }
+        Compilers { cache: cache.into(), own, toolchain: Toolchain::find(), fetched: OnceLock::new() }
     }
 
     /// The compiler and the linker for `target`: the user's, if they support it.
@@ -39,11 +39,11 @@ impl Compilers {
                 return Ok((own, Linker::Lld(lld)));
             }
         }
-        if let Some(Ok(fetched)) = self.fetched()
+        if let (Some(toolchain), Some(Ok(fetched))) = (&self.toolchain, self.fetched())
             && let (true, Some(lld)) = (fetched.has(target), fetched.lld())
         {
             let linker = match target.system {
-                System::Linux => Linker::DriverOf(self.toolchain.driver()),
+                System::Linux => Linker::DriverOf(toolchain.driver()),
                 System::Windows | System::MacOs => Linker::Lld(lld),
             };
             return Ok((fetched, linker));
@@ -52,15 +52,15 @@ impl Compilers {
     }
 
     fn fetched(&self) -> Option<&Result<Rustc, ExportError>> {
-        let find = || Rustc::at(self.toolchain.rustc(), &self.cache);
-        self.toolchain.is_whole().then(|| self.fetched.get_or_init(find))
+        let toolchain = self.toolchain.as_ref()?;
+        Some(self.fetched.get_or_init(|| Rustc::at(toolchain.rustc(), &self.cache)))
     }
 
     /// The missing part for `target`.
     fn missing(&self, target: &Target) -> ExportError {
         let triple = target.triple;
         let reason = match (&self.own, self.fetched()) {
-            (_, Some(Err(error))) => format!("that of {} fails: {error}", self.toolchain.folder.display()),
+            (_, Some(Err(error))) => format!("that of BRINELL_TOOLCHAIN fails: {error}"),
             (Err(error), _) => error.to_string(),
             (Ok(own), _) if own.has(target) => {
                 "the Rust toolchain has no `rust-lld`, which links for other systems".into()

@@ -4,11 +4,11 @@
 use super::Hash;
 use super::error::{ExportError, FolderError};
 use crate::files::{FileError, private_folder};
-use crate::interrupt::Folder;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use std::{env, fs, io};
+use tempfile::TempDir;
 
 /// The user's cache folder.
 pub struct Cache {
@@ -48,7 +48,7 @@ impl Cache {
     ///
     /// # Errors
     /// [`FileError`]
-    pub fn build_folder(&self) -> Result<Folder, FileError> {
+    pub fn build_folder(&self) -> Result<TempDir, FileError> {
         self.sweep();
         private_folder(BUILD, &self.folder)
     }

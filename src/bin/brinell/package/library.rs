@@ -8,13 +8,13 @@ use super::parts::Parts;
 use super::rustc::Rustc;
 use super::{Hash, resource, universal};
 use crate::files::FileError;
-use crate::interrupt::Folder;
 use crate::parallel;
 use crate::plan::Plan;
-use crate::platform::{self, Platform, Processor, System, Target};
+use crate::platform::{self, Platform, System, Target};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use tempfile::TempDir;
 
 /// Options of the crate of an FMU, which is optimized as one unit with the crates that it uses.
 const UNIT: [&str; 5] =
@@ -22,23 +22,6 @@ const UNIT: [&str; 5] =
 
 /// Additional option of a prebuilt library.
 const PREBUILT: &str = "--cfg=feature=\"prebuilt\"";
-
-/// Additional options of all crates of a prebuilt library. LLVM does not promise to keep its own options; a prebuilt library is
-/// compiled by a compiler that is known, an FMU by any. Without these optimizations, which copy code or keep values in more
-/// registers, a compressed library is smaller by some per cent. DESIGN.md has the numbers.
-const COMPACT: [&str; 3] =
-    ["-Cllvm-args=--disable-machine-licm", "-Cllvm-args=--disable-machine-cse", "-Cllvm-args=--enable-pre=false"];
-
-/// The threshold of the inliner: calls are shorter on arm64.
-const INLINED: &str = "-Cllvm-args=--inline-threshold=60";
-const INLINED_ON_ARM64: [&str; 2] = ["-Cllvm-args=--inline-threshold=40", "-Cllvm-args=--bonus-inst-threshold=0"];
-
-/// For arm64 Linux: code in the order of the source compresses better. For macOS, which has another model of its processors, it
-/// doesn't.
-const IN_ORDER_OF_SOURCE: [&str; 2] = ["-Cllvm-args=--enable-misched=false", "-Cllvm-args=--enable-post-misched=false"];
-
-/// For x86-64 Linux: no tables instead of branches. Each table is one of pointers or of numbers that compress badly.
-const NO_TABLES: &str = "-Cllvm-args=--switch-to-lookup=false";
 
 /// The ending of a library's name in the cache.
 const ENDING: &str = ".bin";
@@ -87,29 +70,13 @@ impl Source<'_> {
     fn is_standalone(&self) -> bool {
         matches!(self, Source::Scene { plan, .. } if plan.scene.standalone)
     }
-
-    /// Additional options of the compiler for all crates.
-    fn options(&self, target: &Target) -> Vec<&'static str> {
-        match self {
-            Source::Scene { .. } => Vec::new(),
-            Source::Kind { .. } => {
-                let own: &[&str] = match (target.system, target.processor) {
-                    (System::Linux, Processor::X86_64) => &[INLINED, NO_TABLES],
-                    (_, Processor::X86_64) => &[INLINED],
-                    (System::Linux, Processor::Arm64) => &[INLINED_ON_ARM64, IN_ORDER_OF_SOURCE].concat(),
-                    (_, Processor::Arm64) => &INLINED_ON_ARM64,
-                };
-                [&COMPACT, own].concat()
-            }
-        }
-    }
 }
 
 /// Compiles libraries. Shared parts are compiled once.
 pub struct Builder {
     cache: Cache,
     compilers: Compilers,
-    folder: Folder,
+    folder: TempDir,
     /// Number of libraries started so far.
     count: AtomicUsize,
 }
@@ -199,11 +166,6 @@ impl Build<'_> {
         format!("{}.{}", source.name(), self.target.system.extension())
     }
 
-    /// The options of all crates of the library.
-    fn options(&self, source: &Source) -> Vec<&'static str> {
-        [&[optimization(source)], source.options(self.target).as_slice()].concat()
-    }
-
     /// The objects that are linked to the crate of the FMU.
     fn objects(&self, source: &Source) -> Vec<&'static str> {
         let windows = self.target.system == System::Windows;
@@ -217,9 +179,9 @@ impl Build<'_> {
         let parts = Parts { cache, folder, rustc, target };
         let library = self.file_name(source);
         let prebuilt = matches!(source, Source::Kind { .. });
-        let plain = parts.settings().into_iter().chain(self.options(source)).chain(UNIT);
+        let plain = parts.settings().into_iter().chain([optimization(source)]).chain(UNIT);
         let plain = plain.chain(prebuilt.then_some(PREBUILT)).chain(Parts::USED).map(String::from);
-        let linked = link::arguments(target, linker, &library, &self.objects(source), prebuilt);
+        let linked = link::arguments(target, linker, &library, &self.objects(source));
         plain.chain(linked).chain([Parts::UNIT_ROOT, "-o", &library].map(String::from)).collect()
     }
 
@@ -239,7 +201,7 @@ impl Build<'_> {
         let Build { cache, folder, rustc, target, .. } = self;
         let parts = Parts { cache, folder, rustc, target };
         parts.create()?;
-        parts.make_crates(&self.options(source), source.is_standalone())?;
+        parts.make_crates(optimization(source), source.is_standalone())?;
         parts.write(Parts::unit_source().chain([source.file()]).chain(link::files()))?;
         for object in self.objects(source) {
             match object {

@@ -32,11 +32,8 @@ exports:
 );
 
 /// Symbols are bound at load time, first within the library.
-const ELF: [&str; 7] = ["-z", "now", "-Bsymbolic", "--build-id=none", "--no-eh-frame-hdr", "-T", "unit.ld"];
-
-/// The index of the symbols. The one by GNU is smaller; the old one compresses better, and every C library reads both.
-const GNU_INDEX: &str = "--hash-style=gnu";
-const OLD_INDEX: &str = "--hash-style=sysv";
+const ELF: [&str; 8] =
+    ["-z", "now", "-Bsymbolic", "--hash-style=gnu", "--build-id=none", "--no-eh-frame-hdr", "-T", "unit.ld"];
 
 /// No start code and no C library. `_fltused` only marks the use of floating point.
 const WINDOWS: [&str; 6] =
@@ -66,12 +63,12 @@ pub fn variables(target: &Target, folder: &Path) -> Vec<(&'static str, OsString)
     }
 }
 
-/// Arguments for rustc. `compressed`: the size that counts is that of the compressed library.
-pub fn arguments(target: &Target, linker: &Linker, name: &str, objects: &[&str], compressed: bool) -> Vec<String> {
+/// Arguments for rustc.
+pub fn arguments(target: &Target, linker: &Linker, name: &str, objects: &[&str]) -> Vec<String> {
     let mut arguments = Vec::new();
     let install_name = format!("@rpath/{name}");
     let (flavor, mut plain) = match target.system {
-        System::Linux => ("ld.lld", [ELF.as_slice(), &[if compressed { OLD_INDEX } else { GNU_INDEX }]].concat()),
+        System::Linux => ("ld.lld", ELF.to_vec()),
         System::Windows => ("lld-link", WINDOWS.to_vec()),
         System::MacOs => ("ld64.lld", [MACOS.as_slice(), &[&install_name]].concat()),
     };

@@ -2,7 +2,6 @@
 
 mod archive;
 mod compiler;
-mod deflate;
 mod diagnostics;
 mod error;
 mod folder;
@@ -18,13 +17,11 @@ mod way;
 
 pub use archive::archive;
 pub use error::ExportError;
-pub use folder::Cache;
 pub use hash::Hash;
 pub use library::{Builder, Source};
-pub use rustc::Rustc;
-pub use toolchain::Toolchain;
-pub use universal::{join, size as joined_size};
-pub use way::{How, Way};
+
+pub use universal::join;
+pub use way::{Origin, Way};
 
 use crate::files::write_whole;
 use crate::plan::Plan;
@@ -33,7 +30,7 @@ use crate::{documentation, model_description, symbols};
 use archive::Archive;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use way::{Made, make};
+use way::{Libraries, make};
 
 include!(concat!(env!("OUT_DIR"), "/library_source.rs"));
 
@@ -50,8 +47,8 @@ pub struct Exported {
     pub size: usize,
     /// One library for each platform.
     pub libraries: Vec<Packed>,
-    /// How the libraries were made; unknown before that.
-    pub how: Option<How>,
+    /// Where the libraries come from; unknown before the export.
+    pub origin: Option<Origin>,
 }
 
 impl Exported {
@@ -94,7 +91,7 @@ pub fn export(plan: &Plan, way: Way, platforms: &[Platform], path: &Path) -> Res
 /// [`ExportError`]
 pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, Exported), ExportError> {
     let scene = plan.scene;
-    let Made { guid, libraries: built, how } = make(plan, way, platforms)?;
+    let Libraries { guid, libraries: built, origin } = make(plan, way, platforms)?;
     let mut libraries = Vec::new();
     for (platform, library) in platforms.iter().zip(&built) {
         let refused = |reason| ExportError::Symbols { platform: platform.folder, reason };
@@ -103,19 +100,18 @@ pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, 
     }
     let license = format!("{LICENSE}\n{THIRD_PARTY}");
     let page = documentation::write(plan);
-    let mut files: Vec<(String, &[u8])> = vec![("model.png".into(), ICON)];
-    for (platform, library) in platforms.iter().zip(&built) {
-        files.push((format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension), library));
-    }
-    files.push(("documentation/index.html".into(), page.as_bytes()));
-    files.push(("documentation/licenses/license.txt".into(), license.as_bytes()));
-    files.push(("resources/scene.toml".into(), scene.text.as_bytes()));
     let mut archive = Archive::new();
     archive.add_written("modelDescription.xml", |to| model_description::write(plan, &guid, to))?;
-    archive.add_all(&files)?;
+    archive.add("model.png", ICON)?;
+    for (platform, library) in platforms.iter().zip(&built) {
+        archive.add(&format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension), library)?;
+    }
+    archive.add("documentation/index.html", page.as_bytes())?;
+    archive.add("documentation/licenses/license.txt", license.as_bytes())?;
+    archive.add("resources/scene.toml", scene.text.as_bytes())?;
     let archive = archive.finish()?;
     let size = archive.len();
-    Ok((archive, Exported { path: PathBuf::new(), guid, size, libraries, how: Some(how) }))
+    Ok((archive, Exported { path: PathBuf::new(), guid, size, libraries, origin: Some(origin) }))
 }
 
 /// Placeholder of the same length for the GUID. In quotes it can't occur anywhere else: in the texts of a scene,

@@ -97,8 +97,8 @@ impl Parts<'_> {
     ///
     /// # Errors
     /// [`ExportError`]
-    pub fn make_crates(&self, options: &[&str], standalone: bool) -> Result<(), ExportError> {
-        let common = [options, &[BITCODE]].concat();
+    pub fn make_crates(&self, optimization: &str, standalone: bool) -> Result<(), ExportError> {
+        let common = [optimization, BITCODE];
         let libm = [common.as_slice(), &LIBM, &LIBM_FILES].concat();
         self.make("liblibm.rlib", &libm, LIBM_SOURCE)?;
         let standalone = if standalone { [STANDALONE].as_slice() } else { &[] };

@@ -3,11 +3,10 @@
 use super::diagnostics;
 use super::error::ExportError;
 use crate::files::FileError;
-use crate::interrupt;
 use crate::platform::Target;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 use std::{env, fs};
 
@@ -81,12 +80,12 @@ impl Rustc {
     pub fn at(found: PathBuf, cache: &Path) -> Result<Rustc, ExportError> {
         let root = cache.ancestors().last().unwrap_or(cache);
         // with the user's environment, in which rustup finds its toolchains
-        let asked = interrupt::output(Command::new(&found).args(["--print", "sysroot"]).current_dir(root));
+        let asked = Command::new(&found).args(["--print", "sysroot"]).current_dir(root).stdin(Stdio::null()).output();
         let sysroot = PathBuf::from(answer(&asked.map_err(ExportError::NoRustc)?)?);
         // the compiler itself, if rustup has answered
         let itself = sysroot.join("bin").join(name());
         let program = if itself.is_file() { itself } else { found };
-        let asked = interrupt::output(command(&program).arg("-vV").current_dir(root));
+        let asked = command(&program).arg("-vV").current_dir(root).output();
         let says = answer(&asked.map_err(ExportError::NoRustc)?)?;
         let line = |key: &str| says.lines().find_map(|line| line.strip_prefix(key)).unwrap_or_default();
         let (version, host) = (line("release: "), line("host: ").into());
@@ -132,7 +131,7 @@ impl Rustc {
         for name in ["TMPDIR", "TEMP", "TMP"] {
             command.env(name, &temporary);
         }
-        let output = interrupt::output(&mut command).map_err(ExportError::NoRustc)?;
+        let output = command.output().map_err(ExportError::NoRustc)?;
         if output.status.success() { Ok(()) } else { Err(diagnostics::cause(&output, folder)) }
     }
 }
@@ -147,7 +146,12 @@ fn command(program: &Path) -> Command {
     let mut command = Command::new(program);
     let kept = |name: &&'static str| Some((*name, env::var_os(name)?));
     let kept: Vec<(&str, OsString)> = KEPT.iter().filter_map(kept).collect();
-    command.env_clear().envs(kept).env("LC_ALL", "C").env("CARGO_PKG_VERSION", env!("CARGO_PKG_VERSION"));
+    command
+        .stdin(Stdio::null())
+        .env_clear()
+        .envs(kept)
+        .env("LC_ALL", "C")
+        .env("CARGO_PKG_VERSION", env!("CARGO_PKG_VERSION"));
     command
 }
 

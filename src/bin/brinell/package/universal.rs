@@ -12,14 +12,6 @@ fn align(offset: usize) -> usize {
     offset.next_multiple_of(1 << ALIGNMENT)
 }
 
-/// Size of the result of [`join`] for libraries of these sizes [bytes].
-pub fn size(slices: &[usize]) -> usize {
-    match slices {
-        [only] => *only,
-        _ => slices.iter().fold(1, |end, size| align(end) + size),
-    }
-}
-
 /// One library from several: a single library stays as it is, several become a universal one.
 pub fn join(slices: &[&[u8]]) -> Vec<u8> {
     if let [only] = slices {
@@ -39,18 +31,4 @@ pub fn join(slices: &[&[u8]]) -> Vec<u8> {
         file.extend_from_slice(slice);
     }
     file
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{join, size};
-
-    #[test]
-    fn the_size_is_known_before() {
-        let slices: [&[u8]; 3] = [&[1; 100], &[2; 20_000], &[3; 12]];
-        for count in 1..=3 {
-            let sizes: Vec<_> = slices[..count].iter().map(|slice| slice.len()).collect();
-            assert_eq!(size(&sizes), join(&slices[..count]).len(), "{count}");
-        }
-    }
 }

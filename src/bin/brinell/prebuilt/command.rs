@@ -5,12 +5,10 @@ use super::store::{self, Written};
 use crate::arguments::PrebuildArguments;
 use crate::files::FileError;
 use crate::package::{Builder, ExportError, Source, Way};
-use crate::plan::Plan;
 use crate::platform::{self, Target};
-use crate::{constants, parallel, symbols};
+use crate::{parallel, symbols};
 use indicatif::ProgressBar;
 use serde_json::json;
-use std::collections::BTreeMap;
 use std::error::Error;
 use std::fs;
 
@@ -26,9 +24,8 @@ pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn E
     fs::create_dir_all(&arguments.output).map_err(FileError::at(&arguments.output))?;
     for target in targets {
         let built = build_all(&builder, &libraries, target)?;
-        let saves = compiling_saves(&builder, &libraries, &built, target)?;
         let listed: Vec<_> = libraries.iter().zip(built).collect();
-        let Written { libraries, unpacked, packed } = store::write(&arguments.output, target, &listed, saves)?;
+        let Written { libraries, unpacked, packed } = store::write(&arguments.output, target, &listed)?;
         let triple = target.triple;
         if as_json {
             println!("{}", json!({ "target": triple, "libraries": libraries, "size": unpacked, "compressed": packed }));
@@ -76,24 +73,4 @@ fn build_all(builder: &Builder, libraries: &[Library], target: &'static Target) 
     });
     progress.finish_and_clear();
     built
-}
-
-/// For each kind: the size difference between the prebuilt library and the compiled library of a scene with the same
-/// outputs, for the first laws.
-fn compiling_saves(
-    builder: &Builder,
-    libraries: &[Library],
-    built: &[Vec<u8>],
-    target: &Target,
-) -> Result<BTreeMap<String, i64>, ExportError> {
-    let mut saves = BTreeMap::new();
-    for (library, bytes) in libraries.iter().zip(built) {
-        if !saves.contains_key(library.kind.name) {
-            let plan = Plan::of(&library.scene);
-            let constants = constants::write(&plan, &"0".repeat(32));
-            let compiled = builder.build(&Source::Scene { plan: &plan, constants: &constants }, target)?;
-            saves.insert(library.kind.name.to_string(), bytes.len() as i64 - compiled.len() as i64);
-        }
-    }
-    Ok(saves)
 }

@@ -18,8 +18,6 @@ pub struct Kind {
     master: Option<Master>,
     /// Whether it can warn of unstable steps.
     watches: bool,
-    /// Whether its inputs can have derivatives.
-    input_derivatives: bool,
     /// Whether the impactor may be the softer body.
     two_strengths: bool,
 }
@@ -37,23 +35,13 @@ enum Outputs {
 }
 
 /// The kinds, in ascending order of cost. `impulse` and `mean_force` are computed in every step; all other outputs
-/// only when they are read. The first two are for FMUs of many platforms, which are sent around: they lack what a scene can do
-/// without, and the impactor never yields.
-pub const KINDS: [Kind; 6] = [
-    Kind {
-        name: "least",
-        outputs: Outputs::These(&["indentation", "residual_indentation", "dissipated_energy"]),
-        master: None,
-        watches: false,
-        input_derivatives: false,
-        two_strengths: false,
-    },
+/// only when they are read. In the first, the impactor never yields.
+pub const KINDS: [Kind; 5] = [
     Kind {
         name: "force",
         outputs: Outputs::These(&["indentation", "residual_indentation", "dissipated_energy"]),
         master: None,
         watches: false,
-        input_derivatives: true,
         two_strengths: false,
     },
     Kind {
@@ -61,7 +49,6 @@ pub const KINDS: [Kind; 6] = [
         outputs: Outputs::AllBut(&["impulse", "mean_force", "closing_speed"]),
         master: None,
         watches: true,
-        input_derivatives: true,
         two_strengths: true,
     },
     Kind {
@@ -69,7 +56,6 @@ pub const KINDS: [Kind; 6] = [
         outputs: Outputs::AllBut(&["closing_speed"]),
         master: None,
         watches: true,
-        input_derivatives: true,
         two_strengths: true,
     },
     Kind {
@@ -77,7 +63,6 @@ pub const KINDS: [Kind; 6] = [
         outputs: Outputs::AllBut(&[]),
         master: Some(Master::Serial),
         watches: false,
-        input_derivatives: true,
         two_strengths: true,
     },
     Kind {
@@ -85,16 +70,14 @@ pub const KINDS: [Kind; 6] = [
         outputs: Outputs::AllBut(&[]),
         master: Some(Master::Parallel),
         watches: false,
-        input_derivatives: true,
         two_strengths: true,
     },
 ];
 
 impl Kind {
-    /// Whether this kind has libraries with rate-dependent laws. These laws don't support a known mass, and never have
-    /// derivatives of their input.
+    /// Whether this kind has libraries with rate-dependent laws. These laws don't support a known mass.
     fn goes_with_damped(&self) -> bool {
-        self.master.is_none() && self.input_derivatives
+        self.master.is_none()
     }
 
     fn has_output(&self, name: &str) -> bool {
@@ -119,9 +102,8 @@ impl Kind {
             false => Master::Serial,
         });
         let watches = self.watches || !scene.watches;
-        let derivatives = self.input_derivatives || !constants::has_course(scene);
         let laws = !scene.is_rate_dependent() || self.goes_with_damped();
-        let has_features = laws && master == self.master && watches && derivatives;
+        let has_features = laws && master == self.master && watches;
         let bodies = self.two_strengths || !scene.has_two_strengths();
         has_features && bodies && scene.outputs.iter().all(|output| self.has_output(output))
     }
@@ -188,11 +170,10 @@ pub struct Library {
 impl Library {
     fn new(laws: Laws, kind: &'static Kind) -> Library {
         let outputs = kind.outputs().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
-        let derivatives = if kind.input_derivatives { "" } else { "input_derivatives = false\n" };
         let strength = if kind.two_strengths { "material = \"mild steel\"\nyield_strength = 1e9\n" } else { "" };
         let mut text = format!(
             "name = \"prebuilt\"\n[impactor]\nradius = 5e-3\n{strength}[target]\nmaterial = \"mild steel\"\n[fmu]\n\
-             outputs = [{outputs}]\n{derivatives}[impact]\nmass = 4e-3\nspeed = 1.0\nwatch = {}\n{}",
+             outputs = [{outputs}]\n[impact]\nmass = 4e-3\nspeed = 1.0\nwatch = {}\n{}",
             kind.watches,
             laws.table()
         );

@@ -91,11 +91,4 @@ impl Unit {
         })?;
         Ok(library)
     }
-
-    /// Size of the library of the FMU for `platform` [bytes], and the saving of a compiled one, if known.
-    pub fn sizes(&self, platform: &Platform) -> Option<(usize, Option<i64>)> {
-        let sizes = platform.targets.iter().map(|target| self.store.sizes(&self.library, target).ok());
-        let (sizes, saved): (Vec<_>, Vec<_>) = sizes.collect::<Option<Vec<_>>>()?.into_iter().unzip();
-        Some((package::joined_size(&sizes), saved.into_iter().sum()))
-    }
 }

@@ -10,7 +10,6 @@ use crate::platform::{Platform, Target};
 use crate::prebuilt_folder::{self, LIST, PrebuiltFolder};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -44,8 +43,6 @@ struct List {
     sources: String,
     /// The archive: its name, size and hash.
     archive: Listed,
-    /// For each kind: the saving of a compiled library of a scene with the same outputs [bytes].
-    compiling_saves: BTreeMap<String, i64>,
     streams: Vec<Stream>,
 }
 
@@ -168,19 +165,6 @@ impl Store {
         }
         Err(StoreError::NoLibrary { folder: self.folder(), name })
     }
-
-    /// Size of the prebuilt `library` for `target` [bytes], and the saving of a compiled one.
-    ///
-    /// # Errors
-    /// [`StoreError`]
-    pub fn sizes(&self, library: &Library, target: &Target) -> Result<(usize, Option<i64>), StoreError> {
-        let (list, name) = (self.list(target)?, library.name());
-        let mut listed = list.streams.iter().flat_map(|stream| &stream.libraries);
-        let found = listed.find(|listed| listed.name == name);
-        let none = || StoreError::NoLibrary { folder: self.folder(), name: name.clone() };
-        let size = found.ok_or_else(none)?.size;
-        Ok((size, list.compiling_saves.get(library.kind.name).copied()))
-    }
 }
 
 /// The result for one target.
@@ -196,12 +180,7 @@ pub struct Written {
 ///
 /// # Errors
 /// [`FileError`]
-pub fn write(
-    path: &Path,
-    target: &Target,
-    libraries: &[(&Library, Vec<u8>)],
-    compiling_saves: BTreeMap<String, i64>,
-) -> Result<Written, FileError> {
+pub fn write(path: &Path, target: &Target, libraries: &[(&Library, Vec<u8>)]) -> Result<Written, FileError> {
     let (mut archive, mut streams, mut unpacked) = (Vec::new(), Vec::new(), 0);
     for kind in libraries.chunk_by(|(one, _), (other, _)| one.kind.name == other.kind.name) {
         let bytes: Vec<u8> = kind.iter().flat_map(|(_, bytes)| bytes).copied().collect();
@@ -220,7 +199,6 @@ pub fn write(
         brinell: env!("CARGO_PKG_VERSION").into(),
         sources: SOURCES.clone(),
         archive: Listed::new(name, &archive),
-        compiling_saves,
         streams,
     };
     let mut text = serde_json::to_string_pretty(&list).expect("a list is plain data");

@@ -1,41 +1,26 @@
 //! The output of a child process, which may be endless, and held by processes that the child leaves behind.
 
-use super::Child;
 use std::io::{self, Read};
 use std::process::{Command, Output, Stdio};
 use std::sync::mpsc::{self, Receiver};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
+use wait_timeout::ChildExt;
 
-/// Runs `command` without input and returns its output; an interruption stops it.
+/// Runs `command` without input and returns its output; `None` if it took longer than `limit` and was stopped.
 ///
 /// # Errors
 /// [`io::Error`] if it can't be started.
-pub fn output(command: &mut Command) -> io::Result<Output> {
-    Ok(output_within(command, None)?.expect("without a limit it ends by itself"))
-}
-
-/// The same; `None` if it took longer than `limit` and was stopped.
-///
-/// # Errors
-/// [`io::Error`] if it can't be started.
-pub fn output_within(command: &mut Command, limit: Option<Duration>) -> io::Result<Option<Output>> {
-    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let child = Child::spawn(command)?;
-    let status = Heard::start(child.take_stdout()).and_then(|stdout| {
-        let stderr = Heard::start(child.take_stderr())?;
-        let status = match limit.and_then(|limit| Instant::now().checked_add(limit)) {
-            None => child.wait().map(Some),
-            Some(deadline) => child.wait_deadline(deadline),
-        };
-        Ok((status?, stdout, stderr))
-    });
-    if !matches!(status, Ok((Some(_), ..))) {
+pub fn output_within(command: &mut Command, limit: Duration) -> io::Result<Option<Output>> {
+    let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
+    let heard = Heard::start(child.stdout.take()).and_then(|stdout| Ok((stdout, Heard::start(child.stderr.take())?)));
+    let ended = heard.and_then(|heard| Ok((child.wait_timeout(limit)?, heard)));
+    if !matches!(ended, Ok((Some(_), _))) {
         let _ = child.kill();
         let _ = child.wait();
     }
-    let (Some(status), stdout, stderr) = status? else { return Ok(None) };
+    let (Some(status), (stdout, stderr)) = ended? else { return Ok(None) };
     let patience = Instant::now() + PATIENCE;
     Ok(Some(Output { status, stdout: stdout.until(patience), stderr: stderr.until(patience) }))
 }
