@@ -50,9 +50,9 @@ type IfPresent<P, S, T> = <P as Presence>::Of<T, <S as Scene>::Contacts<T>>;
 /// The data of the contacts. A plain step and a reading of the force use the first fields only.
 #[repr(C)]
 struct Contacts<S: Scene> {
-    histories: S::Contacts<S::Contact>,
     /// Rates \[m/s\].
     rates: S::Contacts<f64>,
+    histories: S::Contacts<S::Contact>,
     /// Forces \[N\].
     forces: IfPresent<S::Forces, S, f64>,
     momenta: IfPresent<S::Momentum, S, Momentum>,
