@@ -19,16 +19,16 @@ const STEPS_BEFORE: usize = STEPS / 4;
 type Operation = fn(&Instance, &mut State) -> Status;
 
 const OPERATIONS_BY_NAME: [(&str, Operation, Goal); 4] = [
-    ("get state", |instance, state| instance.save(state), Goal::OverEmpty(1.5, 1.2)),
-    ("set state", |instance, state| instance.restore(*state), Goal::OverEmpty(1.5, 1.2)),
-    ("get + set state", |instance, state| instance.save(state) | instance.restore(*state), Goal::OverEmpty(1.5, 1.2)),
+    ("get state", |instance, state| instance.save(state), Goal::OverC(1.25, 1.1)),
+    ("set state", |instance, state| instance.restore(*state), Goal::OverC(1.25, 1.1)),
+    ("get + set state", |instance, state| instance.save(state) | instance.restore(*state), Goal::OverC(1.25, 1.1)),
     (
         "save + step + restore",
         |instance, state| {
             let time = STEPS_BEFORE as f64 * STEP;
             instance.save(state) | instance.step(time, STEP) | instance.restore(*state)
         },
-        Goal::OverEmpty(1.7, 1.4),
+        Goal::OverC(1.25, 1.1),
     ),
 ];
 

@@ -19,6 +19,7 @@ const HUGE: f64 = 1e150;
 /// Reference: A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen", *ZAMM* 54 (1974) 39-51. T.
 /// J. Dekker, *Numer. Math.* 18 (1971) 224-242, for the error of a sum whose larger term is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct Sum {
     /// The sum, with its rounding errors.
     pub value: f64,
@@ -36,7 +37,7 @@ impl Sum {
     #[inline(always)]
     pub fn plus(self, increment: f64) -> Sum {
         let value = self.value + increment;
-        Sum { value, rest: self.rest + (increment - (value - self.value)) }
+        Sum { value, rest: self.value - value + increment + self.rest }
     }
 
     /// The sum, rounded once.

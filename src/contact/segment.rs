@@ -10,6 +10,7 @@ use libm::sqrt;
 /// the unloading of the law `brinell` uses `c2` and `c3`. It holds for `lower <= indentation < upper`. Below `origin`, `z`
 /// counts as zero and the force is `c0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Segment {
     /// Smallest indentation on the branch \[m\].
     pub lower: f64,
@@ -70,18 +71,23 @@ impl Segment {
         reached - self.origin
     }
 
+    /// The force for which `rise` gives what `z` adds to `c0` \[N\]. The branch can be predicted; the result of a maximum would
+    /// have to be waited for.
+    #[inline(always)]
+    fn force_with(&self, indentation: f64, rise: impl Fn(f64) -> f64) -> f64 {
+        if indentation > self.origin { self.constant + rise(indentation - self.origin) } else { self.constant }
+    }
+
     /// Force \[N\].
     #[inline]
     pub fn force(&self, indentation: f64) -> f64 {
-        let z = self.above_origin(indentation);
-        self.constant + z * (self.linear + self.power * sqrt(z) + self.square * z)
+        self.force_with(indentation, |z| z * (self.linear + self.power * sqrt(z) + self.square * z))
     }
 
     /// The same for a branch without `c3`, which most laws never use \[N\].
     #[inline(always)]
     pub fn force_without_square(&self, indentation: f64) -> f64 {
-        let z = self.above_origin(indentation);
-        self.constant + z * (self.linear + self.power * sqrt(z))
+        self.force_with(indentation, |z| z * (self.linear + self.power * sqrt(z)))
     }
 
     /// Mean force over the distance from `from` to `to` \[m\], in either direction, without cancellation over short distances

@@ -27,3 +27,10 @@ pub trait Handle: Sized {
         unsafe { Self::pointer(handle).as_mut() }
     }
 }
+
+/// Whether surely none of some pointers is null, in one comparison. `common` are the bits that all their addresses have. If there
+/// are none, one may be null; then another check decides.
+#[inline(always)]
+pub fn are_given(common: usize) -> bool {
+    common != 0
+}

@@ -2,7 +2,7 @@
 
 use super::abi::*;
 use super::component::{Component, array, array_mut, call, object};
-use super::handle::Handle;
+use super::handle::{Handle, are_given};
 use super::order;
 use super::state::Snapshot;
 use crate::scene::Scene;
@@ -14,10 +14,11 @@ use crate::scene::Scene;
 pub unsafe fn get_fmu_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUstate) -> fmi2Status {
     // SAFETY: the caller's component and state.
     unsafe {
-        if let (Some(component), Some(state)) = (Component::<S>::behind(c), FMUstate.as_ref())
-            && let Ok(snapshot) = Snapshot::<S>::at(*state)
+        // a state of another FMU isn't alike
+        if are_given(c.addr() & FMUstate.addr())
+            && let Some(snapshot) = Snapshot::<S>::behind(*FMUstate)
             // allowed in every phase
-            && snapshot.instance.copy_alike(&component.instance)
+            && snapshot.instance.copy_alike(&(*Component::<S>::pointer(c)).instance)
         {
             return fmi2OK;
         }
@@ -46,9 +47,10 @@ unsafe fn get_any_state<S: Scene>(c: fmi2Component, FMUstate: *mut fmi2FMUstate)
 pub unsafe fn set_fmu_state<S: Scene>(c: fmi2Component, FMUstate: fmi2FMUstate) -> fmi2Status {
     // SAFETY: the caller's component and state.
     unsafe {
-        if let (Some(component), Ok(snapshot)) = (Component::<S>::behind(c), Snapshot::<S>::at(FMUstate))
+        // a state of another FMU isn't alike
+        if are_given(c.addr() & FMUstate.addr())
             // allowed in every phase
-            && component.instance.copy_alike(&snapshot.instance)
+            && (*Component::<S>::pointer(c)).instance.copy_alike(&(*Snapshot::<S>::pointer(FMUstate)).instance)
         {
             return fmi2OK;
         }

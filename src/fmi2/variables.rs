@@ -3,7 +3,7 @@
 use super::abi::*;
 use super::complaint::Complaint;
 use super::component::{Component, array, array_mut, call};
-use super::handle::Handle;
+use super::handle::{Handle, are_given};
 use super::order::{self, Function};
 use crate::instance::Fault;
 use crate::scene::{Real, Scene};
@@ -33,19 +33,23 @@ fn contact_of<S: Scene>(kind: u32, reference: fmi2ValueReference) -> Option<usiz
     (contact < S::CONTACTS).then_some(contact)
 }
 
-/// The contact of a call for a single variable of this `kind`, if the pointers are not null.
+/// The contact of a call for a single variable of this `kind`, if surely no pointer is null.
 ///
 /// # Safety
-/// If the pointer to references is not null, it points to `nvr` of them.
+/// A pointer that is not null points to `nvr` elements, or to a component.
 #[inline(always)]
-unsafe fn only_one<S: Scene>(kind: u32, vr: *const fmi2ValueReference, nvr: usize) -> Option<usize> {
-    if nvr != 1 {
+unsafe fn only_one<S: Scene>(
+    c: fmi2Component,
+    kind: u32,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Real,
+) -> Option<usize> {
+    if nvr != 1 || !are_given(c.addr() & vr.addr() & value.addr()) {
         return None;
     }
-    // SAFETY: it does nothing, but keeps the compiler from merging the two tests, which would take two more instructions.
-    unsafe { core::arch::asm!("", options(nomem, nostack, preserves_flags)) };
-    // SAFETY: guaranteed by the caller.
-    contact_of::<S>(kind, *unsafe { vr.as_ref() }?)
+    // SAFETY: it is not null, and points to one reference.
+    contact_of::<S>(kind, unsafe { *vr })
 }
 
 /// The first contact of consecutive contacts whose variables of this `kind` have these references.
@@ -71,10 +75,8 @@ pub unsafe fn get_real<S: Scene>(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays of the given length.
     unsafe {
-        if let Some(contact) = only_one::<S>(FORCE, vr, nvr)
-            && let Some(component) = Component::<S>::behind(c)
-            && let Some(force) = component.instance.plain_force(contact)
-            && !value.is_null()
+        if let Some(contact) = only_one::<S>(c, FORCE, vr, nvr, value)
+            && let Some(force) = (*Component::<S>::pointer(c)).instance.plain_force(contact)
         {
             *value = force;
             return fmi2OK;
@@ -149,10 +151,9 @@ pub unsafe fn set_real<S: Scene>(
 ) -> fmi2Status {
     // SAFETY: the caller's component, and arrays of the given length.
     unsafe {
-        if let Some(contact) = only_one::<S>(RATE, vr, nvr)
-            && let Some(component) = Component::<S>::behind(c)
-            && !value.is_null()
-            && component.instance.set_plain_rate(contact, *value)
+        if let Some(contact) = only_one::<S>(c, RATE, vr, nvr, value)
+            // read as the word that it is compared as
+            && (*Component::<S>::pointer(c)).instance.set_plain_rate(contact, f64::from_bits(*value.cast()))
         {
             return fmi2OK;
         }

@@ -45,8 +45,12 @@ const STOP_TOLERANCE: f64 = 1e-3;
 /// A limit that is before every time \[s\].
 const NOWHERE: f64 = f64::NEG_INFINITY;
 
-/// A value of [`Clock::lowest_rate`] that no rate satisfies.
-const NO_RATE: f64 = f64::INFINITY;
+/// The size of a number as a word: the words of two numbers are in the order of their absolute values. That of a NaN is larger
+/// than all others.
+#[inline(always)]
+const fn size(number: f64) -> u64 {
+    number.to_bits() << 1
+}
 
 /// Tolerance for rounding of a time far from zero, as a fraction of it.
 const TIME_ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -59,9 +63,8 @@ pub(super) struct Clock {
     pub time: f64,
     /// Latest end of a plain step \[s\]: the stop time while stepping, before every time otherwise.
     limit: f64,
-    /// Negative of the largest absolute value to which an input may be set without further checks \[m/s\]; no rate qualifies
-    /// except between steps. It is negative so that the comparison takes its second operand from memory.
-    lowest_rate: f64,
+    /// All sizes below it are those of rates to which an input may be set without further checks; none except between steps.
+    rate_limit: u64,
     stop: f64,
     pub phase: Phase,
     pub experiment_defined: bool,
@@ -74,7 +77,7 @@ impl Clock {
     pub const START: Clock = Clock {
         time: 0.0,
         limit: NOWHERE,
-        lowest_rate: NO_RATE,
+        rate_limit: 0,
         stop: f64::MAX,
         phase: Phase::Instantiated,
         experiment_defined: false,
@@ -99,8 +102,7 @@ impl Clock {
     /// Whether an input may be set to `rate` \[m/s\] without further checks.
     #[inline(always)]
     pub fn takes_rate(&self, rate: f64) -> bool {
-        // false for NaN
-        -rate.abs() >= self.lowest_rate
+        size(rate) < self.rate_limit
     }
 
     /// Whether a step of length `step` \[s\] from `time` clearly follows the last one. It is false if the step is zero,
@@ -154,10 +156,10 @@ impl Clock {
         Ok(())
     }
 
-    /// Sets the phase. `lowest_rate` \[m/s\] applies in the phases in which inputs may be set.
-    pub fn set_phase(&mut self, phase: Phase, lowest_rate: f64) {
+    /// Sets the phase. Between steps, inputs up to `largest_rate` \[m/s\] need no further checks.
+    pub fn set_phase(&mut self, phase: Phase, largest_rate: f64) {
         self.phase = phase;
-        self.lowest_rate = if phase == Phase::StepComplete { lowest_rate } else { NO_RATE };
+        self.rate_limit = if phase == Phase::StepComplete { size(largest_rate) + 1 } else { 0 };
         self.hold();
         self.release();
     }

@@ -50,9 +50,9 @@ type IfPresent<P, S, T> = <P as Presence>::Of<T, <S as Scene>::Contacts<T>>;
 /// The data of the contacts. A plain step and a reading of the force use the first fields only.
 #[repr(C)]
 struct Contacts<S: Scene> {
-    histories: S::Contacts<S::Contact>,
     /// Rates \[m/s\].
     rates: S::Contacts<f64>,
+    histories: S::Contacts<S::Contact>,
     /// Forces \[N\].
     forces: IfPresent<S::Forces, S, f64>,
     momenta: IfPresent<S::Momentum, S, Momentum>,
@@ -75,9 +75,10 @@ struct Contacts<S: Scene> {
 /// Values that follow from the parameters.
 #[repr(C)]
 struct Settings<S: Scene> {
-    /// Negative of the largest absolute value of an input that needs no further check \[m/s\].
-    lowest_rate: f64,
-    /// A hash of all parameters: saved states with the same hash have the same parameters and need not copy them.
+    /// The largest absolute value of an input that needs no further check \[m/s\].
+    largest_rate: f64,
+    /// A hash of the scene and of all parameters: a saved state with the same hash is one of the same scene, whose parameters
+    /// need not be copied.
     stamp: u64,
     bodies: S::Groups<BodiesOf<S>>,
     values: S::Values,
@@ -176,7 +177,7 @@ impl<S: Scene> Instance<S> {
     }
 
     fn set_phase(&mut self, phase: Phase) {
-        self.clock.set_phase(phase, self.settings.lowest_rate);
+        self.clock.set_phase(phase, self.settings.largest_rate);
         if self.clock.curved {
             self.clock.hold();
         }

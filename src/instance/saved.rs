@@ -22,7 +22,8 @@ impl<S: Scene> Instance<S> {
     pub const WORDS: usize =
         OWN_WORDS + <S::Values as Store<f64>>::LENGTH + 2 * S::GROUPS + Self::CONTACT_WORDS * S::CONTACTS;
 
-    /// Makes this instance equal to `other` and returns true. If the parameters differ, it changes nothing and returns false.
+    /// Makes this instance equal to `other` and returns true. If the parameters differ, or `other` is in fact of another scene, it
+    /// changes nothing and returns false.
     #[inline(always)]
     pub fn copy_alike(&mut self, other: &Instance<S>) -> bool {
         if self.settings.stamp != other.settings.stamp {
@@ -57,7 +58,7 @@ impl<S: Scene> Instance<S> {
         let (own, given) = (&mut self.settings, &other.settings);
         own.bodies.as_mut().copy_from_slice(given.bodies.as_ref());
         own.values = given.values;
-        (own.lowest_rate, own.stamp) = (given.lowest_rate, given.stamp);
+        (own.largest_rate, own.stamp) = (given.largest_rate, given.stamp);
         self.copy_alike(other);
     }
 
@@ -177,7 +178,7 @@ impl<S: Scene> Instance<S> {
             self.settings.values = values;
             self.stamp_parameters();
             self.clock = clock;
-            self.clock.set_phase(phase, self.settings.lowest_rate);
+            self.clock.set_phase(phase, self.settings.largest_rate);
             self.clock.curved = flags & 2 != 0;
             self.contacts.last_step.as_mut().fill(last_step);
             // the earlier warnings are not known here

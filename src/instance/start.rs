@@ -120,7 +120,7 @@ impl<S: Scene> Instance<S> {
                 watched: Store::filled(Watched::default()),
                 looks: Store::filled(0),
             },
-            settings: Settings { lowest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
+            settings: Settings { largest_rate: 0.0, stamp: 0, bodies: Store::filled(Bodies::default()), values },
             deep: Deep { contact: 0, indentation: 0.0 },
         };
         instance.reset()?;
@@ -157,17 +157,17 @@ impl<S: Scene> Instance<S> {
     #[cold]
     #[inline(never)]
     pub(super) fn stamp_parameters(&mut self) {
-        let Settings { lowest_rate, stamp, bodies, values } = &mut self.settings;
+        let Settings { largest_rate, stamp, bodies, values } = &mut self.settings;
         let sizes = bodies.as_ref().iter().flat_map(|bodies| [bodies.radius, bodies.modulus]);
         let mix = |sum: u64, value: f64| {
             let mixed = (sum ^ value.to_bits()).wrapping_mul(GOLDEN);
             mixed ^ mixed >> 32
         };
-        // zeroed memory has the hash zero
-        let present = values.as_ref().iter().copied().chain(sizes).fold(GOLDEN, mix) | 1;
+        // no other scene has this hash either; that of zeroed memory is zero
+        let present = values.as_ref().iter().copied().chain(sizes).fold(S::identity(), mix) | 1;
         if present != *stamp {
             *stamp = present;
-            *lowest_rate = validity::lowest_rate::<S>(values);
+            *largest_rate = validity::largest_rate::<S>(values);
             for (group, bodies) in bodies.as_mut().iter_mut().enumerate() {
                 bodies.kept = S::Contact::kept(&model_of::<S>(group, bodies, values));
                 bodies.depth = 0.0;

@@ -9,10 +9,10 @@ fn largest_speed<S: Scene>(group: usize, values: &S::Values) -> f64 {
     S::density(group).map_or(FASTEST, |density| validity::largest_speed(modulus, density))
 }
 
-/// Negative of the rate up to which an input needs no further check in any group \[m/s\].
-pub(super) fn lowest_rate<S: Scene>(values: &S::Values) -> f64 {
+/// The rate up to which an input needs no further check in any group \[m/s\].
+pub(super) fn largest_rate<S: Scene>(values: &S::Values) -> f64 {
     let speeds = (0..S::GROUPS).map(|group| largest_speed::<S>(group, values));
-    -speeds.fold(FASTEST, |least, speed| if speed < least { speed } else { least })
+    speeds.fold(FASTEST, |least, speed| if speed < least { speed } else { least })
 }
 
 impl<S: Scene> Instance<S> {
@@ -23,7 +23,7 @@ impl<S: Scene> Instance<S> {
 
     /// Whether this rate may be too fast for an input \[m/s\].
     pub fn may_be_fast(&self, rate: f64) -> bool {
-        rate > -self.settings.lowest_rate
+        rate > self.settings.largest_rate
     }
 
     /// The indentation up to which the law of `contact` is valid \[m\].
@@ -74,7 +74,7 @@ impl<S: Scene> Instance<S> {
             // with a single group, the limit is known
             let only = S::GROUPS == 1;
             let values = &self.settings.values;
-            let allowed = if only { -self.settings.lowest_rate } else { largest_speed::<S>(S::group(contact), values) };
+            let allowed = if only { self.settings.largest_rate } else { largest_speed::<S>(S::group(contact), values) };
             (rate > allowed).then_some(Warning::Fast { contact, rate, allowed })
         })
     }

@@ -185,14 +185,14 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
     #[inline(always)]
     fn copy_from(&mut self, other: &History) {
         let Sum { value, rest } = other.indentation;
-        let max_indentation = other.max_indentation;
         let Segment { lower, upper, origin, constant, linear, power, square } = other.segment;
-        let (least_increment, left_behind, regime) = (other.least_increment, other.left_behind, other.regime);
-        (self.indentation.value, self.indentation.rest, self.max_indentation) = (value, rest, max_indentation);
+        let (least_increment, max_indentation) = (other.least_increment, other.max_indentation);
+        let (left_behind, regime) = (other.left_behind, other.regime);
+        (self.indentation.value, self.indentation.rest, self.least_increment) = (value, rest, least_increment);
         (self.segment.lower, self.segment.upper, self.segment.origin) = (lower, upper, origin);
         (self.segment.constant, self.segment.linear) = (constant, linear);
-        (self.segment.power, self.segment.square) = (power, square);
-        (self.least_increment, self.left_behind, self.regime) = (least_increment, left_behind, regime);
+        (self.segment.power, self.segment.square, self.max_indentation) = (power, square, max_indentation);
+        (self.left_behind, self.regime) = (left_behind, regime);
     }
 
     fn save(&self, store: &mut impl FnMut(u64)) {

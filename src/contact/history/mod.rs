@@ -28,19 +28,20 @@ const ANY: f64 = -f64::MAX;
 /// The whole state of an elastoplastic contact.
 ///
 /// The branch follows from the indentation, the largest indentation and the last direction of motion. It is stored so that a
-/// step that stays on the branch needs nothing else. While apart, a contact also keeps the path of its dent if that path begins
-/// without force. Bodies that separate and touch again then need no evaluation of the law.
+/// step that stays on the branch needs nothing else: the first three fields. While apart, a contact also keeps the path of its
+/// dent if that path begins without force. Bodies that separate and touch again then need no evaluation of the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct History {
     indentation: Sum,
-    max_indentation: f64,
-    segment: Segment,
     /// The smallest increment that keeps the contact on its branch \[m\]. It is zero on the loading curve, because unloading
     /// follows another path.
     least_increment: f64,
-    regime: Regime,
+    segment: Segment,
+    max_indentation: f64,
     /// Energy lost in dents that were left behind \[J\]; see [`Surface::Fresh`].
     left_behind: f64,
+    regime: Regime,
 }
 
 impl History {

@@ -30,7 +30,7 @@ impl Unloading for HertzShift {
         Segment {
             lower: residual,
             upper: peak.indentation,
-            constant: -lowered_by,
+            constant: 0.0 - lowered_by,
             power: stiffness,
             ..Segment::NOTHING
         }
