@@ -147,7 +147,7 @@ impl<const N: usize> Cut<'_, N> {
     fn line(&mut self, from: Point, to: Point) {
         let rise = to.0 - from.0;
         if rise > 0.0 {
-            self.segment(from, to, quotient(to.1 - from.1, rise, rise > 0.0, 0.0));
+            self.segment(from, to, (to.1 - from.1) / rise);
         }
     }
 
@@ -171,13 +171,12 @@ impl<const N: usize> Cut<'_, N> {
 
     /// Adds one part of a segment; the part is entirely inside or entirely outside the cone.
     fn part(&mut self, from: Point, to: Point, slope: f64, (start, end): (f64, f64)) {
-        let rise = to.0 - from.0;
-        let height = from.0 + start * rise;
-        let (mut offset, mut kept) = (from.1 + slope * (height - from.0), slope);
-        let middle = from.0 + 0.5 * (start + end) * rise;
+        // the offset of a steep segment does not follow from the rounded height
+        let at = |part: f64| (from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1));
+        let ((height, mut offset), mut kept) = (at(start), slope);
+        let middle = at(0.5 * (start + end));
         for sign in [1.0, -1.0] {
-            let distance = self.cone.distance(sign, (middle, from.1 + slope * (middle - from.0)));
-            if self.cone.is_outside(distance) {
+            if self.cone.is_outside(self.cone.distance(sign, middle)) {
                 (offset, kept) = (self.cone.displacement - sign * (self.cone.indentation - height), sign);
             }
         }
