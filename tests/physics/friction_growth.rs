@@ -197,24 +197,3 @@ fn a_fresh_surface_leaves_no_dent_for_the_springs() {
         }
     }
 }
-
-#[test]
-fn explore() {
-    use brinell::contact::{Body, Model as M, Pair, Surface};
-    use brinell::contact::{loading::BigAlabo, unloading::ContactRadius};
-    let ball = Body { radius: 5e-3, youngs_modulus: 206e9, poissons_ratio: 0.3 };
-    let flat = Body { radius: f64::INFINITY, ..ball };
-    let pair = Pair::new(&ball, &flat, std::env::var("SY").unwrap().parse().unwrap()).unwrap();
-    let normal = M { pair, loading: BigAlabo::REFERENCE, unloading: ContactRadius, surface: Surface::Dented };
-    let model = RoughModel { normal, friction: Friction::between(&ball, &flat, pair.modulus, 0.3) };
-    println!("yield {:e} {:?}", model.normal.yield_point().indentation, model.friction);
-    for steps in [vec![(0.08994791085892065, 0.040061415831334234), (0.19297829140824185, 0.0013460357514612518), (0.0005693733771485078, 8.155375791118345)], vec![(0.265, 0.0), (0.006, 4.0)]] {
-        let mut contact = History::start(&model.normal, 0.0).unwrap();
-        let mut springs = Springs::<12, LATTICE>::start(&model, &contact);
-        for (n, t) in steps {
-            let way = (n * 1e-6, t * 1e-6);
-            let mean = springs.advance(&mut contact, &model, way, (n, t), true).unwrap();
-            println!("d {:e} F {:e} T {:e} mean {:e}\n{springs:#?}", contact.indentation(), contact.force(), springs.force(&model.friction, contact.indentation()), mean);
-        }
-    }
-}

@@ -19,6 +19,7 @@ mod dents;
 mod ends_of_laws;
 mod friction_contact;
 mod friction_growth;
+mod friction_histories;
 mod friction_impact;
 mod friction_measured;
 mod friction_plastic;

@@ -27,6 +27,9 @@ pub struct Rough<K, const D: usize, const MEAN: bool> {
     pub(super) impulse: [Sum; D],
     /// Work of the tangential force \[J\].
     pub(super) work: Sum,
+    /// Energy lost by slip \[J\]: the largest difference of work and stored energy so far. On a dent that grows, the stored energy
+    /// is known to about a thousandth, and without this the loss could fall by as much.
+    pub(super) lost: f64,
 }
 
 /// A contact with friction in one direction, whose springs form a list of `N` segments.
@@ -88,13 +91,13 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
     }
 
     /// Energy lost by slip since the start \[J\].
-    pub fn friction_work<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
-        self.work.total() - self.tangential_energy(model)
+    pub fn friction_work(&self) -> f64 {
+        self.lost
     }
 
     /// Radius of the stick area \[m\].
     pub fn stick_radius<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
-        self.springs.stick_radius(model.normal.pair.modulus, self.normal.indentation())
+        self.springs.stick_radius(self.normal.contact_radius(&model.normal), self.normal.indentation())
     }
 
     /// How much of the contact slips.
