@@ -159,34 +159,36 @@ impl<const N: usize> Cut<'_, N> {
             to
         };
         if to.0 > from.0 {
-            let [first, second] = [1.0, -1.0].map(|sign| self.crossing(sign, from, to));
+            let sides = [1.0, -1.0].map(|sign| (sign, self.cone.distance(sign, from), self.cone.distance(sign, to)));
+            let [first, second] = sides.map(|(_, start, end)| self.crossing(start, end));
             let (low, high) = if first < second { (first, second) } else { (second, first) };
             for (start, end) in [(0.0, low), (low, high), (high, 1.0)] {
                 if end > start {
-                    self.part(from, to, slope, (start, end));
+                    self.part((from, to), slope, (start, end), sides);
                 }
             }
         }
     }
 
-    /// Adds one part of a segment; the part is entirely inside or entirely outside the cone.
-    fn part(&mut self, from: Point, to: Point, slope: f64, (start, end): (f64, f64)) {
-        let rise = to.0 - from.0;
-        let height = from.0 + start * rise;
-        let (mut offset, mut kept) = (from.1 + slope * (height - from.0), slope);
-        let middle = from.0 + 0.5 * (start + end) * rise;
-        for sign in [1.0, -1.0] {
-            let distance = self.cone.distance(sign, (middle, from.1 + slope * (middle - from.0)));
-            if self.cone.is_outside(distance) {
+    /// Adds one part of a segment; the part is entirely inside or entirely outside the cone. Of both `sides` of the cone it has
+    /// the sign and the distances of the ends of the segment.
+    ///
+    /// Between the ends, distances are interpolated. A segment may be so short that there is no number between its heights.
+    fn part(&mut self, (from, to): (Point, Point), slope: f64, (start, end): (f64, f64), sides: [(f64, f64, f64); 2]) {
+        let height = from.0 + start * (to.0 - from.0);
+        let (mut offset, mut kept) = (from.1 + start * (to.1 - from.1), slope);
+        for (sign, at_start, at_end) in sides {
+            let middle = at_start + 0.5 * (start + end) * (at_end - at_start);
+            if self.cone.is_outside(middle) {
                 (offset, kept) = (self.cone.displacement - sign * (self.cone.indentation - height), sign);
             }
         }
         self.left.extend(self.curve, &self.cone, Vertex::new(self.curve, height, offset, kept));
     }
 
-    /// Where a segment crosses one side of the cone, as a fraction of its length; 1 without a crossing.
-    fn crossing(&self, sign: f64, from: Point, to: Point) -> f64 {
-        let (start, end) = (self.cone.distance(sign, from), self.cone.distance(sign, to));
+    /// Where a segment crosses one side of the cone, as a fraction of its length; 1 without a crossing. Its ends have these
+    /// distances from the side.
+    fn crossing(&self, start: f64, end: f64) -> f64 {
         let crosses = self.cone.is_outside(start) != self.cone.is_outside(end);
         let part = quotient(start, start - end, crosses && start != end, 1.0);
         if part > 0.0 && part < 1.0 { part } else { 1.0 }
