@@ -31,6 +31,14 @@ pub(super) fn is_hertzian(path: &Segment) -> bool {
     path.square == 0.0 && path.linear == 0.0
 }
 
+/// The part of a step's way that does not pull a core as stiff as the straight path `new`: area that a dent gains evenly over
+/// the step is pulled over half of the way. Where a dent begins, the path and its area jump at the start.
+pub(super) fn part_of_gain(old: &Segment, new: &Segment) -> f64 {
+    let gain = largest(new.linear - old.linear, 0.0);
+    let is_gradual = old.lower > 0.0 && old.power == 0.0 && old.square == 0.0;
+    quotient(0.5 * gain, new.linear, is_gradual && new.linear > 0.0, 0.0)
+}
+
 /// Height \[m\] on `path` where its stiffness is `stiffness` \[N/m\], but not below the surface.
 pub(super) fn height_with(path: &Segment, stiffness: f64) -> f64 {
     let excess = stiffness - path.linear;
@@ -52,7 +60,8 @@ impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
         let pull = self.pull(old, way.from);
         self.displacement = self.displacement.plus(way.shift);
         if new.power == 0.0 && new.square == 0.0 {
-            return self.grow_core(new, pull / largest(old.stiffness(way.from), new.linear), before, way);
+            let tension = pull / largest(old.stiffness(way.from), new.linear) - part_of_gain(old, new) * way.shift;
+            return self.grow_core(new, tension, before, way);
         }
         let mut cut = Cut::new(new, way.to, self.displacement.total());
         let image = |(height, offset): Point| (height_with(new, old.stiffness(height)), offset);
@@ -79,8 +88,8 @@ impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
         self.take(cut, new, way.to);
     }
 
-    /// The same for a straight path. All springs touch at once, and act as one with the mean `tension` \[m\] from
-    /// `before` \[m\] the step.
+    /// The same for a straight path. All springs touch at once, and act as one with the mean `tension` \[m\]
+    /// they would have if the whole area had been there `before` \[m\] the step.
     fn grow_core(&mut self, path: &Segment, tension: f64, before: f64, way: &Way) {
         let offset = before - tension;
         let mut cut = Cut::new(path, way.to, self.displacement.total());
