@@ -93,7 +93,7 @@ fn the_unit_gives_the_same_bits_as_the_library() {
         let predicted = contact.predicted_tangential_forces(&model, normal, STEP).expect("within range");
         let vectors =
             [contact.tangential_forces(&model), contact.mean_tangential_forces(), contact.tangential_impulses()];
-        let scalars = [contact.tangential_energy(&model), contact.friction_work(), contact.stick_radius(&model)];
+        let scalars = [contact.tangential_energy(&model), contact.friction_work(&model), contact.stick_radius(&model)];
         let expected = vectors.as_flattened().iter().chain(&scalars).chain(&predicted).map(|value| value.to_bits());
         assert_eq!(bits(&instance), expected.collect::<Vec<_>>());
         assert_eq!(instance.integer("sliding"), contact.sliding() as i32);

@@ -90,7 +90,7 @@ fn the_unit_gives_the_same_bits_as_the_library() {
             contact.mean_tangential_force(),
             contact.tangential_impulse(),
             contact.tangential_energy(&model),
-            contact.friction_work(),
+            contact.friction_work(&model),
             contact.stick_radius(&model),
             predicted,
         ];

@@ -33,7 +33,7 @@ fn worst<K: Shear<D>, const D: usize>(model: &Model, seed: u64) -> [f64; 4] {
         }
         let (slip, angle) = (any_size(&mut random, 10.0 * deepest, 10.0), 2.0 * PI * random.next());
         let rates = std::array::from_fn(|axis| slip / STEP * [angle.cos(), angle.sin()][axis + 2 - D]);
-        let (before, work) = (contact, contact.friction_work());
+        let (before, work) = (contact, contact.friction_work(&model));
         contact.set_tangential_rates(rates);
         contact.step(&Course::held(rise / STEP), STEP, || model).expect("within range");
         let size = |vector: [f64; D]| vector.iter().map(|part| part * part).sum::<f64>().sqrt();
@@ -45,8 +45,8 @@ fn worst<K: Shear<D>, const D: usize>(model: &Model, seed: u64) -> [f64; 4] {
         let excess = |one: f64, other: f64, size: f64| if one > other { (one - other) / size.max(1e-300) } else { 0.0 };
         let now = [
             excess(size(contact.tangential_forces(&model)), coefficient * force, limit),
-            excess(work, contact.friction_work(), scale),
-            excess(contact.friction_work(), bound, scale),
+            excess(work, contact.friction_work(&model), scale),
+            excess(contact.friction_work(&model), bound, scale),
             excess(contact.stick_radius(&model), contact.contact_radius(&model), contact.contact_radius(&model)),
         ];
         found = std::array::from_fn(|index| found[index].max(now[index]));
@@ -69,10 +69,10 @@ fn check<K: Shear<D>, const D: usize>(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn friction_in_one_direction_keeps_coulombs_bound_and_its_work_never_falls() {
-    check::<brinell::contact::tangential::Stuck<12>, 1>(0..150);
+    check::<brinell::contact::tangential::Stuck<12>, 1>(0..40);
 }
 
 #[test]
 fn friction_in_two_directions_keeps_coulombs_bound_and_its_work_never_falls() {
-    check::<brinell::contact::tangential::plane::Stuck<16>, 2>(0..60);
+    check::<brinell::contact::tangential::plane::Stuck<16>, 2>(0..40);
 }

@@ -64,6 +64,9 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
             false => ends_of_parts(course, &tangential, model.friction.scale(), step),
         };
         let (mut moved, mut deepest, mut start) = (*self, 0.0, 0.0);
+        if MEAN && !(is_held && self.springs.is_exact_to(self.normal.indentation() + course.rate * step)) {
+            moved.lost = self.friction_work(model);
+        }
         let (mut impulse, mut work) = ([0.0; D], 0.0);
         for _ in 0..MOST_PARTS {
             let Some(end) = next_of(&ends, start) else { break };
@@ -85,7 +88,6 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
                 *sum = sum.plus(impulse);
             }
             moved.work = moved.work.plus(work);
-            moved.lost = largest(moved.lost, moved.work.total() - moved.tangential_energy(model));
         }
         moved.courses = tangential.map(|course| Course::held(course.rate));
         moved.ends = tangential.map(|course| Course { bend: 0.0, ..course.after(step) });
@@ -200,7 +202,7 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
             Quantity::MeanForce(direction) => of(self.mean_force, direction),
             Quantity::Impulse(direction) => of(self.tangential_impulses(), direction),
             Quantity::Energy => self.tangential_energy(model),
-            Quantity::FrictionWork => self.friction_work(),
+            Quantity::FrictionWork => self.friction_work(model),
             Quantity::StickRadius => self.stick_radius(model),
         }
     }

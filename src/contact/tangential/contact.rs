@@ -4,6 +4,7 @@ use super::{RoughModel, Shear, Sliding, SpringsOf, Stuck, plane};
 use crate::contact::behaviour::Contact;
 use crate::contact::history::History;
 use crate::contact::loading::Loading;
+use crate::contact::numbers::largest;
 use crate::contact::path::{Course, Sum};
 use crate::contact::regime::TooDeep;
 use crate::contact::unloading::Unloading;
@@ -27,8 +28,7 @@ pub struct Rough<K, const D: usize, const MEAN: bool> {
     pub(super) impulse: [Sum; D],
     /// Work of the tangential force \[J\].
     pub(super) work: Sum,
-    /// Energy lost by slip \[J\]: the largest difference of work and stored energy so far. On a dent that grows, the stored energy
-    /// is known to about a thousandth, and without this the loss could fall by as much.
+    /// Energy lost by slip before the last step that is not [exact](Shear::is_exact) \[J\].
     pub(super) lost: f64,
 }
 
@@ -90,9 +90,12 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
         self.springs.energy(&model.friction, self.normal.indentation())
     }
 
-    /// Energy lost by slip since the start \[J\].
-    pub fn friction_work(&self) -> f64 {
-        self.lost
+    /// Energy lost by slip since the start \[J\]: the work of the tangential force that is not stored.
+    ///
+    /// It never falls. Where the springs of a growing dent or of a full list move approximately, they may store more than the
+    /// work; the energy lost then stays until slip has lost as much as was stored too much.
+    pub fn friction_work<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
+        largest(self.lost, self.work.total() - self.tangential_energy(model))
     }
 
     /// Radius of the stick area \[m\].

@@ -190,6 +190,11 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         })
     }
 
+    /// Whether a step with held rates to this `indentation` \[m\] has an exact result.
+    pub(super) fn is_exact_to(&self, indentation: f64) -> bool {
+        indentation <= self.curve.upper && self.stuck.is_exact()
+    }
+
     /// Tangential force divided by the coefficient of friction \[N\].
     fn pull(&self, indentation: f64) -> [f64; D] {
         self.stuck.pull(&self.curve, indentation)

@@ -27,6 +27,9 @@ pub trait Shear<const D: usize>: Copy {
     /// to the end of the `new` one.
     fn grow(&mut self, old: &Segment, new: &Segment, way: &Motion<D>);
 
+    /// Whether the next step along the curve has an exact result: it merges no segments, and springs slip only from the edge.
+    fn is_exact(&self) -> bool;
+
     /// Tangential force at the current `indentation` \[m\] \[N\].
     fn pull(&self, curve: &Segment, indentation: f64) -> [f64; D];
 
@@ -147,6 +150,11 @@ impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
     }
 
     #[inline]
+    fn is_exact(&self) -> bool {
+        Stuck::segments(self) < N && self.is_within_cones()
+    }
+
+    #[inline]
     fn pull(&self, curve: &Segment, indentation: f64) -> [f64; 1] {
         [Stuck::pull(self, curve, indentation)]
     }
@@ -208,6 +216,10 @@ impl<const N: usize> Shear<2> for plane::Stuck<N> {
 
     fn grow(&mut self, old: &Segment, new: &Segment, way: &Motion<2>) {
         plane::Stuck::grow(self, old, new, way);
+    }
+
+    fn is_exact(&self) -> bool {
+        false
     }
 
     fn pull(&self, curve: &Segment, indentation: f64) -> [f64; 2] {

@@ -153,7 +153,7 @@ fn by_library(scene: &Scene, group: usize, ball: Ball, step: f64) -> Option<Rebo
         contact.step_held(normal, step, &model.normal.yield_point(), || model).map_err(|_| ())?;
         Ok::<_, ()>((contact.normal().force(), contact.tangential_force(&model)))
     });
-    Some(Rebound { ball: rebound.ok()??, friction_work: contact.friction_work() })
+    Some(Rebound { ball: rebound.ok()??, friction_work: contact.friction_work(&model) })
 }
 
 /// The contact of `group` with friction.
