@@ -60,7 +60,7 @@ fn check<K: Shear<D>, const D: usize>(seeds: std::ops::Range<u64>) {
     for (name, model) in models() {
         let all = seeds.clone().map(|seed| worst::<K, D>(&model, seed));
         let found = all.fold([0.0_f64; 4], |sum, one| std::array::from_fn(|index| sum[index].max(one[index])));
-        if !(found[0] <= 1e-12 && found[1] == 0.0 && found[2] <= 1e-6 && found[3] <= 1e-12) {
+        if !(found[0] <= 1e-12 && found[1] <= 1e-15 && found[2] <= 1e-6 && found[3] <= 1e-12) {
             failed.push(format!("{name}: {found:?}"));
         }
     }
