@@ -19,7 +19,7 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
 {
     const FOLLOWS_RATE: bool = false;
     const DERIVATIVES: i32 = 2;
-    const WORDS: usize = 13 + SpringsOf::<K, D, true>::WORDS + 8 * D + 2;
+    const WORDS: usize = 13 + SpringsOf::<K, D, true>::WORDS + 8 * D + 3;
     const DIRECTIONS: usize = D;
 
     /// Where the contact begins to yield.
@@ -34,7 +34,7 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
         let springs = SpringsOf::start(model, &normal);
         let (none, courses) = (Sum::new(0.0), [Course::held(0.0); D]);
         let (mean_force, impulse) = ([0.0; D], [none; D]);
-        Ok(Rough { normal, springs, courses, ends: courses, mean_force, impulse, work: none })
+        Ok(Rough { normal, springs, courses, ends: courses, mean_force, impulse, work: none, lost: 0.0 })
     }
 
     /// Always false: the springs follow each step.
@@ -64,6 +64,9 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
             false => ends_of_parts(course, &tangential, model.friction.scale(), step),
         };
         let (mut moved, mut deepest, mut start) = (*self, 0.0, 0.0);
+        if MEAN && !(is_held && self.springs.is_exact_to(self.normal.indentation() + course.rate * step)) {
+            moved.lost = self.friction_work(model);
+        }
         let (mut impulse, mut work) = ([0.0; D], 0.0);
         for _ in 0..MOST_PARTS {
             let Some(end) = next_of(&ends, start) else { break };
@@ -230,7 +233,7 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
     fn save(&self, store: &mut impl FnMut(u64)) {
         Contact::<Model<L, U>>::save(&self.normal, store);
         self.springs.save(store);
-        let Rough { courses, ends, mean_force, impulse, work, .. } = self;
+        let Rough { courses, ends, mean_force, impulse, work, lost, .. } = self;
         for ((course, end), mean_force) in courses.iter().zip(ends).zip(mean_force) {
             // the bend of the end is that of the course, which is over
             store_numbers(&[course.rate, course.slope, course.bend, end.rate, end.slope, *mean_force], store);
@@ -238,6 +241,7 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
         for sum in impulse.iter().chain([work]) {
             store_numbers(&[sum.value, sum.rest], store);
         }
+        store_numbers(&[*lost], store);
     }
 
     fn load(words: &mut impl Iterator<Item = u64>, model: &RoughModel<L, U>) -> Option<Self> {
@@ -256,6 +260,7 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
             let [value, rest] = load_numbers(words)?;
             *sum = Sum { value, rest };
         }
-        Some(Rough { normal, springs, courses, ends, mean_force, impulse, work })
+        let [lost] = load_numbers(words)?;
+        Some(Rough { normal, springs, courses, ends, mean_force, impulse, work, lost })
     }
 }

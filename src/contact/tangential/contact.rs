@@ -4,6 +4,7 @@ use super::{RoughModel, Shear, Sliding, SpringsOf, Stuck, plane};
 use crate::contact::behaviour::Contact;
 use crate::contact::history::History;
 use crate::contact::loading::Loading;
+use crate::contact::numbers::largest;
 use crate::contact::path::{Course, Sum};
 use crate::contact::regime::TooDeep;
 use crate::contact::unloading::Unloading;
@@ -27,6 +28,8 @@ pub struct Rough<K, const D: usize, const MEAN: bool> {
     pub(super) impulse: [Sum; D],
     /// Work of the tangential force \[J\].
     pub(super) work: Sum,
+    /// Energy lost by slip before the last step that is not [exact](Shear::is_exact) \[J\].
+    pub(super) lost: f64,
 }
 
 /// A contact with friction in one direction, whose springs form a list of `N` segments.
@@ -87,14 +90,17 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
         self.springs.energy(&model.friction, self.normal.indentation())
     }
 
-    /// Energy lost by slip since the start \[J\].
+    /// Energy lost by slip since the start \[J\]: the work of the tangential force that is not stored.
+    ///
+    /// It never falls. Where the springs of a growing dent or of a full list move approximately, they may store more than the
+    /// work; the energy lost then stays until slip has lost as much as was stored too much.
     pub fn friction_work<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
-        self.work.total() - self.tangential_energy(model)
+        largest(self.lost, self.work.total() - self.tangential_energy(model))
     }
 
     /// Radius of the stick area \[m\].
     pub fn stick_radius<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
-        self.springs.stick_radius(model.normal.pair.modulus, self.normal.indentation())
+        self.springs.stick_radius(self.normal.contact_radius(&model.normal), self.normal.indentation())
     }
 
     /// How much of the contact slips.

@@ -31,6 +31,14 @@ pub(super) fn is_hertzian(path: &Segment) -> bool {
     path.square == 0.0 && path.linear == 0.0
 }
 
+/// The part of a step's way that does not pull a core as stiff as the straight path `new`: area that a dent gains evenly over
+/// the step is pulled over half of the way. Where a dent begins, the path and its area jump at the start.
+pub(super) fn part_of_gain(old: &Segment, new: &Segment) -> f64 {
+    let gain = largest(new.linear - old.linear, 0.0);
+    let is_gradual = old.lower > 0.0 && old.power == 0.0 && old.square == 0.0;
+    quotient(0.5 * gain, new.linear, is_gradual && new.linear > 0.0, 0.0)
+}
+
 /// Height \[m\] on `path` where its stiffness is `stiffness` \[N/m\], but not below the surface.
 pub(super) fn height_with(path: &Segment, stiffness: f64) -> f64 {
     let excess = stiffness - path.linear;
@@ -52,7 +60,8 @@ impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
         let pull = self.pull(old, way.from);
         self.displacement = self.displacement.plus(way.shift);
         if new.power == 0.0 && new.square == 0.0 {
-            return self.grow_core(new, pull / largest(old.stiffness(way.from), new.linear), before, way);
+            let tension = pull / largest(old.stiffness(way.from), new.linear) - part_of_gain(old, new) * way.shift;
+            return self.grow_core(new, tension, before, way);
         }
         let mut cut = Cut::new(new, way.to, self.displacement.total());
         let image = |(height, offset): Point| (height_with(new, old.stiffness(height)), offset);
@@ -79,8 +88,8 @@ impl<const N: usize, const PARTS: u32> Stuck<N, PARTS> {
         self.take(cut, new, way.to);
     }
 
-    /// The same for a straight path. All springs touch at once, and act as one with the mean `tension` \[m\] from
-    /// `before` \[m\] the step.
+    /// The same for a straight path. All springs touch at once, and act as one with the mean `tension` \[m\]
+    /// they would have if the whole area had been there `before` \[m\] the step.
     fn grow_core(&mut self, path: &Segment, tension: f64, before: f64, way: &Way) {
         let offset = before - tension;
         let mut cut = Cut::new(path, way.to, self.displacement.total());
@@ -159,34 +168,36 @@ impl<const N: usize> Cut<'_, N> {
             to
         };
         if to.0 > from.0 {
-            let [first, second] = [1.0, -1.0].map(|sign| self.crossing(sign, from, to));
+            let sides = [1.0, -1.0].map(|sign| (sign, self.cone.distance(sign, from), self.cone.distance(sign, to)));
+            let [first, second] = sides.map(|(_, start, end)| self.crossing(start, end));
             let (low, high) = if first < second { (first, second) } else { (second, first) };
             for (start, end) in [(0.0, low), (low, high), (high, 1.0)] {
                 if end > start {
-                    self.part(from, to, slope, (start, end));
+                    self.part((from, to), slope, (start, end), sides);
                 }
             }
         }
     }
 
-    /// Adds one part of a segment; the part is entirely inside or entirely outside the cone.
-    fn part(&mut self, from: Point, to: Point, slope: f64, (start, end): (f64, f64)) {
-        let rise = to.0 - from.0;
-        let height = from.0 + start * rise;
-        let (mut offset, mut kept) = (from.1 + slope * (height - from.0), slope);
-        let middle = from.0 + 0.5 * (start + end) * rise;
-        for sign in [1.0, -1.0] {
-            let distance = self.cone.distance(sign, (middle, from.1 + slope * (middle - from.0)));
-            if self.cone.is_outside(distance) {
+    /// Adds one part of a segment; the part is entirely inside or entirely outside the cone. Of both `sides` of the cone it has
+    /// the sign and the distances of the ends of the segment.
+    ///
+    /// Between the ends, distances are interpolated. A segment may be so short that there is no number between its heights.
+    fn part(&mut self, (from, to): (Point, Point), slope: f64, (start, end): (f64, f64), sides: [(f64, f64, f64); 2]) {
+        let height = from.0 + start * (to.0 - from.0);
+        let (mut offset, mut kept) = (from.1 + start * (to.1 - from.1), slope);
+        for (sign, at_start, at_end) in sides {
+            let middle = at_start + 0.5 * (start + end) * (at_end - at_start);
+            if self.cone.is_outside(middle) {
                 (offset, kept) = (self.cone.displacement - sign * (self.cone.indentation - height), sign);
             }
         }
         self.left.extend(self.curve, &self.cone, Vertex::new(self.curve, height, offset, kept));
     }
 
-    /// Where a segment crosses one side of the cone, as a fraction of its length; 1 without a crossing.
-    fn crossing(&self, sign: f64, from: Point, to: Point) -> f64 {
-        let (start, end) = (self.cone.distance(sign, from), self.cone.distance(sign, to));
+    /// Where a segment crosses one side of the cone, as a fraction of its length; 1 without a crossing. Its ends have these
+    /// distances from the side.
+    fn crossing(&self, start: f64, end: f64) -> f64 {
         let crosses = self.cone.is_outside(start) != self.cone.is_outside(end);
         let part = quotient(start, start - end, crosses && start != end, 1.0);
         if part > 0.0 && part < 1.0 { part } else { 1.0 }

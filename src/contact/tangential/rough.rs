@@ -1,11 +1,11 @@
 //! An elastoplastic contact with friction.
 
 use super::growth_steps::next_of_lattice;
-use super::shear::{Rates, Shear, simpson};
+use super::shear::{Rates, Shear, mean_over};
 use super::{Friction, Motion, Sliding, Stuck, growth, plane};
 use crate::contact::history::History;
 use crate::contact::loading::Loading;
-use crate::contact::numbers::{quotient, smallest};
+use crate::contact::numbers::{largest, quotient, smallest};
 use crate::contact::regime::TooDeep;
 use crate::contact::segment::Segment;
 use crate::contact::unloading::Unloading;
@@ -172,20 +172,27 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         way: &Motion<D>,
         is_asked: bool,
     ) -> [f64; D] {
-        let step = |springs: &mut Self, way: &Motion<D>| {
-            let new = model.curve_below(way.to);
-            springs.stuck.grow(&springs.curve, &new, way);
-            springs.curve = new;
+        let before = *self;
+        let after = |way: &Motion<D>| {
+            let mut springs = before;
+            springs.curve = model.curve_below(way.to);
+            springs.stuck.grow(&before.curve, &springs.curve, way);
+            springs
         };
+        *self = after(way);
         if !is_asked {
-            step(self, way);
             return [0.0; D];
         }
-        // Simpson's rule: the middle point results from a step over half of the way
-        let (mut middle, start, half) = (*self, self.pull(way.from), way.first_part(0.5));
-        step(&mut middle, &half);
-        step(self, way);
-        simpson(start, middle.pull(half.to), self.pull(way.to))
+        let tolerance = K::TOLERANCE * largest(before.curve.force(way.from), self.curve.force(way.to));
+        mean_over(before.pull(way.from), self.pull(way.to), tolerance, |part| {
+            let begun = way.first_part(part);
+            after(&begun).pull(begun.to)
+        })
+    }
+
+    /// Whether a step with held rates to this `indentation` \[m\] has an exact result.
+    pub(super) fn is_exact_to(&self, indentation: f64) -> bool {
+        indentation <= self.curve.upper && self.stuck.is_exact()
     }
 
     /// Tangential force divided by the coefficient of friction \[N\].
@@ -227,11 +234,19 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         quotient(friction.coefficient, scale, scale > 0.0, 0.0) * self.stuck.energy(&self.curve, indentation)
     }
 
-    /// Radius of the stick area \[m\] at `indentation` \[m\], for the effective modulus `modulus` \[Pa\].
-    pub fn stick_radius(&self, modulus: f64, indentation: f64) -> f64 {
+    /// Radius of the stick area \[m\] at `indentation` \[m\], in a contact with the radius `contact_radius` \[m\].
+    ///
+    /// The radius of a spring is proportional to the stiffness of the path where it touches, `F'(h)/(2 E*)`; that of the edge is
+    /// the contact radius, also where the law has another one than its path.
+    pub fn stick_radius(&self, contact_radius: f64, indentation: f64) -> f64 {
         match self.sliding() {
-            Sliding::Apart => 0.0,
-            _ => self.curve.stiffness(self.stuck.stick_height(indentation)) / (2.0 * modulus),
+            Sliding::Apart | Sliding::Sliding => 0.0,
+            Sliding::Stick => contact_radius,
+            Sliding::PartialSlip => {
+                let height = self.stuck.stick_height(indentation);
+                let [stuck, edge] = [height, indentation].map(|height| self.curve.stiffness(height));
+                contact_radius * quotient(stuck, edge, stuck < edge, 1.0)
+            }
         }
     }
 

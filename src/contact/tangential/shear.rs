@@ -1,7 +1,9 @@
 //! What a contact with friction asks of its springs, in any number of tangential directions.
 
 use super::{Motion, Sliding, Stuck, Way, plane};
+use crate::contact::numbers::{largest, smallest};
 use crate::contact::segment::Segment;
+use libm::fabs;
 
 /// First and second time derivative of a force in `D` directions \[N/s, N/s^2\].
 pub type Rates<const D: usize> = ([f64; D], [f64; D]);
@@ -12,6 +14,9 @@ pub trait Shear<const D: usize>: Copy {
     /// Number of words in the saved springs.
     const WORDS: usize;
 
+    /// Error of a mean force from trial steps, relative to the normal force: what the forces after them are off by.
+    const TOLERANCE: f64;
+
     /// A contact that is pressed in without tangential displacement, at `indentation` \[m\].
     fn pressed(curve: &Segment, indentation: f64) -> Self;
 
@@ -21,6 +26,9 @@ pub trait Shear<const D: usize>: Copy {
     /// Moves the contact on its `way` along the loading curve, while its dent grows: from the end of the `old` path
     /// to the end of the `new` one.
     fn grow(&mut self, old: &Segment, new: &Segment, way: &Motion<D>);
+
+    /// Whether the next step along the curve has an exact result: it merges no segments, and springs slip only from the edge.
+    fn is_exact(&self) -> bool;
 
     /// Tangential force at the current `indentation` \[m\] \[N\].
     fn pull(&self, curve: &Segment, indentation: f64) -> [f64; D];
@@ -51,13 +59,68 @@ pub trait Shear<const D: usize>: Copy {
     fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Self>;
 }
 
-/// Mean of a force over a `way` by Simpson's rule, from its values at the start, in the middle and at the end.
-pub(super) fn simpson<const D: usize>(start: [f64; D], middle: [f64; D], end: [f64; D]) -> [f64; D] {
-    let mut mean = start;
-    for ((mean, middle), end) in mean.iter_mut().zip(middle).zip(end) {
-        *mean = (*mean + 4.0 * middle + end) / 6.0;
+/// Mean of the tangential force of `springs` over the part in contact of a `way` that is yet to come, from trial steps \[N\].
+pub(super) fn mean_by_trials<S: Shear<D>, const D: usize>(springs: &S, curve: &Segment, way: &Motion<D>) -> [f64; D] {
+    let part = way.part_above(curve.lower);
+    let inside = if way.to < curve.lower { way.first_part(part) } else { way.above(curve.lower) };
+    let at = |part: f64| {
+        let (mut moved, begun) = (*springs, inside.first_part(part));
+        moved.settle(curve, &begun);
+        moved.pull(curve, begun.to)
+    };
+    let tolerance = S::TOLERANCE * largest(curve.force(inside.from), curve.force(inside.to));
+    mean_over(springs.pull(curve, inside.from), at(1.0), tolerance, at).map(|mean| part * mean)
+}
+
+/// The shortest part of a way over which the mean is taken by one rule: a force with a kink there is off by its square.
+const SHORTEST: f64 = 1.0 / 1024.0;
+
+/// The largest number of parts that are tried.
+const MOST_TRIES: u32 = 128;
+
+/// Mean of a tangential force over a way, from its values at the `start` and at the `end`, and `at` a part of the way. An error of
+/// `tolerance` is accepted \[N\].
+///
+/// By Simpson's rule over parts of the way, which become shorter where springs begin or cease to slip.
+pub(super) fn mean_over<const D: usize>(
+    start: [f64; D],
+    end: [f64; D],
+    tolerance: f64,
+    at: impl Fn(f64) -> [f64; D],
+) -> [f64; D] {
+    let (mut sum, mut from, mut here, mut width) = ([0.0; D], 0.0, start, 1.0);
+    for _ in 0..MOST_TRIES {
+        let left = 1.0 - from;
+        let part = smallest(width, left);
+        let [first, middle, third] = [0.25, 0.5, 0.75].map(|place| at(from + place * part));
+        let next = if part < left { at(from + part) } else { end };
+        let (mut mean, mut error) = ([0.0; D], 0.0);
+        for (index, mean) in mean.iter_mut().enumerate() {
+            let [here, first, middle, third, next] =
+                [here, first, middle, third, next].map(|force| force.get(index).copied().unwrap_or(0.0));
+            let whole = (here + 4.0 * middle + next) / 6.0;
+            let halves = (here + 4.0 * first + 2.0 * middle + 4.0 * third + next) / 12.0;
+            error = largest(fabs(halves - whole), error);
+            // the next term of the error, as by Richardson
+            *mean = halves + (halves - whole) / 15.0;
+        }
+        if part * error > tolerance && part > SHORTEST {
+            width = 0.5 * part;
+            continue;
+        }
+        for (sum, mean) in sum.iter_mut().zip(mean) {
+            *sum += part * mean;
+        }
+        if part >= left {
+            return sum;
+        }
+        (from, here, width) = (from + part, next, 2.0 * part);
     }
-    mean
+    // what is left has more kinks than springs have
+    for ((sum, here), end) in sum.iter_mut().zip(here).zip(end) {
+        *sum += 0.5 * (1.0 - from) * (here + end);
+    }
+    sum
 }
 
 impl Motion<1> {
@@ -71,6 +134,7 @@ impl Motion<1> {
 
 impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
     const WORDS: usize = Stuck::<N, PARTS>::WORDS;
+    const TOLERANCE: f64 = 1e-8;
 
     fn pressed(curve: &Segment, indentation: f64) -> Self {
         Stuck::pressed(curve, indentation)
@@ -86,6 +150,11 @@ impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
     }
 
     #[inline]
+    fn is_exact(&self) -> bool {
+        Stuck::segments(self) < N && self.is_within_cones()
+    }
+
+    #[inline]
     fn pull(&self, curve: &Segment, indentation: f64) -> [f64; 1] {
         [Stuck::pull(self, curve, indentation)]
     }
@@ -95,14 +164,7 @@ impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
         if self.is_within_cones() {
             return [Stuck::mean_pull(self, curve, &way.way())];
         }
-        // Simpson's rule over the part of the way in contact
-        let part = way.part_above(curve.lower);
-        let way_down = if way.to < curve.lower { way.first_part(part) } else { *way };
-        let (mut middle, mut end, half) = (*self, *self, way_down.first_part(0.5));
-        Shear::settle(&mut middle, curve, &half);
-        Shear::settle(&mut end, curve, &way_down);
-        let at = |springs: &Self, indentation| Shear::pull(springs, curve, indentation);
-        simpson(at(self, way_down.from), at(&middle, half.to), at(&end, way_down.to)).map(|mean| part * mean)
+        mean_by_trials(self, curve, way)
     }
 
     fn pull_rates(
@@ -142,6 +204,7 @@ impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
 
 impl<const N: usize> Shear<2> for plane::Stuck<N> {
     const WORDS: usize = plane::Stuck::<N>::WORDS;
+    const TOLERANCE: f64 = 2e-5;
 
     fn pressed(curve: &Segment, indentation: f64) -> Self {
         plane::Stuck::pressed(curve, indentation)
@@ -153,6 +216,10 @@ impl<const N: usize> Shear<2> for plane::Stuck<N> {
 
     fn grow(&mut self, old: &Segment, new: &Segment, way: &Motion<2>) {
         plane::Stuck::grow(self, old, new, way);
+    }
+
+    fn is_exact(&self) -> bool {
+        false
     }
 
     fn pull(&self, curve: &Segment, indentation: f64) -> [f64; 2] {

@@ -7,7 +7,7 @@ use super::vertex::Vertex;
 use super::{Stuck, Way};
 use crate::contact::numbers::{largest, quotient};
 use crate::contact::segment::Segment;
-use crate::contact::tangential::growth::{PARTS, height_with, is_hertzian, longest_part};
+use crate::contact::tangential::growth::{PARTS, height_with, is_hertzian, longest_part, part_of_gain};
 use libm::ceil;
 
 impl<const N: usize> Stuck<N> {
@@ -28,7 +28,11 @@ impl<const N: usize> Stuck<N> {
             // a straight path: all springs touch at once, and act as one with the mean tension
             let stiffness = largest(old.stiffness(way.from), new.linear);
             let length_of = |force: f64| quotient(force, stiffness, stiffness > 0.0, 0.0);
-            let from = (new.lower, difference(before, pull.map(length_of)));
+            let part = part_of_gain(old, new);
+            let [one, other] = pull.map(length_of);
+            let [shift, other_shift] = way.shift;
+            let tension = [one - part * shift, other - part * other_shift];
+            let from = (new.lower, difference(before, tension));
             let from = cut.point(from, length_of(old.force(way.from)));
             let to = cut.point((way.to, apex.displacement), 0.0);
             cut.between(slope(&from, &to), &from, &to);
