@@ -216,7 +216,7 @@ impl<'a> Pressed<'a> {
             force: self.springs.force(friction, depth),
             energy,
             work: self.work - energy,
-            stick_radius: self.springs.stick_radius(self.model.normal.pair.modulus, depth),
+            stick_radius: self.springs.stick_radius(self.contact.contact_radius(&self.model.normal), depth),
             sliding: f64::from(self.springs.sliding() as i32),
         }
     }

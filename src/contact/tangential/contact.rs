@@ -94,7 +94,7 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
 
     /// Radius of the stick area \[m\].
     pub fn stick_radius<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
-        self.springs.stick_radius(model.normal.pair.modulus, self.normal.indentation())
+        self.springs.stick_radius(self.normal.contact_radius(&model.normal), self.normal.indentation())
     }
 
     /// How much of the contact slips.

@@ -29,8 +29,8 @@ pub trait Shear<const D: usize>: Copy {
     fn mean_pull(&self, curve: &Segment, way: &Motion<D>) -> [f64; D];
 
     /// First and second time derivative of the tangential force, for the rates of a `way` that begins at the current position
-    /// and for these accelerations along the normal and in the tangential directions, if they have a closed form.
-    fn pull_rates(&self, curve: &Segment, way: &Motion<D>, accelerations: (f64, [f64; D])) -> Option<Rates<D>>;
+    /// and for these accelerations along the normal and in the tangential directions.
+    fn pull_rates(&self, curve: &Segment, way: &Motion<D>, accelerations: (f64, [f64; D])) -> Rates<D>;
 
     /// Stored tangential energy at `indentation` \[m\], times `kappa/mu` \[J\].
     fn energy(&self, curve: &Segment, indentation: f64) -> f64;
@@ -95,24 +95,17 @@ impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
         if self.is_within_cones() {
             return [Stuck::mean_pull(self, curve, &way.way())];
         }
-        // Simpson's rule over the part of the way in contact
-        let part = way.part_above(curve.lower);
-        let way_down = if way.to < curve.lower { way.first_part(part) } else { *way };
-        let (mut middle, mut end, half) = (*self, *self, way_down.first_part(0.5));
-        Shear::settle(&mut middle, curve, &half);
-        Shear::settle(&mut end, curve, &way_down);
-        let at = |springs: &Self, indentation| Shear::pull(springs, curve, indentation);
-        simpson(at(self, way_down.from), at(&middle, half.to), at(&end, way_down.to)).map(|mean| part * mean)
+        // springs may slip anywhere, not from the edge only
+        let ([shift], [tangential]) = (way.shift, way.tangential);
+        let &Motion { from, to, normal, .. } = way;
+        let way = Motion { from, to, shift: [shift, 0.0], normal, tangential: [tangential, 0.0] };
+        let [mean, _] = plane::Stuck::on_a_line(self).mean_pull(curve, &way);
+        [mean]
     }
 
-    fn pull_rates(
-        &self,
-        curve: &Segment,
-        way: &Motion<1>,
-        (normal, [tangential]): (f64, [f64; 1]),
-    ) -> Option<Rates<1>> {
+    fn pull_rates(&self, curve: &Segment, way: &Motion<1>, (normal, [tangential]): (f64, [f64; 1])) -> Rates<1> {
         let (first, second) = Stuck::pull_rates(self, curve, &way.way(), (normal, tangential));
-        Some(([first], [second]))
+        ([first], [second])
     }
 
     fn energy(&self, curve: &Segment, indentation: f64) -> f64 {
@@ -163,8 +156,8 @@ impl<const N: usize> Shear<2> for plane::Stuck<N> {
         plane::Stuck::mean_pull(self, curve, way)
     }
 
-    fn pull_rates(&self, _curve: &Segment, _way: &Motion<2>, _accelerations: (f64, [f64; 2])) -> Option<Rates<2>> {
-        None
+    fn pull_rates(&self, curve: &Segment, way: &Motion<2>, accelerations: (f64, [f64; 2])) -> Rates<2> {
+        plane::Stuck::pull_rates(self, curve, way, accelerations)
     }
 
     fn energy(&self, curve: &Segment, indentation: f64) -> f64 {
