@@ -17,6 +17,7 @@ mod hostile_states;
 mod input_derivatives;
 mod orders_of_execution;
 mod rate_unit;
+mod saved_words;
 mod stability_warning;
 mod wiring;
 

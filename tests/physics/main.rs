@@ -29,6 +29,7 @@ mod friction_properties;
 mod friction_tables;
 mod friction_two;
 mod friction_two_growth;
+mod friction_two_steps;
 mod guard;
 mod input_courses;
 mod law_big_alabo;

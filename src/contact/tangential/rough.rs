@@ -207,7 +207,7 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
 
     /// First and second time derivative of the tangential force \[N/s, N/s^2\] for these `rates` \[m/s\] and
     /// `accelerations` \[m/s^2\] along the normal and in the tangential directions, on the current curve. `None` if the
-    /// dent grows, and in two directions.
+    /// dent grows.
     pub fn force_rates(
         &self,
         friction: &Friction,
@@ -223,7 +223,7 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         let tangential = scaled(rates.1);
         let way = Motion { from: indentation, to: indentation, shift: [0.0; D], normal: rates.0, tangential };
         let accelerations = (accelerations.0, scaled(accelerations.1));
-        let (first, second) = self.stuck.pull_rates(&self.curve, &way, accelerations)?;
+        let (first, second) = self.stuck.pull_rates(&self.curve, &way, accelerations);
         let force = |rates: [f64; D]| rates.map(|rate| friction.coefficient * rate);
         Some((force(first), force(second)))
     }
@@ -234,19 +234,13 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         quotient(friction.coefficient, scale, scale > 0.0, 0.0) * self.stuck.energy(&self.curve, indentation)
     }
 
-    /// Radius of the stick area \[m\] at `indentation` \[m\], in a contact with the radius `contact_radius` \[m\].
-    ///
-    /// The radius of a spring is proportional to the stiffness of the path where it touches, `F'(h)/(2 E*)`; that of the edge is
-    /// the contact radius, also where the law has another one than its path.
+    /// Radius of the stick area \[m\] at `indentation` \[m\], where the law has the radius `contact_radius` \[m\]. The radius of a
+    /// spring is proportional to the stiffness at its height.
     pub fn stick_radius(&self, contact_radius: f64, indentation: f64) -> f64 {
+        let [stick, whole] = [self.stuck.stick_height(indentation), indentation].map(|h| self.curve.stiffness(h));
         match self.sliding() {
             Sliding::Apart | Sliding::Sliding => 0.0,
-            Sliding::Stick => contact_radius,
-            Sliding::PartialSlip => {
-                let height = self.stuck.stick_height(indentation);
-                let [stuck, edge] = [height, indentation].map(|height| self.curve.stiffness(height));
-                contact_radius * quotient(stuck, edge, stuck < edge, 1.0)
-            }
+            _ => contact_radius * quotient(stick, whole, stick < whole, 1.0),
         }
     }
 

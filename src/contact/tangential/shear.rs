@@ -14,7 +14,7 @@ pub trait Shear<const D: usize>: Copy {
     /// Number of words in the saved springs.
     const WORDS: usize;
 
-    /// Error of a mean force from trial steps, relative to the normal force: what the forces after them are off by.
+    /// Error of a mean force on a growing dent, relative to the normal force: what the forces themselves are off by.
     const TOLERANCE: f64;
 
     /// A contact that is pressed in without tangential displacement, at `indentation` \[m\].
@@ -37,8 +37,8 @@ pub trait Shear<const D: usize>: Copy {
     fn mean_pull(&self, curve: &Segment, way: &Motion<D>) -> [f64; D];
 
     /// First and second time derivative of the tangential force, for the rates of a `way` that begins at the current position
-    /// and for these accelerations along the normal and in the tangential directions, if they have a closed form.
-    fn pull_rates(&self, curve: &Segment, way: &Motion<D>, accelerations: (f64, [f64; D])) -> Option<Rates<D>>;
+    /// and for these accelerations along the normal and in the tangential directions.
+    fn pull_rates(&self, curve: &Segment, way: &Motion<D>, accelerations: (f64, [f64; D])) -> Rates<D>;
 
     /// Stored tangential energy at `indentation` \[m\], times `kappa/mu` \[J\].
     fn energy(&self, curve: &Segment, indentation: f64) -> f64;
@@ -57,19 +57,6 @@ pub trait Shear<const D: usize>: Copy {
 
     /// The springs that [`Shear::save`] has stored; `None` if a word is not a finite number.
     fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Self>;
-}
-
-/// Mean of the tangential force of `springs` over the part in contact of a `way` that is yet to come, from trial steps \[N\].
-pub(super) fn mean_by_trials<S: Shear<D>, const D: usize>(springs: &S, curve: &Segment, way: &Motion<D>) -> [f64; D] {
-    let part = way.part_above(curve.lower);
-    let inside = if way.to < curve.lower { way.first_part(part) } else { way.above(curve.lower) };
-    let at = |part: f64| {
-        let (mut moved, begun) = (*springs, inside.first_part(part));
-        moved.settle(curve, &begun);
-        moved.pull(curve, begun.to)
-    };
-    let tolerance = S::TOLERANCE * largest(curve.force(inside.from), curve.force(inside.to));
-    mean_over(springs.pull(curve, inside.from), at(1.0), tolerance, at).map(|mean| part * mean)
 }
 
 /// The shortest part of a way over which the mean is taken by one rule: a force with a kink there is off by its square.
@@ -164,17 +151,17 @@ impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
         if self.is_within_cones() {
             return [Stuck::mean_pull(self, curve, &way.way())];
         }
-        mean_by_trials(self, curve, way)
+        // springs may slip anywhere, not from the edge only
+        let ([shift], [tangential]) = (way.shift, way.tangential);
+        let &Motion { from, to, normal, .. } = way;
+        let way = Motion { from, to, shift: [shift, 0.0], normal, tangential: [tangential, 0.0] };
+        let [mean, _] = plane::Stuck::on_a_line(self).mean_pull(curve, &way);
+        [mean]
     }
 
-    fn pull_rates(
-        &self,
-        curve: &Segment,
-        way: &Motion<1>,
-        (normal, [tangential]): (f64, [f64; 1]),
-    ) -> Option<Rates<1>> {
+    fn pull_rates(&self, curve: &Segment, way: &Motion<1>, (normal, [tangential]): (f64, [f64; 1])) -> Rates<1> {
         let (first, second) = Stuck::pull_rates(self, curve, &way.way(), (normal, tangential));
-        Some(([first], [second]))
+        ([first], [second])
     }
 
     fn energy(&self, curve: &Segment, indentation: f64) -> f64 {
@@ -230,8 +217,8 @@ impl<const N: usize> Shear<2> for plane::Stuck<N> {
         plane::Stuck::mean_pull(self, curve, way)
     }
 
-    fn pull_rates(&self, _curve: &Segment, _way: &Motion<2>, _accelerations: (f64, [f64; 2])) -> Option<Rates<2>> {
-        None
+    fn pull_rates(&self, curve: &Segment, way: &Motion<2>, accelerations: (f64, [f64; 2])) -> Rates<2> {
+        plane::Stuck::pull_rates(self, curve, way, accelerations)
     }
 
     fn energy(&self, curve: &Segment, indentation: f64) -> f64 {

@@ -1,11 +1,19 @@
 //! The exact motion of one spring on a straight way.
 
-use super::vector::{Vector, add, dot, length, times};
+use super::vector::{Vector, add, cross, dot, length, times};
 use crate::contact::numbers::{largest, quotient, root, smallest};
+use crate::contact::tangential::SAME;
 use libm::{exp, fabs, log1p};
 
 /// Relative change of a limit below which the limit counts as constant.
 const CONSTANT: f64 = 1e-9;
+
+/// Parts of the slip of a spring over which its mean tension is an integral. After that many its direction is that of the way.
+const PANELS: u32 = 24;
+
+/// Places and weights of Gauss's rule on the unit interval, exact for polynomials of degree five.
+pub(super) const GAUSS: [(f64, f64); 3] =
+    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 4.0 / 9.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
 /// Longest way that can be squared twice \[m\]. On a longer one every spring slips until it is aligned with it.
 const FARTHEST: f64 = 1e60;
@@ -38,24 +46,48 @@ impl Spring {
             return times(self.end_limit, direction);
         }
         let stuck = self.stuck_part(shift);
-        let tension = add(self.tension, stuck, shift);
-        let limit = self.limit + stuck * (self.end_limit - self.limit);
         let way = (1.0 - stuck) * length(shift);
-        let [along, across] = direction;
-        let (ahead, aside) = (dot(tension, direction), dot(tension, [-across, along]));
-        // divisor and dividend of tan(angle0/2), without cancellation
-        let (divisor, dividend) = if ahead >= 0.0 {
-            (length(tension) + ahead, aside)
-        } else {
-            (fabs(aside), (length(tension) - ahead) * if aside < 0.0 { -1.0 } else { 1.0 })
-        };
-        let dividend = dividend * turn(way, limit, self.end_limit);
-        let size = length([divisor, dividend]);
-        let [cosine, sine] = [divisor, dividend].map(|part| quotient(part, size, size > 0.0, 0.0));
-        let (ahead, aside) = ((cosine - sine) * (cosine + sine), 2.0 * sine * cosine);
-        let unit = if size > 0.0 && limit > 0.0 { [ahead, aside] } else { [1.0, 0.0] };
-        let [ahead, aside] = times(self.end_limit, unit);
-        [ahead * along - aside * across, ahead * across + aside * along]
+        slipped(add(self.tension, stuck, shift), way, (self.limit_after(stuck), self.end_limit), direction)
+    }
+
+    /// Mean tension \[m\] over such a way, also of a spring that never slips. Between stick and the end of the turn, it is an
+    /// integral by Gauss; exact if the spring doesn't turn.
+    pub(super) fn mean(&self, shift: Vector, direction: Vector) -> Vector {
+        let whole = length(shift);
+        if whole > FARTHEST {
+            return times(0.5 * (self.limit + self.end_limit), direction);
+        }
+        let stuck = self.stuck_part(shift);
+        let mut sum = times(stuck, add(self.tension, 0.5 * stuck, shift));
+        let mut tension = add(self.tension, stuck, shift);
+        let mut time = stuck;
+        for panel in 0..PANELS {
+            let limit = self.limit_after(time);
+            if time >= 1.0 || panel + 1 == PANELS || fabs(cross(tension, direction)) <= SAME * limit {
+                break;
+            }
+            // as far as the limit is long, or as it falls to about a half
+            let speed = whole + largest(self.limit - self.end_limit, 0.0);
+            let part = smallest(quotient(limit, speed, limit < speed * (1.0 - time), 1.0), 1.0 - time);
+            let at = |share: f64| {
+                let limits = (limit, self.limit_after(time + share * part));
+                slipped(tension, share * part * whole, limits, direction)
+            };
+            sum = GAUSS.iter().fold(sum, |sum, &(node, weight)| add(sum, weight * part, at(node)));
+            tension = at(1.0);
+            time += part;
+        }
+        // from here on the spring doesn't turn
+        let (limit, rest) = (self.limit_after(time), 1.0 - time);
+        let size = length(tension);
+        let unit = tension.map(|part| quotient(part, size, size > 0.0, 0.0));
+        let unit = if size > 0.0 { unit } else { direction };
+        add(sum, 0.5 * rest * (limit + self.end_limit), unit)
+    }
+
+    /// Largest tension after this part of the way \[m\].
+    fn limit_after(&self, part: f64) -> f64 {
+        self.limit + part * (self.end_limit - self.limit)
     }
 
     /// The part of the way on which the spring sticks: up to `|tension + t shift| = limit + t (change of the limit)`.
@@ -75,6 +107,26 @@ impl Spring {
         };
         smallest(largest(part, 0.0), 1.0)
     }
+}
+
+/// `tension` \[m\] of a spring on its limit after it has slipped over the length `way` \[m\] of a motion in this `direction`, during
+/// which its limit changed evenly between these limits \[m\].
+fn slipped(tension: Vector, way: f64, (limit, end_limit): (f64, f64), direction: Vector) -> Vector {
+    let [along, across] = direction;
+    let (ahead, aside) = (dot(tension, direction), dot(tension, [-across, along]));
+    // divisor and dividend of tan(angle0/2), without cancellation
+    let (divisor, dividend) = if ahead >= 0.0 {
+        (length(tension) + ahead, aside)
+    } else {
+        (fabs(aside), (length(tension) - ahead) * if aside < 0.0 { -1.0 } else { 1.0 })
+    };
+    let dividend = dividend * turn(way, limit, end_limit);
+    let size = length([divisor, dividend]);
+    let [cosine, sine] = [divisor, dividend].map(|part| quotient(part, size, size > 0.0, 0.0));
+    let (ahead, aside) = ((cosine - sine) * (cosine + sine), 2.0 * sine * cosine);
+    let unit = if size > 0.0 && limit > 0.0 { [ahead, aside] } else { [1.0, 0.0] };
+    let [ahead, aside] = times(end_limit, unit);
+    [ahead * along - aside * across, ahead * across + aside * along]
 }
 
 /// `exp(-L ln(p1/p0)/(p1 - p0))` over the length `way` \[m\], with the limits `p0` and `p1` \[m\]; 0 if `p0` is 0.

@@ -8,7 +8,7 @@ use super::vertex::Vertex;
 use crate::contact::numbers::{largest, smallest};
 use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
-use crate::contact::tangential::{SAME, Sliding};
+use crate::contact::tangential::{self, SAME, Sliding};
 
 /// Lowest height of springs that slip if none do \[m\].
 const NONE: f64 = f64::MAX;
@@ -36,6 +36,15 @@ impl<const N: usize> Stuck<N> {
         let mut stuck = Stuck::APART;
         if indentation > curve.lower {
             stuck.list.add(Vertex::new(curve, curve.lower, ZERO, ZERO));
+        }
+        stuck
+    }
+
+    /// The springs of a contact that moves in the first direction only.
+    pub(in crate::contact::tangential) fn on_a_line<const PARTS: u32>(line: &tangential::Stuck<N, PARTS>) -> Stuck<N> {
+        let mut stuck = Stuck { displacement: [line.displacement, Sum::new(0.0)], ..Stuck::APART };
+        for &tangential::Vertex { height, offset, slope, force, .. } in line.list.vertices() {
+            stuck.list.add(Vertex { height, offset: [offset, 0.0], slope: [slope, 0.0], force });
         }
         stuck
     }
