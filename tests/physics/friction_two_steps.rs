@@ -62,11 +62,14 @@ fn along_one_line_a_step_has_the_mean_force_impulse_and_friction_work_of_one_dir
             }
         }
         println!("{name}: mean force {:.1e}, impulse {:.1e}, friction work {:.1e}", worst[0], worst[1], worst[2]);
-        // where limits fall while the dent grows, a segment may be cut in another place: the forces then differ, too
-        let differs = ["big-alabo", "thornton", "yigit", "zhao", "vu-quoc"].iter().any(|law| name.starts_with(law));
-        let allowed =
-            if differs && name.ends_with("brinell") || differs && name.ends_with("-radius") { 5e-2 } else { 1e-12 };
-        if worst[0] > allowed || allowed < 1e-6 && worst[1].max(worst[2]) > allowed {
+        // on a growing dent the mean is that of trial steps; where limits fall, a segment may be cut in another place
+        let allowed = match name.as_str() {
+            elastic if elastic.starts_with("hertz ") => 1e-12,
+            "big-alabo with contact-radius" | "big-alabo with brinell" => 5e-2,
+            "thornton with brinell" => 1e-3,
+            _ => 2e-4,
+        };
+        if worst[0] > allowed || allowed < 1e-3 && worst[1].max(worst[2]) > allowed {
             failed.push(format!("{name}: {worst:?}"));
         }
     }

@@ -1,7 +1,7 @@
 //! An elastoplastic contact with friction.
 
 use super::growth_steps::next_of_lattice;
-use super::shear::{Rates, Shear, mean_over};
+use super::shear::{Rates, Shear, TOLERANCE, mean_over};
 use super::{Friction, Motion, Sliding, Stuck, growth, plane};
 use crate::contact::history::History;
 use crate::contact::loading::Loading;
@@ -183,7 +183,7 @@ impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> 
         if !is_asked {
             return [0.0; D];
         }
-        let tolerance = K::TOLERANCE * largest(before.curve.force(way.from), self.curve.force(way.to));
+        let tolerance = TOLERANCE * largest(before.curve.force(way.from), self.curve.force(way.to));
         mean_over(before.pull(way.from), self.pull(way.to), tolerance, |part| {
             let begun = way.first_part(part);
             after(&begun).pull(begun.to)

@@ -14,9 +14,6 @@ pub trait Shear<const D: usize>: Copy {
     /// Number of words in the saved springs.
     const WORDS: usize;
 
-    /// Error of a mean force on a growing dent, relative to the normal force: what the forces themselves are off by.
-    const TOLERANCE: f64;
-
     /// A contact that is pressed in without tangential displacement, at `indentation` \[m\].
     fn pressed(curve: &Segment, indentation: f64) -> Self;
 
@@ -59,11 +56,15 @@ pub trait Shear<const D: usize>: Copy {
     fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Self>;
 }
 
+/// Error of the mean force on a growing dent that is accepted, relative to the normal force. Where the motion turns, the forces
+/// themselves are off by more.
+pub(super) const TOLERANCE: f64 = 1e-5;
+
 /// The shortest part of a way over which the mean is taken by one rule: a force with a kink there is off by its square.
 const SHORTEST: f64 = 1.0 / 1024.0;
 
 /// The largest number of parts that are tried.
-const MOST_TRIES: u32 = 128;
+const MOST_TRIES: u32 = 48;
 
 /// Mean of a tangential force over a way, from its values at the `start` and at the `end`, and `at` a part of the way. An error of
 /// `tolerance` is accepted \[N\].
@@ -103,9 +104,10 @@ pub(super) fn mean_over<const D: usize>(
         }
         (from, here, width) = (from + part, next, 2.0 * part);
     }
-    // what is left has more kinks than springs have
-    for ((sum, here), end) in sum.iter_mut().zip(here).zip(end) {
-        *sum += 0.5 * (1.0 - from) * (here + end);
+    // a polyline that is made anew for each part has small kinks everywhere
+    let middle = at(0.5 * (1.0 + from));
+    for (((sum, here), middle), end) in sum.iter_mut().zip(here).zip(middle).zip(end) {
+        *sum += (1.0 - from) * (here + 4.0 * middle + end) / 6.0;
     }
     sum
 }
@@ -121,7 +123,6 @@ impl Motion<1> {
 
 impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
     const WORDS: usize = Stuck::<N, PARTS>::WORDS;
-    const TOLERANCE: f64 = 1e-8;
 
     fn pressed(curve: &Segment, indentation: f64) -> Self {
         Stuck::pressed(curve, indentation)
@@ -191,7 +192,6 @@ impl<const N: usize, const PARTS: u32> Shear<1> for Stuck<N, PARTS> {
 
 impl<const N: usize> Shear<2> for plane::Stuck<N> {
     const WORDS: usize = plane::Stuck::<N>::WORDS;
-    const TOLERANCE: f64 = 2e-5;
 
     fn pressed(curve: &Segment, indentation: f64) -> Self {
         plane::Stuck::pressed(curve, indentation)
