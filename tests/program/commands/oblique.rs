@@ -258,7 +258,10 @@ fn the_page_of_a_sweep_shows_only_the_friction_of_its_impacts() {
         fs::read_to_string(folder.path().join("angles.html")).unwrap()
     };
     let given = page(&["angle=10:60:3", "--friction", "0.1"]);
-    assert!(given.contains("a coefficient of friction of 0.1") && !given.contains("friction.coefficient</th>"), "{given}");
+    assert!(
+        given.contains("a coefficient of friction of 0.1") && !given.contains("friction.coefficient</th>"),
+        "{given}"
+    );
     let varied = page(&["friction.coefficient=0.1:0.3:3", "--angle", "20"]);
     assert!(!varied.contains("friction.coefficient</th><td>"), "{varied}");
 }

@@ -43,8 +43,8 @@ impl Measured {
     pub fn left_out(&self) -> Option<String> {
         (self.unloaded > 0).then(|| {
             format!(
-                "The record has unloadings: {} points at depths that had been reached before were left out, since they \
-                 belong to no first loading.",
+                "The record has unloadings: {} points without a greater depth and force than all before them were left \
+                 out, since they belong to no first loading.",
                 self.unloaded
             )
         })
@@ -52,7 +52,7 @@ impl Measured {
 }
 
 /// The points of a first loading among those of a record of depth and force, in the order of the file: each is deeper than
-/// all before it. All points, if none shows an unloading: tests of several specimens may follow each other.
+/// all before it, under a larger force. All points, if none shows an unloading: tests of several specimens may follow each other.
 fn first_loading(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     let mut loading: Vec<(f64, f64)> = Vec::new();
     let mut has_unloading = false;
@@ -67,7 +67,17 @@ fn first_loading(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
             (None, Some(_)) => {}
         }
     }
-    if has_unloading { loading } else { points }
+    if !has_unloading {
+        return points;
+    }
+    // where an unloading begins, creep makes the contact deeper while its force falls
+    let mut largest = 0.0;
+    loading.retain(|(_, force)| {
+        let is_larger = *force > largest;
+        largest = force.max(largest);
+        is_larger
+    });
+    loading
 }
 
 /// A file that is no measurement.
