@@ -49,7 +49,10 @@ fn a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts() {
             close(estimate.value, strength, 1e-6);
             let (low, high) = estimate.interval.expect("ten points");
             assert!(low <= strength * (1.0 + 1e-6) && high >= strength * (1.0 - 1e-6) && high / low < 1.0001);
-            assert!(estimate.doubt.is_none() && found.remarks.is_empty(), "{found:?}");
+            // 8 m/s make too wide a dent in the softest target
+            let is_wide = found.remarks.iter().any(|remark| remark.contains("at 1 of 10 points (speeds from 8 m/s"));
+            assert_eq!((found.remarks.len(), is_wide), (usize::from(strength < 100e6), strength < 100e6), "{found:?}");
+            assert!(estimate.doubt.is_none(), "{found:?}");
             assert!(found.rms[1] < 1e-9, "{:?}", found.rms);
         }
     }
