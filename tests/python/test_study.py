@@ -12,7 +12,7 @@ import brinell
 import fmpy
 import numpy as np
 import pytest
-from brinell import ContactError, ProgramError, Range
+from brinell import ContactError, ProgramError, ProgramWarning, Range
 from brinell.studies import impacts, plan, scene, store, study
 
 SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
@@ -239,6 +239,14 @@ def test_a_chunk_that_fails_in_another_way_is_recorded(unit, monkeypatch):
 def test_studies_that_are_refused(unit, arguments, error, words):
     with pytest.raises(error, match=words):
         quick(unit, **({"vary": {"speed": "1:2:4"}, "chunk": 1, "workers": 2} | arguments))
+
+
+def test_what_the_program_doubts_about_the_scene_is_a_warning_of_the_study(tmp_path):
+    path = tmp_path / "wide.toml"
+    path.write_text(SCENE.read_text().replace("radius = 5e-3", "radius = 5"))
+    with pytest.warns(ProgramWarning, match="radius = 5 m; did you mean 5e-3") as told:
+        brinell.study(path, {"speed": "1:2:2"}, progress=False, workers=1)
+    assert len(told) == 1
 
 
 def test_scenes_that_are_refused(tmp_path):
