@@ -15,6 +15,8 @@ pub mod time_history;
 
 use crate::laws::Choice;
 use crate::numbers::{exact, quantity, significant};
+use crate::scene::Scene;
+use crate::validity::{self, Beyond};
 use brinell::contact::Loading;
 use brinell::contact::Regime;
 use brinell::contact::impact::{Impact, Prediction};
@@ -106,6 +108,12 @@ pub fn speed_of_height(height: f64) -> f64 {
 pub fn one(choice: &Choice, impact: &Impact) -> Result<Prediction, PredictError> {
     let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass: impact.mass, speed: impact.speed };
     choice.model.predict(impact).ok_or_else(beyond)
+}
+
+/// The limits of validity that this impact exceeds on the first contact of `scene`.
+fn beyond(scene: &Scene, choice: &Choice, impact: &Impact, prediction: &Prediction) -> Vec<Beyond> {
+    let density = scene.contacts[0].density;
+    validity::beyond(&choice.model.pair(), density, prediction.max_contact_radius, impact.speed)
 }
 
 /// The quantities of a prediction: name, value, unit.

@@ -37,6 +37,7 @@ struct Page<'a> {
     columns: Columns,
     /// Parameters of the scene that the impacts have with other values; `with` says them.
     replaced: Vec<&'static str>,
+    warnings: Vec<String>,
 }
 
 /// The page of a sweep over one quantity.
@@ -53,6 +54,7 @@ pub fn of_sweep(scene: &Scene, choices: &[Choice], sweep: &Sweep) -> String {
         pictures: figures(&sweep.panels()),
         columns: sweep.columns(),
         replaced: vec![sweep.axis.name],
+        warnings: sweep.limits.warnings(),
     }
     .write()
 }
@@ -79,6 +81,7 @@ pub fn of_oblique(scene: &Scene, (impact, setting): (Impact, Setting), sweep: &o
         pictures: figures(&sweep.panels()),
         columns: sweep.columns(),
         replaced: vec![axis.name, oblique::FRICTION],
+        warnings: sweep.limits().warnings(),
     }
     .write()
 }
@@ -99,6 +102,7 @@ pub fn of_map(scene: &Scene, choices: &[Choice], impact: Impact, map: &Map) -> S
         pictures: vec![map.svg()],
         columns: map.columns(),
         replaced: vec![first.name, second.name],
+        warnings: map.limits.warnings(),
     }
     .write()
 }
@@ -115,6 +119,7 @@ pub fn of_time_history(scene: &Scene, choices: &[Choice], impact: Impact, histor
         pictures: figures(&history.panels()),
         columns: history.columns(),
         replaced: Vec::new(),
+        warnings: Vec::new(),
     }
     .write()
 }
@@ -188,7 +193,8 @@ impl Page<'_> {
         for (name, value, unit) in bodies::numbers(self.scene, 0).into_iter().filter(|(name, ..)| !is_elsewhere(name)) {
             writeln!(page, "<tr><th>{name}</th><td>{} {unit}</td></tr>", digits(value))?;
         }
-        writeln!(page, "</table>")
+        writeln!(page, "</table>")?;
+        self.warnings.iter().try_for_each(|warning| writeln!(page, "<p>Warning: {}</p>", escape(warning)))
     }
 
     fn legend(&self, page: &mut String) -> std::fmt::Result {
