@@ -16,6 +16,11 @@ from pyarrow import csv, parquet
 
 from .impacts import Table
 
+_NOTE = "plan.json"
+
+_ATTEMPTS = 100
+"""More than there are equal studies at once."""
+
 
 class Parts:
     """The finished chunks, in a folder beside the future result: an interrupted study continues
@@ -29,26 +34,24 @@ class Parts:
     def __init__(self, output: Path, plan: bytes, size: int) -> None:
         """`size` is the number of runs of a chunk if the study is new."""
         self.folder = output.with_name(output.name + ".parts")
-        self._key, note = hashlib.sha256(plan).hexdigest(), self.folder / "plan.json"
+        self._key = hashlib.sha256(plan).hexdigest()
         self.size = size
         """Number of runs in a chunk of these parts."""
-        known = self._known(note)
+        known = self._known()
         if any(plan != self._key for plan, _ in known):
             raise ValueError(
                 f"{self.folder} has parts of another study: finish that one, or delete the folder"
             )
         if known:
             self.size = known[0][1]
-        else:
-            self.folder.mkdir(parents=True, exist_ok=True)
         text = json.dumps({"plan": self._key, "chunk": self.size})
-        _replace(note, lambda draft: draft.write_text(text))
+        self._put(_NOTE, lambda draft: draft.write_text(text))
 
-    def _known(self, note: Path) -> list[tuple[str, int]]:
+    def _known(self) -> list[tuple[str, int]]:
         """The plans of the folder with the sizes of their chunks: that of its note, or, if the note
         is missing or damaged, those of its parts."""
         try:
-            known = json.loads(note.read_text(encoding="utf-8"))
+            known = json.loads((self.folder / _NOTE).read_text(encoding="utf-8"))
             plan, size = known["plan"], known["chunk"]
             if isinstance(plan, str) and type(size) is int and size > 0:
                 return [(plan, size)]
@@ -68,13 +71,21 @@ class Parts:
         """Save a chunk; its file is complete, or does not exist."""
         arrow = pyarrow.table(table)
         arrow = arrow.replace_schema_metadata({"plan": self._key, "chunk": str(self.size)})
-        path = self.folder / f"{chunk:06}.parquet"
-        try:
-            _replace(path, lambda draft: parquet.write_table(arrow, draft, write_page_checksum=True))
-        except FileNotFoundError:
-            # an equal study has finished and removed the folder; this one keeps its chunks in memory
-            if self.folder.is_dir():
-                raise
+        self._put(
+            f"{chunk:06}.parquet",
+            lambda draft: parquet.write_table(arrow, draft, write_page_checksum=True),
+        )
+
+    def _put(self, name: str, write: Callable[[Path], object]) -> None:
+        """Write a file of the folder, again if an equal study finishes and removes it meanwhile."""
+        for left in reversed(range(_ATTEMPTS)):
+            try:
+                self.folder.mkdir(parents=True, exist_ok=True)
+                _replace(self.folder / name, write)
+                return
+            except (FileNotFoundError, FileExistsError):
+                if left == 0:
+                    raise
 
     def remove(self) -> None:
         """Remove the parts, after the result is written."""
