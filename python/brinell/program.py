@@ -198,7 +198,8 @@ def sweep(
     mass: float | None = None,
 ) -> Columns | dict[str, Columns]:
     """Predictions over closing speeds from `first` to `last` [m/s], as columns: `speed`,
-    `restitution`, `dent` ...; with `laws`, a mapping from "LOADING/UNLOADING" to its columns."""
+    `restitution`, `dent` ...; `valid` is 0 where the impact is outside the validity of the law. With
+    `laws`, a mapping from "LOADING/UNLOADING" to its columns."""
     options = _options({"mass": mass}, laws)
     tables = _tables(_run("predict", scene, *options, "--sweep", f"speed={first!r}:{last!r}"))
     return tables if laws is not None else next(iter(tables.values()))
