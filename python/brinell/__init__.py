@@ -5,7 +5,7 @@ thousands of impacts.
 """
 
 from .contact import Contact, State
-from .errors import ContactError, ContactWarning, ProgramError, UnknownName
+from .errors import ContactError, ContactWarning, ProgramError, ProgramWarning, UnknownName
 from .program import Prediction, curve, export, predict, program, sweep
 from .studies.plan import Range
 from .studies.study import study
@@ -16,6 +16,7 @@ __all__ = [
     "ContactWarning",
     "Prediction",
     "ProgramError",
+    "ProgramWarning",
     "Range",
     "State",
     "UnknownName",

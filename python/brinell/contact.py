@@ -18,6 +18,11 @@ from .stepping import Force, Stepping
 from .variables import Gaps, Numbers, Parameters, Variables, number
 
 
+AFTER_REFUSAL = (
+    "; the contact steps again after contact.reset(), or after contact.restore() with a saved state"
+)
+
+
 @dataclass(frozen=True)
 class State:
     """The complete state of a contact at one time: it can be pickled, and restored in another
@@ -114,6 +119,7 @@ class Contact:
 
     def _start(self) -> None:
         call = self._instance.call
+        self._instance.advice = ""
         call("SetupExperiment", False, 0.0, 0.0, False, 0.0)
         call("EnterInitializationMode")
         if self._given:
@@ -121,6 +127,7 @@ class Contact:
             # all at once: each call moves every contact to its new start
             call("SetReal", references, count, (c_double * count)(*self._given.values()))
         call("ExitInitializationMode")
+        self._instance.advice = AFTER_REFUSAL
         self._time = 0.0
         self._tell()
 

@@ -16,6 +16,10 @@ class ProgramError(RuntimeError):
     """The exporter is missing, or has rejected something; the text is that of the exporter."""
 
 
+class ProgramWarning(UserWarning):
+    """The exporter doubts a number, or warns that the law is not valid; the text is its own."""
+
+
 class ContactWarning(UserWarning):
     """An FMU warns: its law is not valid where the contact is, its passivity guard acts, or it is
     coupled wrongly."""

@@ -104,6 +104,8 @@ class Instance:
         self.functions = library.functions
         number = next(_numbers)
         self.log: list[tuple[int, str]] = []
+        self.advice = ""
+        """What can be done after a refusal; it follows the FMU's text."""
         _logs[number] = self.log
         self._callbacks = fmi2.fmi2CallbackFunctions()
         self._callbacks.logger = _LOGGER
@@ -134,7 +136,8 @@ class Instance:
 
     def refusal(self, function: str) -> ContactError:
         """The error for a call that was just rejected."""
-        return ContactError(self.text() or f"fmi2{function} was rejected without a message")
+        text = self.text() or f"fmi2{function} was rejected without a message"
+        return ContactError(text + self.advice)
 
     def text(self) -> str:
         """The error messages since the last call of this function."""

@@ -7,6 +7,7 @@ import os
 import re
 import shutil
 import subprocess
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from importlib import metadata
@@ -16,7 +17,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import ProgramError
+from .errors import ProgramError, ProgramWarning
 
 Columns = dict[str, NDArray[np.float64]]
 """Columns of a table by name, in SI units."""
@@ -109,6 +110,10 @@ def _run(*arguments: str | Path) -> str:
         # progress messages come before the error
         text = re.sub(r"^building .* \.\.\.\n(brinell: )?", "", text)
         raise ProgramError(text or f"{' '.join(command)} ended with status {result.returncode}")
+    for text in result.stderr.split("brinell: warning: ")[1:]:
+        # the first line, and those of the text that were broken; where the public function was called
+        text = text.split("\nbuilding ")[0].split("\nbrinell: ")[0]
+        warnings.warn(" ".join(text.split()), ProgramWarning, stacklevel=3)
     return result.stdout
 
 
@@ -193,7 +198,8 @@ def sweep(
     mass: float | None = None,
 ) -> Columns | dict[str, Columns]:
     """Predictions over closing speeds from `first` to `last` [m/s], as columns: `speed`,
-    `restitution`, `dent` ...; with `laws`, a mapping from "LOADING/UNLOADING" to its columns."""
+    `restitution`, `dent` ...; `valid` is 0 where the impact is outside the validity of the law. With
+    `laws`, a mapping from "LOADING/UNLOADING" to its columns."""
     options = _options({"mass": mass}, laws)
     tables = _tables(_run("predict", scene, *options, "--sweep", f"speed={first!r}:{last!r}"))
     return tables if laws is not None else next(iter(tables.values()))

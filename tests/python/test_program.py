@@ -3,7 +3,7 @@
 import brinell
 import numpy as np
 import pytest
-from brinell import ProgramError
+from brinell import ProgramError, ProgramWarning
 from units import SCENES, bounce
 
 SCENE = SCENES / "mass_known.toml"
@@ -82,6 +82,27 @@ def test_the_program_says_what_is_wrong(call, words):
     with pytest.raises(ProgramError, match=words) as error:
         call()
     assert not str(error.value).startswith(("brinell:", "building"))
+
+
+def test_what_the_program_doubts_is_a_warning_of_python_where_it_was_called(tmp_path):
+    scene = tmp_path / "wide.toml"
+    scene.write_text(
+        'name = "wide"\nimpactor = { radius = 5 }\ntarget = { material = "mild steel" }\n'
+        "[impact]\nmass = 4e-3\nspeed = 1.0\n"
+    )
+    calls = (
+        lambda: brinell.export(scene, tmp_path / "wide.fmu"),
+        lambda: brinell.predict(scene),
+        lambda: brinell.sweep(scene, 0.1, 1.0),
+        lambda: brinell.curve(scene),
+    )
+    for call in calls:
+        with pytest.warns(ProgramWarning, match="radius = 5 m; did you mean 5e-3") as told:
+            call()
+        assert len(told) == 1
+    with pytest.warns(ProgramWarning) as told:
+        brinell.predict(scene)
+    assert told[0].filename == __file__
 
 
 def test_wrong_types():

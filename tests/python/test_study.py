@@ -3,13 +3,16 @@
 import multiprocessing
 import os
 import shutil
+import subprocess
+import sys
+import threading
 from pathlib import Path
 
 import brinell
 import fmpy
 import numpy as np
 import pytest
-from brinell import ContactError, ProgramError, Range
+from brinell import ContactError, ProgramError, ProgramWarning, Range
 from brinell.studies import impacts, plan, scene, store, study
 
 SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
@@ -238,6 +241,14 @@ def test_studies_that_are_refused(unit, arguments, error, words):
         quick(unit, **({"vary": {"speed": "1:2:4"}, "chunk": 1, "workers": 2} | arguments))
 
 
+def test_what_the_program_doubts_about_the_scene_is_a_warning_of_the_study(tmp_path):
+    path = tmp_path / "wide.toml"
+    path.write_text(SCENE.read_text().replace("radius = 5e-3", "radius = 5"))
+    with pytest.warns(ProgramWarning, match="radius = 5 m; did you mean 5e-3") as told:
+        brinell.study(path, {"speed": "1:2:2"}, progress=False, workers=1)
+    assert len(told) == 1
+
+
 def test_scenes_that_are_refused(tmp_path):
     with pytest.raises(ProgramError, match="friction"):
         brinell.study(SCENES / "oblique.toml", {"speed": "1:2:2"}, progress=False)
@@ -314,6 +325,96 @@ def test_a_study_goes_on_with_other_workers_and_chunks(unit, tmp_path, monkeypat
     table = quick(unit, vary, output=output, workers=2, chunk=4)
     assert calls == [10, 10, 10]
     assert all(np.array_equal(table[name], expected[name]) for name in expected)
+
+
+def stopped_after(unit, vary, output, count, monkeypatch):
+    """Leave the parts of a study that was stopped after `count` chunks of 5 runs."""
+    calls = []
+
+    def stopped(unit, names, rows):
+        calls.append(len(rows))
+        if len(calls) > count:
+            raise KeyboardInterrupt
+        return ORIGINAL(unit, names, rows)
+
+    monkeypatch.setattr(impacts, "run", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        quick(unit, vary, output=output, chunk=5)
+    calls.clear()
+    monkeypatch.setattr(impacts, "run", lambda *them: calls.append(len(them[2])) or ORIGINAL(*them))
+    return output.with_name(output.name + ".parts"), calls
+
+
+@pytest.mark.parametrize("damage", ["empty", "truncated", "zeros within", "another table"])
+def test_a_damaged_part_is_computed_anew(unit, tmp_path, monkeypatch, damage):
+    vary, output = {"speed": "0.1:10:20log"}, tmp_path / "x.parquet"
+    expected = quick(unit, vary)
+    folder, calls = stopped_after(unit, vary, output, 3, monkeypatch)
+    part = sorted(folder.glob("*.parquet"))[1]
+    data = part.read_bytes()
+    if damage == "another table":
+        store.write(part, {name: column[:5] for name, column in expected.items()})
+    else:
+        middle = len(data) // 4
+        zeros = data[:middle] + bytes(40) + data[middle + 40 :]
+        part.write_bytes({"empty": b"", "truncated": data[:-20], "zeros within": zeros}[damage])
+    table = quick(unit, vary, output=output)
+    assert calls == [5, 5]
+    assert all(np.array_equal(table[name], expected[name]) for name in expected)
+    assert [path.name for path in tmp_path.iterdir()] == ["x.parquet"]
+
+
+@pytest.mark.parametrize(
+    "note", ["", '{"plan": "', "[]", "null", '{"plan": 1, "chunk": 0}', "\0" * 80, None]
+)
+def test_a_broken_plan_is_written_again_from_its_parts(unit, tmp_path, monkeypatch, note):
+    vary, output = {"speed": "0.1:10:20log"}, tmp_path / "x.parquet"
+    expected = quick(unit, vary)
+    folder, calls = stopped_after(unit, vary, output, 3, monkeypatch)
+    plan = folder / "plan.json"
+    plan.unlink() if note is None else plan.write_text(note)
+    with pytest.raises(ValueError, match="another study"):
+        quick(unit, {"speed": "0.1:10:21log"}, output=output)
+    table = quick(unit, vary, output=output)
+    assert calls == [5]
+    assert all(np.array_equal(table[name], expected[name]) for name in expected)
+
+
+def test_equal_studies_at_once_both_finish(unit, tmp_path):
+    vary, output = {"speed": "0.1:10:10log"}, tmp_path / "x.parquet"
+    expected, tables = quick(unit, vary), []
+    # one that finishes removes the parts where others begin to write theirs
+    for _ in range(20):
+        studies = [
+            threading.Thread(
+                target=lambda: tables.append(quick(unit, vary, output=output, chunk=1))
+            )
+            for _ in range(4)
+        ]
+        for one in studies:
+            one.start()
+        for one in studies:
+            one.join()
+    assert len(tables) == 80
+    for table in [*tables, store.read(output)]:
+        assert all(np.array_equal(table[name], expected[name]) for name in expected)
+    assert [path.name for path in tmp_path.iterdir()] == ["x.parquet"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs SIGKILL")
+def test_the_processes_of_a_killed_study_end_with_it(unit, tmp_path):
+    program = f"""
+import os, signal, brinell
+from brinell.studies import store
+store.Parts.save = lambda *_: os.kill(os.getpid(), signal.SIGKILL)
+brinell.study({str(unit)!r}, {{"speed": "0.1:10:40"}}, mass=4e-3, output="x.csv", workers=2, chunk=1,
+              progress=False)
+"""
+    # the output ends when the last process that could write to it has ended
+    killed = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, timeout=60, check=False
+    )
+    assert killed.returncode < 0, killed.stderr
 
 
 def test_progress_is_counted_in_runs(unit, capsys):

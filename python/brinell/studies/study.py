@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import tempfile
+import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -146,7 +148,11 @@ def _run(
     parts = store.Parts(tables[0], key, size) if tables else None
     size = parts.size if parts else size
     chunks = {at: rows[at : at + size] for at in range(0, len(rows), size)}
-    done = {at: part for at in chunks if parts and (part := parts.load(at)) is not None}
+    done = {
+        at: part
+        for at, chunk in chunks.items()
+        if parts and (part := parts.load(at, len(chunk))) is not None
+    }
     before = sum(len(chunks[at]) for at in done)
     with tqdm(total=len(rows), initial=before, unit="run", disable=not progress) as bar:
         left = {at: chunk for at, chunk in chunks.items() if at not in done}
@@ -183,12 +189,24 @@ def _results(
         yield at, _alone(unit, names, chunks[at])
 
 
+def _end_with_parent() -> None:
+    """End this process with the study, which cannot tell its processes if it is killed."""
+
+    def wait() -> None:
+        parent = multiprocessing.parent_process()
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=wait, daemon=True).start()
+
+
 def _alone(unit: Path, names: list[str], rows: Rows) -> Table:
     """Run a chunk in a process of its own. If the process dies, run halves of the chunk, down to
     the run that is the reason."""
     from . import store
 
-    with ProcessPoolExecutor(1) as pool:
+    with ProcessPoolExecutor(1, initializer=_end_with_parent) as pool:
         try:
             return pool.submit(impacts.run, unit, names, rows).result()
         except BrokenProcessPool as error:
@@ -207,7 +225,7 @@ def _pool(
 ) -> Iterator[tuple[Callable[..., Any], Callable[..., Any]]]:
     """A function to start a chunk, and one to wait for chunks."""
     if scheduler is None:
-        pool = ProcessPoolExecutor(workers)
+        pool = ProcessPoolExecutor(workers, initializer=_end_with_parent)
         try:
             yield lambda names, rows: pool.submit(impacts.run, unit, names, rows), as_completed
         finally:

@@ -40,6 +40,13 @@ impl Column {
 }
 
 impl Columns {
+    /// The same with the column `valid`, whose numbers follow the rows of all laws.
+    pub fn with_valid(mut self, mut valid: impl Iterator<Item = f64>) -> Columns {
+        self.columns.push(Column::new("valid", ""));
+        self.laws.iter_mut().flat_map(|(_, rows)| rows).for_each(|row| row.extend(valid.next()));
+        self
+    }
+
     /// CSV with one line for each row and all digits.
     pub fn csv(&self) -> String {
         let mut text = String::from("law");

@@ -7,10 +7,10 @@ use crate::model::AnyModel;
 use crate::plot::{Picture, Series};
 use crate::predict::PredictError;
 use crate::predict::oblique;
-use crate::scene::Scene;
+use crate::scene::{Scene, plausible};
 use crate::tangential_curve::{Loops, Wanted};
 use crate::wrong_call::WrongCall;
-use crate::{predict, truth, units};
+use crate::{layout, predict, truth, units, validity};
 use brinell::contact::damped::{self, AnyDamped, Damped};
 use brinell::contact::impact::Impact;
 use brinell::contact::{History, Loading, TooDeep};
@@ -66,6 +66,9 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let largest = arguments.to.unwrap_or(scene.predictions[0].max_indentation);
     let largest = predict::positive("to", largest).map_err(WrongCall::of)?;
     let impact = &scene.impact_of(0);
+    let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::INFINITY);
+    let doubt = arguments.to.and_then(|to| plausible::of_depth("to", to, radius));
+    doubt.into_iter().chain(too_wide(&choices, largest)).for_each(|warning| layout::warn(&warning));
     if arguments.tangential {
         return tangential(&scene, &choices, largest, arguments, (output, format), as_json);
     }
@@ -82,6 +85,18 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
         }
     };
     Ok(deliver(&text, output)?)
+}
+
+/// A warning, if laws are not valid up to the indentation `largest` [m].
+fn too_wide(choices: &[Choice], largest: f64) -> Option<String> {
+    let is_wide = |choice: &&Choice| {
+        choice.model.elastoplastic().is_some_and(|model| {
+            let radius = model.loading.contact_radius(&model.pair, largest);
+            !validity::beyond(&model.pair, None, radius, 0.0).is_empty()
+        })
+    };
+    let wide: Vec<_> = choices.iter().filter(is_wide).map(|choice| choice.laws.as_str()).collect();
+    (!wide.is_empty()).then(|| validity::too_wide(&wide))
 }
 
 /// Loops of the tangential force at the indentation `held` [m].

@@ -50,6 +50,11 @@ pub fn tell(message: &str) {
     let _ = writeln!(io::stderr(), "{}", if for_program { message.into() } else { wrapped(&harmless(message)) });
 }
 
+/// Writes a warning to standard error, also beside an answer for a program.
+pub fn warn(message: &str) {
+    tell(&format!("brinell: warning: {message}"));
+}
+
 /// `message` in lines of at most [`WIDTH`] characters, unless a word is longer. Continuation lines are indented by two more columns.
 /// Quoted lines of a file with their numbers are not wrapped.
 fn wrapped(message: &str) -> String {

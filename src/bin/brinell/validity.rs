@@ -1,6 +1,7 @@
 //! The limits of validity of the laws, in words.
 
-use crate::numbers::significant;
+use crate::layout;
+use crate::numbers::{quantity, significant};
 use brinell::contact::Pair;
 use brinell::contact::impact::Prediction;
 use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};
@@ -38,6 +39,64 @@ pub fn warnings(pair: &Pair, density: Option<f64>, prediction: &Prediction, spee
     beyond(pair, density, prediction.max_contact_radius, speed).into_iter().map(words).collect()
 }
 
+/// The limits that each impact of a sweep exceeds, with the values of the varied quantities.
+#[derive(Default)]
+pub struct SweepLimits {
+    /// Name and unit of each varied quantity.
+    pub names: Vec<(&'static str, &'static str)>,
+    pub impacts: Vec<(Vec<f64>, Vec<Beyond>)>,
+}
+
+impl SweepLimits {
+    /// Whether each impact is within all limits, as numbers: 1 or 0.
+    pub fn valid(&self) -> impl Iterator<Item = f64> {
+        self.impacts.iter().map(|(_, beyond)| f64::from(u8::from(beyond.is_empty())))
+    }
+
+    /// A warning for each limit that some impacts exceed: how many, in which range, and the worst in words.
+    pub fn warnings(&self) -> Vec<String> {
+        [false, true].into_iter().filter_map(|of_speed| self.warning(of_speed)).collect()
+    }
+
+    /// Prints these warnings on standard error.
+    pub fn tell(&self) {
+        self.warnings().iter().for_each(|warning| layout::warn(warning));
+    }
+
+    fn warning(&self, of_speed: bool) -> Option<String> {
+        let size = |beyond: &Beyond| match *beyond {
+            Beyond::Width(ratio) => (!of_speed).then_some(ratio),
+            Beyond::Speed { ratio, .. } => of_speed.then_some(ratio),
+        };
+        let sized = |(values, all): &'_ (Vec<f64>, Vec<Beyond>)| {
+            all.iter().find_map(|beyond| size(beyond).map(|size| (values.clone(), size, *beyond)))
+        };
+        let found: Vec<_> = self.impacts.iter().filter_map(sized).collect();
+        let (.., worst) = found.iter().max_by(|one, other| one.1.total_cmp(&other.1))?;
+        let range = |(index, (name, unit)): (usize, &(&str, &'static str))| {
+            let values = || found.iter().filter_map(|(values, ..)| values.get(index).copied());
+            let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+            format!("{name} from {} to {}", quantity(low, unit), quantity(high, unit))
+        };
+        let ranges: Vec<_> = self.names.iter().enumerate().map(range).collect();
+        Some(format!(
+            "{} of {} impacts are outside the law's validity ({}); at the worst, {}",
+            found.len(),
+            self.impacts.len(),
+            ranges.join(", "),
+            words(*worst)
+        ))
+    }
+}
+
+/// A warning that the contact is too wide for these `laws`.
+pub fn too_wide(laws: &[&str]) -> String {
+    format!(
+        "the contact radius exceeds {LARGEST_RADIUS_RATIO} effective radii, where no law is valid, with {}",
+        laws.join(", ")
+    )
+}
+
 /// An exceeded limit, in words.
 pub fn words(beyond: Beyond) -> String {
     match beyond {
@@ -48,9 +107,13 @@ pub fn words(beyond: Beyond) -> String {
         ),
         Beyond::Speed { ratio, waves } => format!(
             "the speed is {} of the wave speed of {waves:.0} m/s; above {LARGEST_SPEED_RATIO} elastic waves take energy \
-             that the law neglects, here {:.0} % of that of an elastic impact",
+             that the law neglects, here {} of that of an elastic impact",
             significant(ratio, 3),
-            100.0 * wave_energy(ratio)
+            match wave_energy(ratio) {
+                // a series in the ratio, which must be small
+                part if part < 0.5 => format!("{:.0} %", 100.0 * part),
+                _ => "most".into(),
+            }
         ),
     }
 }

@@ -246,3 +246,22 @@ fn a_loss_below_yield_is_not_combined_with_friction_silently() {
         assert!(failed.err.contains("a loss below yield and friction can't be combined"), "{}", failed.err);
     }
 }
+
+/// The page once showed the scene's friction beside impacts with another one.
+#[test]
+fn the_page_of_a_sweep_shows_only_the_friction_of_its_impacts() {
+    let folder = empty_folder();
+    let scene = scene("oblique").display().to_string();
+    let page = |more: &[&str]| {
+        let command = ["predict", &scene, "-o", "angles.html", "--sweep"];
+        run(folder.path(), command.iter().chain(more)).with_status(0);
+        fs::read_to_string(folder.path().join("angles.html")).unwrap()
+    };
+    let given = page(&["angle=10:60:3", "--friction", "0.1"]);
+    assert!(
+        given.contains("a coefficient of friction of 0.1") && !given.contains("friction.coefficient</th>"),
+        "{given}"
+    );
+    let varied = page(&["friction.coefficient=0.1:0.3:3", "--angle", "20"]);
+    assert!(!varied.contains("friction.coefficient</th><td>"), "{varied}");
+}

@@ -285,3 +285,90 @@ fn a_constant_that_cannot_be_varied_is_rejected_with_those_that_can() {
     let table = fs::read_to_string(folder.path().join("x.csv")).unwrap();
     assert!(table.contains("thornton/") && !table.contains("hertz,"), "{table}");
 }
+
+/// A dent of 10.3 mm in a ball of 5 mm was once printed without a word.
+#[test]
+fn sweeps_and_inverse_predictions_warn_where_the_law_is_not_valid() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let warned = |arguments: &[&str]| {
+        let command = ["predict", scene.as_str()];
+        run(folder.path(), command.iter().chain(arguments)).with_status(0)
+    };
+    for arguments in [
+        &["--sweep", "speed=1:1000"][..],
+        &["--sweep", "target.yield_strength=2e5:4e6"],
+        &["--sweep", "speed=1:1000:5", "--sweep", "mass=1e-3:1:5"],
+        &["--sweep", "speed=1:1000:5", "--angle", "30", "--friction", "0.1"],
+    ] {
+        let said = warned(arguments).err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            said.contains("impacts are outside the law's validity (") && said.contains("effective radii"),
+            "{arguments:?}: {said}"
+        );
+        warned(&[arguments, &["-o", "x.html"]].concat());
+        let page = fs::read_to_string(folder.path().join("x.html")).unwrap();
+        assert!(page.contains("<p>Warning: ") && page.contains("outside the law's validity"), "{page}");
+    }
+    for arguments in [&["--dent", "0.8e-3"][..], &["--restitution", "0.05"]] {
+        let said = warned(arguments).err;
+        assert!(said.contains("brinell: warning: "), "{arguments:?}: {said}");
+    }
+    let curve = |to| run(folder.path(), ["curve", &scene, "--to", to, "--laws", "brinell,thornton"]).with_status(0).err;
+    assert_eq!(curve("1e-4"), "");
+    let said = curve("1e-3");
+    assert!(said.contains("where no law is valid, with brinell/brinell, thornton/thornton"), "{said}");
+    for arguments in [&["--sweep", "speed=0.1:1"][..], &["--dent", "1e-5"], &["--restitution", "0.5"]] {
+        assert_eq!(warned(arguments).err, "", "{arguments:?}");
+    }
+}
+
+#[test]
+fn each_row_of_a_sweep_says_whether_its_impact_is_valid() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let strengths = ["--sweep", "target.yield_strength=2e5:4e7:9"];
+    for more in [&[][..], &["--sweep", "mass=1e-3:1e-1:4"]] {
+        let all = ["predict", &scene, "--laws", "brinell,thornton", "-o", "x.csv"];
+        run(folder.path(), all.iter().chain(&strengths).chain(more)).with_status(0);
+        let table = fs::read_to_string(folder.path().join("x.csv")).unwrap();
+        // of the effective radius of 5 mm, at 1 m/s
+        let wide = columns(&table, "largest_contact_radius_m").into_iter().map(|radius| radius > 0.3 * 5e-3);
+        let expected: Vec<_> = wide.map(|is_wide| if is_wide { 0.0 } else { 1.0 }).collect();
+        assert_eq!(columns(&table, "valid"), expected);
+        assert!(expected.contains(&0.0) && expected.contains(&1.0), "{expected:?}");
+    }
+}
+
+#[test]
+fn implausible_numbers_of_the_command_line_are_asked_about_with_what_was_probably_meant() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let said = |arguments: &[&str]| {
+        let run = run(folder.path(), ["predict", scene.as_str()].iter().chain(arguments));
+        run.err.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let curve = run(folder.path(), ["curve", &scene, "--to", "10"]);
+    assert!(curve.err.contains("to = 10 m; did you mean 10e-6?"), "{curve:?}");
+    for (arguments, words) in [
+        (&["--speed", "5000"][..], "warning: speed = 5000 m/s; did you mean 5?"),
+        (&["--sweep", "speed=1000:10000"], "warning: speed = 10000 m/s; did you mean 10?"),
+        (&["--sweep", "target.yield_strength=200:400"], "warning: target.yield_strength = 200 Pa; did you mean 200e6?"),
+        (&["--sweep", "impactor.radius=1:10"], "warning: impactor.radius = 10 m; did you mean 0.01?"),
+        (&["--sweep", "speed=1:2:2", "--sweep", "target.youngs_modulus=190:210:2"], "190 Pa; did you mean 190e9?"),
+        (&["--sweep", "speed=5000:6000:2", "--angle", "30", "--friction", "0.1"], "did you mean 5?"),
+        (&["--dent", "10"], "warning: dent = 10 m; did you mean 10e-6?"),
+        (&["--dent", "0.05"], "warning: dent = 0.05 m; did you mean 50e-6?"),
+    ] {
+        let said = said(arguments);
+        assert!(said.contains(words), "{arguments:?}: {said}");
+    }
+    for arguments in [
+        &["--speed", "1e-3"][..],
+        &["--sweep", "target.radius=5:50:2"],
+        &["--sweep", "target.yield_strength=200e6:900e6:2"],
+        &["--sweep", "impactor.radius=1e-3:1e-2:2"],
+    ] {
+        assert_eq!(said(arguments), "", "{arguments:?}");
+    }
+}

@@ -9,7 +9,9 @@
 
 use super::problem::Problem;
 use super::{Fit, Flow, Kind, Measured};
+use crate::numbers::quantity;
 use crate::scene::Scene;
+use brinell::contact::validity::LARGEST_RADIUS_RATIO;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -64,18 +66,80 @@ pub struct Fitted {
 /// A sentence if the scene has no such parameter, the measurement can't depend on it, or the law can't be evaluated.
 pub fn fit(scene: &Scene, measured: &Measured, fits: &[Fit]) -> Result<Fitted, String> {
     let flow = check(scene, measured, fits)?;
-    let problem = Problem::new(scene, measured, fits, flow)?;
-    let before = rms(&problem.differences(&flow).ok_or(BEYOND)?, measured);
-    let problem = problem.at_best_start();
-    let solver = LevenbergMarquardt::new().with_patience(50);
-    let (problem, _) = solver.minimize(problem);
+    let before = Problem::new(scene, measured, fits.to_vec(), flow)?.differences(&flow).ok_or(BEYOND)?;
+    let problem = within_bounds(scene, measured, fits, flow)?;
     let found = problem.flow(&problem.at);
-    let differences = problem.residuals().ok_or(BEYOND)?;
-    let jacobian = problem.jacobian().ok_or(BEYOND)?;
-    let (estimates, correlated) = problem.estimates(&jacobian, &differences);
+    let differences = problem.differences(&found).ok_or(BEYOND)?;
+    let (free, correlated) = problem.estimates(&differences)?;
+    let mut free = free.into_iter();
+    let estimate = |fit: &Fit| match problem.fits.contains(fit) {
+        true => free.next(),
+        false => fit.of(&flow).ok().map(at_bound),
+    };
+    let estimates = fits.iter().filter_map(estimate).collect();
     let mut remarks: Vec<String> = correlated.into_iter().collect();
     remarks.extend(trend(&differences));
-    Ok(Fitted { estimates, flow: found, rms: [before, rms(&differences, measured)], remarks })
+    remarks.extend(measured.left_out());
+    remarks.extend(outside(scene, measured, &found));
+    Ok(Fitted { estimates, flow: found, rms: [rms(&before, measured), rms(&differences, measured)], remarks })
+}
+
+/// The best problem whose parameters are not negative: where the best value of one would be, it is zero, and the others are
+/// fitted again.
+fn within_bounds<'a>(
+    scene: &'a Scene,
+    measured: &'a Measured,
+    fits: &[Fit],
+    flow: Flow,
+) -> Result<Problem<'a>, String> {
+    let solved = |fixed: &[Fit]| {
+        let free = fits.iter().copied().filter(|fit| !fixed.contains(fit)).collect();
+        let given = fixed.iter().fold(flow, |flow, fit| fit.set(flow, 0.0));
+        let problem = Problem::new(scene, measured, free, given)?;
+        if problem.fits.is_empty() {
+            return Ok::<_, String>(problem);
+        }
+        Ok(LevenbergMarquardt::new().with_patience(50).minimize(problem.at_best_start()).0)
+    };
+    let free = solved(&[])?;
+    if free.is_inside() {
+        return Ok(free);
+    }
+    let bounded: Vec<Fit> = fits.iter().copied().filter(|fit| !fit.is_logarithmic(&flow)).collect();
+    // every choice of bounded parameters, as bits
+    let choices = (1u32..1 << bounded.len()).map(|bits| {
+        (0..bounded.len()).filter(|index| bits >> index & 1 == 1).map(|index| bounded[index]).collect::<Vec<_>>()
+    });
+    let problems = choices.map(|fixed| solved(&fixed)).collect::<Result<Vec<_>, _>>()?;
+    let better = |one: &Problem, other: &Problem| one.squares(&one.at).total_cmp(&other.squares(&other.at));
+    // with all of them at their bounds, nothing is outside
+    Ok(problems.into_iter().filter(Problem::is_inside).min_by(better).unwrap_or(free))
+}
+
+/// The estimate of a parameter whose best value would be negative: its name, its unit and the scene's value are given.
+fn at_bound((name, unit, scene): (&'static str, &'static str, f64)) -> Estimate {
+    let doubt = "not distinguishable from 0: the best value would be negative".to_string();
+    Estimate { name, unit, scene, value: 0.0, interval: None, doubt: Some(doubt) }
+}
+
+/// A remark on the points outside the validity of the law with this flow stress.
+fn outside(scene: &Scene, measured: &Measured, flow: &Flow) -> Option<String> {
+    let wide =
+        |(at, _): &&(f64, f64)| flow.width(scene, measured.kind, *at).is_some_and(|width| width > LARGEST_RADIUS_RATIO);
+    let wide: Vec<f64> = measured.points.iter().filter(wide).map(|point| point.0).collect();
+    let (first, last) = (wide.first()?, wide.last()?);
+    let (name, unit) = match measured.kind {
+        Kind::Restitution => ("speeds", "m/s"),
+        Kind::Force => ("depths", "m"),
+    };
+    Some(format!(
+        "The contact radius exceeds {LARGEST_RADIUS_RATIO} effective radii, where no law is valid, at {} of {} points ({name} \
+         from {} to {}): leave them out.",
+        wide.len(),
+        measured.points.len(),
+        quantity(*first, unit),
+        quantity(*last, unit)
+    ))
 }
 
 const BEYOND: &str = "the law of the scene can't be evaluated for all points of the measurement";
@@ -153,8 +217,15 @@ impl Measured {
 
 impl Problem<'_> {
     /// The estimates with their intervals, and a remark on parameters that can't be told apart.
-    fn estimates(&self, jacobian: &DMatrix<f64>, differences: &DVector<f64>) -> (Vec<Estimate>, Option<String>) {
-        let freedom = differences.len() as i64 - self.fits.len() as i64;
+    fn estimates(&self, differences: &DVector<f64>) -> Result<(Vec<Estimate>, Option<String>), String> {
+        if self.fits.is_empty() {
+            return Ok((Vec::new(), None));
+        }
+        let jacobian = &self.jacobian().ok_or(BEYOND)?;
+        // points that repeat others to the last digit don't tell how much a measurement scatters
+        let different = self.measured.different();
+        let enough = different > self.fits.len();
+        let freedom = if enough { differences.len() as i64 - self.fits.len() as i64 } else { 0 };
         let covariance = (jacobian.transpose() * jacobian).try_inverse();
         let all_matter = jacobian.column_iter().all(|column| column.amax() > NO_EFFECT);
         let correlated = self.fits.len() > 1 && all_matter && covariance.as_ref().is_none_or(is_correlated);
@@ -183,7 +254,7 @@ impl Problem<'_> {
         let remark = correlated.then(|| {
             "The measurement determines only a combination of the parameters: each can make up for another. Fit one of them.".into()
         });
-        (estimates, remark)
+        Ok((estimates, remark))
     }
 
     /// The reason why the parameter at `index` is not determined.
@@ -206,18 +277,16 @@ impl Problem<'_> {
             return Some(format!("not determined: {why}"));
         }
         if freedom <= 0 {
-            let (points, parameters) = (self.measured.points.len(), self.fits.len());
+            let (points, parameters) = (self.measured.different(), self.fits.len());
+            let different = if points < self.measured.points.len() { "different " } else { "" };
             return Some(format!(
-                "without an interval: {points} points for {parameters} parameters leave nothing to judge it by"
+                "without an interval: {points} {different}points for {parameters} parameters leave nothing to judge it by"
             ));
         }
         let (error, (low, high)) = (error?, interval?);
         if fit.is_logarithmic(&self.given) {
             return (error > std::f64::consts::LN_2)
                 .then(|| format!("hardly determined: its interval spans a factor of {:.2e}", high / low));
-        }
-        if self.at[index] < 0.0 {
-            return Some("not distinguishable from 0: the best value would be negative".into());
         }
         (self.at[index] - error <= 0.0).then(|| "not distinguishable from 0".into())
     }

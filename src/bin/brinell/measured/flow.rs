@@ -1,5 +1,6 @@
 //! The softer body of a scene with another strength, hardening or rate constant.
 
+use super::Kind;
 use crate::scene::{Body, QuasiStatic, Rate, Scene};
 use brinell::contact::Loading;
 use brinell::contact::impact::Impact;
@@ -23,6 +24,23 @@ impl Flow {
     pub fn restitution(&self, scene: &Scene, speed: f64) -> Option<f64> {
         let impact = Impact { mass: scene.impact_of(0).mass, speed };
         scene.model_in_impact(self.hardening, self.rate, &impact)?.restitution(&impact)
+    }
+
+    /// Largest contact radius of an impact at a speed [m/s], or of a slow first loading to an indentation [m], over the
+    /// effective radius; `None` beyond the range of the law.
+    pub fn width(&self, scene: &Scene, kind: Kind, at: f64) -> Option<f64> {
+        let radius = match kind {
+            Kind::Restitution => {
+                let impact = Impact { mass: scene.impact_of(0).mass, speed: at };
+                scene.model_in_impact(self.hardening, self.rate, &impact)?.predict(&impact)?.max_contact_radius
+            }
+            Kind::Force => {
+                let model = scene.model_with(self.hardening);
+                let model = model.elastoplastic()?;
+                model.loading.contact_radius(&model.pair, at)
+            }
+        };
+        Some(radius / scene.any_model().pair().radius)
     }
 
     /// Force [N] of a slow first loading of the first contact of `scene` to an indentation [m]; `None` beyond the range of the

@@ -16,7 +16,7 @@ const STEP: f64 = 1e-5;
 pub struct Problem<'a> {
     scene: &'a Scene,
     pub measured: &'a Measured,
-    pub fits: &'a [Fit],
+    pub fits: Vec<Fit>,
     /// The scene's.
     pub given: Flow,
     modulus: f64,
@@ -29,7 +29,7 @@ impl<'a> Problem<'a> {
     ///
     /// # Errors
     /// As for [`Fit::of`].
-    pub fn new(scene: &'a Scene, measured: &'a Measured, fits: &'a [Fit], given: Flow) -> Result<Self, String> {
+    pub fn new(scene: &'a Scene, measured: &'a Measured, fits: Vec<Fit>, given: Flow) -> Result<Self, String> {
         let modulus = scene.any_model().pair().modulus;
         let start = |fit: &Fit| {
             let value = fit.of(&given)?.2;
@@ -80,7 +80,14 @@ impl<'a> Problem<'a> {
         Some(sum)
     }
 
-    fn squares(&self, at: &DVector<f64>) -> f64 {
+    /// Whether no variable is beyond a limit of zero.
+    pub fn is_inside(&self) -> bool {
+        let beyond = |(fit, at): (&Fit, &f64)| !fit.is_logarithmic(&self.given) && *at < 0.0;
+        !self.fits.iter().zip(self.at.iter()).any(beyond)
+    }
+
+    /// The sum of the squared differences.
+    pub fn squares(&self, at: &DVector<f64>) -> f64 {
         self.extended(at).map_or(f64::INFINITY, |differences| differences.norm_squared())
     }
 

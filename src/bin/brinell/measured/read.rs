@@ -23,6 +23,61 @@ pub struct Measured {
     pub kind: Kind,
     /// In SI units, in ascending order of the first number.
     pub points: Vec<(f64, f64)>,
+    /// Number of points that the file has besides: they belong to no first loading.
+    pub unloaded: usize,
+}
+
+/// Force below that of the first loading at the same depth, as a part of it, that tells an unloading from scatter.
+const UNLOADED: f64 = 0.9;
+
+impl Measured {
+    /// The number of different points.
+    pub fn different(&self) -> usize {
+        let mut points = self.points.clone();
+        points.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+        points.dedup();
+        points.len()
+    }
+
+    /// A remark on the points that were left out.
+    pub fn left_out(&self) -> Option<String> {
+        (self.unloaded > 0).then(|| {
+            format!(
+                "The record has unloadings: {} points without a greater depth and force than all before them were left \
+                 out, since they belong to no first loading.",
+                self.unloaded
+            )
+        })
+    }
+}
+
+/// The points of a first loading among those of a record of depth and force, in the order of the file: each is deeper than
+/// all before it, under a larger force. All points, if none shows an unloading: tests of several specimens may follow each other.
+fn first_loading(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    let mut loading: Vec<(f64, f64)> = Vec::new();
+    let mut has_unloading = false;
+    for &(depth, force) in &points {
+        let deeper = loading.partition_point(|point| point.0 < depth);
+        match (deeper.checked_sub(1).and_then(|below| loading.get(below)), loading.get(deeper)) {
+            (_, None) => loading.push((depth, force)),
+            (Some(below), Some(above)) => {
+                let part = (depth - below.0) / (above.0 - below.0);
+                has_unloading |= force < UNLOADED * (below.1 + part * (above.1 - below.1));
+            }
+            (None, Some(_)) => {}
+        }
+    }
+    if !has_unloading {
+        return points;
+    }
+    // where an unloading begins, creep makes the contact deeper while its force falls
+    let mut largest = 0.0;
+    loading.retain(|(_, force)| {
+        let is_larger = *force > largest;
+        largest = force.max(largest);
+        is_larger
+    });
+    loading
 }
 
 /// A file that is no measurement.
@@ -133,12 +188,14 @@ fn parse(text: &str, path: &Path) -> Result<Measured, MeasuredError> {
     if matches!(first.quantity, Quantity::Restitution | Quantity::Force) {
         points.iter_mut().for_each(|(one, other)| std::mem::swap(one, other));
     }
-    points.sort_by(|one, other| one.0.total_cmp(&other.0));
     let kind = match first.quantity {
         Quantity::Speed | Quantity::Restitution => Kind::Restitution,
         Quantity::Depth | Quantity::Force => Kind::Force,
     };
-    Ok(Measured { kind, points })
+    let count = points.len();
+    let mut points = if kind == Kind::Force { first_loading(points) } else { points };
+    points.sort_by(|one, other| one.0.total_cmp(&other.0));
+    Ok(Measured { kind, unloaded: count - points.len(), points })
 }
 
 /// The number of the line of a record that was read from this `start` on: blank lines and comments may precede it.
@@ -265,6 +322,32 @@ mod tests {
             parsed("indentation_m,force_N\n1e-6,2\n").expect("as `brinell curve` writes it").points,
             [(1e-6, 2.0)]
         );
+    }
+
+    /// A ball of tungsten carbide on steel, every 20th point of a machine's record (see experiment/README.md): unloadings were
+    /// once fitted as a first loading.
+    #[test]
+    fn unloadings_of_a_record_are_left_out_and_counted() {
+        let measured = read(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/experiment/indentation_record.csv")));
+        let measured = measured.expect("a measurement");
+        assert!(measured.unloaded > 20 && measured.points.len() > 10, "{measured:?}");
+        assert!(measured.points.is_sorted_by(|one, other| one.0 < other.0 && one.1 < other.1), "{measured:?}");
+        assert!(measured.left_out().is_some_and(|remark| remark.contains("unloadings")));
+    }
+
+    #[test]
+    fn a_first_loading_in_any_order_and_of_several_specimens_is_kept() {
+        for text in [
+            "depth [um],force\n1,2\n2,5\n3,9\n",
+            "depth [um],force\n3,9\n2,5\n1,2\n",
+            "depth [um],force\n2,5\n1,2\n3,9\n",
+            "depth [um],force\n1,2\n2,5\n3,9\n1,2.1\n2,4.8\n3,8.9\n",
+        ] {
+            let measured = parsed(text).expect(text);
+            assert_eq!((measured.unloaded, measured.left_out()), (0, None), "{text}");
+        }
+        let unloaded = parsed("depth [um],force\n1,2\n2,5\n3,9\n2.5,4\n2.9,8\n4,14\n").expect("a record");
+        assert_eq!((unloaded.unloaded, unloaded.points.len()), (2, 4));
     }
 
     #[test]

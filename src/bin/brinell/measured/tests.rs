@@ -19,7 +19,7 @@ fn steel(strength: f64, more: &str) -> Scene {
 
 /// Values by the law of `scene` at these arguments, with an error for each.
 fn computed(scene: &Scene, kind: Kind, arguments: &[f64], error: impl Fn(usize) -> f64) -> Measured {
-    let mut measured = Measured { kind, points: Vec::new() };
+    let mut measured = Measured { kind, points: Vec::new(), unloaded: 0 };
     let flow = Flow::of(scene).expect("a law that yields");
     for (index, at) in arguments.iter().enumerate() {
         let value = measured.by(scene, &flow, *at).expect("within range");
@@ -49,7 +49,10 @@ fn a_fit_finds_the_strength_that_made_the_rebounds_wherever_it_starts() {
             close(estimate.value, strength, 1e-6);
             let (low, high) = estimate.interval.expect("ten points");
             assert!(low <= strength * (1.0 + 1e-6) && high >= strength * (1.0 - 1e-6) && high / low < 1.0001);
-            assert!(estimate.doubt.is_none() && found.remarks.is_empty(), "{found:?}");
+            // 8 m/s make too wide a dent in the softest target
+            let is_wide = found.remarks.iter().any(|remark| remark.contains("at 1 of 10 points (speeds from 8 m/s"));
+            assert_eq!((found.remarks.len(), is_wide), (usize::from(strength < 100e6), strength < 100e6), "{found:?}");
+            assert!(estimate.doubt.is_none(), "{found:?}");
             assert!(found.rms[1] < 1e-9, "{:?}", found.rms);
         }
     }
@@ -172,4 +175,66 @@ fn what_a_scene_cannot_fit_is_rejected_with_the_reason() {
         let error = fit(&scene, measured, fits).expect_err(words);
         assert!(error.contains(words), "{error}, not {words}");
     }
+}
+
+/// Once the strength, its interval and the rms were those of the negative optimum.
+#[test]
+fn where_a_parameter_would_be_negative_the_others_are_fitted_again_with_zero() {
+    let rigid = steel(300e6, "");
+    let points = vec![(5e-6, 114.40), (10e-6, 257.01), (15e-6, 404.79), (20e-6, 558.65)];
+    let measured = Measured { kind: Kind::Force, points, unloaded: 0 };
+    let both = fit(&rigid, &measured, &[Fit::YieldStrength, Fit::HardeningModulus]).expect("a fit");
+    let alone = fit(&rigid, &measured, &[Fit::YieldStrength]).expect("a fit");
+    close(both.estimates[0].value, 294.3e6, 1e-3);
+    close(both.rms[1], 3.87, 2e-3);
+    assert_eq!((both.estimates[1].value, both.flow.hardening.hardening_modulus), (0.0, 0.0));
+    assert!(both.estimates[1].doubt.as_ref().is_some_and(|doubt| doubt.contains("would be negative")), "{both:?}");
+    close(both.estimates[0].value, alone.estimates[0].value, 1e-6);
+    let [one, other] = [&both, &alone].map(|found| found.estimates[0].interval.expect("four points"));
+    close(one.0, other.0, 1e-5);
+    close(one.1, other.1, 1e-5);
+    // a rate constant, with rebounds that grow weaker than those of a constant strength
+    let rate = steel(300e6, "rate = { model = \"johnson-cook\", c = 0.02, reference_rate = 1.0 }");
+    let soft = computed(&steel(300e6, ""), Kind::Restitution, &SPEEDS, |index| -0.004 * index as f64);
+    let both = fit(&rate, &soft, &[Fit::YieldStrength, Fit::Rate]).expect("a fit");
+    let alone = fit(&steel(300e6, ""), &soft, &[Fit::YieldStrength]).expect("a fit");
+    assert_eq!(both.estimates[1].value, 0.0, "{both:?}");
+    close(both.estimates[0].value, alone.estimates[0].value, 1e-5);
+    close(both.rms[1], alone.rms[1], 1e-6);
+}
+
+#[test]
+fn planted_strength_and_rate_are_found_away_from_the_bound() {
+    let johnson = |strength: f64, c: f64| {
+        steel(strength, &format!("rate = {{ model = \"johnson-cook\", c = {c:?}, reference_rate = 1.0 }}"))
+    };
+    let measured = computed(&johnson(350e6, 0.03), Kind::Restitution, &SPEEDS, exact);
+    let found = fit(&johnson(200e6, 0.0), &measured, &[Fit::YieldStrength, Fit::Rate]).expect("a fit");
+    close(found.estimates[0].value, 350e6, 1e-3);
+    close(found.estimates[1].value, 0.03, 1e-2);
+}
+
+#[test]
+fn points_that_repeat_each_other_give_no_interval() {
+    let normal = steel(300e6, "");
+    let same = computed(&normal, Kind::Restitution, &[1.0, 1.0, 1.0], exact);
+    let found = fit(&normal, &same, &[Fit::YieldStrength]).expect("a fit");
+    let doubt = found.estimates[0].doubt.as_deref().unwrap_or_default();
+    assert!(doubt.contains("without an interval: 1 different points for 1 parameters"), "{found:?}");
+    assert_eq!(found.estimates[0].interval, None);
+}
+
+#[test]
+fn points_too_wide_for_the_law_are_named() {
+    let normal = steel(300e6, "");
+    let says = |kind, at: &[f64]| {
+        let found = fit(&normal, &computed(&normal, kind, at, exact), &[Fit::YieldStrength]).expect("a fit");
+        found.remarks.into_iter().find(|remark| remark.contains("effective radii"))
+    };
+    assert_eq!(says(Kind::Force, &[1e-6, 1e-5, 5e-5]), None);
+    let deep = says(Kind::Force, &[1e-5, 5e-5, 5e-4, 6e-4]).expect("a remark");
+    assert!(deep.contains("at 2 of 4 points (depths from 500 um to 600 um)"), "{deep}");
+    assert_eq!(says(Kind::Restitution, &SPEEDS), None);
+    let fast = says(Kind::Restitution, &[1.0, 2.0, 300.0]).expect("a remark");
+    assert!(fast.contains("at 1 of 3 points (speeds from 300 m/s"), "{fast}");
 }

@@ -10,10 +10,11 @@ use super::{PredictError, inverse, page, rebound};
 use crate::columns::Columns;
 use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
-use crate::layout::paragraph;
+use crate::layout::{self, paragraph};
 use crate::numbers::quantity;
-use crate::scene::Scene;
+use crate::scene::{Scene, plausible};
 use crate::units;
+use crate::validity;
 use crate::wrong_call::WrongCall;
 use brinell::contact::impact::Impact;
 use serde_json::json;
@@ -82,6 +83,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let axes = arguments.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>();
     let axes = axes.map_err(WrongCall::of)?;
     let scene = Scene::read_aloud(&arguments.scene)?;
+    implausible(&scene, arguments, &axes).iter().for_each(|doubt| layout::warn(doubt));
     let impact = impact(&scene, arguments).map_err(WrongCall::of)?;
     let setting = arguments.setting(&scene, &axes)?;
     // the strength is that of the normal impact
@@ -103,6 +105,10 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     if let Some(measured) = arguments.restitution {
         let goal = rebound::measured(measured).map_err(WrongCall::of)?;
         let rebounds = rebound::explain(&choices, &impact, goal)?;
+        for (choice, rebound) in choices.iter().zip(&rebounds) {
+            let [speeds, strengths] = rebound.numbers();
+            question.doubt(choice, &speeds, &strengths);
+        }
         match as_json {
             true => println!("{}", rebound::as_json(&rebounds, &impact, goal)),
             false => print!("{}", rebound::text(&rebounds, &impact, goal)),
@@ -137,6 +143,15 @@ fn impact(scene: &Scene, arguments: &Arguments) -> Result<Impact, PredictError> 
     let impact = Impact { mass, speed };
     super::check_energy(&impact)?;
     Ok(impact)
+}
+
+/// The doubts about numbers of the command line: a speed, a dent, and the ends of ranges.
+fn implausible(scene: &Scene, arguments: &Arguments, axes: &[Axis]) -> Vec<String> {
+    let speed = arguments.speed.and_then(|speed| plausible::of_quantity("speed", speed));
+    let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::INFINITY);
+    let dent = arguments.dent.and_then(|dent| plausible::of_depth("dent", dent, radius));
+    let range = |axis: &Axis| [axis.from, axis.to].iter().find_map(|end| plausible::of_quantity(axis.name, *end));
+    speed.into_iter().chain(dent).chain(axes.iter().filter_map(range)).collect()
 }
 
 /// An impossible quantity or range is a wrong call. A law that can't be evaluated is not.
@@ -175,12 +190,14 @@ impl Question<'_> {
             Ok(axes) => {
                 let map = Map::of(scene, choices, impact, axes).map_err(failed)?;
                 let page = || page::of_map(scene, choices, impact, &map);
+                map.limits.tell();
                 self.written((output, format), &|| map.columns(), &|| map.svg(), &page, &|| map.text())
             }
             Err(axes) if axes.len() == 1 => {
                 let axis = axes.into_iter().next().expect("one");
                 let sweep = Sweep::of(scene, choices, impact, axis).map_err(failed)?;
                 let page = || page::of_sweep(scene, choices, &sweep);
+                sweep.limits.tell();
                 self.written((output, format), &|| sweep.columns(), &|| sweep.svg(), &page, &|| sweep.text())
             }
             Err(axes) => return Err(WrongCall(format!("--sweep is given {} times: at most two", axes.len())).into()),
@@ -217,6 +234,7 @@ impl Question<'_> {
         };
         let sweep = oblique::Sweep::of(scene, &choices, asked, axis).map_err(failed)?;
         let page = || page::of_oblique(scene, asked, &sweep);
+        sweep.limits().tell();
         let text = self.written((output, format), &|| sweep.columns(), &|| sweep.svg(), &page, &|| sweep.text());
         Ok(deliver(&text, output)?)
     }
@@ -242,6 +260,22 @@ impl Question<'_> {
         }
     }
 
+    /// Warns about answers of an inverse prediction that are outside the validity of the law.
+    fn doubt(&self, choice: &Choice, speeds: &[f64], strengths: &[f64]) {
+        let Question { scene, impact, .. } = *self;
+        let at = |speed: &f64| Some((choice.clone(), Impact { speed: *speed, ..impact }, quantity(*speed, "m/s")));
+        let with = |strength: &f64| {
+            let model = choice.model.with_yield_strength(*strength)?;
+            Some((Choice { model, ..choice.clone() }, impact, quantity(*strength, "Pa")))
+        };
+        for (choice, impact, answer) in speeds.iter().filter_map(at).chain(strengths.iter().filter_map(with)) {
+            let Ok(prediction) = super::one(&choice, &impact) else { continue };
+            for limit in super::beyond(scene, &choice, &impact, &prediction) {
+                layout::warn(&format!("{}, {answer}: {}", choice.laws, validity::words(limit)));
+            }
+        }
+    }
+
     /// Writes force, indentation and speed over time.
     fn write_history(&self, path: &Path, format: &str) -> Result<(), Box<dyn Error>> {
         let history = TimeHistory::of(self.choices, &self.impact)?;
@@ -260,6 +294,7 @@ impl Question<'_> {
         for choice in choices {
             let speed = inverse::speed_of_dent(choice, impact.mass, dent)?;
             let strength = inverse::strength_of_dent(choice, &impact, dent)?;
+            self.doubt(choice, &[speed], &[strength]);
             if as_json {
                 answers.push(json!({ "law": choice.laws, "speed": speed, "yield_strength": strength }));
                 continue;

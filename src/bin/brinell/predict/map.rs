@@ -2,12 +2,13 @@
 
 use super::axis::{Axis, varied};
 use super::sweep::{GRID_COLUMNS, SHOWN, grid};
-use super::{PredictError, one, quantities};
+use super::{PredictError, beyond, one, quantities};
 use crate::columns::{Column, Columns, some};
 use crate::laws::Choice;
 use crate::numbers::{cell, prefixed};
 use crate::plot::{HeatMap, Quantity, heat_maps};
 use crate::scene::Scene;
+use crate::validity;
 use brinell::contact::impact::{Impact, Prediction};
 
 /// Number of values of each quantity.
@@ -23,6 +24,7 @@ pub struct Map {
     values: [Vec<f64>; 2],
     /// Each law with its impacts, as rows of columns.
     pub laws: Vec<(String, Vec<Vec<Prediction>>)>,
+    pub limits: validity::SweepLimits,
 }
 
 impl Map {
@@ -35,17 +37,22 @@ impl Map {
             return Err(PredictError::Sweep(format!("{}: a map needs two different quantities", axes[0].name)));
         }
         let values = axes.each_ref().map(|axis| axis.values(VALUES));
-        let point = |choice: &Choice, first: f64, second: f64| {
+        let names = axes.iter().map(|axis| (axis.name, axis.unit)).collect();
+        let mut limits = validity::SweepLimits { names, impacts: Vec::new() };
+        let mut point = |choice: &Choice, first: f64, second: f64| -> Result<Prediction, PredictError> {
             let (choice, impact) = varied(scene, choice, impact, &[(&axes[0], first), (&axes[1], second)])?;
-            one(&choice, &impact)
+            let prediction = one(&choice, &impact)?;
+            limits.impacts.push((vec![first, second], beyond(scene, &choice, &impact, &prediction)));
+            Ok(prediction)
         };
-        let row = |choice: &Choice, second: f64| values[0].iter().map(|first| point(choice, *first, second)).collect();
+        let mut row =
+            |choice: &Choice, second: f64| values[0].iter().map(|first| point(choice, *first, second)).collect();
         let law = |choice: &Choice| {
             let rows = values[1].iter().map(|second| row(choice, *second)).collect::<Result<_, PredictError>>()?;
             Ok((choice.laws.clone(), rows))
         };
         let laws = choices.iter().map(law).collect::<Result<_, PredictError>>()?;
-        Ok(Map { axes, values, laws })
+        Ok(Map { axes, values, laws, limits })
     }
 
     /// Number of impacts for each law.
@@ -76,7 +83,7 @@ impl Map {
             laws.push((law.clone(), lines));
         }
         columns.push(Column::new("regime", ""));
-        Columns { columns, laws }
+        Columns { columns, laws }.with_valid(self.limits.valid())
     }
 
     /// Short tables for a terminal.

@@ -19,6 +19,7 @@ use crate::numbers::{exact, quantity, significant};
 use crate::pairing;
 use crate::scene::Scene;
 use crate::table;
+use crate::validity::{self, Beyond};
 use brinell::contact::Loading;
 use brinell::contact::Regime;
 use brinell::contact::impact::{Impact, Prediction};
@@ -132,6 +133,12 @@ pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
         significant(said.restitution, 4)
     );
     Ok(layout::paragraph("  law: ", &text))
+}
+
+/// The limits of validity that this impact exceeds on the first contact of `scene`.
+fn beyond(scene: &Scene, choice: &Choice, impact: &Impact, prediction: &Prediction) -> Vec<Beyond> {
+    let density = scene.contacts[0].density;
+    validity::beyond(&choice.model.pair(), density, prediction.max_contact_radius, impact.speed)
 }
 
 /// The quantities of a prediction: name, value, unit.

@@ -35,6 +35,9 @@ struct Page<'a> {
     lines: Vec<&'a str>,
     pictures: Vec<String>,
     columns: Columns,
+    /// Parameters of the scene that the impacts have with other values; `with` says them.
+    replaced: Vec<&'static str>,
+    warnings: Vec<String>,
 }
 
 /// The page of a sweep over one quantity.
@@ -50,6 +53,8 @@ pub fn of_sweep(scene: &Scene, choices: &[Choice], sweep: &Sweep) -> String {
         lines: sweep.laws.iter().map(|(law, _)| law.as_str()).collect(),
         pictures: figures(&sweep.panels()),
         columns: sweep.columns(),
+        replaced: vec![sweep.axis.name],
+        warnings: sweep.limits.warnings(),
     }
     .write()
 }
@@ -75,6 +80,8 @@ pub fn of_oblique(scene: &Scene, (impact, setting): (Impact, Setting), sweep: &o
         lines: sweep.laws.iter().map(|(law, _)| law.as_str()).collect(),
         pictures: figures(&sweep.panels()),
         columns: sweep.columns(),
+        replaced: vec![axis.name, oblique::FRICTION],
+        warnings: sweep.limits().warnings(),
     }
     .write()
 }
@@ -94,6 +101,8 @@ pub fn of_map(scene: &Scene, choices: &[Choice], impact: Impact, map: &Map) -> S
         lines: Vec::new(),
         pictures: vec![map.svg()],
         columns: map.columns(),
+        replaced: vec![first.name, second.name],
+        warnings: map.limits.warnings(),
     }
     .write()
 }
@@ -109,6 +118,8 @@ pub fn of_time_history(scene: &Scene, choices: &[Choice], impact: Impact, histor
         lines: history.laws().collect(),
         pictures: figures(&history.panels()),
         columns: history.columns(),
+        replaced: Vec::new(),
+        warnings: Vec::new(),
     }
     .write()
 }
@@ -177,12 +188,13 @@ impl Page<'_> {
             "<p>{begin} meets {target} with {}. The impacts are {}.</p>\n<table class=\"scene\">",
             self.with, self.method
         )?;
-        for (name, value, unit) in
-            bodies::numbers(self.scene, 0).into_iter().filter(|(name, ..)| *name != "initial_gap")
-        {
+        let is_elsewhere =
+            |name: &str| ["initial_gap", "effective_mass"].contains(&name) || self.replaced.contains(&name);
+        for (name, value, unit) in bodies::numbers(self.scene, 0).into_iter().filter(|(name, ..)| !is_elsewhere(name)) {
             writeln!(page, "<tr><th>{name}</th><td>{} {unit}</td></tr>", digits(value))?;
         }
-        writeln!(page, "</table>")
+        writeln!(page, "</table>")?;
+        self.warnings.iter().try_for_each(|warning| writeln!(page, "<p>Warning: {}</p>", escape(warning)))
     }
 
     fn legend(&self, page: &mut String) -> std::fmt::Result {

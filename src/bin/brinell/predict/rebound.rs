@@ -49,6 +49,13 @@ pub struct Rebound {
     strengths: Search,
 }
 
+impl Rebound {
+    /// The speeds [m/s] and the yield strengths [Pa] that explain the rebound, with the ends of ranges.
+    pub fn numbers(&self) -> [Vec<f64>; 2] {
+        [&self.speeds, &self.strengths].map(Search::numbers)
+    }
+}
+
 /// Checks that a restitution is possible.
 ///
 /// # Errors
@@ -175,6 +182,16 @@ fn border((mut outside, mut inside): (f64, f64), holds: impl Fn(f64) -> bool) ->
 impl Search {
     fn is_empty(&self) -> bool {
         !self.solutions.iter().any(|solution| !matches!(solution, Solution::Jump(_)))
+    }
+
+    /// The numbers that explain the restitution, with the ends of ranges.
+    fn numbers(&self) -> Vec<f64> {
+        let of = |solution: &Solution| match *solution {
+            Solution::At(x) => vec![x],
+            Solution::Between(from, to) => vec![from, to],
+            Solution::Jump(_) => Vec::new(),
+        };
+        self.solutions.iter().flat_map(of).collect()
     }
 
     fn nothing(&self, what: &str, unit: &'static str) -> String {

@@ -1,13 +1,14 @@
 //! `brinell predict --sweep`: predictions over a range of one quantity, as a table and as a picture.
 
 use super::axis::{Axis, varied};
-use super::{PredictError, one, quantities};
+use super::{PredictError, beyond, one, quantities};
 use crate::columns::{Column, Columns, some};
 use crate::laws::Choice;
 use crate::layout;
 use crate::numbers::{cell, prefixed};
 use crate::plot::{Picture, Series, side_by_side};
 use crate::scene::Scene;
+use crate::validity;
 use brinell::contact::impact::{Impact, Prediction};
 
 /// Number of values in a sweep that goes to a file.
@@ -40,6 +41,7 @@ pub struct Sweep {
     pub impact: Impact,
     /// Each law with its impacts, in the order of the values.
     pub laws: Vec<(String, Vec<Point>)>,
+    pub limits: validity::SweepLimits,
 }
 
 /// A value of the quantity and its impact.
@@ -52,16 +54,19 @@ impl Sweep {
     /// [`PredictError`] for the first value that is impossible, or beyond the range of a law.
     pub fn of(scene: &Scene, choices: &[Choice], impact: Impact, axis: Axis) -> Result<Sweep, PredictError> {
         let values = axis.values(VALUES);
-        let point = |choice: &Choice, value: f64| -> Result<Point, PredictError> {
+        let mut limits = validity::SweepLimits { names: vec![(axis.name, axis.unit)], impacts: Vec::new() };
+        let mut point = |choice: &Choice, value: f64| -> Result<Point, PredictError> {
             let (choice, impact) = varied(scene, choice, impact, &[(&axis, value)])?;
-            Ok((value, one(&choice, &impact)?))
+            let prediction = one(&choice, &impact)?;
+            limits.impacts.push((vec![value], beyond(scene, &choice, &impact, &prediction)));
+            Ok((value, prediction))
         };
-        let points = |choice: &Choice| {
+        let mut points = |choice: &Choice| {
             values.iter().map(|value| point(choice, *value)).collect::<Result<Vec<_>, PredictError>>()
         };
         let law = |choice: &Choice| Ok((choice.laws.clone(), points(choice)?));
         let laws = choices.iter().map(law).collect::<Result<_, PredictError>>()?;
-        Ok(Sweep { axis, impact, laws })
+        Ok(Sweep { axis, impact, laws, limits })
     }
 
     /// The sweep as columns.
@@ -78,7 +83,7 @@ impl Sweep {
             [*value].into_iter().chain(numbers).chain([f64::from(prediction.regime as i32)]).collect()
         };
         let laws = self.laws.iter().map(|(law, points)| (law.clone(), points.iter().map(row).collect()));
-        Columns { columns, laws: laws.collect() }
+        Columns { columns, laws: laws.collect() }.with_valid(self.limits.valid())
     }
 
     /// A short table for a terminal. One law: a row for each value. Several laws: a row for each law.

@@ -9,7 +9,6 @@ use crate::scene::{InImpact, Scene};
 use crate::validity;
 use brinell::contact::Regime;
 use brinell::contact::impact::{Impact, Prediction};
-use brinell::contact::validity::LARGEST_RADIUS_RATIO;
 use serde_json::{Value, json};
 
 /// Predictions of one impact with several laws.
@@ -61,10 +60,7 @@ impl Answer<'_> {
         let wide: Vec<_> = wide.map(|(choice, _)| choice.laws.as_str()).collect();
         let mut warnings = Vec::new();
         if !wide.is_empty() {
-            warnings.push(format!(
-                "the contact radius exceeds {LARGEST_RADIUS_RATIO} effective radii, where no law is valid, with {}",
-                wide.join(", ")
-            ));
+            warnings.push(validity::too_wide(&wide));
         }
         // the speed is the same for every law
         let fast = self.laws().find_map(|(choice, prediction)| {

@@ -19,7 +19,7 @@ mod losses;
 mod mistakes;
 mod names;
 mod numbers;
-mod plausible;
+pub mod plausible;
 mod power_law;
 mod rate;
 pub mod softer;
@@ -145,7 +145,7 @@ impl Scene {
         let scene = Scene::read(path)?;
         let file = file::File::read(&scene.text).map_err(|mistake| mistake.in_file(&scene.text, path))?;
         for doubt in plausible::doubts(&file) {
-            crate::layout::tell(&format!("brinell: warning: {}", doubt.in_file(&scene.text, path)));
+            crate::layout::warn(&doubt.in_file(&scene.text, path).to_string());
         }
         Ok(scene)
     }

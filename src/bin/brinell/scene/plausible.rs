@@ -111,7 +111,11 @@ fn of_power_law(body: &str, law: Option<&Spanned<PowerLawTable>>) -> Option<Mist
 impl Expected {
     /// The doubt about the value of `key`, if it is implausible.
     fn doubt(&self, key: &str, value: &Spanned<f64>) -> Option<Mistake> {
-        let number = *value.get_ref();
+        self.question(key, *value.get_ref()).map(|message| Mistake(value.span(), message))
+    }
+
+    /// The same in words.
+    fn question(&self, key: &str, number: f64) -> Option<String> {
         let size = number.abs();
         // numbers that are not allowed are rejected elsewhere
         if !size.is_finite() || size == 0.0 || self.range.contains(&size) {
@@ -119,8 +123,7 @@ impl Expected {
         }
         let meant = self.factors.iter().map(|factor| number * factor).find(|meant| self.range.contains(&meant.abs()));
         let question = meant.map_or(String::new(), |meant| format!("; did you mean {}?", plain(meant)));
-        let message = format!("{key} = {} {}{question} ({})", plain(number), self.unit, self.why);
-        Some(Mistake(value.span(), message))
+        Some(format!("{key} = {} {}{question} ({})", plain(number), self.unit, self.why))
     }
 }
 
@@ -143,4 +146,29 @@ fn too_strong(owner: &str, strength: &Spanned<f64>, modulus: &Spanned<f64>) -> O
         plain(number)
     );
     Some(Mistake(strength.span(), message))
+}
+
+/// Up to the fastest projectiles; the slowest contacts creep.
+const SPEED: Expected =
+    Expected { range: 0.0..=3e3, unit: "m/s", factors: &[1e-3], why: "bodies meet at up to 3 km/s" };
+
+/// The doubt about a `value` on the command line of the quantity `name`: a speed, or a parameter of the scene.
+pub fn of_quantity(name: &str, value: f64) -> Option<String> {
+    let expected = match name.rsplit('.').next()? {
+        // a wide target is nearly flat
+        "radius" if name.starts_with("target") && value.abs() > *RADIUS.range.end() => return None,
+        "radius" => &RADIUS,
+        "youngs_modulus" => &MODULUS,
+        "yield_strength" => &STRENGTH,
+        "density" => &DENSITY,
+        "speed" => &SPEED,
+        _ => return None,
+    };
+    expected.question(name, value)
+}
+
+/// The doubt about the depth [m] of a dent by an impactor with this `radius` [m]; `name` is its name on the command line.
+pub fn of_depth(name: &str, depth: f64, radius: f64) -> Option<String> {
+    let why = "an atom has 0.1 nm, and no dent is deeper than the impactor's radius";
+    Expected { range: 1e-10..=radius, unit: "m", factors: &[1e-3, 1e-6], why }.question(name, depth)
 }

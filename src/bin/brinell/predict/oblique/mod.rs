@@ -14,6 +14,7 @@ use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::scene::Scene;
 use crate::table;
+use crate::validity::Beyond;
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::tangential::impact::{Ball, Rebound, predict};
@@ -43,13 +44,15 @@ pub struct Setting {
 }
 
 /// An oblique impact with its rebound.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Outcome {
     pub setting: Setting,
     /// Coefficient, and ratio of the stiffnesses.
     pub friction: Friction,
     pub before: Ball,
     pub rebound: Rebound,
+    /// Limits of validity that the normal impact exceeds.
+    pub beyond: Vec<Beyond>,
 }
 
 impl Setting {
@@ -162,7 +165,10 @@ pub fn one(
     };
     let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass, speed };
     let rebound = predict(&model, &before).ok_or_else(beyond)?;
-    Ok(Outcome { setting, friction: model.friction, before, rebound })
+    let normal = Impact { mass, speed: before.normal };
+    let prediction = choice.model.predict(&normal);
+    let beyond = prediction.map_or(Vec::new(), |prediction| super::beyond(scene, &choice, &normal, &prediction));
+    Ok(Outcome { setting, friction: model.friction, before, rebound, beyond })
 }
 
 /// The law of `choice` with friction, for these values of parameters of the scene's bodies.

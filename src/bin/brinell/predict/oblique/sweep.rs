@@ -6,6 +6,7 @@ use crate::laws::Choice;
 use crate::predict::PredictError;
 use crate::predict::axis::Axis;
 use crate::scene::Scene;
+use crate::validity;
 use brinell::contact::impact::Impact;
 
 /// Number of values in a sweep without a number of its own.
@@ -51,7 +52,14 @@ impl Sweep {
             [*value].into_iter().chain(outcome.quantities().into_iter().map(|(_, number, _)| number)).collect()
         };
         let laws = self.laws.iter().map(|(law, points)| (law.clone(), points.iter().map(row).collect()));
-        Columns { columns, laws: laws.collect() }
+        Columns { columns, laws: laws.collect() }.with_valid(self.limits().valid())
+    }
+
+    /// The limits of validity that the impacts exceed.
+    pub fn limits(&self) -> validity::SweepLimits {
+        let impacts = self.laws.iter().flat_map(|(_, points)| points);
+        let impacts = impacts.map(|(value, outcome)| (vec![*value], outcome.beyond.clone())).collect();
+        validity::SweepLimits { names: vec![(self.axis.name, self.axis.unit)], impacts }
     }
 
     /// A short table for a terminal.

@@ -17,7 +17,6 @@ const SIGNS: &str = "A positive spin moves the contact point of the ball as a po
 
 /// One oblique impact with several laws.
 pub struct Answer<'a> {
-    scene: &'a Scene,
     choices: &'a [Choice],
     impact: Impact,
     outcomes: Vec<Outcome>,
@@ -29,13 +28,13 @@ impl Answer<'_> {
     /// # Errors
     /// [`PredictError`]
     pub fn of<'a>(
-        scene: &'a Scene,
+        scene: &Scene,
         choices: &'a [Choice],
         (impact, setting): (Impact, Setting),
     ) -> Result<Answer<'a>, PredictError> {
         let outcome = |choice| one(scene, choice, (impact, setting), &[]);
         let outcomes = choices.iter().map(outcome).collect::<Result<_, _>>()?;
-        Ok(Answer { scene, choices, impact, outcomes })
+        Ok(Answer { choices, impact, outcomes })
     }
 
     /// Text for people.
@@ -115,10 +114,7 @@ impl Answer<'_> {
     fn warnings(&self) -> Vec<String> {
         let mut all: Vec<String> = Vec::new();
         for (choice, outcome) in self.choices.iter().zip(&self.outcomes) {
-            let speed = outcome.before.normal;
-            let Some(prediction) = choice.model.predict(&Impact { mass: outcome.before.mass, speed }) else { continue };
-            let density = self.scene.contacts[0].density;
-            for warning in validity::warnings(&choice.model.pair(), density, &prediction, speed) {
+            for warning in outcome.beyond.iter().copied().map(validity::words) {
                 let warning = if self.choices.len() > 1 { format!("{}: {warning}", choice.laws) } else { warning };
                 if !all.contains(&warning) {
                     all.push(warning);
