@@ -1,7 +1,7 @@
 //! `brinell merge`: joins FMUs of one scene for different platforms.
 
 use crate::files::{FileError, write_whole};
-use crate::importer::{Bound, Description, ImportError};
+use crate::importer::{self, Bound, Description, ImportError};
 use crate::package::{self, ExportError};
 use crate::platform::Platform;
 use serde_json::json;
@@ -10,7 +10,6 @@ use std::collections::btree_map::Entry;
 use std::fs;
 use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
-use zip::ZipArchive;
 
 const DESCRIPTION: &str = "modelDescription.xml";
 const BINARIES: &str = "binaries/";
@@ -24,8 +23,6 @@ pub enum MergeError {
     Export(#[from] ExportError),
     #[error("{path}: {reason}", path = path.display())]
     NoFmu { path: PathBuf, reason: ImportError },
-    #[error("{path}: it has two files {name}", path = path.display())]
-    Twice { path: PathBuf, name: String },
     #[error(
         "{} and {} are not of one scene: their GUIDs are {} and {}",
         one.path.display(), other.path.display(), one.guid, other.guid
@@ -70,7 +67,7 @@ impl Fmu {
     fn read(path: &Path) -> Result<Fmu, MergeError> {
         let refused = |reason: ImportError| MergeError::NoFmu { path: path.into(), reason };
         let bytes = fs::read(path).map_err(FileError::at(path))?;
-        let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| refused(error.into()))?;
+        let mut archive = importer::open(Cursor::new(bytes)).map_err(refused)?;
         let mut files = BTreeMap::new();
         let mut bound = Bound::of(&archive).map_err(refused)?;
         for index in 0..archive.len() {
@@ -81,9 +78,7 @@ impl Fmu {
             let name = file.name().map_err(|error| refused(error.into()))?.into_owned();
             let mut bytes = Vec::new();
             bound.copy(&mut file, &mut bytes).map_err(refused)?;
-            if files.insert(name.clone(), bytes).is_some() {
-                return Err(MergeError::Twice { path: path.into(), name });
-            }
+            files.insert(name, bytes);
         }
         let missing = || ImportError::Part { name: DESCRIPTION, source: io::ErrorKind::NotFound.into() };
         let text = files.get(DESCRIPTION).ok_or_else(missing).map_err(refused)?;

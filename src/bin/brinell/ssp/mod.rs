@@ -50,6 +50,9 @@ pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>
     })?;
     let path = output.map_or_else(|| format!("{}.ssp", scene.name).into(), Path::to_path_buf);
     check_goal(&path)?;
+    for warning in &wiring.warnings {
+        crate::layout::tell(&format!("brinell: warning: {warning}"));
+    }
     crate::layout::tell(&format!("building {} ...", path.display()));
     let (unit, exported) = package::build(&plan, way, &platforms)?;
     let files = Files::of(&plan);
