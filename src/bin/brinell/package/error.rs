@@ -51,6 +51,8 @@ pub enum FolderError {
     None(&'static str),
     #[error("units are not built in {}, which {reason}: BRINELL_CACHE names another folder", folder.display())]
     NotOurs { folder: PathBuf, reason: &'static str },
+    #[error("the cache {}, where units are built, can't be used ({source}): BRINELL_CACHE names another folder", folder.display())]
+    Unusable { folder: PathBuf, source: io::Error },
 }
 
 /// How to install a C linker on an operating system.

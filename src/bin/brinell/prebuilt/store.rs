@@ -18,7 +18,9 @@ use std::sync::LazyLock;
 /// An error of reading a prebuilt library.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    #[error("there are no prebuilt libraries installed with this program: BRINELL_PREBUILT names a folder with them")]
+    #[error(
+        "there are no prebuilt libraries installed with this program: the wheel of a release has them, `brinell prebuild` makes them where there is a compiler, and BRINELL_PREBUILT names their folder"
+    )]
     NoFolder,
     #[error("there are no prebuilt libraries in {folder}: BRINELL_PREBUILT names the folder where they are", folder = folder.display())]
     Empty { folder: PathBuf },
