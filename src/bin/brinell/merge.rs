@@ -2,6 +2,7 @@
 
 use crate::files::{FileError, write_whole};
 use crate::importer::{self, Bound, Description, ImportError};
+use crate::layout::shown;
 use crate::package::{self, ExportError};
 use crate::platform::Platform;
 use serde_json::json;
@@ -21,16 +22,16 @@ pub enum MergeError {
     File(#[from] FileError),
     #[error("{0}")]
     Export(#[from] ExportError),
-    #[error("{path}: {reason}", path = path.display())]
+    #[error("{path}: {reason}", path = shown(path))]
     NoFmu { path: PathBuf, reason: ImportError },
     #[error(
         "{} and {} are not of one scene: their GUIDs are {} and {}",
-        one.path.display(), other.path.display(), one.guid, other.guid
+        shown(&one.path), shown(&other.path), one.guid, other.guid
     )]
     Guid { one: Box<Fmu>, other: Box<Fmu> },
-    #[error("{} and {} both have files for {platform}, which differ", one.display(), other.display())]
+    #[error("{} and {} both have files for {platform}, which differ", shown(one), shown(other))]
     Platform { one: PathBuf, other: PathBuf, platform: String },
-    #[error("{} and {} differ in {name}", one.display(), other.display())]
+    #[error("{} and {} differ in {name}", shown(one), shown(other))]
     Part { one: PathBuf, other: PathBuf, name: String },
 }
 
@@ -58,7 +59,7 @@ pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeE
     if as_json {
         println!("{}", json!({ "fmu": output.to_string_lossy(), "size": archive.len(), "platforms": platforms }));
     } else {
-        println!("{}\n  {} bytes, for {}", output.display(), archive.len(), platforms.join(", "));
+        println!("{}\n  {} bytes, for {}", shown(output), archive.len(), platforms.join(", "));
     }
     Ok(())
 }

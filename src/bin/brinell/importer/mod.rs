@@ -79,6 +79,15 @@ pub enum ImportError {
 /// The scene of an FMU that this program has made.
 const SCENE: &str = "resources/scene.toml";
 
+/// The scene of the FMU at `path`, if this program has made it.
+pub fn scene_in(path: &Path) -> Option<String> {
+    let mut archive = bounded::open(fs::File::open(path).ok()?).ok()?;
+    let mut bound = Bound::of(&archive).ok()?;
+    let mut text = Vec::new();
+    bound.copy(&mut archive.by_name(SCENE).ok()?, &mut text).ok()?;
+    String::from_utf8(text).ok()
+}
+
 /// An error with its causes.
 fn chain(error: &dyn std::error::Error) -> String {
     match error.source() {

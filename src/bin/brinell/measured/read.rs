@@ -1,6 +1,6 @@
 //! Reading a measurement: a CSV file with two columns.
 
-use crate::layout::shortened;
+use crate::layout::{shortened, shown};
 use crate::nearest::one_of;
 use crate::units;
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -29,13 +29,13 @@ pub struct Measured {
 /// A file that is no measurement.
 #[derive(Debug, thiserror::Error)]
 pub enum MeasuredError {
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Unreadable { path: PathBuf, source: std::io::Error },
-    #[error("{}: {message}; expected {EXPECTED}", path.display())]
+    #[error("{}: {message}; expected {EXPECTED}", shown(path))]
     Empty { path: PathBuf, message: &'static str },
-    #[error("{}:{line}: {message}", path.display())]
+    #[error("{}:{line}: {message}", shown(path))]
     Line { path: PathBuf, line: u64, message: String },
-    #[error("{}:{line}, column {column}: {message}", path.display())]
+    #[error("{}:{line}, column {column}: {message}", shown(path))]
     Cell { path: PathBuf, line: u64, column: usize, message: String },
 }
 

@@ -2,7 +2,7 @@
 
 use super::{COMPONENT, of_kind};
 use crate::importer::{self, Archive, Base, ImportError, VariableUnit};
-use crate::layout::shortened;
+use crate::layout::{shortened, shown};
 use crate::nearest::nearest_first;
 use crate::numbers::exact;
 use crate::plan::Plan;
@@ -14,15 +14,15 @@ use std::{fs, io};
 /// A connection that is not possible.
 #[derive(Debug, thiserror::Error)]
 pub enum WiringError {
-    #[error("{path}: {source}", path = path.display())]
+    #[error("{path}: {source}", path = shown(path))]
     Unreadable { path: PathBuf, source: io::Error },
-    #[error("{path}: {source}", path = path.display())]
+    #[error("{path}: {source}", path = shown(path))]
     Unit { path: PathBuf, source: ImportError },
-    #[error("{path}: its fmiVersion is `{version}`; a system takes FMUs of 2.0 for co-simulation", path = path.display())]
+    #[error("{path}: its fmiVersion is `{version}`; a system takes FMUs of 2.0 for co-simulation", path = shown(path))]
     Version { path: PathBuf, version: String },
-    #[error("{path}: the FMU would be called `{name}`; only letters, digits, `_` and `-` are allowed", path = path.display())]
+    #[error("{path}: the FMU would be called `{name}`; only letters, digits, `_` and `-` are allowed", path = shown(path))]
     Name { path: PathBuf, name: String },
-    #[error("{path}: the system already has an FMU `{name}`; give the file another name", path = path.display())]
+    #[error("{path}: the system already has an FMU `{name}`; give the file another name", path = shown(path))]
     Twice { path: PathBuf, name: String },
     #[error("--connect {0}: write a connection as FMU.OUTPUT=FMU.INPUT, such as contact.mean_force=mass.force")]
     Form(String),

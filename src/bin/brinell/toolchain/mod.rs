@@ -12,6 +12,7 @@ mod scripts;
 mod targets;
 
 use crate::files::{FileError, write_whole};
+use crate::layout::shown;
 use crate::package::{Cache, ExportError, Toolchain};
 use download::Source;
 use package::Package;
@@ -140,7 +141,7 @@ fn unpack(toolchain: &Toolchain, packages: &[Package], archives: &[PathBuf], std
 /// Prints what is available.
 fn tell(toolchain: &Toolchain, wanted: &Wanted, as_json: bool) -> Result<(), ToolchainError> {
     let size = size(&toolchain.folder).map_err(FileError::at(&toolchain.folder))?;
-    let folder = toolchain.folder.display();
+    let folder = shown(&toolchain.folder);
     if as_json {
         let mut object = list(toolchain);
         object["folder"] = json!(toolchain.folder.to_string_lossy());
