@@ -7,6 +7,7 @@ import os
 import shutil
 import threading
 import weakref
+import zipfile
 from ctypes import byref, c_void_p
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,10 @@ class Library:
     there is one."""
 
     def __init__(self, path: Path) -> None:
+        if not zipfile.is_zipfile(path):
+            raise ContactError(
+                f"{path} is not an FMU, which is a zip archive; brinell.export makes the FMU of a scene"
+            )
         try:
             description = fmpy.read_model_description(str(path), validate=False)
         except Exception as error:

@@ -72,7 +72,7 @@ def program() -> Path:
         if path is not None and Path(path).is_file():
             return Path(path)
     raise ProgramError(
-        "the exporter brinell was not found: install the wheel (pip install brinell), build it in "
+        "the exporter brinell was not found: install the wheel of a release, build it in "
         "the repository (cargo build --release), put it on PATH (cargo install --locked --path .), or set "
         "the variable BRINELL to its path"
     )

@@ -96,6 +96,33 @@ fn another_file_that_differs_is_reported() {
     assert_refused(&format!("{MOVED}\nfiles['resources/scene.toml'] += b'#'"), &["differ in resources/scene.toml"]);
 }
 
+/// They would be written to other places than where they are read, in every tool that unpacks the result.
+#[test]
+fn a_name_that_leads_elsewhere_is_refused_and_never_copied() {
+    for name in ["../../../evil.txt", "binaries/win64/../../../evil.txt", "/evil.txt", "resources//evil.txt"] {
+        let (said, left) = merge(&format!("{MOVED}\nfiles['{name}'] = b'evil'"));
+        let said = said.with_status(1);
+        assert!(said.err.contains("b.fmu: ") && said.err.contains(&format!("{name:?}")), "{name}: {said:#?}");
+        assert_eq!(left, ["a.fmu", "b.fmu"], "{name}: something was written");
+    }
+}
+
+/// Python's archives take a name twice; a tool that unpacks them takes the first or the last.
+#[test]
+fn a_file_that_is_there_twice_is_refused_by_merge_and_check() {
+    let folder = empty_folder();
+    let a = folder.path().join("a.fmu");
+    fs::copy(unit::export(&unit::scene("steel_ball")), &a).unwrap();
+    let twice =
+        "import sys, zipfile\nwith zipfile.ZipFile(sys.argv[1], 'a') as archive: archive.writestr('model.png', b'')";
+    output(Command::new("python3").args(["-W", "ignore", "-c", twice]).arg(&a)).with_status(0);
+    for call in [&["merge", "a.fmu", "a.fmu", "-o", "c.fmu"][..], &["check", "a.fmu"]] {
+        let said = run(folder.path(), call).with_status(1);
+        assert!(said.err.contains("a.fmu: two files in it have the same name"), "{said:#?}");
+    }
+    assert_eq!(contents(folder.path()), ["a.fmu"]);
+}
+
 #[test]
 fn a_file_that_is_not_an_fmu_is_reported_by_name() {
     let folder = empty_folder();

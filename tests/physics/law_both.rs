@@ -106,7 +106,8 @@ fn the_force_grows_with_hardening_and_with_poissons_ratio_and_stays_below_the_el
     // the same effective modulus: only the plastic law differs
     let of = |ratio: f64, hardening: f64| {
         let model = on_steel(0.3, hardening);
-        AnyModel { pair: Pair { poissons_ratio: ratio, ..model.pair }, ..model }
+        let youngs_modulus = model.pair.modulus * (1.0 - ratio * ratio);
+        AnyModel { pair: Pair { poissons_ratio: ratio, youngs_modulus, ..model.pair }, ..model }
     };
     for x in logarithmic(1.3, 1000.0, 60) {
         let forces = RATIOS.map(|ratio| HARDENINGS.map(|hardening| relative_force(&of(ratio, hardening), x)));

@@ -107,7 +107,7 @@ fn the_module_finds_the_program_of_its_wheel_without_activation() {
     assert_eq!(Path::new(&found), fs::canonicalize(INSTALLED.programs.join(program)).unwrap());
     let scene = scene("mass_known");
     let law = INSTALLED.python(&format!("import brinell; print(brinell.predict({scene:?}).law)"));
-    assert_eq!(law, "big-alabo/contact-radius");
+    assert_eq!(law, "brinell/brinell");
 }
 
 /// Such an environment has another layout, and its list of files names a wrong place of the program.

@@ -64,12 +64,18 @@ fn numbers(rows: &[&Value], key: &str) -> Vec<f64> {
     rows.iter().map(|row| row[key].as_f64().unwrap_or(f64::NAN)).collect()
 }
 
+/// The scene `mass_known` with another `name`, and with the law of the scene that it is a peer of.
+fn with_the_law_of_the_ball(name: &str) -> String {
+    let text = fs::read_to_string(scene("mass_known")).unwrap().replacen("mass_known", name, 1);
+    text + "\n[law]\nloading = \"big-alabo\"\n"
+}
+
 #[test]
 fn the_same_fmu_as_a_peer_gives_the_same_numbers_bit_for_bit() {
     let own = unit::export(&scene("steel_ball"));
     let named = own.with_file_name("twin.fmu");
     fs::copy(&own, &named).unwrap();
-    let known = unit::export(&scene("mass_known"));
+    let known = unit::export(&unit::write_scene("mass_known", &with_the_law_of_the_ball("mass_known")));
     let (run, _folder, data) = report("steel_ball", &[&named, &known]);
     run.with_status(0);
     for (unit, way) in [("twin", "late force"), ("twin", "leap-frog"), ("mass_known", "mass known")] {
@@ -87,8 +93,7 @@ fn the_same_fmu_as_a_peer_gives_the_same_numbers_bit_for_bit() {
 /// Its mean force applies to the next step.
 #[test]
 fn a_peer_for_the_jacobi_scheme_is_stepped_accordingly() {
-    let text = fs::read_to_string(scene("mass_known")).unwrap().replacen("mass_known", "at_once", 1);
-    let text = text.replacen("[coupling]", "[coupling]\nmaster = \"parallel\"", 1);
+    let text = with_the_law_of_the_ball("at_once").replacen("[coupling]", "[coupling]\nmaster = \"parallel\"", 1);
     let peer = unit::export(&unit::write_scene("at_once", &text));
     let (run, _folder, data) = report("steel_ball", &[&peer]);
     run.with_status(0);

@@ -50,6 +50,96 @@ fn a_scene_is_not_replaced_by_its_fmu() {
     }
 }
 
+/// The name of an FMU is that of the scene, which two scene files may share.
+#[test]
+fn an_fmu_of_another_scene_is_replaced_only_where_it_is_named() {
+    let folder = empty_folder();
+    let text = fs::read_to_string(scene("steel_ball")).unwrap();
+    let write = |name: &str, speed: &str| {
+        fs::write(folder.path().join(name), text.replace("speed = 1.0", &format!("speed = {speed}"))).unwrap();
+    };
+    let fmu = folder.path().join("steel_ball.fmu");
+    let export = |arguments: &[&str], status| run(folder.path(), [&["export"], arguments].concat()).with_status(status);
+    assert!(text.contains("speed = 1.0"));
+    write("one.toml", "2.0");
+    write("two.toml", "3.0");
+    export(&["one.toml"], 0);
+    export(&["one.toml"], 0);
+    // a new text of the same scene
+    write("one.toml", "2.5");
+    export(&["one.toml"], 0);
+    let before = fs::read(&fmu).unwrap();
+    let refused = export(&["two.toml"], 1).err;
+    assert!(refused.starts_with("brinell: steel_ball.fmu: this is the FMU of ./one.toml"), "{refused}");
+    assert!(refused.contains("-o FILE"), "{refused}");
+    assert!(fs::read(&fmu).unwrap() == before);
+    export(&["two.toml", "-o", "steel_ball.fmu"], 0);
+    assert!(fs::read(&fmu).unwrap() != before);
+    fs::write(&fmu, "of another program").unwrap();
+    let refused = export(&["two.toml"], 1).err;
+    assert!(refused.starts_with("brinell: steel_ball.fmu: this is no FMU of a scene"), "{refused}");
+    assert_eq!(fs::read_to_string(&fmu).unwrap(), "of another program");
+}
+
+#[test]
+fn a_goal_that_can_never_be_written_is_refused_before_any_work() {
+    let folder = empty_folder();
+    let scene = scene("steel_ball").display().to_string();
+    let long = "x".repeat(300);
+    let goals = [
+        ("export", "fmu", "File name too long"),
+        ("ssp", "ssp", "File name too long"),
+        ("curve", "csv", "File name too long"),
+        ("report", "d", "File name too long"),
+    ];
+    let named = goals.map(|(command, ending, said)| (command, format!("{long}.{ending}"), said));
+    let full = "there is no space left on this device";
+    for (command, goal, said) in named.into_iter().chain([("export", "/dev/full".into(), full)]) {
+        let refused = run(folder.path(), [command, &scene, "-o", &goal]).with_status(1);
+        assert!(refused.err.contains(said) && !refused.err.contains("building"), "{command}: {}", refused.err);
+    }
+    assert_eq!(contents(folder.path()), [""; 0]);
+}
+
+#[test]
+fn a_file_name_gives_no_commands_to_the_terminal() {
+    const NAME: &str = "b\u{1b}[2J\u{9b}31m\nbrinell: x";
+    let folder = empty_folder();
+    let path = |ending: &str| format!("{NAME}.{ending}");
+    fs::copy(scene("steel_ball"), folder.path().join(path("toml"))).unwrap();
+    fs::write(folder.path().join(path("bad")), "name = 1").unwrap();
+    let calls = [
+        vec!["export".into(), path("toml"), "-o".into(), path("fmu")],
+        vec!["check".into(), path("fmu")],
+        vec!["merge".into(), path("fmu"), path("fmu"), "-o".into(), path("fmu")],
+        vec!["ssp".into(), path("toml"), "-o".into(), path("ssp")],
+        vec!["predict".into(), path("toml"), "--time-history".into(), path("csv")],
+        vec!["new".into(), "ball".into(), "-o".into(), path("new")],
+        vec!["new".into(), "ball".into(), "-o".into(), path("new")],
+        vec!["export".into(), path("bad")],
+        vec!["check".into(), path("none")],
+        vec![path("command")],
+    ];
+    for call in calls {
+        for json in [false, true] {
+            let mut command = brinell(folder.path());
+            let ended = command.args(&call).args(json.then_some("--json")).output().expect("the program");
+            let [out, err] = [ended.stdout, ended.stderr].map(|text| String::from_utf8(text).unwrap());
+            // in JSON, which is for programs, those above ASCII stay
+            let commands =
+                |text: &str, allowed: char| text.contains(|c: char| c.is_control() && c < allowed && c != '\n');
+            let said = out.clone() + &err;
+            assert!(!commands(&out, if json { '\u{80}' } else { char::MAX }), "{call:?} {json}: {out:?}");
+            assert!(!commands(&err, char::MAX), "{call:?} {json}: {err:?}");
+            // nor does it begin a message of its own
+            assert!(
+                !said.is_empty() && (call.len() == 1 || !said.contains("\nbrinell: x")),
+                "{call:?} {json}: {said:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_pipe_is_written_to_and_not_replaced() {
     let folder = empty_folder();

@@ -18,7 +18,7 @@ pub fn folder() -> PathBuf {
 }
 
 /// The laws in every test run, with libraries of all kinds.
-pub const LAWS: [&str; 2] = ["big-alabo", "hunt-crossley/flores"];
+pub const LAWS: [&str; 3] = ["brinell", "big-alabo", "hunt-crossley/flores"];
 
 /// A folder with the libraries of [`LAWS`] for this machine, shared by the test programs.
 pub fn store() -> &'static Path {

@@ -2,6 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::files::FileError;
+use crate::layout::shown;
 use crate::prebuilt_folder::{self, PrebuiltFolder};
 use crate::{package, platform};
 use clap::CommandFactory;
@@ -33,7 +34,7 @@ pub fn version(as_json: bool) {
     }
     match prebuilt {
         Some(folder) => {
-            println!("prebuilt libraries: {} in {}", folders(&folder).join(", "), folder.path.display());
+            println!("prebuilt libraries: {} in {}", folders(&folder).join(", "), shown(&folder.path));
         }
         None => println!("prebuilt libraries: none"),
     }

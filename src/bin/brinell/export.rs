@@ -1,6 +1,7 @@
 //! `brinell export`: builds the FMU of a scene and lists what it contains.
 
 use crate::files;
+use crate::layout::{shown, tell};
 use crate::package::{self, ExportError, Way};
 use crate::plan::Plan;
 use crate::platform::Platform;
@@ -22,7 +23,10 @@ pub fn run(
     if let Some(source) = source {
         files::check_kept(&path, source)?;
     }
-    crate::layout::tell(&format!("building {} ...", path.display()));
+    if output.is_none() {
+        files::check_own(&path, &scene.text, source)?;
+    }
+    tell(&format!("building {} ...", shown(&path)));
     let plan = Plan::of(scene);
     let exported = package::export(&plan, way, platforms, &path)?;
     let summary = Summary::of(&plan);

@@ -1,11 +1,12 @@
 //! The error of a file.
 
+use crate::layout::shown;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// A file that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
-#[error("{path}: {source}", path = path.display())]
+#[error("{path}: {source}", path = shown(path))]
 pub struct FileError {
     pub path: PathBuf,
     pub source: io::Error,

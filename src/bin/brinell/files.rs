@@ -1,6 +1,8 @@
 //! Reading and writing of files for the user.
 
 pub use crate::file_error::FileError;
+use crate::importer;
+use crate::layout::shown;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -70,6 +72,29 @@ fn check_writable(file: &Path) -> io::Result<()> {
     Ok(())
 }
 
+/// Rejects a name that no file can have, such as one that is too long.
+fn check_name(path: &Path) -> io::Result<()> {
+    match fs::symlink_metadata(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Rejects the device that is always full. Any other one would have to be written to.
+fn check_stream(path: &Path) -> io::Result<()> {
+    #[cfg(target_os = "linux")]
+    {
+        /// Its number, 1:7 (Linux, Documentation/admin-guide/devices.txt).
+        const FULL: u64 = 0x107;
+        if fs::metadata(path).is_ok_and(|there| std::os::unix::fs::MetadataExt::rdev(&there) == FULL) {
+            return Err(io::Error::new(io::ErrorKind::StorageFull, "there is no space left on this device"));
+        }
+    }
+    #[cfg(not(target_os = "linux"))]
+    let _ = path;
+    Ok(())
+}
+
 /// A temporary file with the permissions of the umask.
 fn draft() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
@@ -100,13 +125,16 @@ pub fn check_goal(path: &Path) -> Result<(), FileError> {
         let error = io::Error::new(io::ErrorKind::IsADirectory, "this is a folder; a file is written here");
         return Err(FileError::at(path)(error));
     }
-    let Goal::File(file) = goal_of(path).map_err(FileError::at(path))? else { return Ok(()) };
+    let Goal::File(file) = goal_of(path).map_err(FileError::at(path))? else {
+        return check_stream(path).map_err(FileError::at(path));
+    };
     check_writable(&file).map_err(FileError::at(path))?;
     let folder = folder_of(&file);
     if !folder.is_dir() {
-        let error = io::Error::new(io::ErrorKind::NotFound, format!("there is no folder {}", folder.display()));
+        let error = io::Error::new(io::ErrorKind::NotFound, format!("there is no folder {}", shown(folder)));
         return Err(FileError::at(path)(error));
     }
+    check_name(&file).map_err(FileError::at(path))?;
     // only creating a file shows whether it is possible; the file is deleted immediately
     draft().tempfile_in(folder).map(drop).map_err(FileError::at(path))
 }
@@ -124,6 +152,33 @@ pub fn check_kept(path: &Path, input: &Path) -> Result<(), FileError> {
     Ok(())
 }
 
+/// Rejects a `path` that nobody has named if another file is there than an FMU of the scene with this `text`, which is in the
+/// file `source`. The FMU of an earlier text of the scene is replaced, but not that of a scene beside it which has the same name.
+///
+/// # Errors
+/// [`FileError`]
+pub fn check_own(path: &Path, text: &str, source: Option<&Path>) -> Result<(), FileError> {
+    let kept = |whose: &str| {
+        let said = format!("this is {whose}, which isn't replaced; `-o FILE` names the file to write");
+        Err(FileError::at(path)(io::Error::new(io::ErrorKind::AlreadyExists, said)))
+    };
+    if !path.exists() {
+        return Ok(());
+    }
+    let Some(old) = importer::scene_in(path) else { return kept("no FMU of a scene") };
+    if old == text {
+        return Ok(());
+    }
+    let folders = [Some(path), source].into_iter().flatten().map(folder_of);
+    let files = folders.filter_map(|folder| fs::read_dir(folder).ok()).flatten().flatten().map(|entry| entry.path());
+    // the scene itself has another text
+    let mut scenes = files.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
+    match scenes.find(|file| file.is_file() && fs::read(file).is_ok_and(|bytes| bytes == old.as_bytes())) {
+        Some(other) => kept(&format!("the FMU of {}, which has the same name", shown(&other))),
+        None => Ok(()),
+    }
+}
+
 /// Rejects a folder that cannot be written to or created.
 ///
 /// # Errors
@@ -133,6 +188,7 @@ pub fn check_folder(path: &Path) -> Result<(), FileError> {
         let error = io::Error::new(io::ErrorKind::NotADirectory, "this is a file; a folder is written here");
         return Err(FileError::at(path)(error));
     }
+    check_name(path).map_err(FileError::at(path))?;
     // a missing folder is created in its nearest existing ancestor
     let there = path.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
     draft().tempfile_in(there).map(drop).map_err(FileError::at(path))
@@ -179,6 +235,6 @@ pub fn ending(output: Option<&Path>, allowed: &[&'static str]) -> Result<&'stati
         let (last, others) = allowed.split_last().expect("something is allowed");
         let others = others.iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
         let or = if others.is_empty() { "" } else { " or " };
-        format!("{}: the name must end in {others}{or}.{last}", path.display())
+        format!("{}: the name must end in {others}{or}.{last}", shown(path))
     })
 }

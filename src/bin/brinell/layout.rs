@@ -1,6 +1,8 @@
 //! Text for a terminal: paragraphs and tables of at most [`WIDTH`] columns.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
+use std::path::Path;
 use textwrap::{Options, WordSeparator, WordSplitter};
 
 /// The widest line that a command prints.
@@ -20,6 +22,11 @@ pub fn paragraph(heading: &str, text: &str) -> String {
 /// give commands to the terminal.
 pub fn harmless(text: &str) -> String {
     text.chars().map(|c| if c.is_control() && c != '\n' { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
+/// A path for the terminal: a name may contain line ends, too.
+pub fn shown(path: &Path) -> String {
+    harmless(&path.display().to_string()).replace('\n', "\u{fffd}")
 }
 
 /// At most 80 characters of `text`, for a message.
@@ -42,12 +49,19 @@ pub fn without_middle(text: &str) -> String {
     format!("{} ... {}", &text[..end(END)], &text[end(count - END)..])
 }
 
+/// A word of a message without its middle if it is longer than any path: such as a number of a million digits.
+fn held(word: &str) -> Cow<'_, str> {
+    const LONGEST_PATH: usize = 4096;
+    if word.len() <= LONGEST_PATH { word.into() } else { without_middle(word).into() }
+}
+
 /// Writes an error, a warning or progress to standard error. Lines are wrapped for people, and left alone for programs, which use
 /// `--json`.
 pub fn tell(message: &str) {
     let for_program = std::env::args_os().any(|argument| argument == "--json");
     // a closed standard error must not stop the work
-    let _ = writeln!(io::stderr(), "{}", if for_program { message.into() } else { wrapped(&harmless(message)) });
+    let message = harmless(&message.split(' ').map(held).collect::<Vec<_>>().join(" "));
+    let _ = writeln!(io::stderr(), "{}", if for_program { message } else { wrapped(&message) });
 }
 
 /// Writes a warning to standard error, also beside an answer for a program.
@@ -123,6 +137,14 @@ mod tests {
         );
         assert_eq!(text.matches("word").count(), 60);
         assert!(text.ends_with("end\n"));
+    }
+
+    #[test]
+    fn a_word_that_is_longer_than_any_path_is_cut() {
+        let number = "1".repeat(3_000_000);
+        assert_eq!(held(&number).len(), 305);
+        let path = "y/".repeat(2000);
+        assert_eq!(held(&path), path);
     }
 
     #[test]

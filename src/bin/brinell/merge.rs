@@ -1,7 +1,8 @@
 //! `brinell merge`: joins FMUs of one scene for different platforms.
 
 use crate::files::{FileError, write_whole};
-use crate::importer::{Bound, Description, ImportError};
+use crate::importer::{self, Bound, Description, ImportError};
+use crate::layout::shown;
 use crate::package::{self, ExportError};
 use crate::platform::Platform;
 use serde_json::json;
@@ -10,7 +11,6 @@ use std::collections::btree_map::Entry;
 use std::fs;
 use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
-use zip::ZipArchive;
 
 const DESCRIPTION: &str = "modelDescription.xml";
 const BINARIES: &str = "binaries/";
@@ -22,18 +22,16 @@ pub enum MergeError {
     File(#[from] FileError),
     #[error("{0}")]
     Export(#[from] ExportError),
-    #[error("{path}: {reason}", path = path.display())]
+    #[error("{path}: {reason}", path = shown(path))]
     NoFmu { path: PathBuf, reason: ImportError },
-    #[error("{path}: it has two files {name}", path = path.display())]
-    Twice { path: PathBuf, name: String },
     #[error(
         "{} and {} are not of one scene: their GUIDs are {} and {}",
-        one.path.display(), other.path.display(), one.guid, other.guid
+        shown(&one.path), shown(&other.path), one.guid, other.guid
     )]
     Guid { one: Box<Fmu>, other: Box<Fmu> },
-    #[error("{} and {} both have files for {platform}, which differ", one.display(), other.display())]
+    #[error("{} and {} both have files for {platform}, which differ", shown(one), shown(other))]
     Platform { one: PathBuf, other: PathBuf, platform: String },
-    #[error("{} and {} differ in {name}", one.display(), other.display())]
+    #[error("{} and {} differ in {name}", shown(one), shown(other))]
     Part { one: PathBuf, other: PathBuf, name: String },
 }
 
@@ -61,7 +59,7 @@ pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeE
     if as_json {
         println!("{}", json!({ "fmu": output.to_string_lossy(), "size": archive.len(), "platforms": platforms }));
     } else {
-        println!("{}\n  {} bytes, for {}", output.display(), archive.len(), platforms.join(", "));
+        println!("{}\n  {} bytes, for {}", shown(output), archive.len(), platforms.join(", "));
     }
     Ok(())
 }
@@ -70,7 +68,7 @@ impl Fmu {
     fn read(path: &Path) -> Result<Fmu, MergeError> {
         let refused = |reason: ImportError| MergeError::NoFmu { path: path.into(), reason };
         let bytes = fs::read(path).map_err(FileError::at(path))?;
-        let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| refused(error.into()))?;
+        let mut archive = importer::open(Cursor::new(bytes)).map_err(refused)?;
         let mut files = BTreeMap::new();
         let mut bound = Bound::of(&archive).map_err(refused)?;
         for index in 0..archive.len() {
@@ -81,9 +79,7 @@ impl Fmu {
             let name = file.name().map_err(|error| refused(error.into()))?.into_owned();
             let mut bytes = Vec::new();
             bound.copy(&mut file, &mut bytes).map_err(refused)?;
-            if files.insert(name.clone(), bytes).is_some() {
-                return Err(MergeError::Twice { path: path.into(), name });
-            }
+            files.insert(name, bytes);
         }
         let missing = || ImportError::Part { name: DESCRIPTION, source: io::ErrorKind::NotFound.into() };
         let text = files.get(DESCRIPTION).ok_or_else(missing).map_err(refused)?;

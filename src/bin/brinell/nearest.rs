@@ -1,6 +1,7 @@
 //! Suggestions for mistyped names.
 
 use crate::layout::shortened;
+use std::collections::HashSet;
 
 /// Similarity (Jaro-Winkler) from which two names are considered the same.
 const SIMILAR: f64 = 0.8;
@@ -58,7 +59,10 @@ pub fn nearest_first<'a>(asked: &str, names: &[&'a str]) -> Vec<&'a str> {
 /// The message about a name that does not exist, such as: unknown material `Mild Steel`; did you mean `mild steel`? Expected
 /// one of ...
 pub fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> String {
-    let names: Vec<&str> = names.collect();
+    let mut names: Vec<&str> = names.collect();
+    // loading and unloading laws may share a name
+    let mut known = HashSet::new();
+    names.retain(|name| known.insert(*name));
     let guess = nearest(asked, names.iter().copied());
     let (joint, expected) = match guess {
         Some(name) => (format!("; did you mean `{name}`? "), "Expected"),
@@ -117,6 +121,11 @@ mod tests {
         assert!(said.len() < 500, "{} bytes: {said}", said.len());
         let said = unknown("parameter", &"x".repeat(100_000), names.iter().map(String::as_str));
         assert!(said.len() < 500, "{} bytes: {said}", said.len());
+    }
+
+    #[test]
+    fn a_name_that_is_there_twice_is_listed_once() {
+        assert_eq!(unknown("law", "foo", ["a", "b", "a"].into_iter()), "unknown law `foo`, expected `a` or `b`");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! `brinell new`: a commented scene to start from.
 
 use crate::files::{self, FileError};
+use crate::layout::shown;
 use crate::scene::Scene;
 use crate::wrong_call::WrongCall;
 use serde_json::json;
@@ -37,7 +38,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     if as_json {
         println!("{}", json!({ "scene": path.to_string_lossy() }));
     } else {
-        let file = path.display();
+        let file = shown(&path);
         println!("{file}\nnext:  brinell predict {file}\n       brinell export {file}");
     }
     Ok(())

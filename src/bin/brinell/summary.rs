@@ -1,7 +1,7 @@
 //! The summary of `brinell export`: the contents of the FMU, and the omitted features.
 
 use crate::interface::Entry;
-use crate::layout::paragraph;
+use crate::layout::{paragraph, shown};
 use crate::package::{Exported, Origin, Packed};
 use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
@@ -110,7 +110,7 @@ impl Summary<'_> {
 
     /// As text.
     pub fn print(&self, exported: &Exported) {
-        println!("{}", exported.path.display());
+        println!("{}", shown(&exported.path));
         println!("  {} bytes", exported.size);
         let line = |heading: &str, text: &str| print!("{}", paragraph(&format!("  {heading:<11}"), text));
         for Packed { platform, size, imports } in &exported.libraries {

@@ -9,7 +9,7 @@ mod trial;
 
 use crate::files::FileError;
 use crate::importer::{Archive, Description, ImportError, Instance};
-use crate::layout::{harmless, paragraph, without_middle};
+use crate::layout::{harmless, paragraph, shown, without_middle};
 use crate::numbers::quantity;
 use crate::scene::{Scene, SceneError};
 use apart::Found;
@@ -28,19 +28,19 @@ const TOLERANCE: f64 = 1e-3;
 /// An FMU that could not be checked.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Import { path: PathBuf, source: ImportError },
-    #[error("{}: there is no resources/scene.toml: brinell has not made this FMU, and there is no impact to run", .0.display())]
+    #[error("{}: there is no resources/scene.toml: brinell has not made this FMU, and there is no impact to run", shown(.0))]
     NoScene(PathBuf),
-    #[error("{}: its scene can't be read: {source}", path.display())]
+    #[error("{}: its scene can't be read: {source}", shown(path))]
     Scene { path: PathBuf, source: SceneError },
     #[error("{0}")]
     File(#[from] FileError),
     #[error("the process that loads FMUs can't be started: {0}")]
     NoProcess(io::Error),
-    #[error("{}: the FMU ended the process that loaded it ({status}){said}", path.display())]
+    #[error("{}: the FMU ended the process that loaded it ({status}){said}", shown(path))]
     Ended { path: PathBuf, status: ExitStatus, said: String },
-    #[error("{}: no answer within {limit} s (--time-limit)", path.display())]
+    #[error("{}: no answer within {limit} s (--time-limit)", shown(path))]
     Hangs { path: PathBuf, limit: u64 },
     #[error("{0}")]
     Said(String),
@@ -203,7 +203,7 @@ impl std::fmt::Display for Outcome {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let ImpactNumbers { mass, speed } = self.impact;
         let assumed = if self.impact_is_assumed { " (the scene names no impact: a solid ball is assumed)" } else { "" };
-        writeln!(f, "{}", self.fmu.display())?;
+        writeln!(f, "{}", shown(&self.fmu))?;
         let platforms = without_middle(&self.platforms.join(", "));
         writeln!(f, "  platforms: {platforms}; {} variables", self.variables)?;
         write_some(f, &self.wrong_starts, |wrong| format!("start value differs: {wrong}"))?;

@@ -41,15 +41,41 @@ impl Bound {
     }
 }
 
-/// Unpacks `archive` into `folder`: only files, and only those with paths inside the folder.
+/// Opens an archive whose files have plain paths inside it as names, each once. Other names mean another file to each tool that
+/// unpacks them.
 ///
 /// # Errors
-/// [`ImportError::TooLarge`], [`ImportError::Unpack`], [`ImportError::Zip`]
-pub fn unpack<R: Read + Seek>(archive: &mut ZipArchive<R>, folder: &Path) -> Result<(), ImportError> {
-    let mut bound = Bound::of(archive)?;
+/// [`ImportError::NoArchive`], [`ImportError::TooMany`], [`ImportError::Path`], [`ImportError::Twice`]
+pub fn open<R: Read + Seek>(reader: R) -> Result<ZipArchive<R>, ImportError> {
+    let archive = ZipArchive::new(reader).map_err(|_| ImportError::NoArchive)?;
     if archive.len() > MOST_FILES {
         return Err(ImportError::TooMany);
     }
+    for name in archive.file_names() {
+        let name = name?;
+        if !is_plain(&name) {
+            return Err(ImportError::Path(shortened(&name)));
+        }
+    }
+    if archive.has_duplicate_names() {
+        return Err(ImportError::Twice);
+    }
+    Ok(archive)
+}
+
+/// Whether this name of a file or a folder is a path inside the archive on every operating system, without detours.
+fn is_plain(name: &str) -> bool {
+    let separators = ['/', '\\'];
+    let path = name.strip_suffix(separators).unwrap_or(name);
+    path.split(separators).all(|part| !matches!(part, "" | "." | "..") && !part.contains([':', '\0']))
+}
+
+/// Unpacks `archive` into `folder`: only files, and only those with paths inside the folder.
+///
+/// # Errors
+/// [`ImportError::TooLarge`], [`ImportError::Unpack`], [`ImportError::Path`]
+pub fn unpack<R: Read + Seek>(archive: &mut ZipArchive<R>, folder: &Path) -> Result<(), ImportError> {
+    let mut bound = Bound::of(archive)?;
     for index in 0..archive.len() {
         let mut file = archive.by_index(index)?;
         if file.is_dir() {
@@ -57,7 +83,7 @@ pub fn unpack<R: Read + Seek>(archive: &mut ZipArchive<R>, folder: &Path) -> Res
         }
         let Some(inside) = file.enclosed_name() else {
             let name = shortened(&String::from_utf8_lossy(file.name_raw()));
-            return Err(ImportError::Unpack(io::Error::other(format!("the name {name:?} leads out of the archive"))));
+            return Err(ImportError::Path(name));
         };
         let goal = folder.join(inside);
         let name = shortened(&String::from_utf8_lossy(file.name_raw()));

@@ -16,6 +16,31 @@ pub struct Variable {
     pub causality: Causality,
     /// Start value of a Real variable; NaN if it has none.
     start: f64,
+    /// The index of its unit in the description.
+    unit: Option<u32>,
+}
+
+/// What a unit is in the base units of SI: a number of it is `factor` times itself, plus `offset`.
+///
+/// Reference: FMI 2.0.4, section 2.2.2.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Base {
+    /// The powers of [`Base::NAMES`].
+    pub powers: [i32; 8],
+    pub factor: f64,
+    pub offset: f64,
+}
+
+impl Base {
+    pub const NAMES: [&str; 8] = ["kg", "m", "s", "A", "K", "mol", "cd", "rad"];
+}
+
+/// A unit that variables have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    pub name: String,
+    /// Unknown if the file doesn't define the unit.
+    pub base: Option<Base>,
 }
 
 /// The causalities that matter to this importer.
@@ -46,6 +71,7 @@ pub struct Description {
     pub output_derivatives: u32,
     /// Variables with their names, in the order of the names. There may be millions of them.
     pub variables: Vec<(Box<str>, Variable)>,
+    units: Vec<Unit>,
 }
 
 impl Description {
@@ -66,6 +92,8 @@ impl Description {
         let mut reader = quick_xml::Reader::from_reader(from);
         let mut description = Description::default();
         let (mut current, mut piece) = (None, Vec::new());
+        // the units of the types by name, and the type that is being read
+        let (mut types, mut r#type) = (HashMap::new(), None);
         let wrong = |error: &dyn std::fmt::Display| invalid(&error.to_string());
         loop {
             piece.clear();
@@ -88,11 +116,25 @@ impl Description {
                             let reference = number(&get("valueReference"), &get("name"), "valueReference")?;
                             current = Some((get("name"), reference, Causality::named(&get("causality"))));
                         }
+                        "Unit" => description.units.push(Unit { name: get("name"), base: None }),
+                        "BaseUnit" => {
+                            if let Some(unit) = description.units.last_mut() {
+                                unit.base = Some(base(&attributes, &unit.name)?);
+                            }
+                        }
+                        "SimpleType" => r#type = Some(get("name")),
+                        "Real" if current.is_none() => {
+                            if let (Some(name), Some(unit)) = (r#type.take(), attributes.get("unit")) {
+                                types.insert(name, unit.clone());
+                            }
+                        }
                         kind @ ("Real" | "Integer" | "Enumeration") => {
+                            let unit = attributes.get("unit").or_else(|| types.get(&get("declaredType")));
+                            let unit = unit.map(|name| description.unit(name));
                             if let Some((name, reference, causality)) = current.take() {
                                 let start = attributes.get("start").map(|start| number(start, &name, "start"));
                                 let start = start.transpose()?.unwrap_or(f64::NAN);
-                                let variable = Variable { reference, is_real: kind == "Real", causality, start };
+                                let variable = Variable { reference, is_real: kind == "Real", causality, start, unit };
                                 description.variables.push((name.into(), variable));
                             }
                         }
@@ -108,6 +150,15 @@ impl Description {
         }
     }
 
+    /// The index of the unit with this name; a new one has no definition.
+    fn unit(&mut self, name: &str) -> u32 {
+        let index = self.units.iter().position(|unit| unit.name == name).unwrap_or_else(|| {
+            self.units.push(Unit { name: name.into(), base: None });
+            self.units.len() - 1
+        });
+        u32::try_from(index).unwrap_or(u32::MAX)
+    }
+
     /// The value reference of the Real variable `name`.
     pub fn real(&self, name: &str) -> Result<u32, ImportError> {
         let found = self.variables.binary_search_by(|(other, _)| (**other).cmp(name));
@@ -115,11 +166,11 @@ impl Description {
         variable.map(|variable| variable.reference).ok_or_else(|| ImportError::Variable(name.into()))
     }
 
-    /// Names of the Real variables of this causality.
-    pub fn reals(&self, causality: Causality) -> impl Iterator<Item = &str> {
+    /// Names of the Real variables of this causality, with their units.
+    pub fn reals(&self, causality: Causality) -> impl Iterator<Item = (&str, Option<&Unit>)> {
         let reals =
             self.variables.iter().filter(move |(_, variable)| variable.is_real && variable.causality == causality);
-        reals.map(|(name, _)| &**name)
+        reals.map(|(name, variable)| (&**name, variable.unit.and_then(|index| self.units.get(index as usize))))
     }
 }
 
@@ -133,6 +184,18 @@ impl Causality {
     }
 }
 
+/// The definition of the unit `name` in these attributes.
+fn base(attributes: &HashMap<String, String>, name: &str) -> Result<Base, ImportError> {
+    let mut base = Base { powers: [0; 8], factor: 1.0, offset: 0.0 };
+    for (power, key) in base.powers.iter_mut().zip(Base::NAMES) {
+        *power = attributes.get(key).map_or(Ok(0), |text| number(text, name, key))?;
+    }
+    for (value, key, usual) in [(&mut base.factor, "factor", 1.0), (&mut base.offset, "offset", 0.0)] {
+        *value = attributes.get(key).map_or(Ok(usual), |text| number(text, name, key))?;
+    }
+    Ok(base)
+}
+
 /// The number `text` of an attribute of `variable`. XML Schema allows spaces around it.
 fn number<T: FromStr>(text: &str, variable: &str, attribute: &str) -> Result<T, ImportError>
 where
@@ -140,7 +203,7 @@ where
 {
     text.trim_matches([' ', '\t', '\r', '\n']).parse().map_err(|error| {
         let (text, variable) = (shortened(text), shortened(variable));
-        ImportError::Xml(format!("the variable {variable:?} has {attribute} = {text:?}: {error}"))
+        ImportError::Xml(format!("{variable:?} has {attribute} = {text:?}: {error}"))
     })
 }
 

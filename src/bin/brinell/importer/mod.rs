@@ -19,8 +19,8 @@ use std::path::Path;
 use std::{env, fs, io};
 use tempfile::TempDir;
 
-pub use bounded::Bound;
-pub use description::{Causality, Description};
+pub use bounded::{Bound, open};
+pub use description::{Base, Causality, Description, Unit as VariableUnit};
 pub use unit::{Instance, Unit};
 
 /// An FMU that cannot be loaded, or a call that failed.
@@ -46,8 +46,14 @@ pub enum ImportError {
     Unpack(io::Error),
     #[error("it is larger than {} MB when unpacked, which no FMU needs", bounded::LARGEST / 1_000_000)]
     TooLarge,
-    #[error("it is no zip archive: {0}")]
+    #[error("it is no zip archive, as every FMU is, or an incomplete one; `brinell export` makes the FMU of a scene")]
+    NoArchive,
+    #[error("its zip archive is damaged: {0}")]
     Zip(#[from] zip::result::ZipError),
+    #[error("the name {0:?} in it is no plain path inside the archive")]
+    Path(String),
+    #[error("two files in it have the same name")]
+    Twice,
     #[error("modelDescription.xml can't be read: {0}")]
     Xml(String),
     #[error("there is no binary for this platform ({wanted}), {present}")]
@@ -73,6 +79,15 @@ pub enum ImportError {
 /// The scene of an FMU that this program has made.
 const SCENE: &str = "resources/scene.toml";
 
+/// The scene of the FMU at `path`, if this program has made it.
+pub fn scene_in(path: &Path) -> Option<String> {
+    let mut archive = bounded::open(fs::File::open(path).ok()?).ok()?;
+    let mut bound = Bound::of(&archive).ok()?;
+    let mut text = Vec::new();
+    bound.copy(&mut archive.by_name(SCENE).ok()?, &mut text).ok()?;
+    String::from_utf8(text).ok()
+}
+
 /// An error with its causes.
 fn chain(error: &dyn std::error::Error) -> String {
     match error.source() {
@@ -94,7 +109,7 @@ pub struct Archive {
 impl Archive {
     /// Unpacks the FMU at `path`.
     pub fn open(path: &Path) -> Result<Archive, ImportError> {
-        let mut archive = zip::ZipArchive::new(fs::File::open(path).map_err(ImportError::Unreadable)?)?;
+        let mut archive = bounded::open(fs::File::open(path).map_err(ImportError::Unreadable)?)?;
         // the library in this folder will be loaded: nobody else may write to the folder
         let folder =
             private_folder("brinell-check-", &env::temp_dir()).map_err(|error| ImportError::Unpack(error.source))?;

@@ -1,5 +1,6 @@
 //! Reading a measurement: a CSV file with two columns.
 
+use crate::layout::{shortened, shown};
 use crate::nearest::one_of;
 use crate::units;
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -83,13 +84,13 @@ fn first_loading(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 /// A file that is no measurement.
 #[derive(Debug, thiserror::Error)]
 pub enum MeasuredError {
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Unreadable { path: PathBuf, source: std::io::Error },
-    #[error("{}: {message}; expected {EXPECTED}", path.display())]
+    #[error("{}: {message}; expected {EXPECTED}", shown(path))]
     Empty { path: PathBuf, message: &'static str },
-    #[error("{}:{line}: {message}", path.display())]
+    #[error("{}:{line}: {message}", shown(path))]
     Line { path: PathBuf, line: u64, message: String },
-    #[error("{}:{line}, column {column}: {message}", path.display())]
+    #[error("{}:{line}, column {column}: {message}", shown(path))]
     Cell { path: PathBuf, line: u64, column: usize, message: String },
 }
 
@@ -230,10 +231,12 @@ impl Place<'_> {
 /// The two columns that the first line names.
 fn heading(record: &StringRecord, place: Place) -> Result<[Column; 2], MeasuredError> {
     if record.len() != 2 {
-        let cells = record.iter().collect::<Vec<_>>().join(",");
-        return Err(
-            place.line(format!("`{cells}` has {} columns, separated by commas; expected {EXPECTED}", record.len()))
-        );
+        let cells = shortened(&record.iter().collect::<Vec<_>>().join(","));
+        let problem = match record.len() {
+            1 => "has no comma; columns are separated by commas, and decimals have a point".into(),
+            count => format!("has {count} columns, separated by commas"),
+        };
+        return Err(place.line(format!("`{cells}` {problem}; expected {EXPECTED}")));
     }
     let [one, other] = [0, 1].map(|index| column(&record[index]).map_err(|message| place.cell(index, message)));
     let (one, other) = (one?, other?);
@@ -282,13 +285,15 @@ fn row(record: &StringRecord, columns: [Column; 2], place: Place) -> Result<(f64
         let Column { quantity, name, size } = columns[index];
         let value: f64 = record[index]
             .parse()
-            .map_err(|_| place.cell(index, format!("{name} = `{}` is no number", &record[index])))?;
+            .map_err(|_| place.cell(index, format!("{name} = `{}` is no number", shortened(&record[index]))))?;
         let value = size * value;
         if quantity == Quantity::Restitution && !(value > 0.0 && value <= 1.0) {
             return Err(place.cell(index, format!("restitution = {value} must be above 0 and at most 1")));
         }
         if !(value > 0.0 && value.is_finite()) {
-            return Err(place.cell(index, format!("{name} = {} must be positive and finite", &record[index])));
+            return Err(
+                place.cell(index, format!("{name} = {} must be positive and finite", shortened(&record[index])))
+            );
         }
         Ok(value)
     };
@@ -355,7 +360,10 @@ mod tests {
         for (text, words) in [
             ("", "m.csv: the file is empty; expected a first line such as `speed [m/s], restitution`"),
             ("speed,restitution\n", "m.csv: there are no numbers"),
-            ("speed;restitution\n1;0.5\n", "m.csv:1: `speed;restitution` has 1 columns, separated by commas"),
+            (
+                "speed;restitution\n1;0.5\n",
+                "m.csv:1: `speed;restitution` has no comma; columns are separated by commas",
+            ),
             ("speed,restitution,mass\n", "m.csv:1: `speed,restitution,mass` has 3 columns"),
             ("velocity,restitution\n", "m.csv:1, column 1: no quantity is called `velocity`; expected"),
             ("1.0,0.5\n", "m.csv:1, column 1: no quantity is called `1.0`"),

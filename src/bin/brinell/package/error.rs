@@ -1,6 +1,7 @@
 //! Errors of the export: the reason in one line, and a remedy.
 
 use crate::files::FileError;
+use crate::layout::shown;
 use crate::platform::NoPlatform;
 use crate::prebuilt::PrebuiltError;
 use crate::symbols::SymbolError;
@@ -34,7 +35,7 @@ pub enum ExportError {
     NoLinker { linker: String, install: &'static str },
     #[error("the C linker `{linker}` fails ({status}): {said}")]
     Linker { linker: String, status: String, said: String },
-    #[error("there is no space left to build in {} ({said}): BRINELL_CACHE names another folder", folder.display())]
+    #[error("there is no space left to build in {} ({said}): BRINELL_CACHE names another folder", shown(folder))]
     NoSpace { folder: PathBuf, said: String },
     #[error("rustc doesn't build the library: {0}")]
     Compiler(String),
@@ -49,8 +50,13 @@ pub enum ExportError {
 pub enum FolderError {
     #[error("there is no folder to build units in: {0} is no absolute path; BRINELL_CACHE names one")]
     None(&'static str),
-    #[error("units are not built in {}, which {reason}: BRINELL_CACHE names another folder", folder.display())]
+    #[error("units are not built in {}, which {reason}: BRINELL_CACHE names another folder", shown(folder))]
     NotOurs { folder: PathBuf, reason: &'static str },
+    #[error(
+        "the cache {}, where units are built, can't be used ({source}): BRINELL_CACHE names another folder",
+        shown(folder)
+    )]
+    Unusable { folder: PathBuf, source: io::Error },
 }
 
 /// How to install a C linker on an operating system.

@@ -34,14 +34,14 @@ impl Cache {
     /// The folder, created for its owner alone if it is missing.
     ///
     /// # Errors
-    /// [`FolderError`] if others can write to it, [`FileError`] if it can't be created.
+    /// [`FolderError`] if others can write to it, or if it can't be created or written to.
     pub fn open() -> Result<Cache, ExportError> {
         let folder = cache_folder(|name| env::var_os(name), env::consts::OS)?;
-        make(&folder).map_err(FileError::at(&folder))?;
-        if let Some(reason) = not_ours(&folder).map_err(FileError::at(&folder))? {
-            return Err(FolderError::NotOurs { folder, reason }.into());
+        match make(&folder).and_then(|()| not_ours(&folder)) {
+            Ok(None) => Ok(Cache { folder }),
+            Ok(Some(reason)) => Err(FolderError::NotOurs { folder, reason }.into()),
+            Err(source) => Err(FolderError::Unusable { folder, source }.into()),
         }
-        Ok(Cache { folder })
     }
 
     /// A new build folder, removed on drop.

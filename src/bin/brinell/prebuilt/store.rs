@@ -5,6 +5,7 @@
 
 use super::kinds::Library;
 use crate::files::{FileError, write_whole};
+use crate::layout::shown;
 use crate::package::{self, Hash};
 use crate::platform::{Platform, Target};
 use crate::prebuilt_folder::{self, LIST, PrebuiltFolder};
@@ -17,17 +18,19 @@ use std::sync::LazyLock;
 /// An error of reading a prebuilt library.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
-    #[error("there are no prebuilt libraries installed with this program: BRINELL_PREBUILT names a folder with them")]
+    #[error(
+        "there are no prebuilt libraries installed with this program: the wheel of a release has them, `brinell prebuild` makes them where there is a compiler, and BRINELL_PREBUILT names their folder"
+    )]
     NoFolder,
-    #[error("there are no prebuilt libraries in {folder}: BRINELL_PREBUILT names the folder where they are", folder = folder.display())]
+    #[error("there are no prebuilt libraries in {folder}: BRINELL_PREBUILT names the folder where they are", folder = shown(folder))]
     Empty { folder: PathBuf },
-    #[error("there are no prebuilt libraries for {target} in {folder}, only for {known}", folder = folder.display())]
+    #[error("there are no prebuilt libraries for {target} in {folder}, only for {known}", folder = shown(folder))]
     NoTarget { folder: PathBuf, target: &'static str, known: String },
-    #[error("the prebuilt libraries in {folder} are from another version of Brinell ({version}): make them anew by `brinell prebuild`", folder = folder.display())]
+    #[error("the prebuilt libraries in {folder} are from another version of Brinell ({version}): make them anew by `brinell prebuild`", folder = shown(folder))]
     OtherVersion { folder: PathBuf, version: String },
-    #[error("there is no prebuilt library `{name}` in {folder}", folder = folder.display())]
+    #[error("there is no prebuilt library `{name}` in {folder}", folder = shown(folder))]
     NoLibrary { folder: PathBuf, name: String },
-    #[error("{path} is damaged: {reason}", path = path.display())]
+    #[error("{path} is damaged: {reason}", path = shown(path))]
     Damaged { path: PathBuf, reason: String },
     #[error("{0}")]
     File(#[from] FileError),

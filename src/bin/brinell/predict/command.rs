@@ -10,7 +10,7 @@ use super::{PredictError, inverse, page, rebound};
 use crate::columns::Columns;
 use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
-use crate::layout::{self, paragraph};
+use crate::layout::{self, paragraph, shown};
 use crate::numbers::quantity;
 use crate::scene::{Scene, plausible};
 use crate::units;
@@ -120,13 +120,13 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
         question.write_history(path, history_format)?;
     }
     let mut object = answer.json();
-    object["time_history"] = json!(arguments.time_history);
+    object["time_history"] = json!(arguments.time_history.as_ref().map(|path| path.to_string_lossy()));
     match as_json {
         true => println!("{object}"),
         false => print!("{}", answer.text()),
     }
     if let Some(path) = arguments.time_history.as_deref().filter(|_| !as_json) {
-        println!("\ntime history: {}", path.display());
+        println!("\ntime history: {}", shown(path));
     }
     Ok(())
 }

@@ -20,7 +20,7 @@ mod ways;
 
 use crate::files::{self, FileError, write_whole};
 use crate::importer::ImportError;
-use crate::layout::paragraph;
+use crate::layout::{paragraph, shown};
 use crate::measured::Fit;
 use crate::package::ExportError;
 use crate::scene::Scene;
@@ -46,7 +46,7 @@ pub enum ReportError {
     Export(#[from] ExportError),
     #[error("the unit of the report: {0}")]
     Import(#[from] ImportError),
-    #[error("the other unit {}: {reason}", path.display())]
+    #[error("the other unit {}: {reason}", shown(path))]
     Peer { path: PathBuf, reason: String },
     #[error("{0}")]
     File(#[from] FileError),
@@ -91,7 +91,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<bool, Box<dyn Error>>
         println!("{}", report.json());
     } else {
         report.lines().iter().for_each(|line| print!("{}", paragraph("", line)));
-        println!("{}", page.display());
+        println!("{}", shown(&page));
     }
     Ok(report.all_right)
 }

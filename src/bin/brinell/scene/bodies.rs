@@ -1,6 +1,7 @@
 //! The bodies of each contact, and values that follow from them alone.
 
 use super::{Scene, softer};
+use brinell::contact::losses::Loss;
 use brinell::contact::{Body, Pair};
 use std::collections::HashMap;
 
@@ -43,17 +44,18 @@ impl Scene {
     /// The result of `of` for each group. Ten thousand groups may have the same bodies. A result that follows only from the
     /// bodies, their mass and the laws of the scene is computed once for all of them.
     pub fn by_bodies<T: Clone>(&self, mut of: impl FnMut(usize) -> T) -> Vec<T> {
-        let mut known: HashMap<Option<[u64; 8]>, T> = HashMap::new();
+        let mut known: HashMap<_, T> = HashMap::new();
         let groups = 0..self.contacts.len();
         groups
             .map(|group| {
                 let bodies = self.pair_of(group).map(|pair| {
                     let Pair { radius, modulus, yield_strength, youngs_modulus, poissons_ratio } = pair;
                     let restitution = self.group_value(group, "restitution").unwrap_or(f64::NAN);
-                    let mass = self.impact_of(group).mass;
-                    let hardening = self.hardening_modulus(group);
-                    [radius, modulus, yield_strength, youngs_modulus, poissons_ratio, hardening, restitution, mass]
-                        .map(f64::to_bits)
+                    // it follows from the density, which the pair doesn't know
+                    let loss = self.loss_with(group, &[]).map_or(f64::NAN, |loss| loss.factor());
+                    let [mass, hardening] = [self.impact_of(group).mass, self.hardening_modulus(group)];
+                    let pair = [radius, modulus, yield_strength, youngs_modulus, poissons_ratio];
+                    (pair.map(f64::to_bits), [hardening, restitution, loss, mass].map(f64::to_bits))
                 });
                 known.entry(bodies).or_insert_with(|| of(group)).clone()
             })

@@ -1,14 +1,15 @@
 //! A scene that cannot be used.
 
+use crate::layout::shown;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A scene that cannot be used, with the place and the reason.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Unreadable { path: PathBuf, source: std::io::Error },
-    #[error("{}:{line}:{column}: {message}", path.display())]
+    #[error("{}:{line}:{column}: {message}", shown(path))]
     Wrong { path: PathBuf, line: usize, column: usize, message: String },
 }
 

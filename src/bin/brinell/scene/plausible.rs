@@ -160,6 +160,7 @@ pub fn of_quantity(name: &str, value: f64) -> Option<String> {
         "radius" => &RADIUS,
         "youngs_modulus" => &MODULUS,
         "yield_strength" => &STRENGTH,
+        "hardening_modulus" | "tangent_modulus" => &HARDENING,
         "density" => &DENSITY,
         "speed" => &SPEED,
         _ => return None,

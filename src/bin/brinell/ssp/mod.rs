@@ -10,7 +10,7 @@ mod wiring;
 use crate::arguments::SspArguments;
 use crate::files::{check_goal, ending, write_whole};
 use crate::interface::Entry;
-use crate::layout::paragraph;
+use crate::layout::{paragraph, shown};
 use crate::package::{self, Exported};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -50,7 +50,10 @@ pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>
     })?;
     let path = output.map_or_else(|| format!("{}.ssp", scene.name).into(), Path::to_path_buf);
     check_goal(&path)?;
-    crate::layout::tell(&format!("building {} ...", path.display()));
+    for warning in &wiring.warnings {
+        crate::layout::tell(&format!("brinell: warning: {warning}"));
+    }
+    crate::layout::tell(&format!("building {} ...", shown(&path)));
     let (unit, exported) = package::build(&plan, way, &platforms)?;
     let files = Files::of(&plan);
     let structure = document(|xml| structure::write(xml, &plan, &files, &wiring));
@@ -87,13 +90,13 @@ fn tell(plan: &Plan, files: &Files, system: Exported, as_json: bool) {
     let parameters = labels(Causality::Parameter);
     if as_json {
         let object = json!({
-            "ssp": path, "size": size, "guid": guid, "component": COMPONENT, "fmu": files.unit, "parameter_values": files.values,
+            "ssp": path.to_string_lossy(), "size": size, "guid": guid, "component": COMPONENT, "fmu": files.unit, "parameter_values": files.values,
             "inputs": inputs, "outputs": outputs, "parameters": parameters,
         });
         println!("{object}");
         return;
     }
-    println!("{}", path.display());
+    println!("{}", shown(&path));
     println!("  {size} bytes; the FMU is its component `{COMPONENT}`");
     for (heading, names) in [("inputs", inputs), ("outputs", outputs), ("parameters", parameters)] {
         print!("{}", paragraph(&format!("  {heading:<12}"), &names.join(", ")));

@@ -1,7 +1,8 @@
 //! `SystemStructure.ssd`: the components of a system, their connectors and their connections.
 
-use super::wiring::{Peer, Wiring};
+use super::wiring::{End, Peer, Wiring};
 use super::{COMMON, COMPONENT, Files, TOOL, Xml, of_kind, values};
+use crate::importer::VariableUnit;
 use crate::interface::Entry;
 use crate::model_description::number;
 use crate::plan::Plan;
@@ -43,7 +44,13 @@ pub fn write(xml: &mut Xml, plan: &Plan, files: &Files, wiring: &Wiring) -> io::
             connections(xml, plan, wiring)
         })?;
         enumerations(xml, plan)?;
-        values::units(xml, "ssd:Units", &plan.variables.iter().collect::<Vec<_>>())?;
+        let mut units = values::units_of(plan.variables.iter());
+        for VariableUnit { name, base } in wiring.units.values().filter(|unit| !unit.name.is_empty()) {
+            if let Some(base) = base {
+                units.entry(name).or_insert_with(|| base.clone());
+            }
+        }
+        values::units(xml, "ssd:Units", &units)?;
         let times = [("startTime", number(0.0)), ("stopTime", number(experiment.stop))];
         let times = times.iter().map(|(name, value)| (*name, value.as_str()));
         xml.create_element("ssd:DefaultExperiment").with_attributes(times).write_empty().map(|_| ())
@@ -99,7 +106,13 @@ fn beside(xml: &mut Xml, peer: &Peer, wiring: &Wiring) -> io::Result<()> {
                 for name in names {
                     let connector =
                         xml.create_element("ssd:Connector").with_attributes([("name", *name), ("kind", kind)]);
-                    connector.write_inner_content(|xml| xml.create_element("ssc:Real").write_empty().map(|_| ()))?;
+                    let end = End { unit: peer.name.clone(), variable: (*name).into() };
+                    // a name without a definition is none of the system's units
+                    let unit = wiring.units.get(&end).filter(|unit| unit.base.is_some() && !unit.name.is_empty());
+                    connector.write_inner_content(|xml| {
+                        let given = unit.map(|unit| ("unit", unit.name.as_str()));
+                        xml.create_element("ssc:Real").with_attributes(given).write_empty().map(|_| ())
+                    })?;
                 }
             }
             Ok(())

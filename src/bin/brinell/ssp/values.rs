@@ -1,11 +1,13 @@
 //! The `.ssv` file: the values of the parameters.
 
+use super::wiring::base_of;
 use super::{COMMON, COMPONENT, TOOL, Xml, of_kind};
+use crate::importer::Base;
 use crate::interface::Entry;
 use crate::model_description::number;
 use crate::plan::Plan;
-use crate::table::{Causality, UNITS};
-use std::collections::BTreeSet;
+use crate::table::Causality;
+use std::collections::BTreeMap;
 use std::io;
 
 const VALUES: (&str, &str) = ("xmlns:ssv", "http://ssp-standard.org/SSP1/SystemStructureParameterValues");
@@ -30,26 +32,31 @@ pub fn write(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
             }
             Ok(())
         })?;
-        units(xml, "ssv:Units", &parameters)
+        units(xml, "ssv:Units", &units_of(parameters.iter().copied()))
     })?;
     Ok(())
 }
 
-/// The units of these variables. Without any, there is no list, because the schema allows no empty one.
-pub fn units(xml: &mut Xml, list: &str, entries: &[&Entry]) -> io::Result<()> {
-    let used: BTreeSet<_> = entries.iter().filter_map(|entry| entry.variable.unit.as_deref()).collect();
-    if used.is_empty() {
+/// The units of these variables by name.
+pub fn units_of<'a>(entries: impl Iterator<Item = &'a Entry<'a>>) -> BTreeMap<&'a str, Base> {
+    entries.filter_map(|entry| Some((entry.variable.unit.as_deref()?, base_of(entry.variable)))).collect()
+}
+
+/// The list of these units. Without any, there is no list, because the schema allows no empty one.
+pub fn units(xml: &mut Xml, list: &str, units: &BTreeMap<&str, Base>) -> io::Result<()> {
+    if units.is_empty() {
         return Ok(());
     }
     xml.create_element(list).write_inner_content(|xml| {
-        for unit in UNITS.iter().filter(|unit| used.contains(unit.name.as_str())) {
-            let name = ("name", unit.name.as_str());
-            xml.create_element("ssc:Unit").with_attribute(name).write_inner_content(|xml| {
-                let exponents =
-                    [("kg", unit.kg), ("m", unit.m), ("s", unit.s)].map(|(name, power)| (name, power.to_string()));
-                let exponents =
-                    exponents.iter().filter(|(_, power)| power != "0").map(|(name, power)| (*name, power.as_str()));
-                xml.create_element("ssc:BaseUnit").with_attributes(exponents).write_empty().map(|_| ())
+        for (name, base) in units {
+            xml.create_element("ssc:Unit").with_attribute(("name", *name)).write_inner_content(|xml| {
+                let powers = Base::NAMES.into_iter().zip(base.powers);
+                let powers = powers.filter(|(_, power)| *power != 0).map(|(name, power)| (name, power.to_string()));
+                let sizes = [("factor", base.factor, 1.0), ("offset", base.offset, 0.0)];
+                let sizes = sizes.into_iter().filter(|(_, value, usual)| value != usual);
+                let all: Vec<_> = powers.chain(sizes.map(|(name, value, _)| (name, number(value)))).collect();
+                let all = all.iter().map(|(name, value)| (*name, value.as_str()));
+                xml.create_element("ssc:BaseUnit").with_attributes(all).write_empty().map(|_| ())
             })?;
         }
         Ok(())

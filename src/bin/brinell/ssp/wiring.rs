@@ -1,26 +1,28 @@
 //! The other FMUs of a system, and their connections.
 
 use super::{COMPONENT, of_kind};
-use crate::importer::{self, Archive, ImportError};
+use crate::importer::{self, Archive, Base, ImportError, VariableUnit};
+use crate::layout::{shortened, shown};
 use crate::nearest::nearest_first;
+use crate::numbers::exact;
 use crate::plan::Plan;
-use crate::table::{Causality, Type};
-use std::collections::BTreeSet;
+use crate::table::{self, Causality, Type};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// A connection that is not possible.
 #[derive(Debug, thiserror::Error)]
 pub enum WiringError {
-    #[error("{path}: {source}", path = path.display())]
+    #[error("{path}: {source}", path = shown(path))]
     Unreadable { path: PathBuf, source: io::Error },
-    #[error("{path}: {source}", path = path.display())]
+    #[error("{path}: {source}", path = shown(path))]
     Unit { path: PathBuf, source: ImportError },
-    #[error("{path}: its fmiVersion is `{version}`; a system takes FMUs of 2.0 for co-simulation", path = path.display())]
+    #[error("{path}: its fmiVersion is `{version}`; a system takes FMUs of 2.0 for co-simulation", path = shown(path))]
     Version { path: PathBuf, version: String },
-    #[error("{path}: the FMU would be called `{name}`; only letters, digits, `_` and `-` are allowed", path = path.display())]
+    #[error("{path}: the FMU would be called `{name}`; only letters, digits, `_` and `-` are allowed", path = shown(path))]
     Name { path: PathBuf, name: String },
-    #[error("{path}: the system already has an FMU `{name}`; give the file another name", path = path.display())]
+    #[error("{path}: the system already has an FMU `{name}`; give the file another name", path = shown(path))]
     Twice { path: PathBuf, name: String },
     #[error("--connect {0}: write a connection as FMU.OUTPUT=FMU.INPUT, such as contact.mean_force=mass.force")]
     Form(String),
@@ -30,28 +32,44 @@ pub enum WiringError {
     NoVariable { connection: String, unit: String, kind: &'static str, name: String, allowed: String },
     #[error("--connect {connection}: the input {input} is already connected")]
     Taken { connection: String, input: String },
+    #[error("--connect {connection}: {from} and {to} are different quantities")]
+    Quantity { connection: String, from: String, to: String },
+    #[error(
+        "--connect {connection}: {from} and {to}: tools such as fmpy pass numbers on unconverted, {words}; give both FMUs the \
+         same unit, or put a gain between them"
+    )]
+    Size { connection: String, from: String, to: String, words: String },
 }
 
 impl WiringError {
     /// Whether the arguments are wrong, and not a file.
     pub fn is_in_call(&self) -> bool {
-        use WiringError::{Form, NoUnit, NoVariable, Taken};
-        matches!(self, Form(_) | NoUnit { .. } | NoVariable { .. } | Taken { .. })
+        use WiringError::{Form, NoUnit, NoVariable, Quantity, Size, Taken};
+        matches!(self, Form(_) | NoUnit { .. } | NoVariable { .. } | Taken { .. } | Quantity { .. } | Size { .. })
     }
 }
 
 /// What can be connected.
 struct Unit {
     name: String,
-    inputs: BTreeSet<String>,
-    outputs: BTreeSet<String>,
+    inputs: Variables,
+    outputs: Variables,
 }
+
+/// Variables by name, with their units if they state any.
+type Variables = BTreeMap<String, Option<VariableUnit>>;
 
 /// One end of a connection.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct End {
     pub unit: String,
     pub variable: String,
+}
+
+impl std::fmt::Display for End {
+    fn fmt(&self, to: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(to, "{}.{}", self.unit, self.variable)
+    }
 }
 
 /// Another FMU of the system.
@@ -73,6 +91,10 @@ pub struct Wiring {
     pub peers: Vec<Peer>,
     /// From outputs to inputs.
     pub connections: Vec<(End, End)>,
+    /// The units of the connected variables that state one.
+    pub units: BTreeMap<End, VariableUnit>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
 }
 
 impl Wiring {
@@ -92,8 +114,15 @@ impl Wiring {
         for text in connect {
             let (from, to) = connection(text, &units)?;
             if wiring.connections.iter().any(|(_, taken)| *taken == to) {
-                let input = format!("{}.{}", to.unit, to.variable);
-                return Err(WiringError::Taken { connection: text.clone(), input });
+                return Err(WiringError::Taken { connection: text.clone(), input: to.to_string() });
+            }
+            let ends = [(&from, false), (&to, true)].map(|(end, is_input)| {
+                let unit = units.iter().find(|unit| unit.name == end.unit);
+                unit.and_then(|unit| if is_input { &unit.inputs } else { &unit.outputs }.get(&end.variable)?.as_ref())
+            });
+            wiring.warnings.extend(compared(text, [&from, &to], ends)?);
+            for (end, unit) in [&from, &to].into_iter().zip(ends) {
+                wiring.units.extend(unit.map(|unit| (end.clone(), unit.clone())));
             }
             wiring.connections.push((from, to));
         }
@@ -111,9 +140,54 @@ impl Wiring {
 fn contact(plan: &Plan) -> Unit {
     let names = |causality| {
         let entries = of_kind(plan, causality).filter(|entry| entry.variable.r#type == Type::Real);
-        entries.flat_map(|entry| (0..entry.count).map(|index| entry.name(index))).collect()
+        entries
+            .flat_map(|entry| {
+                let name = entry.variable.unit.clone().unwrap_or_default();
+                let unit = VariableUnit { name, base: Some(base_of(entry.variable)) };
+                (0..entry.count).map(move |index| (entry.name(index), Some(unit.clone())))
+            })
+            .collect()
     };
     Unit { name: COMPONENT.into(), inputs: names(Causality::Input), outputs: names(Causality::Output) }
+}
+
+/// The unit of a variable of the contact in base units. One without a unit is a plain number.
+pub fn base_of(variable: &table::Variable) -> Base {
+    let mut powers = [0; 8];
+    if let Some(unit) = table::UNITS.iter().find(|unit| Some(&unit.name) == variable.unit.as_ref()) {
+        powers[..3].copy_from_slice(&[unit.kg, unit.m, unit.s]);
+    }
+    Base { powers, factor: 1.0, offset: 0.0 }
+}
+
+/// Compares the units of the two `ends` of a connection. Returns a warning if one of them is unknown.
+fn compared(text: &str, ends: [&End; 2], units: [Option<&VariableUnit>; 2]) -> Result<Option<String>, WiringError> {
+    let said = |index: usize| match units[index] {
+        None => format!("{} (no unit)", ends[index]),
+        Some(unit) if unit.name.is_empty() => format!("{} (a number)", ends[index]),
+        Some(unit) => format!("{} [{}]", ends[index], shortened(&unit.name)),
+    };
+    let [from, to] = [said(0), said(1)];
+    let bases = units.map(|unit| unit.and_then(|unit| unit.base.as_ref()));
+    let connection = shortened(text);
+    let [Some(one), Some(other)] = bases else {
+        // of two that state nothing, or the same name without a definition, nothing can be said
+        let same = units[0].map(|unit| &unit.name) == units[1].map(|unit| &unit.name);
+        let warning =
+            format!("--connect {connection}: {from} and {to} can't be compared; they must have the same unit");
+        return Ok((!same).then_some(warning));
+    };
+    if one.powers != other.powers {
+        return Err(WiringError::Quantity { connection, from, to });
+    }
+    let factor = one.factor / other.factor;
+    let words = match one.offset == other.offset {
+        // the rounding of a written factor
+        true if (factor - 1.0).abs() < 1e-9 => return Ok(None),
+        true => format!("here {} times too small or too large", exact(factor.max(1.0 / factor))),
+        false => "and here the zeros differ".into(),
+    };
+    Err(WiringError::Size { connection, from, to, words })
 }
 
 /// The FMU at `path`, named after its file.
@@ -131,7 +205,8 @@ fn unit(path: &Path, plan: &Plan, others: &[Unit]) -> Result<Unit, WiringError> 
     if name == plan.scene.name || others.iter().any(|other| other.name == name) {
         return Err(WiringError::Twice { path: path.into(), name });
     }
-    let names = |causality| description.reals(causality).map(String::from).collect();
+    let names =
+        |causality| description.reals(causality).map(|(name, unit)| (name.to_string(), unit.cloned())).collect();
     Ok(Unit { name, inputs: names(importer::Causality::Input), outputs: names(importer::Causality::Output) })
 }
 
@@ -145,13 +220,13 @@ fn connection(text: &str, units: &[Unit]) -> Result<(End, End), WiringError> {
             allowed: list(name, units.iter().map(|unit| unit.name.as_str())),
         })?;
         let variables = if kind == "input" { &unit.inputs } else { &unit.outputs };
-        if !variables.contains(variable) {
+        if !variables.contains_key(variable) {
             return Err(WiringError::NoVariable {
                 connection: text.into(),
                 unit: name.into(),
                 kind,
                 name: variable.into(),
-                allowed: list(variable, variables.iter().map(String::as_str)),
+                allowed: list(variable, variables.keys().map(String::as_str)),
             });
         }
         Ok(End { unit: name.into(), variable: variable.into() })

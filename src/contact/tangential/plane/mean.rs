@@ -4,7 +4,7 @@
 //! `F'(h)`. Each spring moves exactly. On a [`Segment`], `F''(h) dh` is a polynomial of `q = sqrt(z)` times `dq`. Along one line the
 //! mean tension is a polynomial of the height between the places of [`breaks`], and Gauss's rule is exact.
 
-use super::pursuit::{GAUSS, Spring};
+use super::pursuit::{FARTHEST, GAUSS, Spring};
 use super::vector::{Vector, ZERO, add, difference, dot, length, times};
 use super::vertex::Vertex;
 use super::{Stuck, Way};
@@ -86,8 +86,8 @@ impl<const N: usize> Stuck<N> {
         if is_new && way.from > surface {
             return Stuck::<N>::pressed(curve, way.from).mean_pull(curve, way);
         }
-        if is_new {
-            // all springs are new and either stick or slip
+        if is_new || length(way.shift) > FARTHEST {
+            // all springs either stick or slip: they are new, or the way is longer than any tension
             let slope = if way.sticks() { way.slope() } else { way.direction() };
             let above = way.above(surface);
             return times(way.part_above(surface) * curve.mean_force(above.from, above.to), slope);

@@ -16,7 +16,7 @@ pub(super) const GAUSS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 4.0 / 9.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
 /// Longest way that can be squared twice \[m\]. On a longer one every spring slips until it is aligned with it.
-const FARTHEST: f64 = 1e60;
+pub(super) const FARTHEST: f64 = 1e60;
 
 /// A spring before a straight way: its tension, and its limit before and after.
 pub(super) struct Spring {
