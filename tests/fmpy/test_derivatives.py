@@ -227,7 +227,7 @@ def test_output_derivatives_are_those_of_the_force_at_the_end_of_the_step(name):
         return made.get("force")
 
     # the force over time, from the left: four neighbouring points, spaced so that neither error dominates
-    wide = 2e-3 * STEP
+    wide = 2e-4 * STEP
     values = [force(STEP - index * wide) for index in range(5)]
     assert force(STEP) == values[0]
     first = (25 * values[0] - 48 * values[1] + 36 * values[2] - 16 * values[3] + 3 * values[4]) / (12 * wide)

@@ -116,7 +116,8 @@ pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
             // without a motion the plate doesn't give way, and there is no tangential force
             "target.plate_thickness" | "friction.coefficient" => false,
             "effective_mass" => {
-                damped_at_start && scene.damped.is_some() || is_listed(name) && elastic_part_follows_mass(scene)
+                let needs_mass = scene.damped.is_some_and(|(_, law)| law.needs_mass());
+                damped_at_start && needs_mass || is_listed(name) && elastic_part_follows_mass(scene)
             }
             _ => is_listed(name),
         };
