@@ -89,6 +89,8 @@ impl Run {
         let mut program = Command::new(env!("CARGO_BIN_EXE_brinell"));
         program.arg("predict").arg(&path);
         self.call(program);
+        // it would be another scene beside the one that the page saves
+        fs::remove_file(&path).expect("it was written");
     }
 
     fn shell(&mut self, text: &str) {
