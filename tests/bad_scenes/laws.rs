@@ -35,7 +35,7 @@ fn input_derivatives_where_the_fmu_cannot_choose_are_refused_with_the_reason() {
     refused_with(coupled, &["fmu.input_derivatives = false", "[coupling] needs them", "leave this key out"]);
     let damped = "[law]\nloading = \"tsuji\"\nrestitution = 0.5\n[fmu]\ninput_derivatives = §true\n";
     refused_with(damped, &["fmu.input_derivatives = true", "depends on the rate", "leave this key out"]);
-    refused_with("[fmu]\ninput_derivatives = §\"no\"\n", &["boolean"]);
+    refused_with("[fmu]\ninput_derivatives = §\"no\"\n", &["true or false"]);
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn a_strength_of_the_impactor_that_cannot_act_is_refused() {
 
 #[test]
 fn losses_below_yield_that_cannot_be_are_refused() {
-    for (number, said) in [("0.0", "0.0"), ("1.5", "1.5"), ("2", "2.0"), ("nan", "NaN")] {
+    for (number, said) in [("0.0", "0.0"), ("1.5", "1.5"), ("2", "2"), ("nan", "NaN")] {
         let law = format!("[law]\nelastic_restitution = §{number}\n");
         refused_with(&law, &[&format!("law.elastic_restitution = {said}"), "0.001 to 1.0", "waves"]);
     }
@@ -127,17 +127,17 @@ fn a_constant_that_a_law_has_not_got_is_refused_with_those_that_it_has() {
 fn a_constant_of_a_law_out_of_range_is_refused_with_the_range() {
     let law = |value: &str| format!("[law]\nloading = \"power\"\nloading_parameters = {{ exponent = §{value} }}");
     for (value, said) in [("0.9", "0.9"), ("2", "2.0"), ("nan", "NaN"), ("inf", "inf"), ("-1.2", "-1.2")] {
-        let said = format!("law.loading_parameters.exponent = {said} is out of range: allowed is 1.0 to 1.8");
+        let said = format!("law.loading_parameters.exponent = {said} is out of range: allowed is 1 to 1.8");
         refused_with(&law(value), &[&said]);
     }
     refused_with(&law("\"high\""), &["law.loading_parameters.exponent = \"high\" is not a number"]);
     refused_with(
         "[law]\nunloading = \"walton-braun\"\n[law.unloading_parameters]\nstiffness_ratio = §0.5",
-        &["law.unloading_parameters.stiffness_ratio = 0.5", "allowed is 1.0 to 1000000.0"],
+        &["law.unloading_parameters.stiffness_ratio = 0.5", "allowed is 1 to 1000000"],
     );
     refused_with(
         "[law]\nloading_parameters = { second_region = §0.5 }",
-        &["law.loading_parameters.second_region = 0.5", "allowed is 1.0 to 1000000.0 d_y"],
+        &["law.loading_parameters.second_region = 0.5", "allowed is 1 to 1000000 d_y"],
     );
 }
 
