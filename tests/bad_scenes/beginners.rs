@@ -155,7 +155,14 @@ fn a_value_of_another_kind_is_told_in_words_of_the_file() {
             "this is a table, expected a list in `[contact]`; write `[[contact]]`",
         ),
         ("radius = 5e-3", "radius = 1e400", "scene.toml:3:10: the number is too large: numbers are below 1.797"),
-        ("radius = 5e-3", "radius = [1]", "expected a number in `radius = [1]`"),
+        ("radius = 5e-3", "radius = [1]", "this is a list, expected a number in `radius = [1]`"),
+        ("radius = 5e-3", "radius = \"five\"", "this is text, expected a number in `radius = \"five\"`"),
+        ("radius = 5e-3", "radius = true", "this is true or false, expected a number in `radius = true`"),
+        ("radius = 5e-3", "radius = 5.", "this is no number"),
+        ("radius = 5e-3", "radius = +-1", "this is no number"),
+        ("radius = 5e-3", "radius = NaN", "this is no number"),
+        ("radius = 5e-3", "radius = five", "this is neither a number nor text in quotes in `radius = five`"),
+        ("radius = 5e-3", "radius = 5,3", "the line goes on after its end in `radius = 5,3`"),
     ] {
         let text = SCENE.replacen(from, to, 1);
         let text = if to.starts_with(['[', 'r']) {

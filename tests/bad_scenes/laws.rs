@@ -22,7 +22,7 @@ fn laws_that_do_not_go_together_are_refused_with_the_reason() {
 fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
     let damped = "[law]\nloading = \"tsuji\"\n";
     refused_with("[law]\nloading = §\"tsuji\"\n", &["needs law.restitution"]);
-    refused_with(&format!("{damped}restitution = §0.0\n"), &["restitution = 0.0", "0.001 to 1.0"]);
+    refused_with(&format!("{damped}restitution = §0.0\n"), &["restitution = 0 ", "0.001 to 1"]);
     refused_with(&format!("{damped}restitution = §1.5\n"), &["restitution = 1.5", "0.001 to 1.0"]);
     refused_with("[law]\nrestitution = §0.5\n", &["law.restitution belongs to", "hunt-crossley", "tsuji"]);
     let own = "[law]\nloading = \"kuwabara-kono\"\nrestitution = §0.5\n";
@@ -35,7 +35,7 @@ fn input_derivatives_where_the_fmu_cannot_choose_are_refused_with_the_reason() {
     refused_with(coupled, &["fmu.input_derivatives = false", "[coupling] needs them", "leave this key out"]);
     let damped = "[law]\nloading = \"tsuji\"\nrestitution = 0.5\n[fmu]\ninput_derivatives = §true\n";
     refused_with(damped, &["fmu.input_derivatives = true", "depends on the rate", "leave this key out"]);
-    refused_with("[fmu]\ninput_derivatives = §\"no\"\n", &["boolean"]);
+    refused_with("[fmu]\ninput_derivatives = §\"no\"\n", &["true or false"]);
 }
 
 #[test]
@@ -62,23 +62,19 @@ fn a_strength_of_the_impactor_that_cannot_act_is_refused() {
     refused(
         "radius = 5e-3",
         "radius = 5e-3\npower_law = { coefficient = §-1.0, exponent = 0.2 }",
-        &["impactor.power_law.coefficient = -1.0", "1e-6", "Pa"],
+        &["impactor.power_law.coefficient = -1 ", "1e-6", "Pa"],
     );
     refused(
         "radius = 5e-3",
         "radius = 5e-3\nrate = { model = §\"norton\", c = 0.1 }",
         &["impactor.rate.model", "johnson-cook"],
     );
-    refused(
-        "radius = 5e-3",
-        "radius = 5e-3\nyield_strength = §-1.0",
-        &["impactor.yield_strength = -1.0", "1e-9", "Pa"],
-    );
+    refused("radius = 5e-3", "radius = 5e-3\nyield_strength = §-1.0", &["impactor.yield_strength = -1 ", "1e-9", "Pa"]);
 }
 
 #[test]
 fn losses_below_yield_that_cannot_be_are_refused() {
-    for (number, said) in [("0.0", "0.0"), ("1.5", "1.5"), ("2", "2.0"), ("nan", "NaN")] {
+    for (number, said) in [("0.0", "0.0"), ("1.5", "1.5"), ("2", "2"), ("nan", "NaN")] {
         let law = format!("[law]\nelastic_restitution = §{number}\n");
         refused_with(&law, &[&format!("law.elastic_restitution = {said}"), "0.001 to 1.0", "waves"]);
     }
@@ -88,7 +84,7 @@ fn losses_below_yield_that_cannot_be_are_refused() {
     // the target of these scenes has no density
     refused_with("[law]\nelastic_restitution = §\"waves\"\n", &["waves", "needs target.density, or a material"]);
     let plate = |more: &str| format!("yield_strength = 300e6\n{more}\n");
-    refused("yield_strength = 300e6\n", &plate("plate_thickness = §0.0"), &["target.plate_thickness = 0.0", "1e-9"]);
+    refused("yield_strength = 300e6\n", &plate("plate_thickness = §0.0"), &["target.plate_thickness = 0 ", "1e-9"]);
     refused("yield_strength = 300e6\n", &plate("plate_thickness = §0.01"), &["plate_thickness needs target.density"]);
     let curved = plate("density = 7850.0\nradius = §0.1\nplate_thickness = 0.01");
     refused("yield_strength = 300e6\n", &curved, &["target.radius = 0.1", "a plate is flat"]);
@@ -131,17 +127,17 @@ fn a_constant_that_a_law_has_not_got_is_refused_with_those_that_it_has() {
 fn a_constant_of_a_law_out_of_range_is_refused_with_the_range() {
     let law = |value: &str| format!("[law]\nloading = \"power\"\nloading_parameters = {{ exponent = §{value} }}");
     for (value, said) in [("0.9", "0.9"), ("2", "2.0"), ("nan", "NaN"), ("inf", "inf"), ("-1.2", "-1.2")] {
-        let said = format!("law.loading_parameters.exponent = {said} is out of range: allowed is 1.0 to 1.8");
+        let said = format!("law.loading_parameters.exponent = {said} is out of range: allowed is 1 to 1.8");
         refused_with(&law(value), &[&said]);
     }
     refused_with(&law("\"high\""), &["law.loading_parameters.exponent = \"high\" is not a number"]);
     refused_with(
         "[law]\nunloading = \"walton-braun\"\n[law.unloading_parameters]\nstiffness_ratio = §0.5",
-        &["law.unloading_parameters.stiffness_ratio = 0.5", "allowed is 1.0 to 1000000.0"],
+        &["law.unloading_parameters.stiffness_ratio = 0.5", "allowed is 1 to 1000000"],
     );
     refused_with(
         "[law]\nloading = \"big-alabo\"\nloading_parameters = { second_region = §0.5 }",
-        &["law.loading_parameters.second_region = 0.5", "allowed is 1.0 to 1000000.0 d_y"],
+        &["law.loading_parameters.second_region = 0.5", "allowed is 1 to 1000000 d_y"],
     );
 }
 

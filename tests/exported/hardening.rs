@@ -132,7 +132,7 @@ fn contradictory_settings_are_rejected() {
     let target = |line: &str| format!("{nu}{line}");
     refused_text(
         &scene(&target("hardening_modulus = §-1.0"), BRINELL, ""),
-        &["target.hardening_modulus = -1.0 is out of range", "0.0 to 1e18 Pa"],
+        &["target.hardening_modulus = -1 is out of range", "0 to 1e18 Pa"],
     );
     refused_text(
         &scene(&target("hardening_modulus = §1e9"), "loading = \"big-alabo\"", ""),
@@ -144,7 +144,7 @@ fn contradictory_settings_are_rejected() {
     );
     refused_text(
         &scene(&target("tangent_modulus = §206e9"), BRINELL, ""),
-        &["target.tangent_modulus = 206000000000.0 is out of range", "below youngs_modulus"],
+        &["target.tangent_modulus = 2.06e11 is out of range", "below youngs_modulus"],
     );
     refused_text(
         &scene(&target("hardening_modulus = 1e9\ntangent_modulus = §1e9"), BRINELL, ""),
@@ -222,7 +222,7 @@ fn a_power_law_becomes_the_closest_line_over_the_strains_of_the_impact() {
     let alone = scene(&format!("{target}{law}"), BRINELL, "").replace("yield_strength = 300e6\n", "");
     refused_text(
         &alone.replace("exponent = 0.2", "exponent = §1.0"),
-        &["target.power_law.exponent = 1.0 is out of range", "0.0 to 0.9"],
+        &["target.power_law.exponent = 1 is out of range", "0 to 0.9"],
     );
     refused_text(
         &alone.replace(law, &format!("§{law}")).replace(BRINELL, "loading = \"johnson\"").replacen(

@@ -135,6 +135,26 @@ fn other_fmus_are_packed_with_the_contact_and_connected_to_it() {
     assert_eq!(archive["resources/mass.fmu"], fs::read(folder.path().join("mass.fmu")).unwrap());
 }
 
+/// Tools read the definition that belongs to the name.
+#[test]
+fn a_unit_of_another_fmu_with_the_name_of_another_unit_is_listed_by_itself() {
+    let folder = empty_folder();
+    let base = "<BaseUnit m=\"1\" s=\"-1\" factor=\"1e-3\"/>";
+    with_units(&folder.path().join("mass.fmu"), &[("m/s", base)]);
+    let scene = scene("mass_known").display().to_string();
+    run(folder.path(), ["ssp", &scene, "--with", "mass.fmu", "--connect", "mass.out0=mass.in0"]).with_status(0);
+    let mut archive = zip_of(&folder.path().join("mass_known.ssp"));
+    let text = archive.remove("SystemStructure.ssd").map(|bytes| String::from_utf8(bytes).unwrap()).unwrap();
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for (name, kind) in [("in0", "input"), ("out0", "output")] {
+        let connector = format!(r#"<ssd:Connector name="{name}" kind="{kind}"> <ssc:Real unit="m/s (mass)"/>"#);
+        assert!(words.contains(&connector), "{text}");
+    }
+    assert!(words.contains(r#"<ssc:Unit name="m/s"> <ssc:BaseUnit m="1" s="-1"/>"#), "{text}");
+    let of_mass = words.split_once(r#"<ssc:Unit name="m/s (mass)">"#).expect("it is listed").1;
+    assert!(of_mass.split("/>").next().unwrap().contains("factor="), "{text}");
+}
+
 /// The files of an archive by name.
 fn zip_of(path: &Path) -> std::collections::HashMap<String, Vec<u8>> {
     let folder = path.with_extension("");

@@ -102,7 +102,7 @@ fn contradictory_settings_are_rejected() {
     refused(
         "rate = { model = \"johnson-cook\", c = §-1.0, reference_rate = 1.0 }",
         "brinell",
-        &["target.rate.c = -1.0 is out of range", "0.0 to 1.0"],
+        &["target.rate.c = -1 is out of range", "0 to 1"],
     );
     refused(
         "rate = { model = \"cowper-symonds\", d = 40.4, q = 5, c = §0.1 }",

@@ -102,7 +102,7 @@ fn not_understood(error: &clap::Error) -> ExitCode {
             _ => ExitCode::SUCCESS,
         };
     }
-    let text = error.render().to_string();
+    let text = numbers::in_words(&error.render().to_string());
     layout::tell(&format!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text).trim_end()));
     ExitCode::from(WRONG_CALL)
 }

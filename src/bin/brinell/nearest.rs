@@ -12,7 +12,10 @@ pub fn nearest<'a>(asked: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
     if asked.is_empty() {
         return None;
     }
-    let rated = names.into_iter().map(|name| (similarity(&asked, &normal(name)), name));
+    // a number of three digits is no mistyped letter: steel 316 isn't 304
+    let numbers = asked.split(|c: char| !c.is_ascii_digit()).filter(|number| number.len() >= 3).collect::<Vec<_>>();
+    let names = names.into_iter().filter(|name| numbers.iter().all(|number| name.contains(number)));
+    let rated = names.map(|name| (similarity(&asked, &normal(name)), name));
     let best = rated.max_by(|one, other| one.0.total_cmp(&other.0))?;
     (best.0 >= SIMILAR).then_some(best.1)
 }
@@ -96,6 +99,8 @@ mod tests {
             ("AISI 1018", Some("steel AISI 1018")),
             ("Ti-6Al-4V", Some("titanium Ti-6Al-4V")),
             ("mild_steel", Some("mild steel")),
+            ("stainless steel 316", None),
+            ("steel 1.2379", None),
             ("cheese", None),
             ("", None),
         ] {

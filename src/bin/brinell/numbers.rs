@@ -1,5 +1,7 @@
 //! Formatting of numbers for people.
 
+use std::ops::RangeInclusive;
+
 /// At most six significant digits.
 pub fn digits(value: f64) -> String {
     significant(value, 6)
@@ -90,6 +92,32 @@ pub fn percent(difference: f64) -> String {
     }
 }
 
+/// What is wrong with the `value` of a name: `= -1 is out of range: allowed is 0 to 1e9 m`. Numbers look as in the messages of an
+/// FMU, but have all their digits.
+pub fn out_of_range(value: f64, allowed: &RangeInclusive<f64>, unit: &str) -> String {
+    let [value, least, most] = [value, *allowed.start(), *allowed.end()].map(in_message);
+    format!("= {value} is out of range: allowed is {least} to {most} {unit}").trim_end().into()
+}
+
+/// A number in a message.
+pub fn in_message(value: f64) -> String {
+    let is_plain = value == 0.0 || !value.is_finite() || (1e-5..1e9).contains(&value.abs());
+    if is_plain { value.to_string() } else { format!("{value:e}") }
+}
+
+/// A message without what Rust says about a text that is no number.
+pub fn in_words(message: &str) -> String {
+    const WORDS: [(&str, &str); 6] = [
+        ("invalid float literal", "a number is expected"),
+        ("cannot parse float from empty string", "a number is expected"),
+        ("invalid digit found in string", "a whole number is expected"),
+        ("cannot parse integer from empty string", "a whole number is expected"),
+        ("number too large to fit in target type", "the number is too large"),
+        ("number too small to fit in target type", "the number is too small"),
+    ];
+    WORDS.iter().fold(message.into(), |message, (theirs, ours)| message.replace(theirs, ours))
+}
+
 /// All digits of a number, with a power of ten where it would have many zeros: `0.005`, `300000`, `1e300`.
 pub fn exact(value: f64) -> String {
     if value == 0.0 || (1e-6..1e12).contains(&value.abs()) { value.to_string() } else { format!("{value:?}") }
@@ -164,6 +192,27 @@ mod tests {
             (f64::NAN, "NaN"),
         ] {
             assert_eq!(exact(value), text);
+        }
+    }
+
+    #[test]
+    fn a_range_has_one_form_of_numbers() {
+        for (value, allowed, unit, text) in [
+            (-0.005, 1e-12..=1e9, "m", "= -0.005 is out of range: allowed is 1e-12 to 1e9 m"),
+            (1e10, 0.001..=1e6, "", "= 1e10 is out of range: allowed is 0.001 to 1000000"),
+            (f64::NAN, -1e40..=1e40, "m/s", "= NaN is out of range: allowed is -1e40 to 1e40 m/s"),
+            (1.0000000001, 0.0..=1.0, "", "= 1.0000000001 is out of range: allowed is 0 to 1"),
+        ] {
+            assert_eq!(out_of_range(value, &allowed, unit), text);
+        }
+    }
+
+    #[test]
+    fn what_rust_says_about_a_text_that_is_no_number_is_in_words() {
+        let of_real = ["", "abc", "1,5"].map(|text| text.parse::<f64>().unwrap_err().to_string());
+        let of_whole = ["", "x", "-300", "300", "2.5"].map(|text| text.parse::<i8>().unwrap_err().to_string());
+        for error in of_real.iter().chain(&of_whole) {
+            assert!(in_words(error).contains("number is "), "{error}");
         }
     }
 

@@ -1,6 +1,7 @@
 //! The constants of a law: their list, and the law with the constants of a scene.
 
 use crate::nearest::unknown;
+use crate::numbers::out_of_range;
 use crate::scene::Mistake;
 use crate::table;
 use serde::Serialize;
@@ -134,10 +135,8 @@ fn check_one(
     };
     let table::LawParameter { minimum, maximum, unit, .. } = parameter;
     if !(*minimum..=*maximum).contains(&number) {
-        let message = format!(
-            "{key}_parameters.{asked} = {number:?} is out of range: allowed is {minimum:?} to {maximum:?} {unit}"
-        );
-        return Err(Mistake(value.span(), message.trim_end().into()));
+        let message = format!("{key}_parameters.{asked} {}", out_of_range(number, &(*minimum..=*maximum), unit));
+        return Err(Mistake(value.span(), message));
     }
     Ok(number)
 }

@@ -161,6 +161,9 @@ pub struct DisplayUnit {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     pub name: String,
+    /// The number by which a scene may mean it; messages then suggest its name.
+    #[serde(skip_serializing)]
+    pub number: Option<String>,
     /// Young's modulus [Pa].
     pub youngs_modulus: f64,
     pub poissons_ratio: f64,

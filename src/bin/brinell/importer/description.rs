@@ -2,6 +2,7 @@
 
 use super::ImportError;
 use crate::layout::{shortened, without_middle};
+use crate::numbers::in_words;
 use crate::xml;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::HashMap;
@@ -201,8 +202,9 @@ fn number<T: FromStr>(text: &str, variable: &str, attribute: &str) -> Result<T, 
 where
     T::Err: std::fmt::Display,
 {
-    text.trim_matches([' ', '\t', '\r', '\n']).parse().map_err(|error| {
+    text.trim_matches([' ', '\t', '\r', '\n']).parse().map_err(|error: T::Err| {
         let (text, variable) = (shortened(text), shortened(variable));
+        let error = in_words(&error.to_string());
         ImportError::Xml(format!("{variable:?} has {attribute} = {text:?}: {error}"))
     })
 }

@@ -5,7 +5,7 @@ use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_heig
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::nearest::{nearest, one_of};
-use crate::numbers::exact;
+use crate::numbers::{exact, out_of_range};
 use crate::scene::{Body, Scene};
 use crate::table::{self, Causality, VARIABLES};
 use brinell::contact::impact::Impact;
@@ -227,6 +227,5 @@ fn check_limits(name: &'static str, value: f64) -> Result<(), PredictError> {
         return Ok(());
     }
     let unit = variable.unit.as_deref().unwrap_or("");
-    let message = format!("{name} = {} is out of range: allowed is {minimum:?} to {maximum:?} {unit}", exact(value));
-    Err(PredictError::Sweep(message.trim_end().into()))
+    Err(PredictError::Sweep(format!("{name} {}", out_of_range(value, &(minimum..=maximum), unit))))
 }

@@ -15,7 +15,7 @@ pub mod time_history;
 
 use crate::laws::{self, Choice};
 use crate::layout;
-use crate::numbers::{exact, quantity, significant};
+use crate::numbers::{exact, out_of_range, quantity, significant};
 use crate::pairing;
 use crate::scene::Scene;
 use crate::table;
@@ -62,7 +62,7 @@ pub enum PredictError {
     Angle(f64),
     #[error("spin = {0} rad/s must be finite")]
     Spin(f64),
-    #[error("friction = {value} is out of range: allowed is {} to {}", allowed.start(), allowed.end())]
+    #[error("friction {}", out_of_range(*value, allowed, ""))]
     Coefficient { value: f64, allowed: std::ops::RangeInclusive<f64> },
     #[error("the law {law} doesn't support friction: {why}")]
     NoFriction { law: String, why: String },

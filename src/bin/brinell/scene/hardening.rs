@@ -4,6 +4,7 @@ use super::error::Mistake;
 use super::file::{Impactor, PowerLawTable, Target};
 use super::power_law;
 use super::softer::Body;
+use crate::numbers::in_message;
 use toml::Spanned;
 
 /// Yield strength and hardening modulus [Pa], each with its position in the file.
@@ -105,7 +106,9 @@ impl Given<'_> {
         // NaN is outside every range
         if !(0.0..modulus).contains(&given) {
             return wrong(format!(
-                "{body}.tangent_modulus = {given:?} is out of range: allowed is 0.0 to below youngs_modulus = {modulus:?} Pa"
+                "{body}.tangent_modulus = {} is out of range: allowed is 0 to below youngs_modulus = {} Pa",
+                in_message(given),
+                in_message(modulus)
             ));
         }
         Ok(Spanned::new(tangent.span(), given / (1.0 - given / modulus)))

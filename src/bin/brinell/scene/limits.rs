@@ -1,6 +1,7 @@
 //! Ranges of numbers.
 
 use super::error::Mistake;
+use crate::numbers::{in_message, out_of_range};
 use crate::table;
 use std::ops::RangeInclusive;
 use toml::Spanned;
@@ -22,9 +23,7 @@ pub fn check_range(
     if allowed.contains(value.get_ref()) {
         return Ok(());
     }
-    let (given, minimum, maximum) = (value.get_ref(), allowed.start(), allowed.end());
-    let message = format!("{owner}{name} = {given:?} is out of range: allowed is {minimum:?} to {maximum:?} {unit}");
-    Err(Mistake(value.span(), message.trim_end().into()))
+    Err(Mistake(value.span(), format!("{owner}{name} {}", out_of_range(*value.get_ref(), &allowed, unit))))
 }
 
 /// Rejects a value with this name unless it is positive and finite.
@@ -33,5 +32,5 @@ pub fn positive(name: &str, value: &Spanned<f64>) -> Result<f64, Mistake> {
     if number > 0.0 && number.is_finite() {
         return Ok(number);
     }
-    Err(Mistake(value.span(), format!("{name} = {number:?} must be positive and finite")))
+    Err(Mistake(value.span(), format!("{name} = {} must be positive and finite", in_message(number))))
 }

@@ -5,7 +5,7 @@ use super::contacts::Contacts;
 use super::error::Mistake;
 use super::file::{File, Target};
 use crate::model::AnyModel;
-use crate::numbers::quantity;
+use crate::numbers::{out_of_range, quantity};
 use brinell::contact::damped::Damped;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
@@ -78,8 +78,7 @@ fn of_restitution(given: &Spanned<Value>) -> Result<Loss, Mistake> {
     if RESTITUTIONS.contains(&number) {
         return Ok(Loss::Fitted(number));
     }
-    let message =
-        format!("law.elastic_restitution = {number:?} is out of range: allowed is 0.001 to 1.0, or \"waves\"");
+    let message = format!("law.elastic_restitution {}, or \"waves\"", out_of_range(number, &RESTITUTIONS, ""));
     Err(Mistake(given.span(), message))
 }
 

@@ -58,7 +58,7 @@ pub fn words(message: &str, line: &str, meant: &str) -> String {
     }
     // the parser names Rust types but not the key; the key is in the line
     let line = shortened(line);
-    let message = with_exact_number(&in_words_of_the_file(message));
+    let message = in_words_of_the_file(message);
     let list = message.ends_with("a list") && line.starts_with('[') && !line.starts_with("[[");
     let help = if list { format!("; write `[{}]`", line.trim_end()) } else { String::new() };
     format!("{} in `{line}`{help}", without_middle(&message))
@@ -69,23 +69,55 @@ fn in_words_of_the_file(message: &str) -> String {
     if message == "floating-point number overflowed" {
         return format!("the number is too large: numbers are below {}", exact(f64::MAX));
     }
-    let message = match message.split_once("expected struct ") {
-        Some((before, _)) => format!("{before}expected a table"),
-        None => message.replace("invalid type: map", "this is a table"),
-    };
-    let words = [("expected f64", "expected a number"), ("expected i64", "expected a whole number")];
-    let words = words.into_iter().chain([("expected a sequence", "expected a list")]);
-    words.fold(message, |message, (theirs, ours)| message.replace(theirs, ours))
-}
-
-/// The `message` of the parser, which writes all digits of a number: 1e300 would have three hundred zeros.
-fn with_exact_number(message: &str) -> String {
-    let parts = message.split_once("floating point `").and_then(|(before, rest)| Some((before, rest.split_once('`')?)));
-    match parts.map(|(before, (digits, after))| (before, digits.parse(), after)) {
-        Some((before, Ok(number), after)) => format!("{before}floating point `{}`{after}", exact(number)),
-        _ => message.into(),
+    let (problem, expected) = message.rsplit_once(", expected ").unwrap_or((message, ""));
+    if let Some(value) = problem.strip_prefix("invalid type: ") {
+        let is = KINDS.iter().find(|(kind, _)| value.starts_with(kind)).map_or(value, |(_, words)| words);
+        let wanted = WANTED.iter().find(|(theirs, _)| expected.starts_with(theirs)).map_or(expected, |(_, ours)| ours);
+        return format!("this is {is}, expected {wanted}");
+    }
+    if NO_NUMBER.iter().any(|theirs| problem.starts_with(theirs)) {
+        return "this is no number: numbers are written like 0.3, 206e9 or -5".into();
+    }
+    match problem {
+        "string values must be quoted" => "this is neither a number nor text in quotes".into(),
+        "unexpected key or value" => "the line goes on after its end".into(),
+        _ => message.trim_end_matches(", expected nothing").into(),
     }
 }
+
+/// What the parser calls a value, whose text the line shows, and what it is.
+const KINDS: [(&str, &str); 6] = [
+    ("string", "text"),
+    ("integer", "a whole number"),
+    ("floating point", "a number with a fraction"),
+    ("boolean", "true or false"),
+    ("sequence", "a list"),
+    ("map", "a table"),
+];
+
+/// What the parser expects, and how a scene calls it.
+const WANTED: [(&str, &str); 6] = [
+    ("f64", "a number"),
+    ("i64", "a whole number"),
+    ("a string", "text in quotes"),
+    ("a boolean", "true or false"),
+    ("a sequence", "a list"),
+    ("struct ", "a table"),
+];
+
+/// How the parser begins what it says about a wrong number.
+const NO_NUMBER: [&str; 10] = [
+    "invalid float",
+    "invalid exponent",
+    "invalid fraction",
+    "invalid mantissa",
+    "invalid hexadecimal number",
+    "invalid octal number",
+    "invalid binary number",
+    "redundant numeric sign",
+    "unexpected leading zero",
+    "`_` may only go between digits",
+];
 
 /// The message about a missing key in the table that begins in `line`; without a line, in the file.
 fn missing(field: &str, line: &str) -> String {

@@ -5,6 +5,7 @@ use super::file::{Impactor, Target};
 use super::group::Parameter;
 use super::hardening::{Flow, Given};
 use super::limits::{check_limits, check_range};
+use crate::layout::shortened;
 use crate::nearest::unknown;
 use crate::table::{self, MATERIALS};
 use std::ops::{Range, RangeInclusive};
@@ -138,8 +139,15 @@ impl Numbers {
 
 fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mistake> {
     MATERIALS.iter().find(|material| &material.name == name.get_ref()).ok_or_else(|| {
+        let asked = name.get_ref();
+        let has_number =
+            |material: &&table::Material| material.number.as_ref().is_some_and(|number| asked.contains(number));
+        if let Some(material) = MATERIALS.iter().find(has_number) {
+            let message = format!("unknown material `{}`; its name here is `{}`", shortened(asked), material.name);
+            return Mistake(name.span(), message);
+        }
         let names = MATERIALS.iter().map(|material| material.name.as_str());
-        Mistake(name.span(), unknown("material", name.get_ref(), names))
+        Mistake(name.span(), unknown("material", asked, names))
     })
 }
 

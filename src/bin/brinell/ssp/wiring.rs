@@ -1,5 +1,6 @@
 //! The other FMUs of a system, and their connections.
 
+use super::values::units_of;
 use super::{COMPONENT, of_kind};
 use crate::importer::{self, Archive, Base, ImportError, VariableUnit};
 use crate::layout::{shortened, shown};
@@ -126,7 +127,21 @@ impl Wiring {
             }
             wiring.connections.push((from, to));
         }
+        wiring.tell_units_apart(plan);
         Ok(wiring)
+    }
+
+    /// Gives a unit of another FMU its component's name, too, if the system already has another unit of the same name.
+    fn tell_units_apart(&mut self, plan: &Plan) {
+        let own = units_of(plan.variables.iter()).into_iter().map(|(name, base)| (name.to_string(), base));
+        let mut listed: BTreeMap<String, Base> = own.collect();
+        for (end, unit) in &mut self.units {
+            let Some(base) = &unit.base else { continue };
+            if listed.get(&unit.name).is_some_and(|known| known != base) {
+                unit.name = format!("{} ({})", unit.name, end.unit);
+            }
+            listed.entry(unit.name.clone()).or_insert_with(|| base.clone());
+        }
     }
 
     /// The connected variables of the component `name`, each once: its inputs if `input`, otherwise its outputs.
