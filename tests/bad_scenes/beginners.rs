@@ -162,7 +162,7 @@ fn a_value_of_another_kind_is_told_in_words_of_the_file() {
         ("radius = 5e-3", "radius = +-1", "this is no number"),
         ("radius = 5e-3", "radius = NaN", "this is no number"),
         ("radius = 5e-3", "radius = five", "this is neither a number nor text in quotes in `radius = five`"),
-        ("radius = 5e-3", "radius = 5,3", "the line goes on after its end in `radius = 5,3`"),
+        ("radius = 5e-3", "radius = 5,3", "radius = 5,3: metres, a number without unit"),
     ] {
         let text = SCENE.replacen(from, to, 1);
         let text = if to.starts_with(['[', 'r']) {

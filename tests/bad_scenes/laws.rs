@@ -23,7 +23,7 @@ fn a_restitution_that_is_missing_wrong_or_of_no_use_is_refused() {
     let damped = "[law]\nloading = \"tsuji\"\n";
     refused_with("[law]\nloading = §\"tsuji\"\n", &["needs law.restitution"]);
     refused_with(&format!("{damped}restitution = §0.0\n"), &["restitution = 0 ", "0.001 to 1"]);
-    refused_with(&format!("{damped}restitution = §1.5\n"), &["restitution = 1.5", "0.001 to 1.0"]);
+    refused_with(&format!("{damped}restitution = §1.5\n"), &["restitution = 1.5", "0.001 to 1"]);
     refused_with("[law]\nrestitution = §0.5\n", &["law.restitution belongs to", "hunt-crossley", "tsuji"]);
     let own = "[law]\nloading = \"kuwabara-kono\"\nrestitution = §0.5\n";
     refused_with(own, &["law.restitution belongs to"]);
@@ -74,9 +74,9 @@ fn a_strength_of_the_impactor_that_cannot_act_is_refused() {
 
 #[test]
 fn losses_below_yield_that_cannot_be_are_refused() {
-    for (number, said) in [("0.0", "0.0"), ("1.5", "1.5"), ("2", "2"), ("nan", "NaN")] {
+    for (number, said) in [("0.0", "0"), ("1.5", "1.5"), ("2", "2"), ("nan", "NaN")] {
         let law = format!("[law]\nelastic_restitution = §{number}\n");
-        refused_with(&law, &[&format!("law.elastic_restitution = {said}"), "0.001 to 1.0", "waves"]);
+        refused_with(&law, &[&format!("law.elastic_restitution = {said}"), "0.001 to 1", "waves"]);
     }
     refused_with("[law]\nelastic_restitution = §\"wave\"\n", &["wave", "0.001 to 1", "\"waves\""]);
     let own = "[law]\nloading = \"tsuji\"\nrestitution = 0.5\nelastic_restitution = §0.9\n";
@@ -126,7 +126,7 @@ fn a_constant_that_a_law_has_not_got_is_refused_with_those_that_it_has() {
 #[test]
 fn a_constant_of_a_law_out_of_range_is_refused_with_the_range() {
     let law = |value: &str| format!("[law]\nloading = \"power\"\nloading_parameters = {{ exponent = §{value} }}");
-    for (value, said) in [("0.9", "0.9"), ("2", "2.0"), ("nan", "NaN"), ("inf", "inf"), ("-1.2", "-1.2")] {
+    for (value, said) in [("0.9", "0.9"), ("2", "2"), ("nan", "NaN"), ("inf", "inf"), ("-1.2", "-1.2")] {
         let said = format!("law.loading_parameters.exponent = {said} is out of range: allowed is 1 to 1.8");
         refused_with(&law(value), &[&said]);
     }
@@ -200,7 +200,7 @@ fn constants_of_two_laws_that_contradict_each_other_are_refused() {
 #[test]
 fn a_mass_to_be_known_that_is_none_is_refused() {
     let mass = |value: &str| format!("[coupling]\neffective_mass = §{value}");
-    for (value, said) in [("0.0", "0.0"), ("-0.0", "-0.0"), ("-4e-3", "-0.004"), ("nan", "NaN"), ("inf", "inf")] {
+    for (value, said) in [("0.0", "0"), ("-0.0", "-0"), ("-4e-3", "-0.004"), ("nan", "NaN"), ("inf", "inf")] {
         refused_with(&mass(value), &[&format!("coupling.effective_mass = {said}")]);
     }
     refused_with("§[coupling]\n", &["effective_mass"]);

@@ -79,7 +79,7 @@ fn in_words_of_the_file(message: &str) -> String {
         return "this is no number: numbers are written like 0.3, 206e9 or -5".into();
     }
     match problem {
-        "string values must be quoted" => "this is neither a number nor text in quotes".into(),
+        "string values must be quoted" | "invalid boolean" => "this is neither a number nor text in quotes".into(),
         "unexpected key or value" => "the line goes on after its end".into(),
         _ => message.trim_end_matches(", expected nothing").into(),
     }
