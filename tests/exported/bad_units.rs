@@ -258,5 +258,5 @@ fn an_fmu_without_scene_says_that_there_is_no_impact_to_run() {
 #[test]
 fn a_scene_damaged_in_the_archive_is_refused_with_its_place() {
     let change = "b'name = 1' if name.endswith('scene.toml') else data";
-    contains(&message(&changed(change)), &["resources/scene.toml:1:8", "a string"]);
+    contains(&message(&changed(change)), &["resources/scene.toml:1:8", "text in quotes"]);
 }
