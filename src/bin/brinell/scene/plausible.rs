@@ -55,35 +55,33 @@ const DENSITY: Expected = Expected {
 /// A yield strength above this fraction of Young's modulus is implausible: no solid with defects has more.
 const STRENGTH_OVER_MODULUS: f64 = 0.2;
 
+/// The numbers of a body, which both tables have, with their names and what is expected of them.
+macro_rules! numbers {
+    ($body:expr) => {
+        [
+            ("radius", &$body.radius, &RADIUS),
+            ("youngs_modulus", &$body.youngs_modulus, &MODULUS),
+            ("yield_strength", &$body.yield_strength, &STRENGTH),
+            ("hardening_modulus", &$body.hardening_modulus, &HARDENING),
+            ("tangent_modulus", &$body.tangent_modulus, &HARDENING),
+            ("density", &$body.density, &DENSITY),
+        ]
+    };
+}
+
 /// The doubts about `file`, each with its place.
 pub fn doubts(file: &File) -> Vec<Mistake> {
     let mut doubts = Vec::new();
     let mut bodies = |owner: &str, impactor: Option<&Impactor>, target: Option<&Target>| {
         if let Some(body) = impactor {
-            let numbers = [
-                ("radius", &body.radius, &RADIUS),
-                ("youngs_modulus", &body.youngs_modulus, &MODULUS),
-                ("yield_strength", &body.yield_strength, &STRENGTH),
-                ("hardening_modulus", &body.hardening_modulus, &HARDENING),
-                ("tangent_modulus", &body.tangent_modulus, &HARDENING),
-                ("density", &body.density, &DENSITY),
-            ];
-            doubts.extend(numbers.into_iter().filter_map(|(key, value, expected)| {
+            doubts.extend(numbers!(body).into_iter().filter_map(|(key, value, expected)| {
                 expected.doubt(&format!("{owner}impactor.{key}"), value.as_ref()?)
             }));
             doubts.extend(of_power_law(&format!("{owner}impactor"), body.power_law.as_ref()));
         }
         let Some(body) = target else { return };
-        let numbers = [
-            ("radius", &body.radius, &RADIUS),
-            ("youngs_modulus", &body.youngs_modulus, &MODULUS),
-            ("yield_strength", &body.yield_strength, &STRENGTH),
-            ("hardening_modulus", &body.hardening_modulus, &HARDENING),
-            ("tangent_modulus", &body.tangent_modulus, &HARDENING),
-            ("density", &body.density, &DENSITY),
-        ];
         let before = doubts.len();
-        doubts.extend(numbers.into_iter().filter_map(|(key, value, expected)| {
+        doubts.extend(numbers!(body).into_iter().filter_map(|(key, value, expected)| {
             // a wide target is nearly flat
             let is_flat = |value: &Spanned<f64>| key == "radius" && value.get_ref().abs() > *RADIUS.range.end();
             expected.doubt(&format!("{owner}target.{key}"), value.as_ref().filter(|value| !is_flat(value))?)
