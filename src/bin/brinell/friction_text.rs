@@ -39,7 +39,8 @@ const TWO: &str = "There are two tangential directions across each other, which 
 const THEORY: &str = "Coulomb friction with partial slip according to Cattaneo, Mindlin, Jaeger and Ciavarella: the contact \
                       area sticks in the middle and slips at the edge. The energy balance has a part for each direction: \
                       work = elastic_energy + dissipated_energy along the normal, and the work of the tangential force is \
-                      tangential_energy + friction_work.";
+                      tangential_energy + friction_work. While a dent grows, the stored part is approximate: friction_work \
+                      then stays where it would fall, and the sum may be above the work for a while.";
 
 /// The accuracy on a dent that doesn't grow, in one direction.
 const IN_ONE: [&str; 2] = [
@@ -55,8 +56,8 @@ const IN_TWO: [&str; 2] = [
      the past fits into sixteen segments. If the direction turns, the tangential force is an approximation. Against many \
      independent springs, its largest measured error over random histories is 1.1e-3 of Coulomb's limit, over circles \
      2.2e-3, and if each step is divided into 512 parts, 5.4e-3.",
-    "The mean tangential force is from Simpson's rule over each step. With input derivatives, the way of a step is divided into \
-     eight straight parts. Derivatives of the tangential force are from trial steps.",
+    "The mean tangential force over a step is a sum over springs that move exactly. With input derivatives, the way of a step is \
+     divided into eight straight parts.",
 ];
 
 /// How much the stable step shrinks.
@@ -89,7 +90,7 @@ fn accuracy(scene: &Scene) -> Vec<String> {
         }
         items.push(
             "No measurement was available for friction on contacts that have yielded. The model for them keeps Coulomb's \
-             bound, makes no energy and equals the elastic theory before yield."
+             bound, its friction work never falls, and it equals the elastic theory before yield."
                 .into(),
         );
     }

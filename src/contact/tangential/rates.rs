@@ -19,8 +19,8 @@ impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
     /// First and second time derivative of `quantity`, for motions that continue on these courses along the normal and in
     /// the tangential directions.
     ///
-    /// Those of the force are exact, except on a dent that grows, and the second one in two directions. All others result from three trial steps, as in
-    /// [`slopes`](crate::contact::behaviour::slopes): their relative errors are about 1e-9 (first) and 1e-5 (second
+    /// Those of the force are exact, except on a dent that grows, and the second one in two directions. All others result from
+    /// three trial steps, as in [`slopes`](crate::contact::behaviour::slopes): their relative errors are about 1e-9 (first) and 1e-5 (second
     /// derivative), if the branch of the law and the segments that slip remain the same.
     pub(super) fn derivatives_of<L: Loading, U: Unloading>(
         &self,
