@@ -209,7 +209,7 @@ impl<S: Scene> Instance<S> {
     /// sides, and on one side where the parameter is at a limit, or where bodies just touch and the derivative is that of bodies
     /// apart. `None` if there is no such parameter.
     ///
-    /// A parabola through the three has the derivative to some 1e-10 of the output over the parameter, or over what the parameter is
+    /// A parabola through the three has the derivative within 1e-6 of the output over the parameter, or over what the parameter is
     /// compared with if it may be zero: 1, or the modulus for hardening. At a corner of the law it is the mean of both sides.
     pub fn neighbours(&self, contact: usize, index: usize) -> Option<[f64; 3]> {
         /// Distance of the neighbours, as a fraction: near the cube root of the rounding error.
