@@ -1,11 +1,13 @@
 """Elastoplastic contact for simulations in Python: FMUs of Brinell, with FMI hidden.
 
 `Contact` is an FMU in use. `export`, `predict`, `sweep` and `curve` call the exporter; `study` runs
-thousands of impacts.
+thousands of impacts, and `fit` finds the parameters that explain a measurement.
 """
 
 from .contact import Contact, State
 from .errors import ContactError, ContactWarning, ProgramError, ProgramWarning, UnknownName
+from .fits.fit import fit
+from .fits.result import Estimate, Fit
 from .program import Prediction, curve, export, predict, program, sweep
 from .studies.plan import Range
 from .studies.study import study
@@ -14,6 +16,8 @@ __all__ = [
     "Contact",
     "ContactError",
     "ContactWarning",
+    "Estimate",
+    "Fit",
     "Prediction",
     "ProgramError",
     "ProgramWarning",
@@ -22,6 +26,7 @@ __all__ = [
     "UnknownName",
     "curve",
     "export",
+    "fit",
     "predict",
     "program",
     "study",
