@@ -271,16 +271,15 @@ def test_the_softer_body_is_fitted_even_beyond_the_strength_of_the_other(scene):
     close(found.values["impactor.yield_strength"], 800e6, 1e-6)
 
 
-@pytest.mark.parametrize("name", ["steel_ball", "mass_known", "oblique", "two_contacts"])
+@pytest.mark.parametrize("name", ["steel_ball", "mass_known", "rough_contacts", "two_contacts"])
 def test_scenes_of_every_kind_are_fitted(name):
     path = SCENES / f"{name}.toml"
-    given = brinell.predict(path)
     table = {"speed": [0.5, 1.0, 2.0]}
     table["restitution"] = [brinell.predict(path, speed=it).restitution for it in table["speed"]]
     found = brinell.fit(path, table)
     (estimate,) = found.estimates
     close(estimate.value, estimate.scene, 1e-6)
-    assert given.mass > 0.0 and found.rms_of_scene < 1e-9
+    assert found.rms_of_scene < 1e-9
 
 
 def test_another_mass_takes_the_place_of_the_scenes(scene):
@@ -414,7 +413,7 @@ def test_what_a_scene_cannot_fit_is_rejected_with_the_reason(scene):
             'no effect on law.loading = "thornton"',
         ),
         (fit(brinell.fit, power, speeds), "target.yield_strength follows from target.power_law"),
-        (fit(brinell.fit, normal, {"speed": [1.0, 1e15], "restitution": [0.5, 0.4]}), "can't be evaluated"),
+        (fit(brinell.fit, normal, {"depth": [1e-6, 1e7], "force": [1.0, 2.0]}), "can't be evaluated"),
     ]:
         with pytest.raises(ValueError) as error:
             call()

@@ -111,14 +111,12 @@ class _Problem:
 
     def variables(self, flow: dict[str, float]) -> Numbers:
         values = np.array([flow[name] for name in self.names])
-        return np.array(
-            [np.log(it) if log else it / size
-             for it, log, size in zip(values, self.logarithmic, self.sizes, strict=True)]
-        )  # fmt: skip
+        with np.errstate(divide="ignore"):
+            return np.where(self.logarithmic, np.log(values), values / self.sizes)
 
     def values(self, variables: Numbers) -> list[float]:
-        each = zip(variables.tolist(), self.logarithmic, self.sizes.tolist(), strict=True)
-        return [float(np.exp(it)) if log else it * size for it, log, size in each]
+        with np.errstate(over="ignore"):
+            return np.where(self.logarithmic, np.exp(variables), variables * self.sizes).tolist()
 
     def flow(self, variables: Numbers) -> dict[str, float]:
         return self.law.given | dict(zip(self.names, self.values(variables), strict=True))
@@ -300,7 +298,8 @@ class _Problem:
             return None
         low, high = interval
         if self.logarithmic[index]:
-            hardly = f"hardly determined: its interval spans a factor of {high / low:.2e}"
+            factor = high / low if low > 0.0 else np.inf
+            hardly = f"hardly determined: its interval spans a factor of {factor:.2e}"
             return hardly if error > np.log(2.0) else None
         return "not distinguishable from 0" if at - error <= 0.0 else None
 

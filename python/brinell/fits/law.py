@@ -58,9 +58,13 @@ class Law:
         self._mass = found.mass
         with open(path, "rb") as file:
             data = tomllib.load(file)
+        # all impacts are along the normal
+        data.pop("friction", None)
         self._data = of_impacts(data, self._mass) if self._of_impacts else _slow(data)
+        losses = {"elastic_restitution"} & {*self._data.get("law", ())}
+        self._is_lossy = bool(losses | ({"plate_thickness"} & {*self._data["target"]}))
         self._open()
-        self.body = self._softer(path)
+        self.body = self._softer(path, found.law)
         own: dict[str, Any] = self._data[self.body]
         self.is_power_law = "power_law" in own and "yield_strength" not in own
         if hardens and not self.is_power_law and self._name("hardening_modulus") not in self._starts:
@@ -71,29 +75,28 @@ class Law:
                 raise ValueError(f"hardening_modulus can't be fitted: {error}") from error
         self.model: str | None = own.get("rate", {}).get("model")
         self.given = self._given()
-        # neither a power law nor a rate beside another loss is found anew in each impact of an FMU
-        losses = {"elastic_restitution"} & {*self._data.get("law", ())}
-        losses |= {"plate_thickness"} & {*self._data["target"]}
-        self._unit_follows = not self.is_power_law and not (self.model and losses)
+        # an FMU finds anew in each impact neither a power law nor a rate beside another loss
+        self._unit_follows = not self.is_power_law and not (self.model and self._is_lossy)
 
     def _open(self) -> None:
         """Export the FMU, and make its instance."""
+        # with a loss, the FMU would have the strength of the scene's impact
+        data = _without_rates(self._data) if self._is_lossy else self._data
         with tempfile.TemporaryDirectory(prefix="brinell-") as folder:
             path = Path(folder) / "scene.toml"
-            path.write_text(toml(self._data), encoding="utf-8")
+            path.write_text(toml(data), encoding="utf-8")
             library = Library.of(export(path, Path(folder) / "unit.fmu"))
         parameters = (one for one in library.variables.values() if one.causality == "parameter")
         self._starts = {one.name: float(one.start) for one in parameters}
         self._contact = Contact(library)
 
-    def _softer(self, path: str | Path) -> str:
+    def _softer(self, path: str | Path, law: str) -> str:
         strengths = {
             body: self._starts[f"{body}.yield_strength"]
             for body in ("target", "impactor")
             if f"{body}.yield_strength" in self._starts
         }
         if not strengths:
-            law = self._data.get("law", {}).get("loading")
             raise ValueError(f"{path}: the law {law} doesn't yield: it has no parameter to fit")
         # at equal strengths the target, as in an FMU
         softer = min(strengths, key=lambda body: strengths[body])
@@ -221,6 +224,12 @@ def _slow(data: Mapping[str, Any]) -> dict[str, Any]:
     for key in ("coupling", "impact"):
         made.pop(key, None)
     made["law"] = {key: it for key, it in made.get("law", {}).items() if key != "elastic_restitution"}
-    for body in ("impactor", "target"):
-        made[body] = {k: it for k, it in made[body].items() if k not in ("rate", "plate_thickness")}
-    return made
+    made["target"].pop("plate_thickness", None)
+    return _without_rates(made)
+
+
+def _without_rates(data: Mapping[str, Any]) -> dict[str, Any]:
+    bodies = ("impactor", "target")
+    return {**data} | {
+        body: {key: it for key, it in data[body].items() if key != "rate"} for body in bodies
+    }
