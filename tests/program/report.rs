@@ -3,7 +3,6 @@
 mod coupling;
 mod extremes;
 mod laws;
-mod measured;
 mod oblique;
 
 use crate::command::{contents, empty_folder, run, scene};

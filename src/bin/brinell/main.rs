@@ -26,7 +26,6 @@ mod law_text;
 mod laws;
 mod layout;
 mod materials;
-mod measured;
 mod merge;
 mod model;
 mod model_description;

@@ -73,16 +73,6 @@ fn kind(unit: &str) -> &'static Kind {
     KINDS.iter().find(|kind| kind.unit == unit).expect("a unit of the program")
 }
 
-/// The size of a unit in the SI unit `unit`, if it is of the same kind.
-pub fn size(name: &str, unit: &str) -> Option<f64> {
-    kind(unit).others.iter().find(|(known, _)| *known == name).map(|(_, size)| *size)
-}
-
-/// The names of the units of the same kind as `unit`.
-pub fn names(unit: &str) -> Vec<&'static str> {
-    kind(unit).others.iter().map(|(name, _)| *name).filter(|name| name.is_ascii()).collect()
-}
-
 /// The number in `text` and the unit after it, if there is one.
 fn split(text: &str) -> Option<(f64, &str)> {
     let text = text.trim().trim_matches(['"', '\'']).trim();

@@ -6,7 +6,6 @@ mod contact;
 mod data;
 mod experiment;
 mod extremes;
-mod measurement;
 mod oblique;
 mod page;
 mod peer;
@@ -21,13 +20,11 @@ mod ways;
 use crate::files::{self, FileError, write_whole};
 use crate::importer::ImportError;
 use crate::layout::{paragraph, shown};
-use crate::measured::Fit;
 use crate::package::ExportError;
 use crate::scene::Scene;
 use card::Card;
 use choice::Choice;
 use data::Table;
-use measurement::Measurement;
 use oblique::Oblique;
 use peer::Peer;
 use precision::Plan;
@@ -64,12 +61,6 @@ pub struct Arguments {
     /// Another FMU with the same variables, for the same pictures; can be repeated
     #[arg(long, value_name = "FMU")]
     pub peer: Vec<PathBuf>,
-    /// Your own measurement, in the same pictures: speed and restitution, or depth and force
-    #[arg(long, value_name = "FILE.csv")]
-    pub measured: Option<PathBuf>,
-    /// Parameters to fit to the measurement [default: yield_strength]
-    #[arg(long, value_delimiter = ',', requires = "measured", value_enum)]
-    pub fit: Vec<Fit>,
     /// Use fewer steps and shorter runs
     #[arg(long)]
     pub quick: bool,
@@ -78,14 +69,13 @@ pub struct Arguments {
 /// The command: measures the FMU of the scene and the other ones, and writes the page. Returns whether all cases passed.
 ///
 /// # Errors
-/// [`ReportError`], or an error of the scene, of the measurement or of the arguments.
+/// [`ReportError`], or an error of the scene or of the arguments.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<bool, Box<dyn Error>> {
-    let Arguments { scene, output, peer, measured, fit, quick } = arguments;
+    let Arguments { scene, output, peer, quick } = arguments;
     let scene = Scene::read_aloud(scene)?;
     let folder = output.clone().unwrap_or_else(|| format!("{}_report", scene.name).into());
     files::check_folder(&folder)?;
-    let measurement = measured.as_deref().map(|path| Measurement::of(&scene, path, fit)).transpose()?;
-    let report = Report::of(&scene, peer, measurement.as_ref(), *quick)?;
+    let report = Report::of(&scene, peer, *quick)?;
     let page = report.write_into(&folder)?;
     if as_json {
         println!("{}", report.json());
@@ -103,8 +93,6 @@ pub struct Report {
     pub card: Card,
     /// The recommended coupling, in sentences.
     pub advice: Vec<String>,
-    /// The findings about the user's own measurement.
-    measured: Vec<String>,
     /// The recommended coupling, as a table.
     pub choice: String,
     recommendations: Value,
@@ -147,16 +135,11 @@ impl Figure {
 }
 
 impl Report {
-    /// Measures the first contact of `scene`, and the other FMUs at `peers`. A `measurement` is shown beside the laws.
+    /// Measures the first contact of `scene`, and the other FMUs at `peers`.
     ///
     /// # Errors
     /// [`ReportError`] if an FMU can't be built or loaded, or rejects an ordinary impact.
-    fn of(
-        scene: &Scene,
-        peers: &[PathBuf],
-        measurement: Option<&Measurement>,
-        quick: bool,
-    ) -> Result<Report, ReportError> {
+    fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<Report, ReportError> {
         let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
         let alone = unit::first_contact(scene, Needs::Force);
         let (model, impact) = (alone.any_model(), alone.impact);
@@ -186,7 +169,7 @@ impl Report {
         // the FMU with friction has no other mass or law
         let oblique = oblique::measure(scene, contacts.rough(), most)?;
         progress.say("laws side by side");
-        let laws = Laws::of(&alone, measurement.map(|own| &own.measured));
+        let laws = Laws::of(&alone);
         let card = card::of(&alone, contacts.plain(), &laws)?;
         let choice = Choice::of(&lines, &stability);
         let mut advice = choice.sentences();
@@ -201,15 +184,10 @@ impl Report {
             vec![precision::part(&scene.name, &lines), stability.part(), laws.part(), extremes::part(&cases)];
         parts.extend(oblique.map(|oblique| oblique.part()));
         parts.push(experiment::part());
-        if let Some(measurement) = measurement {
-            // what the user asked for comes first
-            parts.insert(0, measurement.part(&alone));
-        }
         Ok(Report {
             name: scene.name.clone(),
             card,
             advice,
-            measured: measurement.map(Measurement::sentences).unwrap_or_default(),
             choice: choice.html(),
             recommendations,
             parts,
@@ -221,15 +199,14 @@ impl Report {
     fn lines(&self) -> Vec<String> {
         let outcome = self.card.outcome.iter().map(|(name, value)| format!("{name:<26} {value}"));
         let warnings = self.card.warnings.iter().map(|warning| format!("Outside the law's validity: {warning}."));
-        let sentences = self.card.trust.iter().chain(&self.advice).chain(&self.measured).cloned();
+        let sentences = self.card.trust.iter().chain(&self.advice).cloned();
         let cases = self.parts.iter().find(|part| part.title == extremes::TITLE).map(|part| part.words.clone());
         outcome.chain([String::new()]).chain(sentences).chain(warnings).chain(cases).collect()
     }
 
     /// All tables as one document.
     pub fn json(&self) -> Value {
-        let sentences: Vec<_> =
-            self.card.trust.iter().chain(&self.card.warnings).chain(&self.advice).chain(&self.measured).collect();
+        let sentences: Vec<_> = self.card.trust.iter().chain(&self.card.warnings).chain(&self.advice).collect();
         let mut document = json!({ "scene": self.name, "summary": sentences, "use": self.recommendations });
         for table in self.parts.iter().flat_map(|part| &part.tables) {
             document[table.name] = table.json();

@@ -120,17 +120,7 @@ impl Scene {
     /// impact depend on the strength. The strain is Tabor's, `0.2 a/R_y` at the largest contact radius. The strain rate
     /// is this strain over the loading time. `None` beyond the range of the law.
     pub fn in_impact(&self, group: usize, impact: &Impact) -> Option<InImpact> {
-        self.in_impact_with(group, impact, self.quasi_static(group), self.rate(group))
-    }
-
-    /// The same with another quasi-static hardening and rate model.
-    fn in_impact_with(
-        &self,
-        group: usize,
-        impact: &Impact,
-        given: QuasiStatic,
-        rate: Option<Rate>,
-    ) -> Option<InImpact> {
+        let (given, rate) = (self.quasi_static(group), self.rate(group));
         let line = |strain: f64| self.power_law(group).map(|law| law.up_to(strain));
         let predict = |strain: f64, factor: f64| {
             self.with_strength(group, hardening_of(given, line(strain)), factor).predict(impact)
@@ -155,21 +145,6 @@ impl Scene {
         let model = self.model_of(group);
         let pair = Pair { yield_strength: factor * yield_strength, ..model.pair };
         self.with_loss(group, strengthened(&Model { pair, ..model }, factor * hardening_modulus))
-    }
-
-    /// The first contact under a slow load, with another quasi-static hardening.
-    pub fn model_with(&self, hardening: QuasiStatic) -> AnyModel {
-        self.with_strength(0, hardening, 1.0)
-    }
-
-    /// The first contact in an impact, with another quasi-static hardening and rate model. A power law stays as it is.
-    pub fn model_in_impact(&self, hardening: QuasiStatic, rate: Option<Rate>, impact: &Impact) -> Option<AnyModel> {
-        if self.power_law(0).is_none() && rate.is_none() {
-            return Some(self.model_with(hardening));
-        }
-        let found = self.in_impact_with(0, impact, hardening, rate)?;
-        let InImpact { yield_strength, hardening_modulus, .. } = found;
-        Some(self.with_strength(0, QuasiStatic { yield_strength, hardening_modulus }, 1.0))
     }
 
     /// The prediction of `impact` on the first contact with the straight line for another `strain`.

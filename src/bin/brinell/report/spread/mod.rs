@@ -4,7 +4,6 @@ mod page;
 
 use super::data::{Cell, Table, number, text};
 use crate::laws::{Choice, UnknownLaw, choose};
-use crate::measured::Measured;
 use crate::model::AnyModel;
 use crate::predict;
 use crate::scene::Scene;
@@ -55,8 +54,6 @@ pub struct Laws<'a> {
     scene: &'a Scene,
     /// The scene's first.
     laws: Vec<Law>,
-    /// The user's measurement.
-    measured: Option<&'a Measured>,
     /// Reasons for missing laws.
     left_out: Vec<String>,
     /// The scene's impact from finite elements, for this yield point.
@@ -70,8 +67,8 @@ fn yield_point(scene: &Scene) -> Option<YieldPoint> {
 }
 
 impl Laws<'_> {
-    /// The impact of `scene` with every law that its bodies support; a measurement for the pictures.
-    pub fn of<'a>(scene: &'a Scene, measured: Option<&'a Measured>) -> Laws<'a> {
+    /// The impact of `scene` with every law that its bodies support.
+    pub fn of(scene: &Scene) -> Laws<'_> {
         let mut choices: Vec<Choice> = choose(scene, &[]).unwrap_or_default();
         let (mut left_out, mut without_strength) = (Vec::new(), 0);
         let own = choices.first().map(|choice| choice.name.clone()).unwrap_or_default();
@@ -97,7 +94,7 @@ impl Laws<'_> {
             let impact = truth::impact(energy / (unit.force * unit.indentation))?;
             Some((impact, unit))
         });
-        Laws { scene, laws, measured, left_out, truth }
+        Laws { scene, laws, left_out, truth }
     }
 
     fn truth_of(&self, quantity: &Quantity) -> Option<f64> {

@@ -4,7 +4,6 @@ use super::{Laws, QUANTITIES, Quantity, yield_point};
 use crate::curve;
 use crate::html::escape;
 use crate::laws::Choice;
-use crate::measured::Kind;
 use crate::numbers::{percent, quantity};
 use crate::parallel;
 use crate::plot::{NameAt, Picture, Series, View, css_lines};
@@ -12,7 +11,6 @@ use crate::predict;
 use crate::predict::axis::Axis;
 use crate::predict::sweep::VALUES;
 use crate::report::data::{Table, number, text};
-use crate::report::measurement::NAME;
 use crate::report::{Figure, Part};
 use crate::truth;
 use brinell::contact::TooDeep;
@@ -50,7 +48,7 @@ impl Laws<'_> {
         let mut strong: Vec<&str> = self.names().take(1).collect();
         strong.extend(self.fitted().map(|law| law.choice.name.as_str()));
         strong.extend(self.spread(&QUANTITIES[0]).into_iter().flatten().map(|(name, _)| name));
-        strong.extend([TRUTH, NAME]);
+        strong.push(TRUTH);
         let mut unique: Vec<String> = Vec::new();
         for name in strong {
             if !unique.iter().any(|other| other == name) {
@@ -99,8 +97,7 @@ impl Laws<'_> {
     /// Force over indentation; `None` beyond the range of a law.
     fn forces(&self) -> Result<Figure, TooDeep> {
         let deepest = self.laws.first().map_or(0.0, |law| law.prediction.max_indentation);
-        let mut picture = curve::picture(&self.choices(), deepest, &self.scene.impact, true)?;
-        picture.series.extend(self.measured_dots(Kind::Force, 1e6));
+        let picture = curve::picture(&self.choices(), deepest, &self.scene.impact, true)?;
         let strong = self.strong();
         // scaled to the strong lines: an elastic law would flatten all others
         let highest =
@@ -146,20 +143,12 @@ impl Laws<'_> {
         if !dots.is_empty() {
             picture.series.push(Series { label: TRUTH.into(), points: dots, dots: true });
         }
-        picture.series.extend(self.measured_dots(Kind::Restitution, 1.0));
         let view = View { strong: Some(self.strong()), values: Some(RESTITUTIONS), ..View::default() };
         let svg = picture.labelled(480, 350, &view);
         (
             Figure { name: "restitution", caption: "Coefficient of restitution over speed".into(), svg, folded: false },
             table,
         )
-    }
-
-    /// The user's measurement as dots, if it is of this `kind`, with its arguments times `scale`.
-    fn measured_dots(&self, kind: Kind, scale: f64) -> Option<Series> {
-        let measured = self.measured.filter(|measured| measured.kind == kind)?;
-        let points = measured.points.iter().map(|(at, value)| (scale * at, *value)).collect();
-        Some(Series { label: NAME.into(), points, dots: true })
     }
 
     /// Speeds in `range` [m/s] with a known restitution from finite elements.
@@ -203,16 +192,11 @@ impl Laws<'_> {
         let strong = self.strong();
         let roles = strong.iter().map(|name| match name.as_str() {
             TRUTH => format!("{TRUTH} (black dots)"),
-            NAME => format!("{NAME} (red dots)"),
             name if Some(name) == self.names().next() => format!("{name} (the scene's)"),
             name if name.split('/').next() == Some(FITTED) => format!("{name} (fitted to {TRUTH})"),
             name => format!("{name} (an extreme of restitution)"),
         });
-        let known = |role: &String| match role.as_str() {
-            role if role.starts_with(TRUTH) => self.truth.is_some(),
-            role if role.starts_with(NAME) => self.measured.is_some(),
-            _ => true,
-        };
+        let known = |role: &String| !role.starts_with(TRUTH) || self.truth.is_some();
         words.push_str(&format!("{}.", roles.filter(known).collect::<Vec<_>>().join(", ")));
         let mut figures = Vec::new();
         match self.forces() {
