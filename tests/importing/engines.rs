@@ -216,18 +216,28 @@ fn the_page_on_fmpy_prints_what_it_shows() {
     page("fmpy", &[]);
 }
 
-#[test]
-fn studies_run_completely_and_are_resumed() {
-    if !have(&["scipy", "pyarrow", "tqdm", "matplotlib"], "studies") {
+/// Runs these files of tests/python/, which need the packages.
+fn pytest(files: &[&str], packages: &[&str], skipped: &str) {
+    if !have(packages, skipped) {
         return;
     }
     let output = interpreter(&[])
         .args(["-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider"])
-        .args(["test_study.py", "test_study_command.py"])
+        .args(files)
         .current_dir(root().join("tests/python"))
         .env("BRINELL_TEST_SCENES", root().join("scenes"))
         .output()
         .expect("the environment has an interpreter");
     assert!(output.status.success(), "{}", text(&output));
     println!("{}", text(&output));
+}
+
+#[test]
+fn studies_run_completely_and_are_resumed() {
+    pytest(&["test_study.py", "test_study_command.py"], &["scipy", "pyarrow", "tqdm", "matplotlib"], "studies");
+}
+
+#[test]
+fn fits_find_what_made_a_measurement() {
+    pytest(&["test_fit.py"], &["scipy", "matplotlib"], "fits");
 }

@@ -74,7 +74,9 @@ def fit(
     names = [parameters] if isinstance(parameters, str) else list(parameters)
     for index, name in enumerate(names):
         if name not in PARAMETERS:
-            raise ValueError(f"parameters: {name!r} can't be fitted; expected {', '.join(PARAMETERS)}")
+            raise ValueError(
+                f"parameters: {name!r} can't be fitted; expected {', '.join(PARAMETERS)}"
+            )
         if name in names[:index]:
             raise ValueError(f"parameters names {name} twice")
     if not names:
@@ -89,7 +91,9 @@ def fit(
         if name == "rate" and law.model is None:
             raise ValueError(f"rate needs a rate model in the scene: give {law.body}.rate")
         if name != "rate" and law.is_power_law:
-            raise ValueError(f"{law.name(name)} follows from {law.body}.power_law: there is nothing to fit")
+            raise ValueError(
+                f"{law.name(name)} follows from {law.body}.power_law: there is nothing to fit"
+            )
     return _Problem(law, points, names).fitted()
 
 
@@ -112,11 +116,13 @@ class _Problem:
     def variables(self, flow: dict[str, float]) -> Numbers:
         values = np.array([flow[name] for name in self.names])
         with np.errstate(divide="ignore"):
-            return np.where(self.logarithmic, np.log(values), values / self.sizes)
+            found: Numbers = np.where(self.logarithmic, np.log(values), values / self.sizes)
+        return found
 
     def values(self, variables: Numbers) -> list[float]:
         with np.errstate(over="ignore"):
-            return np.where(self.logarithmic, np.exp(variables), variables * self.sizes).tolist()
+            found = np.where(self.logarithmic, np.exp(variables), variables * self.sizes)
+        return [float(it) for it in found]
 
     def flow(self, variables: Numbers) -> dict[str, float]:
         return self.law.given | dict(zip(self.names, self.values(variables), strict=True))
@@ -146,10 +152,8 @@ class _Problem:
 
         start = min(self.starts(), key=squares)
         low = np.where(self.logarithmic, -np.inf, 0.0)
-        high = np.array(
-            [LARGEST_C if name == "rate" and not log else np.inf
-             for name, log in zip(self.names, self.logarithmic, strict=True)]
-        )  # fmt: skip
+        is_c = ~self.logarithmic & (np.array(self.names) == "rate")
+        high = np.where(is_c, LARGEST_C, np.inf)
         try:
             return least_squares(
                 lambda variables: self.differences(self.flow(variables)),
@@ -171,9 +175,9 @@ class _Problem:
             raise ValueError(BEYOND)
         found = self.solve()
         flow, differences = self.flow(found.x), np.asarray(found.fun)
-        estimates, correlated = self.estimates(found)
+        estimates, combined = self.estimates(found)
         notes = [
-            correlated,
+            combined,
             _trend(differences),
             self._left_out(),
             self._outside(self.law.outside(self.points.at, flow)),
@@ -182,7 +186,11 @@ class _Problem:
 
         def table(at: Numbers) -> dict[str, Numbers]:
             law = self.law
-            return {argument: at, "scene": law.values(at, law.given), "fitted": law.values(at, flow)}
+            return {
+                argument: at,
+                "scene": law.values(at, law.given),
+                "fitted": law.values(at, flow),
+            }
 
         return Fit(
             kind=self.points.kind,
@@ -210,8 +218,8 @@ class _Problem:
         if not self.points.left_out:
             return None
         return (
-            f"The record has unloadings: {self.points.left_out} points without a greater depth and force "
-            "than all before them were left out, since they belong to no first loading."
+            f"The record has unloadings: {self.points.left_out} points without a greater depth and "
+            "force than all before them were left out, since they belong to no first loading."
         )
 
     def _outside(self, wide: Numbers) -> str | None:
@@ -219,16 +227,18 @@ class _Problem:
             return None
         name, unit = {"restitution": ("speeds", "m/s"), "force": ("depths", "m")}[self.points.kind]
         return (
-            f"The contact radius exceeds {LARGEST_RADIUS_RATIO} effective radii, where no law is valid, at "
-            f"{len(wide)} of {len(self.points.at)} points ({name} from {quantity(wide[0], unit)} to "
-            f"{quantity(wide[-1], unit)}): leave them out."
+            f"The contact radius exceeds {LARGEST_RADIUS_RATIO} effective radii, where no law is "
+            f"valid, at {len(wide)} of {len(self.points.at)} points ({name} from "
+            f"{quantity(wide[0], unit)} to {quantity(wide[-1], unit)}): leave them out."
         )
 
     def estimates(self, found: Any) -> tuple[list[Estimate], str | None]:
         """The estimates with their intervals, and a note on parameters that can't be told apart."""
         from scipy.special import stdtrit
 
-        at, differences, bound = found.x, found.fun, np.asarray(found.active_mask)
+        at, differences = found.x, found.fun
+        # at its bound, and held there: a parameter without effect may have started there
+        bound = np.where(found.active_mask * found.grad < 0.0, found.active_mask, 0)
         free = bound == 0
         jacobian = np.asarray(found.jac)[:, free]
         effects = np.max(np.abs(jacobian), axis=0, initial=0.0)
@@ -249,11 +259,16 @@ class _Problem:
             if bound[index] < 0:
                 doubt = "not distinguishable from 0: the best value would be negative"
             elif bound[index] > 0:
-                doubt = f"not determined: the best value would be above {LARGEST_C:g}, the largest of a scene"
+                doubt = (
+                    f"not determined: the best value would be above {LARGEST_C:g}, the largest of a "
+                    "scene"
+                )
             else:
                 error, effect = errors[ordinals[index]], effects[ordinals[index]]
                 if np.isfinite(error):
-                    ends = [np.where(np.arange(len(at)) == index, at + it, at) for it in (-error, error)]
+                    ends = [
+                        np.where(np.arange(len(at)) == index, at + it, at) for it in (-error, error)
+                    ]
                     low, high = (max(self.values(end)[index], 0.0) for end in ends)
                     interval = (low, high)
                 doubt = self._doubt(index, at[index], effect, freedom, count, error, interval)
@@ -264,8 +279,8 @@ class _Problem:
             scene = self.law.given[name]
             estimates.append(Estimate(self.law.name(name), unit, scene, value, interval, doubt))
         combined = (
-            "The measurement determines only a combination of the parameters: each can make up for another. "
-            "Fit one of them."
+            "The measurement determines only a combination of the parameters: each can make up for "
+            "another. Fit one of them."
         )
         return estimates, combined if correlated else None
 
@@ -282,17 +297,18 @@ class _Problem:
         """The reason why the parameter at `index` is not determined."""
         if not effect > NO_EFFECT:
             why = {
-                "restitution": "no restitution depends on it; impacts that do not yield, for example, "
-                "rebound with all their energy",
-                "force": "no force depends on it; contacts that do not yield, for example, are elastic",
+                "restitution": "no restitution depends on it; impacts that do not yield, for "
+                "example, rebound with all their energy",
+                "force": "no force depends on it; contacts that do not yield, for example, are "
+                "elastic",
             }
             return f"not determined: {why[self.points.kind]}"
         if freedom <= 0:
             different = self.points.different
             word = "different " if different < len(self.points.at) else ""
             return (
-                f"without an interval: {different} {word}points for {count} parameters leave nothing "
-                "to judge it by"
+                f"without an interval: {different} {word}points for {count} parameters leave "
+                "nothing to judge it by"
             )
         if interval is None:
             return None
@@ -332,6 +348,7 @@ def _trend(differences: Numbers) -> str | None:
     if number >= TREND:
         return None
     return (
-        f"The remaining differences follow a trend (Durbin-Watson {number:.2f}; independent ones have about 2): "
-        "the law does not have the shape of the measurement, and the intervals are too narrow."
+        f"The remaining differences follow a trend (Durbin-Watson {number:.2f}; independent ones "
+        "have about 2): the law does not have the shape of the measurement, and the intervals are too "
+        "narrow."
     )

@@ -36,7 +36,7 @@ PARAMETERS = ("yield_strength", "hardening_modulus", "rate")
 RATES = {"johnson-cook": ("c", ""), "cowper-symonds": ("d", "1/s")}
 """The constant of each rate model that can be fitted, with its unit."""
 LARGEST_RADIUS_RATIO = 0.3
-"""Contact radius over effective radius up to which laws are valid, as FMUs and the program have it."""
+"""Contact radius over effective radius up to which laws are valid: that of FMUs and the program."""
 UNYIELDING = 1e18
 """Strength [Pa] of a body that is not fitted: the largest of an FMU. The fitted body stays the
 softer one."""
@@ -67,7 +67,11 @@ class Law:
         self.body = self._softer(path, found.law)
         own: dict[str, Any] = self._data[self.body]
         self.is_power_law = "power_law" in own and "yield_strength" not in own
-        if hardens and not self.is_power_law and self._name("hardening_modulus") not in self._starts:
+        if (
+            hardens
+            and not self.is_power_law
+            and self._name("hardening_modulus") not in self._starts
+        ):
             own["hardening_modulus"] = 0.0
             try:
                 self._open()
@@ -108,7 +112,9 @@ class Law:
 
     def name(self, parameter: str) -> str:
         """The name of a parameter in the scene."""
-        return self._name(f"rate.{RATES[self.model][0]}" if parameter == "rate" and self.model else parameter)
+        return self._name(
+            f"rate.{RATES[self.model][0]}" if parameter == "rate" and self.model else parameter
+        )
 
     def unit(self, parameter: str) -> str:
         """Its SI unit."""
@@ -148,12 +154,16 @@ class Law:
             return self._by_unit(at, flow, self._force)
         if self._unit_follows and flow.get("rate") == self.given.get("rate"):
             return self._by_unit(at, flow, self._restitution)
-        return np.array([np.nan if it is None else it.restitution for it in self._predicted(at, flow)])
+        return np.array(
+            [np.nan if it is None else it.restitution for it in self._predicted(at, flow)]
+        )
 
     def outside(self, at: Numbers, flow: Flow) -> Numbers:
         """Those of the ascending arguments `at` whose contact is wider than laws are valid."""
         if not self._of_impacts:
-            radii = self._by_unit(at, flow, lambda depth, own: self._force(depth, own, "contact_radius"))
+            radii = self._by_unit(
+                at, flow, lambda depth, own: self._force(depth, own, "contact_radius")
+            )
             return at[radii > LARGEST_RADIUS_RATIO * self._radius]
 
         def is_wide(speed: float) -> bool:
@@ -223,7 +233,9 @@ def _slow(data: Mapping[str, Any]) -> dict[str, Any]:
     made["fmu"] = {"outputs": ["contact_radius"]}
     for key in ("coupling", "impact"):
         made.pop(key, None)
-    made["law"] = {key: it for key, it in made.get("law", {}).items() if key != "elastic_restitution"}
+    made["law"] = {
+        key: it for key, it in made.get("law", {}).items() if key != "elastic_restitution"
+    }
     made["target"].pop("plate_thickness", None)
     return _without_rates(made)
 

@@ -51,7 +51,8 @@ KINDS: Mapping[Kind, tuple[str, str]] = {
 }
 """The argument and the value of each kind of measurement."""
 EXPECTED = (
-    "a first line such as `speed [m/s], restitution` or `depth [um], force [N]`, and numbers below it"
+    "a first line such as `speed [m/s], restitution` or `depth [um], force [N]`, and numbers "
+    "below it"
 )
 
 
@@ -90,7 +91,7 @@ def measured(source: str | Path | Table) -> Measured:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise ValueError(f"{path}: the file is no text in UTF-8") from None
-    return _of_lines(str(path), text.splitlines())
+    return _of_lines(str(path), text.split("\n"))
 
 
 def _of_lines(path: str, lines: Iterable[str]) -> Measured:
@@ -100,7 +101,10 @@ def _of_lines(path: str, lines: Iterable[str]) -> Measured:
             continue
         place = f"{path}:{number}"
         try:
-            cells = [cell.strip() for cell in next(csv.reader([line], strict=True, skipinitialspace=True))]
+            cells = [
+                cell.strip()
+                for cell in next(csv.reader([line], strict=True, skipinitialspace=True))
+            ]
         except csv.Error:
             raise ValueError(f"{place}: a quotation mark is not closed") from None
         if columns is None:
@@ -110,7 +114,9 @@ def _of_lines(path: str, lines: Iterable[str]) -> Measured:
         elif len(cells) != 2:
             raise ValueError(f"{place}: {len(cells)} numbers instead of two")
         else:
-            points.append([one.number(place, cell) for one, cell in zip(columns, cells, strict=True)])
+            points.append(
+                [one.number(place, cell) for one, cell in zip(columns, cells, strict=True)]
+            )
     if columns is None:
         raise ValueError(f"{path}: the file is empty; expected {EXPECTED}")
     if not points:
@@ -123,7 +129,9 @@ def _of_table(table: Table) -> Measured:
     columns = _heading("the measurement", names)
     values = [list(table[name]) for name in table]
     if len(values[0]) != len(values[1]):
-        raise ValueError(f"{names[0]} has {len(values[0])} numbers, and {names[1]} {len(values[1])}")
+        raise ValueError(
+            f"{names[0]} has {len(values[0])} numbers, and {names[1]} {len(values[1])}"
+        )
     if not 0 < len(values[0]) <= MOST:
         raise ValueError(f"the measurement has {len(values[0])} rows; allowed is 1 to {MOST}")
     points = [
@@ -171,7 +179,9 @@ def _heading(place: str, cells: Sequence[str]) -> list[_Column]:
             else f"has {len(cells)} columns, separated by commas"
         )
         raise ValueError(f"{place}: `{_shortened(','.join(cells))}` {problem}; expected {EXPECTED}")
-    columns = [_column(f"{place}, column {index + 1}", index, cell) for index, cell in enumerate(cells)]
+    columns = [
+        _column(f"{place}, column {index + 1}", index, cell) for index, cell in enumerate(cells)
+    ]
     if {one.quantity for one in columns} not in map(set, KINDS.values()):
         names = " and ".join(one.name for one in columns)
         raise ValueError(f"{place}: {names} don't belong together; expected {EXPECTED}")

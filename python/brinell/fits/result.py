@@ -74,7 +74,8 @@ class Fit:
         unit = SI[KINDS[self.kind][1]]
         rms = (
             f"{self.count} measured points. Root-mean-square difference of the scene's law: "
-            f"{quantity(self.rms_of_scene, unit)}; with the fitted value: {quantity(self.rms, unit)}."
+            f"{quantity(self.rms_of_scene, unit)}; with the fitted value: "
+            f"{quantity(self.rms, unit)}."
         )
         return "\n".join([rms, *map(str, self.estimates), *self.notes])
 
