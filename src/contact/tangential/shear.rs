@@ -1,9 +1,8 @@
 //! What a contact with friction asks of its springs, in any number of tangential directions.
 
 use super::{Motion, Sliding, Stuck, Way, plane};
-use crate::contact::numbers::{largest, smallest};
+use crate::contact::numbers::{root, smallest};
 use crate::contact::segment::Segment;
-use libm::fabs;
 
 /// First and second time derivative of a force in `D` directions \[N/s, N/s^2\].
 pub type Rates<const D: usize> = ([f64; D], [f64; D]);
@@ -60,16 +59,16 @@ pub trait Shear<const D: usize>: Copy {
 /// themselves are off by more.
 pub(super) const TOLERANCE: f64 = 1e-5;
 
-/// The shortest part of a way over which the mean is taken by one rule: a force with a kink there is off by its square.
-const SHORTEST: f64 = 1.0 / 1024.0;
-
 /// The largest number of parts that are tried.
-const MOST_TRIES: u32 = 48;
+const MOST_TRIES: u32 = 400;
 
 /// Mean of a tangential force over a way, from its values at the `start` and at the `end`, and `at` a part of the way. An error of
-/// `tolerance` is accepted \[N\].
+/// `tolerance` is accepted in each part \[N\].
 ///
-/// By Simpson's rule over parts of the way, which become shorter where springs begin or cease to slip.
+/// By Boole's rule over parts of the way, which become shorter where springs begin or cease to slip. There the force has a kink. Its
+/// third differences in both halves of a part bound the error, wherever the kink is. The fourth difference, by which Simpson's rule
+/// over the part and over its halves differ, vanishes for some places of a kink. The sizes of vectors don't depend on the
+/// directions in which they are counted, so motion along one line has the same parts in two directions as in one.
 pub(super) fn mean_over<const D: usize>(
     start: [f64; D],
     end: [f64; D],
@@ -77,39 +76,51 @@ pub(super) fn mean_over<const D: usize>(
     at: impl Fn(f64) -> [f64; D],
 ) -> [f64; D] {
     let (mut sum, mut from, mut here, mut width) = ([0.0; D], 0.0, start, 1.0);
-    for _ in 0..MOST_TRIES {
+    // the middle and the end of a part that is half of one before
+    let mut known = None;
+    for turn in 1..=MOST_TRIES {
         let left = 1.0 - from;
         let part = smallest(width, left);
-        let [first, middle, third] = [0.25, 0.5, 0.75].map(|place| at(from + place * part));
-        let next = if part < left { at(from + part) } else { end };
-        let (mut mean, mut error) = ([0.0; D], 0.0);
-        for (index, mean) in mean.iter_mut().enumerate() {
-            let [here, first, middle, third, next] =
-                [here, first, middle, third, next].map(|force| force.get(index).copied().unwrap_or(0.0));
-            let whole = (here + 4.0 * middle + next) / 6.0;
-            let halves = (here + 4.0 * first + 2.0 * middle + 4.0 * third + next) / 12.0;
-            error = largest(fabs(halves - whole), error);
-            // the next term of the error, as by Richardson
-            *mean = halves + (halves - whole) / 15.0;
-        }
-        if part * error > tolerance && part > SHORTEST {
+        let (middle, next) = known.take().unwrap_or_else(|| {
+            let next = if part < left { at(from + part) } else { end };
+            (at(from + 0.5 * part), next)
+        });
+        let [first, third] = [0.25, 0.75].map(|place| at(from + place * part));
+        let forces = [here, first, middle, third, next];
+        let error = (size(weighted([-1.0, 3.0, -3.0, 1.0, 0.0], forces))
+            + size(weighted([0.0, -1.0, 3.0, -3.0, 1.0], forces)))
+            / 12.0;
+        if part * error > tolerance && turn < MOST_TRIES {
+            known = Some((first, middle));
             width = 0.5 * part;
             continue;
         }
+        let mean = weighted([7.0, 32.0, 12.0, 32.0, 7.0], forces);
         for (sum, mean) in sum.iter_mut().zip(mean) {
-            *sum += part * mean;
+            *sum += part * mean / 90.0;
         }
         if part >= left {
             return sum;
         }
         (from, here, width) = (from + part, next, 2.0 * part);
     }
-    // a polyline that is made anew for each part has small kinks everywhere
-    let middle = at(0.5 * (1.0 + from));
-    for (((sum, here), middle), end) in sum.iter_mut().zip(here).zip(middle).zip(end) {
-        *sum += (1.0 - from) * (here + 4.0 * middle + end) / 6.0;
+    sum
+}
+
+/// The sum of `forces` with these weights.
+fn weighted<const D: usize>(weights: [f64; 5], forces: [[f64; D]; 5]) -> [f64; D] {
+    let mut sum = [0.0; D];
+    for (weight, force) in weights.into_iter().zip(forces) {
+        for (sum, force) in sum.iter_mut().zip(force) {
+            *sum += weight * force;
+        }
     }
     sum
+}
+
+/// Length of a vector.
+fn size<const D: usize>(vector: [f64; D]) -> f64 {
+    root(vector.iter().fold(0.0, |sum, part| sum + part * part))
 }
 
 impl Motion<1> {
