@@ -1,7 +1,7 @@
 //! The stuck offsets of a contact as a polyline of vectors.
 
 use super::merge::merge;
-use super::vector::{Vector, difference, length};
+use super::vector::{Vector, ZERO, add, difference, length};
 use super::vertex::Vertex;
 use crate::contact::segment::Segment;
 use crate::contact::tangential::SAME;
@@ -70,10 +70,13 @@ impl<const N: usize> List<N> {
         }
     }
 
-    /// Moves the origin of all offsets to `origin` \[m\].
-    pub(super) fn rebase(&mut self, origin: Vector) {
-        for vertex in self.vertices.iter_mut().take(self.count) {
-            vertex.offset = difference(vertex.offset, origin);
+    /// Moves the origin of all offsets to that of the highest springs, at `indentation` \[m\]. The offsets follow from the slopes:
+    /// after a long slide, they would be small differences of large numbers.
+    pub(super) fn rebase(&mut self, indentation: f64) {
+        let mut end = (indentation, ZERO);
+        for vertex in self.vertices.iter_mut().take(self.count).rev() {
+            vertex.offset = add(end.1, vertex.height - end.0, vertex.slope);
+            end = (vertex.height, vertex.offset);
         }
     }
 }

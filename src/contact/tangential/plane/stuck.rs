@@ -126,11 +126,11 @@ impl<const N: usize> Stuck<N> {
     /// Takes over the segments of `cut` on `curve`.
     pub(super) fn take(&mut self, cut: Cut<N>, curve: &Segment) {
         self.slips_from = cut.slips_from.unwrap_or(NONE);
-        let displacement = cut.apex.displacement;
+        let indentation = cut.apex.indentation;
         self.list = cut.left.into_list(curve);
         if self.sliding() == Sliding::Sliding {
             // from here on only the tension of the springs matters
-            self.list.rebase(displacement);
+            self.list.rebase(indentation);
             self.displacement = [Sum::new(0.0); 2];
         }
     }
