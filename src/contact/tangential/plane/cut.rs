@@ -29,8 +29,9 @@ pub(super) struct Point {
     after: Vector,
     /// Whether the springs at the point slip, at least in the end.
     slips: bool,
-    /// Whether their tension then has the direction of the way.
-    is_aligned: bool,
+    /// Their tension then along the way \[m\], if it has no other component; negative against the way, where limits fall faster
+    /// than the motion relaxes the springs.
+    aligned: Option<f64>,
 }
 
 /// A polyline that follows a way.
@@ -70,11 +71,25 @@ impl<'a, const N: usize> Cut<'a, N> {
         to
     }
 
-    /// Adds the segment of this `slope` between two points.
+    /// Adds the segment of this `slope` between two points, up to the indentation: a dent that grows may become narrower.
     pub(super) fn between(&mut self, slope: Vector, from: &Point, to: &Point) {
-        if to.height <= from.height {
+        let height = smallest(to.height, self.apex.indentation);
+        if height <= from.height {
             return;
         }
+        let end = if height < to.height { self.on_segment(slope, (from, to), height) } else { *to };
+        let middle = self.farthest_inside(slope, from, &end).map(|height| self.on_segment(slope, (from, to), height));
+        match middle.filter(|middle| !middle.slips) {
+            Some(middle) => {
+                self.part(slope, from, &middle);
+                self.part(slope, &middle, &end);
+            }
+            None => self.part(slope, from, &end),
+        }
+    }
+
+    /// Adds a segment of this `slope` that crosses the cone at most once.
+    fn part(&mut self, slope: Vector, from: &Point, to: &Point) {
         match (from.slips, to.slips) {
             (false, false) => self.line(slope, from, to),
             (false, true) => {
@@ -101,7 +116,7 @@ impl<'a, const N: usize> Cut<'a, N> {
     /// The point at this height and offset \[m\], whose springs had this `limit` before the way \[m\].
     pub(super) fn point(&self, (height, before): Place, limit: f64) -> Point {
         let slips = self.apex.distance(height, before) <= SAME * self.apex.indentation;
-        let mut point = Point { height, limit, before, after: before, slips, is_aligned: false };
+        let mut point = Point { height, limit, before, after: before, slips, aligned: None };
         if slips {
             let spring = Spring {
                 tension: difference(self.start, before),
@@ -110,14 +125,35 @@ impl<'a, const N: usize> Cut<'a, N> {
             };
             let tension = spring.moved(self.way.shift, self.direction);
             point.after = difference(self.apex.displacement, tension);
-            point.is_aligned = self.is_aligned(tension);
+            point.aligned = self.aligned(tension);
         }
         point
     }
 
-    /// Whether a `tension` has the direction of the way.
-    fn is_aligned(&self, tension: Vector) -> bool {
-        fabs(cross(tension, self.direction)) <= SAME * self.apex.indentation && dot(tension, self.direction) >= 0.0
+    /// The size of a `tension` \[m\] along the way, if it has no other component.
+    fn aligned(&self, tension: Vector) -> Option<f64> {
+        let is_aligned = fabs(cross(tension, self.direction)) <= SAME * self.apex.indentation;
+        is_aligned.then_some(dot(tension, self.direction))
+    }
+
+    /// The point at this `height` \[m\] of a segment of this `slope` between two points.
+    fn on_segment(&self, slope: Vector, (from, to): (&Point, &Point), height: f64) -> Point {
+        let (rise, whole) = (height - from.height, to.height - from.height);
+        let part = quotient(rise, whole, whole > 0.0, 1.0);
+        self.point((height, add(from.before, rise, slope)), from.limit + part * (to.limit - from.limit))
+    }
+
+    /// Height \[m\] on a segment of this `slope` where springs are farthest inside their limits, if those at both ends slip. Only a
+    /// segment that is steeper than the cone can cross it twice: on a dent that has grown.
+    fn farthest_inside(&self, slope: Vector, from: &Point, to: &Point) -> Option<f64> {
+        let square = dot(slope, slope) - 1.0;
+        if !(from.slips && to.slips && square > 0.0) {
+            return None;
+        }
+        let tension = difference(self.apex.displacement, from.before);
+        let half = dot(tension, slope) - (self.apex.indentation - from.height);
+        let height = from.height + quotient(half, square, half < square * (to.height - from.height), 0.0);
+        (height > from.height && height < to.height).then_some(height)
     }
 
     /// The point on a segment of this `slope` between `stuck` springs and slipping ones that just reaches its limit.
@@ -125,9 +161,9 @@ impl<'a, const N: usize> Cut<'a, N> {
         let rise = slipping.height - stuck.height;
         let part = self.crossing(stuck, slope, rise);
         let before = add(stuck.before, part * rise, slope);
-        let is_aligned = self.is_aligned(difference(self.apex.displacement, before));
+        let aligned = self.aligned(difference(self.apex.displacement, before));
         let limit = stuck.limit + part * (slipping.limit - stuck.limit);
-        Point { height: stuck.height + part * rise, limit, before, after: before, slips: true, is_aligned }
+        Point { height: stuck.height + part * rise, limit, before, after: before, slips: true, aligned }
     }
 
     /// Where a segment of this `slope` leaves the cone, on its way from the `stuck` point over `rise` \[m\], as a part of
@@ -173,8 +209,11 @@ impl<'a, const N: usize> Cut<'a, N> {
             return;
         }
         self.slips_from.get_or_insert(from.height);
-        if from.is_aligned && to.is_aligned {
-            return self.line(self.direction, from, to);
+        if let (Some(one), Some(other)) = (from.aligned, to.aligned)
+            && one * other >= 0.0
+        {
+            let sign = if one + other >= 0.0 { 1.0 } else { -1.0 };
+            return self.line(times(sign, self.direction), from, to);
         }
         if halvings > 0 && self.left.has_room() {
             let place = (0.5 * (from.height + to.height), times(0.5, add(from.before, 1.0, to.before)));

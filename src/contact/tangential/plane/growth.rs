@@ -40,7 +40,7 @@ impl<const N: usize> Stuck<N> {
         }
         let edge = self.map(&mut cut, old, new, (way.from, before));
         let rise = way.to - edge;
-        if length(way.shift) > rise {
+        if rise > 0.0 && length(way.shift) > rise {
             cut.touching(edge);
         } else if rise > 0.0 {
             let slope = way.shift.map(|shift| quotient(shift, rise, rise > 0.0, 0.0));
