@@ -189,3 +189,75 @@ fn derivatives_of_the_force_have_the_sign_of_its_change_while_the_motion_turns()
         assert!(wrong * 200 < count, "{name}: {wrong} of {count}");
     }
 }
+
+/// Where the direction of the motion jumps, the springs at the edge turn at once, and there is no second derivative. The
+/// difference that is offered instead has to be of use.
+#[test]
+fn a_force_is_extrapolated_better_with_its_second_derivative_than_without() {
+    let dents = ["thornton with thornton", "brinell with brinell"];
+    for (name, model) in models() {
+        if !(name.starts_with("hertz ") || dents.contains(&name.as_str())) {
+            continue;
+        }
+        for kind in ["held", "accelerated", "random"] {
+            let (mut with, mut without) = (Vec::new(), Vec::new());
+            for seed in 0..20 {
+                let mut random = Random(seed);
+                random.next();
+                let (depth, size) = (1e-7, 1e-7 / model.friction.scale());
+                let mut contact = start(&model);
+                // below the depth of its dent
+                go(&mut contact, &model, (2.0 * depth, [0.0; 2]), 1);
+                go(&mut contact, &model, (-depth, [0.0; 2]), 1);
+                let (radius, turn) = (3.0 * size * random.next(), 0.02 + 0.2 * random.next());
+                let swing = 0.3 * depth * random.next();
+                let mut rates = |step: i32| {
+                    if kind == "random" {
+                        let slip = size * 10f64.powf(-3.0 * random.next());
+                        let rise = 0.3 * depth * 10f64.powf(-3.0 * random.next()) * (random.next() - 0.5);
+                        return (rise, turned(&mut random, slip));
+                    }
+                    let (sine, cosine) = (turn * f64::from(step)).sin_cos();
+                    (swing * turn * cosine, [-radius * turn * sine, radius * turn * cosine])
+                };
+                let mut next = rates(0);
+                for step in 1..60 {
+                    go(&mut contact, &model, next, 1);
+                    next = rates(step);
+                    let (rise, [slip, other]) = next;
+                    let turn = if kind == "accelerated" { turn } else { 0.0 };
+                    let normal = Course { rate: rise, slope: -turn * turn * rise, bend: 0.0 };
+                    let tangential = [(slip, -other * turn), (other, slip * turn)];
+                    let tangential = tangential.map(|(rate, slope)| Course { rate, slope, bend: 0.0 });
+                    let speed = rise.abs() + model.friction.scale() * slip.hypot(other);
+                    let time = 1e-2 * contact.normal().indentation() / speed;
+                    let limit = 0.3 * contact.normal().force();
+                    let mut moved = contact;
+                    for part in 0..16 {
+                        let middle = (f64::from(part) + 0.5) / 16.0 * time;
+                        moved.set_tangential_rates(tangential.map(|course| course.rate + middle * course.slope));
+                        let way = Course::held(normal.rate + middle * normal.slope);
+                        moved.step(&way, time / 16.0, || model).expect("within range");
+                    }
+                    for direction in 0..2 {
+                        let force = Quantity::Force(direction);
+                        let (first, second) = contact.tangential_derivatives(&model, force, &normal, &tangential);
+                        let change = moved.tangential(&model, force) - contact.tangential(&model, force) - first * time;
+                        without.push(change.abs() / limit);
+                        with.push((change - 0.5 * second * time * time).abs() / limit);
+                    }
+                }
+            }
+            let [with, without] = [with, without].map(|mut errors| {
+                errors.sort_by(f64::total_cmp);
+                [0.5, 0.99, 1.0].map(|part| errors[(part * (errors.len() - 1) as f64) as usize])
+            });
+            println!("{name}, {kind}: with {with:?}, without {without:?}");
+            assert!(
+                with[0] <= 0.6 * without[0] && with[1] <= 3.0 * without[1],
+                "{name}, {kind}: {with:?}, {without:?}"
+            );
+            assert!(with[2] <= 3.0 * without[2], "{name}, {kind}: {with:?}, {without:?}");
+        }
+    }
+}

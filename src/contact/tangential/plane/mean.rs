@@ -17,7 +17,7 @@ use crate::contact::tangential::shear::Rates;
 const AT_LIMIT: f64 = 1e-9;
 
 /// Part of the indentation over which the first derivative is compared for the second one.
-const WIDTH: f64 = 1.0 / 8192.0;
+const WIDTH: f64 = 1.0 / 256.0;
 
 /// The longest trial step \[s\], for motions that are slower than any physical one.
 const LONGEST: f64 = 1e50;
