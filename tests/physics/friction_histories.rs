@@ -4,7 +4,7 @@
 use super::friction_growth::{Model, models};
 use crate::physics::{AnyModel, Random};
 use brinell::contact::path::Course;
-use brinell::contact::tangential::{Friction, PlaneContact, RoughContact};
+use brinell::contact::tangential::{Friction, PlaneContact, RoughContact, Sliding};
 use brinell::contact::{Contact, Pair};
 use std::f64::consts::PI;
 
@@ -108,6 +108,8 @@ fn from_one_direction(model: &Model, seed: u64) -> [f64; 5] {
             relative((plane.tangential_energy(&model) - line.tangential_energy(&model)).abs(), scale),
             relative((plane.friction_work(&model) - line.friction_work(&model)).abs(), scale),
         ];
+        let slides = [plane.sliding(), line.sliding()].map(|state| state == Sliding::Sliding);
+        assert_eq!(slides[0], slides[1], "the whole contact slides, seed {seed}");
         found = std::array::from_fn(|index| found[index].max(now[index]));
     }
     found

@@ -50,13 +50,25 @@ pub(super) struct Cut<'a, const N: usize> {
     pub left: Draft<N>,
     /// Height of the lowest springs that slip \[m\].
     pub slips_from: Option<f64>,
+    /// Whether some springs don't.
+    pub sticks: bool,
 }
 
 impl<'a, const N: usize> Cut<'a, N> {
     /// Nothing yet of a polyline, for a `way` from the displacement `start` to `apex`.
     pub(super) fn new(curve: &'a Segment, way: &'a Way, start: Vector, apex: Apex) -> Self {
         let force = curve.force(apex.indentation);
-        Cut { curve, way, start, direction: way.direction(), apex, force, left: Draft::EMPTY, slips_from: None }
+        Cut {
+            curve,
+            way,
+            start,
+            direction: way.direction(),
+            apex,
+            force,
+            left: Draft::EMPTY,
+            slips_from: None,
+            sticks: false,
+        }
     }
 
     /// Adds the segment of this `vertex` up to the point `end`, which is not above the contact. `start` is the point at the
@@ -91,16 +103,16 @@ impl<'a, const N: usize> Cut<'a, N> {
     /// Adds a segment of this `slope` that crosses the cone at most once.
     fn part(&mut self, slope: Vector, from: &Point, to: &Point) {
         match (from.slips, to.slips) {
-            (false, false) => self.line(slope, from, to),
+            (false, false) => self.stick(slope, from, to),
             (false, true) => {
                 let front = self.front(slope, from, to);
-                self.line(slope, from, &front);
+                self.stick(slope, from, &front);
                 self.slip(&front, to, HALVINGS);
             }
             (true, false) => {
                 let front = self.front(slope, to, from);
                 self.slip(from, &front, HALVINGS);
-                self.line(slope, &front, to);
+                self.stick(slope, &front, to);
             }
             (true, true) => self.slip(from, to, HALVINGS),
         }
@@ -199,6 +211,12 @@ impl<'a, const N: usize> Cut<'a, N> {
         if to.height > from.height {
             self.left.extend(Vertex::new(self.curve, from.height, from.after, slope));
         }
+    }
+
+    /// Adds a part of a segment whose springs stick.
+    pub(super) fn stick(&mut self, slope: Vector, from: &Point, to: &Point) {
+        self.sticks |= to.height > from.height;
+        self.line(slope, from, to);
     }
 
     /// Adds a part of a segment whose springs slip. It is halved where its springs turn and it is long, or its middle is

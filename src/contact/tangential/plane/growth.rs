@@ -44,6 +44,7 @@ impl<const N: usize> Stuck<N> {
             cut.touching(edge);
         } else if rise > 0.0 {
             let slope = way.shift.map(|shift| quotient(shift, rise, rise > 0.0, 0.0));
+            cut.sticks = true;
             cut.left.extend(Vertex::new(new, edge, before, slope));
         }
         self.take(cut, new);

@@ -96,6 +96,11 @@ impl<const N: usize> Draft<N> {
         self.count < 2 * N
     }
 
+    /// Height of the lowest springs \[m\].
+    pub(super) fn lowest(&self) -> f64 {
+        self.vertices.as_flattened().first().map_or(0.0, |vertex| vertex.height)
+    }
+
     /// Adds a segment, unless it continues the last one in a straight line.
     pub(super) fn extend(&mut self, vertex: Vertex) {
         let room = self.vertices.as_flattened_mut();

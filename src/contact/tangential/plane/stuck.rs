@@ -5,7 +5,7 @@ use super::cut::Cut;
 use super::list::{Apex, List};
 use super::vector::{Vector, ZERO, add, difference, dot, length};
 use super::vertex::Vertex;
-use crate::contact::numbers::{largest, smallest};
+use crate::contact::numbers::{largest, next_above, smallest};
 use crate::contact::path::Sum;
 use crate::contact::segment::Segment;
 use crate::contact::tangential::{self, SAME, Sliding};
@@ -125,7 +125,13 @@ impl<const N: usize> Stuck<N> {
 
     /// Takes over the segments of `cut` on `curve`.
     pub(super) fn take(&mut self, cut: Cut<N>, curve: &Segment) {
-        self.slips_from = cut.slips_from.unwrap_or(NONE);
+        let lowest = cut.left.lowest();
+        self.slips_from = match cut.slips_from {
+            // springs above it stick
+            Some(height) if cut.sticks && height <= lowest => next_above(lowest),
+            Some(height) => height,
+            None => NONE,
+        };
         let indentation = cut.apex.indentation;
         self.list = cut.left.into_list(curve);
         if self.sliding() == Sliding::Sliding {
