@@ -1,8 +1,8 @@
 //! Oblique impacts of a ball, compared with a normal impact: the cost of a step in sliding, in partial slip, in stick
-//! with growth, and with merging of segments in each step.
+//! with growth, and with merging of segments in each step. The same in two directions, along one line and while the motion turns.
 
 use brinell::contact::Segment;
-use brinell::contact::tangential::{Stuck, Way};
+use brinell::contact::tangential::{Stuck, Way, plane};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
@@ -35,6 +35,26 @@ fn impact<const N: usize>(curve: &Segment, slip: Option<f64>) -> (f64, f64) {
     (normal, tangential)
 }
 
+/// The same in two directions. The ball has this speed along a line, and one across that turns the slip.
+#[inline(always)]
+fn impact_in_a_plane(curve: &Segment, slip: [f64; 2]) -> [f64; 2] {
+    let mut stuck = plane::Stuck::<16>::APART;
+    let (mut indentation, mut normal, mut tangential) = (0.0, 1.0, slip);
+    for step in 0..STEPS {
+        let to = indentation + STEP * normal;
+        // a ball that is driven around while it turns
+        let turn = if slip[1] == 0.0 { 0.0 } else { 0.01 * f64::from(step) };
+        let [along, across] = tangential;
+        let shift = [along * turn.cos() - across * turn.sin(), along * turn.sin() + across * turn.cos()];
+        stuck.advance(curve, &plane::Way::straight(indentation, to, shift.map(|speed| SCALE * STEP * speed)));
+        let pull = stuck.pull(curve, to);
+        tangential = [along - 3.5 * STEP * 0.1 * pull[0], across - 3.5 * STEP * 0.1 * pull[1]];
+        indentation = to;
+        normal -= STEP * curve.force(indentation);
+    }
+    tangential
+}
+
 fn friction(criterion: &mut Criterion) {
     let curve = curve();
     let mut group = criterion.benchmark_group("step of an impact");
@@ -46,6 +66,14 @@ fn friction(criterion: &mut Criterion) {
     group.bench_function("stick without merges", |bencher| {
         bencher.iter(|| impact::<512>(black_box(&curve), Some(black_box(0.02))));
     });
+    for (name, slip) in [
+        ("two directions, sliding along a line", [3.0, 0.0]),
+        ("two directions, partial slip along a line", [0.4, 0.0]),
+        ("two directions, sliding and turning", [3.0, 1.0]),
+        ("two directions, partial slip and turning", [0.4, 0.1]),
+    ] {
+        group.bench_function(name, |bencher| bencher.iter(|| impact_in_a_plane(black_box(&curve), black_box(slip))));
+    }
     group.finish();
 }
 
