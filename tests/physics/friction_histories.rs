@@ -126,7 +126,7 @@ fn along_one_line_two_directions_are_one_direction_whatever_the_history() {
             let worst = all.fold([0.0_f64; 5], |sum, one| std::array::from_fn(|index| sum[index].max(one[index])));
             let text = worst.map(|error| format!("{error:.1e}")).join(", ");
             println!("{name}, {yield_strength:e} Pa: {text}");
-            if worst.iter().any(|error| !(*error <= 1e-10)) {
+            if !worst.iter().all(|error| *error <= 1e-10) {
                 failed.push(format!("{name}, {yield_strength:e} Pa: {text}"));
             }
         }
