@@ -1,13 +1,13 @@
 //! A host may trap floating-point exceptions: a successful call raises none except inexact and underflow.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
+use crate::LOSSES;
 use crate::physics::{Random, all_models, mild};
 use crate::scenes::{
     Choice, Chosen, Damped, DampedMassive, Elastoplastic, Lossy, LossyMassive, Massive, OUTPUTS, Rated, Rough,
     RoughPlane, choose, frictions, words,
 };
 use brinell::contact::damped::AnyDamped;
-use brinell::contact::losses::{AnyLoss, Fitted, Plate, Solid, Waves};
 use brinell::contact::rate::Rate;
 use brinell::contact::{Contact, Surface};
 use brinell::instance::{Fault, Instance};
@@ -23,16 +23,6 @@ type DampedMassiveOne = Chosen<DampedMassive, 1, Present>;
 type DampedOne = Chosen<Damped, 1, Present>;
 type LossyOne = Chosen<Lossy, 1, Present>;
 type LossyMassiveOne = Chosen<LossyMassive, 1, Present>;
-
-/// The target of the losses: steel.
-const TARGET: Solid = Solid { density: 7850.0, youngs_modulus: 206e9, poissons_ratio: 0.3 };
-
-const LOSSES: [AnyLoss; 4] = [
-    AnyLoss::Fitted(Fitted { restitution: 0.9 }),
-    AnyLoss::Waves(Waves { target: TARGET }),
-    AnyLoss::Plate(Plate { target: TARGET, thickness: 0.01 }),
-    AnyLoss::Plate(Plate { target: TARGET, thickness: 1e-3 }),
-];
 
 const RATES: [Rate; 2] = [Rate::JohnsonCook { c: 0.014, reference_rate: 1.0 }, Rate::CowperSymonds { d: 40.4, q: 5.0 }];
 

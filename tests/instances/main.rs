@@ -18,12 +18,14 @@ mod input_derivatives;
 mod orders_of_execution;
 mod rate_unit;
 mod saved_words;
+mod smallest_gaps;
 mod stability_warning;
 mod wiring;
 
 use brinell::contact::Contact;
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
+use brinell::contact::losses::{AnyLoss, Fitted, Plate, Solid, Waves};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::instance::{FASTEST, Fault, Instance, LATEST, Phase, Plain, SHORTEST};
 use brinell::scene::exported::Exported;
@@ -46,6 +48,17 @@ type MassiveOne = Chosen<Massive, 1, Present>;
 type MassiveSeveral = Chosen<Massive, 2, Present>;
 type ParallelOne = Chosen<Massive<Coupled<Present>>, 1, Present>;
 type WiredSeveral = Chosen<Massive<Coupled<Present, Present, Present>>, 2, Present>;
+
+/// The target of the losses: steel.
+const TARGET: Solid = Solid { density: 7850.0, youngs_modulus: 206e9, poissons_ratio: 0.3 };
+
+/// Every loss; a thin plate makes the motion stiff.
+const LOSSES: [AnyLoss; 4] = [
+    AnyLoss::Fitted(Fitted { restitution: 0.9 }),
+    AnyLoss::Waves(Waves { target: TARGET }),
+    AnyLoss::Plate(Plate { target: TARGET, thickness: 0.01 }),
+    AnyLoss::Plate(Plate { target: TARGET, thickness: 1e-3 }),
+];
 
 /// Length of the steps [s].
 const STEP: f64 = 1e-6;

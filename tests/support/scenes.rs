@@ -8,7 +8,9 @@
 #[path = "scenes/kinds.rs"]
 mod kinds;
 
-pub use kinds::{Damped, DampedMassive, Elastoplastic, Kind, Lossy, LossyMassive, Massive, Rated, Rough, RoughPlane};
+pub use kinds::{
+    Damped, DampedMassive, Elastoplastic, Guarded, Held, Kind, Lossy, LossyMassive, Massive, Rated, Rough, RoughPlane,
+};
 
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
@@ -18,7 +20,7 @@ use brinell::contact::rate::Rate;
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Contact, Pair, Surface};
 use brinell::instance::Instance;
-use brinell::scene::{Absent, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of};
+use brinell::scene::{Absent, Guard, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of};
 use std::cell::RefCell;
 use std::marker::PhantomData;
 
@@ -137,6 +139,10 @@ impl<K: Kind, const N: usize, M: Presence> Scene for Chosen<K, N, M> {
     type Coupling = K::Coupling;
     type Watch = K::Watch;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
+    const GUARD: Option<Guard<Self>> = match K::GUARD {
+        Some(acts) => Some(Guard { words: "", acts }),
+        None => None,
+    };
 
     fn guid() -> &'static [u8] {
         b"a scene of the tests"

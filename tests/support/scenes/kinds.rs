@@ -12,6 +12,9 @@ use brinell::contact::{Body, Contact, History, Model, Pair};
 use brinell::scene::{Absent, Coupled, Coupling, Presence, Present};
 use std::marker::PhantomData;
 
+/// Whether the passivity guard acts in a contact of a model.
+pub type Acts<C, M> = fn(&C, &M) -> bool;
+
 /// A kind of contact.
 pub trait Kind {
     type Model: Copy;
@@ -20,6 +23,8 @@ pub trait Kind {
     type Coupling: Coupling;
     type Watch: Presence;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
+    /// Whether the passivity guard acts.
+    const GUARD: Option<Acts<Self::Contact, Self::Model>> = None;
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model;
 }
 
@@ -32,11 +37,11 @@ pub struct Massive<C = Coupled>(PhantomData<C>);
 /// The same, with the strength of each impact.
 pub struct Rated<C = Coupled>(PhantomData<C>);
 
-/// The same with friction.
-pub struct Rough;
+/// The same with friction; the mean tangential force is an output if `MEAN`.
+pub struct Rough<const MEAN: bool = true>;
 
 /// The same with friction in two directions.
-pub struct RoughPlane;
+pub struct RoughPlane<const MEAN: bool = true>;
 
 /// A rate-dependent law.
 pub struct Damped;
@@ -81,9 +86,9 @@ impl<C: Coupling> Kind for Rated<C> {
     }
 }
 
-impl Kind for Rough {
+impl<const MEAN: bool> Kind for Rough<MEAN> {
     type Model = RoughModel<AnyLoading, AnyUnloading>;
-    type Contact = RoughContact<12>;
+    type Contact = RoughContact<12, MEAN>;
     type Course = Present;
     type Coupling = Absent;
     type Watch = Present;
@@ -95,14 +100,14 @@ impl Kind for Rough {
     }
 }
 
-impl Kind for RoughPlane {
+impl<const MEAN: bool> Kind for RoughPlane<MEAN> {
     type Model = <Rough as Kind>::Model;
-    type Contact = PlaneContact<16>;
+    type Contact = PlaneContact<16, MEAN>;
     type Course = Present;
     type Coupling = Absent;
     type Watch = Present;
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
-        Rough::model(pair, restitution, mass)
+        <Rough>::model(pair, restitution, mass)
     }
 }
 
@@ -118,13 +123,13 @@ impl Kind for Damped {
 }
 
 /// The same, moved by its mass.
-pub struct DampedMassive;
+pub struct DampedMassive<C = Coupled>(PhantomData<C>);
 
-impl Kind for DampedMassive {
+impl<C: Coupling> Kind for DampedMassive<C> {
     type Model = damped::Model<AnyDamped>;
     type Contact = damped::History<AnyDamped>;
     type Course = Present;
-    type Coupling = Coupled;
+    type Coupling = C;
     type Watch = Absent;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(damped::follow);
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
@@ -136,7 +141,7 @@ impl Kind for DampedMassive {
 pub struct Lossy;
 
 /// The same, moved by its mass.
-pub struct LossyMassive;
+pub struct LossyMassive<C = Coupled>(PhantomData<C>);
 
 type LossyModel = losses::Model<AnyLoading, AnyUnloading, AnyLoss>;
 
@@ -151,14 +156,44 @@ impl Kind for Lossy {
     }
 }
 
-impl Kind for LossyMassive {
+impl<C: Coupling> Kind for LossyMassive<C> {
     type Model = LossyModel;
     type Contact = losses::History<AnyLoss>;
     type Course = Present;
-    type Coupling = Coupled;
+    type Coupling = C;
     type Watch = Absent;
     const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = Some(losses::follow);
     fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
         Lossy::model(pair, restitution, mass)
+    }
+}
+
+/// A law with the passivity guard, which an unloading law must have.
+pub struct Guarded;
+
+impl Kind for Guarded {
+    type Model = Model<AnyLoading, AnyUnloading>;
+    type Contact = History;
+    type Course = Absent;
+    type Coupling = Absent;
+    type Watch = Absent;
+    const GUARD: Option<Acts<History, Self::Model>> = Some(History::is_held_back);
+    fn model(pair: Pair, _restitution: f64, _mass: f64) -> Self::Model {
+        elastoplastic(pair)
+    }
+}
+
+/// Any kind without derivatives of its inputs.
+pub struct Held<K>(PhantomData<K>);
+
+impl<K: Kind> Kind for Held<K> {
+    type Model = K::Model;
+    type Contact = K::Contact;
+    type Course = Absent;
+    type Coupling = K::Coupling;
+    type Watch = K::Watch;
+    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = K::FOLLOW;
+    fn model(pair: Pair, restitution: f64, mass: f64) -> Self::Model {
+        K::model(pair, restitution, mass)
     }
 }

@@ -21,6 +21,10 @@ const TOLERANCE: f64 = 1e-12;
 /// Smaller errors count as this one.
 const LEAST: f64 = 1e-30;
 
+/// The smallest size of a motion \[m, m/s\], by which smaller errors are measured: numbers far below it have no digits. A smaller
+/// indentation counts as a touch.
+const SMALLEST: f64 = 1e-300;
+
 /// Largest number of contacts and flights in a step.
 const MOST_EVENTS: u32 = MOST_EVALUATIONS / 10;
 
@@ -73,7 +77,10 @@ pub fn follow<D: Damped + Copy>(
         inverse_mass: 1.0 / mass,
         acceleration,
         state,
-        scale: State { depth: largest(state.depth, 0.0), speed: largest(fabs(speed), swing) },
+        scale: State {
+            depth: if state.depth < SMALLEST { 0.0 } else { state.depth },
+            speed: largest(fabs(speed), swing),
+        },
         spent: 0.0,
         taken: 0.0,
         left: step,
@@ -142,7 +149,7 @@ impl<D: Damped + Copy> Bodies<D> {
             self.rest();
             return Ok(());
         }
-        let mut guess = if depth == 0.0 { self.first_guess() } else { self.left };
+        let mut guess = if depth < SMALLEST { self.first_guess() } else { self.left };
         while self.left > 0.0 {
             let step = self.limited(guess);
             self.evaluations += STAGES.len() as u32;

@@ -1,6 +1,6 @@
 //! The integration of the motion: one step, its error, and the events in it.
 
-use super::{Bodies, State};
+use super::{Bodies, SMALLEST, State};
 use crate::contact::damped::Damped;
 use crate::contact::damped::impact::{ERROR, STAGES};
 use crate::contact::numbers::{largest, quotient};
@@ -110,7 +110,7 @@ impl<D: Damped + Copy> Bodies<D> {
             error.depth += step * weight * slope.depth;
             error.speed += step * weight * slope.speed;
         }
-        let relative = |error: f64, size: f64| quotient(fabs(error), size, size > 0.0, 0.0);
+        let relative = |error: f64, size: f64| fabs(error) / largest(size, SMALLEST);
         let depth = relative(error.depth, largest(self.scale.depth, fabs(next.depth)));
         let speed = relative(error.speed, largest(self.scale.speed, fabs(next.speed)));
         (next, largest(depth, speed))
