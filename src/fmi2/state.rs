@@ -24,7 +24,7 @@ impl<S: Scene> Handle for Snapshot<S> {}
 const MARK: u64 = u64::from_be_bytes(*b"snapshot");
 
 /// First bytes of a serialized state, with the version of its layout.
-const MAGIC: [u8; 8] = *b"brinell\x03";
+const MAGIC: [u8; 8] = *b"brinell\x04";
 
 /// Layout in words: magic, identity of the scene, number of words, the words of the instance, checksum; all little-endian.
 const IDENTITY_AT: usize = 1;

@@ -2,7 +2,7 @@
 //! the momentum of the last step.
 
 use crate::contact::path::{Course, Sum};
-use crate::contact::words::{load_numbers, store_numbers};
+use crate::contact::words::{load_kept, store_kept};
 
 /// The course of the input over the next step, and the end of the last step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,9 +18,6 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// Number of words that hold a curve.
-    pub const WORDS: usize = 4;
-
     /// Whether the rate changes during the next step.
     #[inline]
     pub fn is_curved(&self) -> bool {
@@ -41,13 +38,14 @@ impl Curve {
         };
     }
 
-    pub fn save(&self, store: &mut impl FnMut(u64)) {
-        store_numbers(&[self.slope, self.bend, self.end_rate, self.end_slope], store);
+    /// Passes the numbers that are `kept` to `store`: those that the scene needs.
+    pub fn save(&self, kept: [bool; 4], store: &mut impl FnMut(u64)) {
+        store_kept([self.slope, self.bend, self.end_rate, self.end_slope], kept, store);
     }
 
     /// The curve that [`Curve::save`] has stored; `None` if a word is not a finite number.
-    pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Curve> {
-        let [slope, bend, end_rate, end_slope] = load_numbers(words)?;
+    pub fn load(kept: [bool; 4], words: &mut impl Iterator<Item = u64>) -> Option<Curve> {
+        let [slope, bend, end_rate, end_slope] = load_kept(kept, words)?;
         Some(Curve { slope, bend, end_rate, end_slope })
     }
 }
@@ -61,9 +59,6 @@ pub(super) struct Momentum {
 }
 
 impl Momentum {
-    /// Number of words that hold the momentum.
-    pub const WORDS: usize = 3;
-
     /// A contact before any motion, with this `force` \[N\].
     pub fn start(force: f64) -> Momentum {
         Momentum { impulse: Sum::new(0.0), mean_force: force }
@@ -81,13 +76,14 @@ impl Momentum {
         self.impulse.total()
     }
 
-    pub fn save(&self, store: &mut impl FnMut(u64)) {
-        store_numbers(&[self.impulse.value, self.impulse.rest, self.mean_force], store);
+    /// Passes the numbers that are `kept` to `store`: those that the scene needs.
+    pub fn save(&self, kept: [bool; 3], store: &mut impl FnMut(u64)) {
+        store_kept([self.impulse.value, self.impulse.rest, self.mean_force], kept, store);
     }
 
     /// The momentum that [`Momentum::save`] has stored; `None` if a word is not a finite number.
-    pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Momentum> {
-        let [value, rest, mean_force] = load_numbers(words)?;
+    pub fn load(kept: [bool; 3], words: &mut impl Iterator<Item = u64>) -> Option<Momentum> {
+        let [value, rest, mean_force] = load_kept(kept, words)?;
         Some(Momentum { impulse: Sum { value, rest }, mean_force })
     }
 }

@@ -2,17 +2,30 @@
 
 use super::start::pair_of;
 use super::*;
-use crate::contact::words::{load_numbers, store_numbers};
-
-/// Number of words of an instance that do not belong to a contact, a group or a parameter.
-const OWN_WORDS: usize = 5;
+use crate::contact::words::{count, load_kept, load_numbers, store_kept, store_numbers};
 
 impl<S: Scene> Instance<S> {
+    /// Which of time, stop time and last step are stored: the last step only if a force is predicted from it.
+    const TIMES: [bool; 3] = [true, true, S::Prediction::IS_PRESENT];
+
+    /// Which numbers of a [`Curve`] are stored: the derivatives that its input may have, and the end of the last step.
+    const CURVE: [bool; 4] = {
+        let has_course = S::Course::IS_PRESENT;
+        let has_slope = has_course && !<S::Coupling as Coupling>::Acceleration::IS_PRESENT;
+        [has_slope, has_slope && Self::INPUT_ORDER > 1, has_course, has_course]
+    };
+
+    /// Which numbers of a [`Momentum`] are stored. The mean force of bodies that the FMU moves is that of their [`Ending`].
+    const MOMENTUM: [bool; 3] = {
+        let has_momentum = S::Momentum::IS_PRESENT;
+        [has_momentum, has_momentum, has_momentum && !Self::MOVES]
+    };
+
     /// Number of words of a contact.
     const CONTACT_WORDS: usize = 1
         + S::Contact::WORDS
-        + if S::Course::IS_PRESENT { Curve::WORDS } else { 0 }
-        + if S::Momentum::IS_PRESENT { Momentum::WORDS } else { 0 }
+        + count(Self::CURVE)
+        + count(Self::MOMENTUM)
         + if <S::Coupling as Coupling>::Ending::IS_PRESENT { Ending::WORDS } else { 0 }
         + if <S::Coupling as Coupling>::Account::IS_PRESENT { Account::WORDS } else { 0 }
         + <S::Coupling as Coupling>::Acceleration::IS_PRESENT as usize
@@ -20,7 +33,7 @@ impl<S: Scene> Instance<S> {
 
     /// Number of words that hold an instance.
     pub const WORDS: usize =
-        OWN_WORDS + <S::Values as Store<f64>>::LENGTH + 2 * S::GROUPS + Self::CONTACT_WORDS * S::CONTACTS;
+        2 + count(Self::TIMES) + <S::Values as Store<f64>>::LENGTH + 2 * S::GROUPS + Self::CONTACT_WORDS * S::CONTACTS;
 
     /// Makes this instance equal to `other` and returns true. If the parameters differ, or `other` is in fact of another scene, it
     /// changes nothing and returns false.
@@ -49,6 +62,10 @@ impl<S: Scene> Instance<S> {
             own.curves.as_mut().copy_from_slice(given.curves.as_ref());
         }
         self.clock = other.clock;
+        if S::GUARD.is_some() {
+            // what has been told of the other contacts is not known here
+            self.look();
+        }
         true
     }
 
@@ -68,7 +85,7 @@ impl<S: Scene> Instance<S> {
         let flags = u64::from(self.clock.experiment_defined) | u64::from(self.clock.curved) << 1;
         store(self.clock.phase as u64);
         store(flags);
-        store_numbers(&[self.clock.time, self.clock.stop(), last_step], &mut store);
+        store_kept([self.clock.time, self.clock.stop(), last_step], Self::TIMES, &mut store);
         store_numbers(self.settings.values.as_ref(), &mut store);
         for bodies in self.settings.bodies.as_ref() {
             store_numbers(&[bodies.radius, bodies.modulus], &mut store);
@@ -81,10 +98,10 @@ impl<S: Scene> Instance<S> {
             if let Some(curve) = curves.get(contact) {
                 // without derivatives, the stored curves are meaningless
                 let curve = if self.clock.curved { *curve } else { Curve::default() };
-                curve.save(&mut store);
+                curve.save(Self::CURVE, &mut store);
             }
             if let Some(momentum) = momenta.get(contact) {
-                momentum.save(&mut store);
+                momentum.save(Self::MOMENTUM, &mut store);
             }
             self.save_coupling(contact, &mut store);
         }
@@ -103,7 +120,7 @@ impl<S: Scene> Instance<S> {
         let mut words = words.iter().map(|word| u64::from_le_bytes(*word));
         let (phase, flags) = (words.next()?, words.next().filter(|&flags| flags <= 3)?);
         let phase = Phase::ALL.into_iter().find(|&known| known as u64 == phase)?;
-        let [time, stop, last_step] = load_numbers(&mut words)?;
+        let [time, stop, last_step] = load_kept(Self::TIMES, &mut words)?;
         let clock = Clock::of(time, stop, phase, flags & 1 != 0)?;
         let mut values = S::start_values();
         for (index, value) in values.as_mut().iter_mut().enumerate() {
@@ -141,11 +158,10 @@ impl<S: Scene> Instance<S> {
         let slots = histories.as_mut().iter_mut().zip(rates.as_mut());
         for (contact, (history_slot, rate_slot)) in slots.enumerate() {
             let group = S::group(contact);
-            // in the first pass, these may be the bodies of a blank instance, for which the springs of a contact with friction
-            // can't be checked
-            let read = match S::Contact::HAS_FRICTION && !in_earnest {
-                true => Some(bodies_of::<S>(group, &values, sizes.clone())?),
-                false => None,
+            // in the first pass, these may be the bodies of a blank instance, for which no law can be evaluated
+            let read = match in_earnest {
+                true => None,
+                false => Some(bodies_of::<S>(group, &values, sizes.clone())?),
             };
             let bodies = read.as_ref().or(self.settings.bodies.as_ref().get(group))?;
             let model = model_of::<S>(group, bodies, &values);
@@ -159,8 +175,8 @@ impl<S: Scene> Instance<S> {
                     return None;
                 }
             }
-            let curve = if S::Course::IS_PRESENT { Curve::load(&mut words)? } else { Curve::default() };
-            let momentum = if S::Momentum::IS_PRESENT { Momentum::load(&mut words)? } else { Momentum::default() };
+            let curve = Curve::load(Self::CURVE, &mut words)?;
+            let momentum = Momentum::load(Self::MOMENTUM, &mut words)?;
             if in_earnest {
                 (*history_slot, *rate_slot) = (history, rate);
                 curves.next().into_iter().for_each(|slot| *slot = curve);

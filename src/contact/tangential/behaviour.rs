@@ -19,7 +19,7 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
 {
     const FOLLOWS_RATE: bool = false;
     const DERIVATIVES: i32 = 2;
-    const WORDS: usize = 13 + SpringsOf::<K, D, true>::WORDS + 8 * D + 3;
+    const WORDS: usize = 13 + SpringsOf::<K, D, true>::WORDS + 5 * D + if MEAN { 3 * D + 3 } else { 0 };
     const DIRECTIONS: usize = D;
 
     /// Where the contact begins to yield.
@@ -234,33 +234,40 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
         Contact::<Model<L, U>>::save(&self.normal, store);
         self.springs.save(store);
         let Rough { courses, ends, mean_force, impulse, work, lost, .. } = self;
-        for ((course, end), mean_force) in courses.iter().zip(ends).zip(mean_force) {
+        for (course, end) in courses.iter().zip(ends) {
             // the bend of the end is that of the course, which is over
-            store_numbers(&[course.rate, course.slope, course.bend, end.rate, end.slope, *mean_force], store);
+            store_numbers(&[course.rate, course.slope, course.bend, end.rate, end.slope], store);
         }
-        for sum in impulse.iter().chain([work]) {
-            store_numbers(&[sum.value, sum.rest], store);
+        if MEAN {
+            store_numbers(mean_force, store);
+            for sum in impulse.iter().chain([work]) {
+                store_numbers(&[sum.value, sum.rest], store);
+            }
+            store_numbers(&[*lost], store);
         }
-        store_numbers(&[*lost], store);
     }
 
     fn load(words: &mut impl Iterator<Item = u64>, model: &RoughModel<L, U>) -> Option<Self> {
         let normal = History::load(words, &model.normal)?;
         let springs = SpringsOf::load(words, model, &normal)?;
-        let (mut courses, mut mean_force) = ([Course::default(); D], [0.0; D]);
+        let mut courses = [Course::default(); D];
         let mut ends = courses;
-        for ((course, end), mean_force) in courses.iter_mut().zip(&mut ends).zip(&mut mean_force) {
-            let [rate, slope, bend, end_rate, end_slope, mean] = load_numbers(words)?;
+        for (course, end) in courses.iter_mut().zip(&mut ends) {
+            let [rate, slope, bend, end_rate, end_slope] = load_numbers(words)?;
             *course = Course { rate, slope, bend };
             *end = Course { rate: end_rate, slope: end_slope, bend: 0.0 };
-            *mean_force = mean;
         }
-        let (mut impulse, mut work) = ([Sum::new(0.0); D], Sum::new(0.0));
-        for sum in impulse.iter_mut().chain([&mut work]) {
-            let [value, rest] = load_numbers(words)?;
-            *sum = Sum { value, rest };
+        let none = Sum::new(0.0);
+        let mut loaded =
+            Rough { normal, springs, courses, ends, mean_force: [0.0; D], impulse: [none; D], work: none, lost: 0.0 };
+        if MEAN {
+            loaded.mean_force = load_numbers(words)?;
+            for sum in loaded.impulse.iter_mut().chain([&mut loaded.work]) {
+                let [value, rest] = load_numbers(words)?;
+                *sum = Sum { value, rest };
+            }
+            [loaded.lost] = load_numbers(words)?;
         }
-        let [lost] = load_numbers(words)?;
-        Some(Rough { normal, springs, courses, ends, mean_force, impulse, work, lost })
+        Some(loaded)
     }
 }

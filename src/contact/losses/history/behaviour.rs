@@ -15,7 +15,7 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
     /// The second derivative would need the third derivative of the indentation. The rate of indentation on a plate is not
     /// the input, and so no derivative follows from the input.
     const DERIVATIVES: i32 = if K::FOLLOWS_RATE { 1 } else { 0 };
-    const WORDS: usize = <contact::History as Contact<Plastic<L, U>>>::WORDS + 5;
+    const WORDS: usize = <contact::History as Contact<Plastic<L, U>>>::WORDS + 4;
 
     /// Nothing: the history contains the factor.
     type Kept = ();
@@ -133,13 +133,16 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
 
     fn save(&self, store: &mut impl FnMut(u64)) {
         Contact::<Plastic<L, U>>::save(&self.plastic, store);
-        store_numbers(&[self.factor, self.swiftest, self.bend, self.heat.value, self.heat.rest], store);
+        // the bend follows from the position
+        store_numbers(&[self.factor, self.swiftest, self.heat.value, self.heat.rest], store);
     }
 
     fn load(words: &mut impl Iterator<Item = u64>, model: &Model<L, U, K>) -> Option<History<K>> {
         let plastic = <contact::History as Contact<Plastic<L, U>>>::load(words, &model.plastic)?;
-        let [factor, swiftest, bend, heat, rest] = load_numbers(words)?;
+        let [factor, swiftest, heat, rest] = load_numbers(words)?;
         let heat = Sum { value: heat, rest };
-        Some(History { plastic, loss: model.loss, factor, swiftest, bend, heat })
+        let mut history = History { plastic, loss: model.loss, factor, swiftest, bend: 0.0, heat };
+        history.note_bend(model);
+        history.bend.is_finite().then_some(history)
     }
 }
