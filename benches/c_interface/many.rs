@@ -123,6 +123,20 @@ fn times(units: &mut [Many; 2], rates: &[f64]) -> [f64; 2] {
     interleaved(rounds, |number, _| units[number].impact(rates, |_| ()).as_nanos() as f64 / steps as f64)
 }
 
+/// Prints an FMU with many contacts and the passivity guard, compared with the same one without the guard.
+fn print_guarded(folder: &Path, rates: &[f64]) {
+    let units = [("guarded", true), ("unguarded", false)].map(|(name, guard)| {
+        let laws = format!("unloading = \"contact-radius\"\npassivity_guard = {guard}");
+        let text = scene(CONTACTS).replace("unloading = \"contact-radius\"", &laws);
+        let exported = export_text(name, &text.replace("big-alabo", "stronge"), folder);
+        Unit::open(&exported.library, &exported.guid)
+    });
+    let [guarded, unguarded] = times(&mut units.each_ref().map(|unit| Many::of(unit, CONTACTS)), rates);
+    let name = format!("the same with passivity guard; the goal is the time without, {unguarded:.2} ns");
+    let goal = Goal::Value(1.1 * unguarded, unguarded);
+    Row { name: &name, unit: "ns", decimals: 2, goal }.print([Some(guarded), None, None]);
+}
+
 /// Checks that a contact behaves the same among many and alone.
 fn check_among(many: &mut Many, alone: &Unit, rates: &[f64]) {
     let last = share(many.contacts() - 1);
@@ -159,6 +173,7 @@ pub fn print(trio: &Trio) {
     let name = format!("one FMU with {} contacts, per contact", number(CONTACTS as f64, 0));
     let goal = Goal::Value(one_contact, 0.25 * one_contact);
     Row { name: &name, unit: "ns", decimals: 2, goal }.print([Some(brinell), Some(c), None]);
+    print_guarded(&trio.folder, &rates);
 }
 
 /// Prints the quantities that grow with the number of contacts in an FMU.

@@ -114,10 +114,10 @@ impl<S: Scene> Component<S> {
     }
 
     /// Warns if the passivity guard acts, once.
+    #[inline(never)]
     pub fn warn_of_guard(&mut self, function: Function) {
-        // this checks every contact, which is pointless after the warning has been given
-        if S::GUARD.is_some() && self.categories & GUARD != 0 && self.instance.is_held_back() {
-            self.warn(function, GUARD, &Warning::Guarded);
+        if let Some(warning) = self.instance.take_guard() {
+            self.warn(function, GUARD, &warning);
         }
     }
 

@@ -33,8 +33,13 @@ pub unsafe fn do_step<S: Scene>(
         match component.instance.do_plain_step(currentCommunicationPoint, communicationStepSize) {
             Plain::Done => {
                 // a single contact leaves its branch when it becomes too deep
-                if S::CONTACTS > 1 && component.instance.is_deep() {
-                    component.warn_of_limits(order::DO_STEP);
+                if S::CONTACTS > 1 {
+                    if component.instance.is_guard_seen() {
+                        component.warn_of_guard(order::DO_STEP);
+                    }
+                    if component.instance.is_deep() {
+                        component.warn_of_limits(order::DO_STEP);
+                    }
                 }
                 return fmi2OK;
             }

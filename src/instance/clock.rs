@@ -70,6 +70,19 @@ pub(super) struct Clock {
     pub experiment_defined: bool,
     /// Whether a derivative of an input is set or was set in the last step; no step is plain then.
     pub curved: bool,
+    pub guard: Guarded,
+}
+
+/// What is known of the passivity guard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub(super) enum Guarded {
+    /// It acts in no contact, or the contacts have not been looked at.
+    Unseen = 0,
+    /// It acts in a contact; that has not been told.
+    Seen = 1,
+    /// That has been told.
+    Told = 2,
 }
 
 impl Clock {
@@ -82,6 +95,7 @@ impl Clock {
         phase: Phase::Instantiated,
         experiment_defined: false,
         curved: false,
+        guard: Guarded::Unseen,
     };
 
     /// Whether a step from `time` to `end`, of length `step` \[s\], needs no further checks. Steps that are not longer than

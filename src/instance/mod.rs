@@ -236,12 +236,6 @@ impl<S: Scene> Instance<S> {
         }
     }
 
-    /// Whether the passivity guard shortens the unloading path of the present dent of any contact.
-    pub fn is_held_back(&self) -> bool {
-        let Some(guard) = &S::GUARD else { return false };
-        self.histories().iter().enumerate().any(|(contact, history)| (guard.acts)(history, &self.model(contact)))
-    }
-
     /// The bodies and laws of a contact.
     fn model(&self, contact: usize) -> S::Model {
         let group = S::group(contact);

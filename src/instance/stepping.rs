@@ -1,5 +1,6 @@
 //! Steps: the plain step, and all others.
 
+use super::clock::Guarded;
 use super::stability::{Ahead, watch};
 use super::*;
 use crate::contact::motion::{Drive, NoMotion};
@@ -58,8 +59,7 @@ impl<S: Scene> Instance<S> {
         let end = time + step;
         let in_order = self.clock.takes(time, end, step, Self::SHORTEST);
         if S::CONTACTS > 1 {
-            // actions of the passivity guard must be logged
-            let plain = in_order && Self::PLAIN && S::GUARD.is_none();
+            let plain = in_order && Self::PLAIN;
             return if plain && self.advance(end, step).is_ok() { Plain::Done } else { Plain::Other };
         }
         let Contacts { histories, rates, momenta, last_step, .. } = &mut self.contacts;
@@ -185,6 +185,7 @@ impl<S: Scene> Instance<S> {
     #[inline]
     fn advance_held(&mut self, end: f64, step: f64) -> Result<(), Fault> {
         let (time, watches) = (self.clock.time, self.is_watching());
+        let guarded = &mut self.clock.guard;
         let Contacts { histories, rates, forces, momenta, watched, looks, .. } = &mut self.contacts;
         let settings = &mut self.settings;
         let (forces, momenta) = (forces.as_mut(), momenta.as_mut());
@@ -205,6 +206,13 @@ impl<S: Scene> Instance<S> {
                 history
                     .step_held(rate, step, &kept(), || settings.model_at_once(group))
                     .map_err(|deep| too_deep(contact, deep))?;
+                // on a branch it neither begins nor ceases to act
+                if let Some(guard) = S::GUARD
+                    && *guarded == Guarded::Unseen
+                    && (guard.acts)(history, &settings.model_at_once(group))
+                {
+                    *guarded = Guarded::Seen;
+                }
             }
             if (S::CONTACTS == 1 || !short) && !history.stays_within(settings.valid_depth(group)) {
                 self.deep = Deep { contact: contact as u32 + 1, indentation: history.max_indentation() };

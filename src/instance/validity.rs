@@ -1,5 +1,6 @@
 //! Detects that a simulation leaves the valid range of its law. The simulation continues; other modules write the messages.
 
+use super::clock::Guarded;
 use super::*;
 use crate::contact::validity;
 
@@ -19,6 +20,7 @@ impl<S: Scene> Instance<S> {
     /// Makes the next step check every contact, so that warnings are given again.
     pub fn look(&mut self) {
         self.clock.hold();
+        self.clock.guard = Guarded::Unseen;
     }
 
     /// Whether this rate may be too fast for an input \[m/s\].
@@ -63,6 +65,30 @@ impl<S: Scene> Instance<S> {
             return Some(Warning::Unstable { step: self.deep.indentation, mass: S::impact_mass() });
         }
         Some(Warning::Deep { contact, indentation: self.deep.indentation, allowed: self.valid_depth(contact) })
+    }
+
+    /// Whether the passivity guard has begun to act in a plain step, and that has not been [taken](Instance::take_guard) yet.
+    #[inline(always)]
+    pub fn is_guard_seen(&self) -> bool {
+        S::GUARD.is_some() && self.clock.guard == Guarded::Seen
+    }
+
+    /// The warning, once, that the passivity guard shortens the unloading path of the present dent of a contact.
+    pub fn take_guard(&mut self) -> Option<Warning> {
+        let guard = S::GUARD?;
+        let acts = match self.clock.guard {
+            Guarded::Told => false,
+            Guarded::Seen => true,
+            Guarded::Unseen => {
+                let mut contacts = self.histories().iter().enumerate();
+                contacts.any(|(contact, history)| (guard.acts)(history, &self.model(contact)))
+            }
+        };
+        if !acts {
+            return None;
+        }
+        self.clock.guard = Guarded::Told;
+        Some(Warning::Guarded)
     }
 
     /// The first contact that closes faster than its law is valid.

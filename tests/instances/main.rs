@@ -16,6 +16,7 @@ mod friction;
 mod hostile_states;
 mod input_derivatives;
 mod orders_of_execution;
+mod passivity_guard;
 mod rate_unit;
 mod saved_words;
 mod smallest_gaps;
