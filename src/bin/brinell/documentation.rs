@@ -6,7 +6,7 @@ use crate::friction_text;
 use crate::html::{TEXT_STYLE, begin, escape};
 use crate::interface::Entry;
 use crate::law_text::{self, LawText};
-use crate::numbers::{digits, exact};
+use crate::numbers::{digits, in_message};
 use crate::parameters::{self, Constant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
@@ -183,8 +183,8 @@ fn impact(page: &mut String, plan: &Plan) -> std::fmt::Result {
     writeln!(
         page,
         "<p>{} kg at {} m/s{assumed}{}; {}:</p>\n<table>",
-        exact(scene.impact_of(0).mass),
-        exact(scene.impact.speed),
+        in_message(scene.impact_of(0).mass),
+        in_message(scene.impact.speed),
         bodies::first_contact(scene).map(|contact| format!(" on {contact}")).unwrap_or_default(),
         scene.any_model().method()
     )?;

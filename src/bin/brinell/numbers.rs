@@ -99,7 +99,7 @@ pub fn out_of_range(value: f64, allowed: &RangeInclusive<f64>, unit: &str) -> St
     format!("= {value} is out of range: allowed is {least} to {most} {unit}").trim_end().into()
 }
 
-/// A number in a message.
+/// A number in a message, with all its digits: `0.005`, `300000`, `1e300`.
 pub fn in_message(value: f64) -> String {
     let is_plain = value == 0.0 || !value.is_finite() || (1e-5..1e9).contains(&value.abs());
     if is_plain { value.to_string() } else { format!("{value:e}") }
@@ -116,11 +116,6 @@ pub fn in_words(message: &str) -> String {
         ("number too small to fit in target type", "the number is too small"),
     ];
     WORDS.iter().fold(message.into(), |message, (theirs, ours)| message.replace(theirs, ours))
-}
-
-/// All digits of a number, with a power of ten where it would have many zeros: `0.005`, `300000`, `1e300`.
-pub fn exact(value: f64) -> String {
-    if value == 0.0 || (1e-6..1e12).contains(&value.abs()) { value.to_string() } else { format!("{value:?}") }
 }
 
 /// A number in the form of a scene file: `5e-3`, `210e9`, `7850`.
@@ -179,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_numbers_have_no_rows_of_zeros() {
+    fn numbers_in_messages_have_no_rows_of_zeros() {
         for (value, text) in [
             (0.005, "0.005"),
             (-3e5, "-300000"),
@@ -191,7 +186,7 @@ mod tests {
             (f64::INFINITY, "inf"),
             (f64::NAN, "NaN"),
         ] {
-            assert_eq!(exact(value), text);
+            assert_eq!(in_message(value), text);
         }
     }
 

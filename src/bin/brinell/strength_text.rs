@@ -1,7 +1,7 @@
 //! What the page in an FMU says about a strength that depends on the impact.
 
 use crate::html::escape;
-use crate::numbers::cell;
+use crate::numbers::{cell, quantity};
 use crate::scene::{Rate, Scene};
 use std::fmt::Write;
 
@@ -16,11 +16,12 @@ pub fn section(page: &mut String, scene: &Scene) -> std::fmt::Result {
     };
     let found = scene.in_impact(0, &scene.impact_of(0));
     let found = found.map(|found| cell(found.factor, 1.0)).unwrap_or_default();
+    let (body, radius) = (scene.softer(0).name(), quantity(scene.model().pair.indenter_radius(), "m"));
     let what = format!(
-        "The strength of the {} is its strength under a slow load times {model}. The rate is the mean strain rate of the \
-         loading: 0.2 a/R at the largest contact radius, over the time from first contact to that radius. In the impact of \
-         the scene the factor is {found}.",
-        scene.softer(0).name()
+        "The strength of the {body} is its strength under a slow load times {model}. The rate is the mean strain rate of the \
+         loading: 0.2 a/R at the largest contact radius a, over the time from first contact to that radius. R is {radius}, the \
+         radius of the rigid sphere that would press the {body} in the same way. In the impact of the scene the factor is \
+         {found}."
     );
     writeln!(page, "<h3>Strain rate</h3>\n<p>{}</p>\n<p>{}</p>", escape(&what), escape(use_of(scene)))
 }

@@ -161,8 +161,7 @@ pub struct DisplayUnit {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     pub name: String,
-    /// The number by which a scene may mean it; messages then suggest its name.
-    #[serde(skip_serializing)]
+    /// Its number in EN 10027-2 or DIN 17007 (Werkstoffnummer). A scene that has it instead of the name gets an error with the name.
     pub number: Option<String>,
     /// Young's modulus [Pa].
     pub youngs_modulus: f64,

@@ -10,7 +10,7 @@ mod unit;
 
 use crate::files::private_folder;
 use crate::layout::{shortened, without_middle};
-use crate::numbers::exact;
+use crate::numbers::in_message;
 use crate::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
 use std::ffi::c_int;
@@ -70,7 +70,7 @@ pub enum ImportError {
     Call { function: &'static str, status: c_int, message: String },
     #[error("there is no variable {0}")]
     Variable(String),
-    #[error("the force is {} after {} s", exact(*.force), exact(*.time))]
+    #[error("the force is {} after {} s", in_message(*.force), in_message(*.time))]
     Force { force: f64, time: f64 },
     #[error("the impact hasn't ended after {steps} steps")]
     Endless { steps: u32 },

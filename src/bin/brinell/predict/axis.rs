@@ -5,7 +5,7 @@ use super::{PredictError, check_energy, positive, speed_of_energy, speed_of_heig
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::nearest::{nearest, one_of};
-use crate::numbers::{exact, out_of_range};
+use crate::numbers::{in_message, out_of_range};
 use crate::scene::{Body, Scene};
 use crate::table::{self, Causality, VARIABLES};
 use brinell::contact::impact::Impact;
@@ -186,10 +186,10 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
     }
     let pair = scene.pair_with(0, bodies).ok_or_else(|| {
         let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::NAN);
-        let words = bodies.iter().map(|(name, value)| format!("{name} = {}", exact(*value))).collect::<Vec<_>>().join(", ");
+        let words = bodies.iter().map(|(name, value)| format!("{name} = {}", in_message(*value))).collect::<Vec<_>>().join(", ");
         PredictError::Sweep(format!(
             "{words}: these bodies don't touch in one point (impactor.radius = {}); a socket must be wider than the impactor",
-            exact(radius)
+            in_message(radius)
         ))
     })?;
     let is_strength = |name: &str| [Body::Impactor, Body::Target].iter().any(|body| body.yield_strength() == name);

@@ -15,7 +15,7 @@ pub mod time_history;
 
 use crate::laws::{self, Choice};
 use crate::layout;
-use crate::numbers::{exact, out_of_range, quantity, significant};
+use crate::numbers::{in_message, out_of_range, quantity, significant};
 use crate::pairing;
 use crate::scene::Scene;
 use crate::table;
@@ -31,7 +31,7 @@ const GRAVITY: f64 = 9.80665;
 /// An impact without a prediction.
 #[derive(Debug, thiserror::Error)]
 pub enum PredictError {
-    #[error("{name} = {} must be positive and finite", exact(*.value))]
+    #[error("{name} = {} must be positive and finite", in_message(*.value))]
     NotPositive { name: &'static str, value: f64 },
     #[error(
         "the law {law} can't be evaluated for an impact of {} at {}: it is too hard",
@@ -50,17 +50,17 @@ pub enum PredictError {
         value: f64,
         of: &'static str,
     },
-    #[error("restitution = {} must be above 0 and at most 1", exact(*.0))]
+    #[error("restitution = {} must be above 0 and at most 1", in_message(*.0))]
     Restitution(f64),
-    #[error("nothing explains restitution = {}: {searched}", exact(*.goal))]
+    #[error("nothing explains restitution = {}: {searched}", in_message(*.goal))]
     NoRebound { goal: f64, searched: String },
     #[error("the law {0} is rate-dependent: it leaves no dent and has no yield strength to look for")]
     NoDent(String),
     #[error("--sweep {0}")]
     Sweep(String),
-    #[error("angle = {0} must be above -90 and below 90 degrees from the normal")]
+    #[error("angle = {} must be above -90 and below 90 degrees from the normal", in_message(*.0))]
     Angle(f64),
-    #[error("spin = {0} rad/s must be finite")]
+    #[error("spin = {} rad/s must be finite", in_message(*.0))]
     Spin(f64),
     #[error("friction {}", out_of_range(*value, allowed, ""))]
     Coefficient { value: f64, allowed: std::ops::RangeInclusive<f64> },

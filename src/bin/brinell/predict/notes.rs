@@ -54,13 +54,16 @@ fn strength(scene: &Scene, impact: &Impact) -> Vec<String> {
             let prediction = scene.predict_with_strain(impact, part * line.strain, found.factor);
             prediction.map_or("unknown".into(), |prediction| cell(prediction.restitution, 1.0))
         };
+        let radius = scene.model().pair.indenter_radius();
         notes.push(format!(
-            "The power law {} eps^{} is taken as linear hardening up to a plastic strain of {}, Tabor's 0.2 a/R of this impact: S = {}, \
-             H = {}. At that strain the flow stress is {} % off; with half or twice the strain the restitution would be {} or {} by \
+            "The power law {} eps^{} is taken as linear hardening up to a plastic strain of {}, Tabor's 0.2 a/R of this impact, with the \
+             largest contact radius a and R = {}, the radius of the rigid sphere that would press the {} in the same way: S = {}, H = {}. At that strain the flow stress is {} % off; with half or twice the strain the restitution would be {} or {} by \
              the scene's law.",
             quantity(law.coefficient, "Pa"),
             law.exponent,
             cell(line.strain, 1.0),
+            quantity(radius, "m"),
+            scene.softer(0).name(),
             quantity(line.yield_strength, "Pa"),
             quantity(line.hardening_modulus, "Pa"),
             cell(100.0 * line.error, 1.0),

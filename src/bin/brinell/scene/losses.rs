@@ -5,7 +5,7 @@ use super::contacts::Contacts;
 use super::error::Mistake;
 use super::file::{File, Target};
 use crate::model::AnyModel;
-use crate::numbers::{out_of_range, quantity};
+use crate::numbers::{in_message, out_of_range, quantity};
 use brinell::contact::damped::Damped;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
@@ -85,7 +85,8 @@ fn of_restitution(given: &Spanned<Value>) -> Result<Loss, Mistake> {
 fn of_thickness(given: &Spanned<f64>, target: Option<&Target>) -> Result<Loss, Mistake> {
     super::limits::check_range(("target.plate_thickness", "m"), "", given, THICKNESSES)?;
     if let Some(radius) = target.and_then(|target| target.radius.as_ref()) {
-        let message = format!("target.radius = {:?} and target.plate_thickness: a plate is flat", radius.get_ref());
+        let message =
+            format!("target.radius = {} and target.plate_thickness: a plate is flat", in_message(*radius.get_ref()));
         return Err(Mistake(radius.span(), message));
     }
     Ok(Loss::Plate(*given.get_ref()))

@@ -2,7 +2,7 @@
 
 use crate::layout::{shortened, without_middle};
 use crate::nearest::{nearest, one_of};
-use crate::numbers::exact;
+use crate::numbers::in_message;
 use crate::table::VARIABLES;
 use crate::units;
 
@@ -67,7 +67,7 @@ pub fn words(message: &str, line: &str, meant: &str) -> String {
 /// The `message` of the parser with the words of TOML instead of Rust's.
 fn in_words_of_the_file(message: &str) -> String {
     if message == "floating-point number overflowed" {
-        return format!("the number is too large: numbers are below {}", exact(f64::MAX));
+        return format!("the number is too large: numbers are below {}", in_message(f64::MAX));
     }
     let (problem, expected) = message.rsplit_once(", expected ").unwrap_or((message, ""));
     if let Some(value) = problem.strip_prefix("invalid type: ") {

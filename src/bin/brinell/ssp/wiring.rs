@@ -5,7 +5,7 @@ use super::{COMPONENT, of_kind};
 use crate::importer::{self, Archive, Base, ImportError, VariableUnit};
 use crate::layout::{shortened, shown};
 use crate::nearest::nearest_first;
-use crate::numbers::exact;
+use crate::numbers::in_message;
 use crate::plan::Plan;
 use crate::table::{self, Causality, Type};
 use std::collections::{BTreeMap, BTreeSet};
@@ -199,7 +199,7 @@ fn compared(text: &str, ends: [&End; 2], units: [Option<&VariableUnit>; 2]) -> R
     let words = match one.offset == other.offset {
         // the rounding of a written factor
         true if (factor - 1.0).abs() < 1e-9 => return Ok(None),
-        true => format!("here {} times too small or too large", exact(factor.max(1.0 / factor))),
+        true => format!("here {} times too small or too large", in_message(factor.max(1.0 / factor))),
         false => "and here the zeros differ".into(),
     };
     Err(WiringError::Size { connection, from, to, words })
