@@ -25,13 +25,15 @@ fn set<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64, [one, tw
 /// A saved state, and what a test knows of its past.
 struct State {
     words: Vec<u64>,
+    /// What the instance shows.
+    shown: Vec<u64>,
     /// The rates that an importer with the other order of execution would give next, if the unit moves the bodies [m/s].
     other_order: Vec<f64>,
 }
 
 impl State {
     fn of<S: Scene>(instance: &Instance<S>) -> State {
-        State { words: words(instance), other_order: vec![0.1; S::CONTACTS] }
+        State { words: words(instance), shown: shown(instance), other_order: vec![0.1; S::CONTACTS] }
     }
 }
 
@@ -228,6 +230,10 @@ fn idle<S: Scene>() -> Vec<usize> {
 
 /// Runs on from the saved state and from its words: everything shown is the same to the bit, at once and later.
 fn comes_back<S: Scene>(name: &str) {
+    for State { words, shown: expected, .. } in states::<S>() {
+        let found = loaded::<S>(&words).map(|instance| shown(&instance));
+        assert_eq!(found, Some(expected), "{name}: at once");
+    }
     let mut instance = ready::<S>();
     let mut random = Random(5);
     for step in 0..60 {
