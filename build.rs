@@ -1,25 +1,14 @@
-//! Generates the lists of laws from the table of laws, the C header, and the sources that the program embeds: those of the
-//! library and of `libm`, which together make up an FMU.
-
-use std::env;
-use std::path::PathBuf;
-
-#[path = "build/laws.rs"]
-mod laws;
+//! Generates the C header, and the list of the sources that the program embeds: those of the library and of `libm`, which
+//! together make up an FMU.
 
 fn main() {
-    let folder = |variable: &str| PathBuf::from(env::var_os(variable).expect("cargo sets it"));
-    let (root, out) = (folder("CARGO_MANIFEST_DIR"), folder("OUT_DIR"));
-    println!("cargo::rerun-if-changed=src");
     println!("cargo::rerun-if-changed=build.rs");
-    laws::write(&root, &out);
     #[cfg(feature = "exporter")]
-    exporter::prepare(&root, &out);
+    exporter::prepare();
 }
 
 #[cfg(feature = "exporter")]
 mod exporter {
-    use crate::laws;
     use serde_json::Value;
     use std::env;
     use std::fmt::Write;
@@ -33,11 +22,14 @@ mod exporter {
     /// The exporter's own files, and the file that it generates for every prebuilt library.
     const NOT_EMBEDDED: [&str; 2] = ["src/bin", "src/scene/kind.rs"];
 
-    pub fn prepare(root: &Path, out: &Path) {
+    pub fn prepare() {
+        let folder = |variable: &str| PathBuf::from(env::var_os(variable).expect("cargo sets it"));
+        let (root, out) = (folder("CARGO_MANIFEST_DIR"), folder("OUT_DIR"));
+        println!("cargo::rerun-if-changed=src");
         println!("cargo::rerun-if-changed=Cargo.lock");
-        write_header(root, &out.join("brinell.h"));
-        let mut text = sources("LIBRARY_SOURCE", root, "", laws::write_for_units(root, out));
-        text.push_str(&sources("LIBM_SOURCE", &libm(root, &out.join("libm")), "libm/", Vec::new()));
+        write_header(&root, &out.join("brinell.h"));
+        let mut text = sources("LIBRARY_SOURCE", &root, "");
+        text.push_str(&sources("LIBM_SOURCE", &libm(&root, &out.join("libm")), "libm/"));
         fs::write(out.join("library_source.rs"), text).expect("OUT_DIR can be written");
     }
 
@@ -102,9 +94,9 @@ mod exporter {
         builder.generate().expect("the interface has a C header").write_to_file(header);
     }
 
-    /// A constant of this `name` with the path (after `prefix`) and the text of every file of the library in `root`. `files`
-    /// replace some of them.
-    fn sources(name: &str, root: &Path, prefix: &str, mut files: Vec<(String, PathBuf)>) -> String {
+    /// A constant of this `name` with the path (after `prefix`) and the text of every file of the library in `root`.
+    fn sources(name: &str, root: &Path, prefix: &str) -> String {
+        let mut files = Vec::new();
         collect(&root.join("src"), root, &mut files);
         files.sort();
         let mut text = format!("pub const {name}: &[(&str, &str)] = &[\n");
@@ -121,8 +113,7 @@ mod exporter {
             let path = entry.expect("sources are readable").path();
             let inside = path.strip_prefix(root).expect("below the root");
             let name = inside.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/");
-            let is_there = files.iter().any(|(other, _)| *other == name);
-            if is_there || NOT_EMBEDDED.contains(&name.as_str()) || laws::is_left_out_of_units(&name) {
+            if NOT_EMBEDDED.contains(&name.as_str()) {
                 continue;
             }
             if path.is_dir() {

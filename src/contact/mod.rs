@@ -32,6 +32,7 @@ pub mod damped;
 pub mod dual;
 pub mod history;
 pub mod impact;
+mod laws;
 pub mod loading;
 pub mod losses;
 pub mod material;

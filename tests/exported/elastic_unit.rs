@@ -93,7 +93,7 @@ fn with_names(scene: &Path) -> Vec<u8> {
     for named in ["benches", "examples", "tests"] {
         std::os::unix::fs::symlink(root.join(named), folder.path().join(named)).unwrap();
     }
-    for part in ["src", "build", "modelDescription"] {
+    for part in ["src"] {
         copy(&root.join(part), &folder.path().join(part));
     }
     fs::write(folder.path().join("src/scene/exported.rs"), constants(scene)).unwrap();

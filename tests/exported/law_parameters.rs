@@ -2,7 +2,6 @@
 
 use crate::command::{empty_folder, run};
 use crate::physics::laws::{self, text};
-use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::{AnyLoading, Power};
 use brinell::contact::unloading::AnyUnloading;
 use brinell::contact::{Body, Loading, Pair};
@@ -30,34 +29,6 @@ fn parameters(told: &toml::Table) -> Vec<toml::Table> {
 
 fn number(table: &toml::Table, key: &str) -> f64 {
     table[key].as_float().unwrap_or_else(|| panic!("{key} of {table} is no number"))
-}
-
-/// The variant's value as Rust prints it, up to the first constant: `BigAlabo { yield_pressure_factor: 1.1, .. })`.
-fn type_in(debug: &str) -> &str {
-    let inside = debug.split_once('(').map_or(debug, |(_, inside)| inside);
-    inside.split([' ', ')']).next().unwrap()
-}
-
-#[test]
-fn the_lists_of_laws_are_those_of_the_table_in_its_order() {
-    let own = [
-        ("loading", AnyLoading::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
-        ("unloading", AnyUnloading::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
-        ("damped", AnyDamped::ALL.map(|(name, law)| (name, format!("{law:?}"))).to_vec()),
-    ];
-    for (kind, own) in own {
-        let rust = |law| text(law, "rust").split("::").next().unwrap();
-        let told: Vec<_> = laws::entries(kind).map(|law| (text(law, "name"), rust(law))).collect();
-        let own: Vec<_> = own.iter().map(|(name, law)| (*name, type_in(law))).collect();
-        assert_eq!(told, own, "{kind}");
-    }
-}
-
-#[test]
-fn the_laws_with_a_guarded_form_are_those_of_the_table() {
-    for (name, law) in AnyUnloading::ALL {
-        assert_eq!(law.guarded().is_some(), laws::says(laws::entry("unloading", name), "guarded"), "{name}");
-    }
 }
 
 #[test]

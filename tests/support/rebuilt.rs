@@ -53,7 +53,7 @@ impl Sources {
         let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         let sources = Sources { folder: all.join("source"), target: all.join("target") };
         let _ = fs::remove_dir_all(&sources.folder);
-        for part in ["src", "build", "modelDescription"] {
+        for part in ["src", "modelDescription"] {
             copy(&root.join(part), &sources.folder.join(part));
         }
         for part in ["Cargo.toml", "Cargo.lock", "build.rs"] {

@@ -1,9 +1,14 @@
 //! The tables in `modelDescription/`, as data: variables, units, materials, laws.
 
 mod law;
+mod names;
 
 pub use law::{Law, LawParameter};
 
+use brinell::contact::damped::AnyDamped;
+use brinell::contact::loading::AnyLoading;
+use brinell::contact::unloading::AnyUnloading;
+use names::{first, lists};
 use serde::Deserialize;
 use std::sync::LazyLock;
 
@@ -216,10 +221,16 @@ pub static MATERIALS: LazyLock<Vec<Material>> = LazyLock::new(|| {
     toml::from_str::<Materials>(text).expect(PART_OF_THE_PROGRAM).material
 });
 
-static LAWS: LazyLock<Laws> = LazyLock::new(|| {
-    let text = include_str!("../../../modelDescription/laws.toml");
-    toml::from_str(text).expect(PART_OF_THE_PROGRAM)
-});
+const LAWS_TEXT: &str = include_str!("../../../modelDescription/laws.toml");
+
+// the table describes exactly the laws of the library, in their order
+const _: () = {
+    assert!(lists(LAWS_TEXT, "[[loading]]", [&first(&AnyLoading::ALL)]));
+    assert!(lists(LAWS_TEXT, "[[unloading]]", [&first(&AnyUnloading::ALL)]));
+    assert!(lists(LAWS_TEXT, "[[damped]]", [&first(&AnyDamped::ALL)]));
+};
+
+static LAWS: LazyLock<Laws> = LazyLock::new(|| toml::from_str(LAWS_TEXT).expect(PART_OF_THE_PROGRAM));
 
 /// The entries of the laws that a scene names under `law.loading`: elastoplastic and rate-dependent ones.
 pub fn loading_laws() -> Vec<&'static Law> {

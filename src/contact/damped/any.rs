@@ -2,9 +2,6 @@
 
 use super::*;
 
-// the enum, the list of its laws by name, and the dispatch to each law; see build/laws.rs
-include!(concat!(env!("OUT_DIR"), "/any_damped.rs"));
-
 impl Damped for AnyDamped {
     fn factors(&self, pair: &Pair, restitution: f64, mass: f64) -> Factors {
         self.law().factors(pair, restitution, mass)

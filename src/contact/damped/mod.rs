@@ -5,17 +5,32 @@
 //! separate faster than the surface follows. The force depends on the rate at the same instant, and the `ModelStructure` of the
 //! FMU declares this.
 
+pub mod adams;
+mod any;
 pub mod history;
+pub mod hunt_crossley;
 pub mod impact;
+pub mod kelvin_voigt;
+pub mod kuwabara_kono;
+pub mod tsuji;
 
 pub use history::{History, follow};
 
-// for every law in modelDescription/laws.toml: `pub mod tsuji; pub use tsuji::Tsuji;` and so on; see build/laws.rs
-include!(concat!(env!("OUT_DIR"), "/damped_laws.rs"));
-
+use super::laws::laws;
 use super::material::Pair;
 use super::validity::LARGEST_RADIUS_RATIO;
 use libm::sqrt;
+
+laws! {
+    /// A rate-dependent law chosen while a program runs. In an FMU the scene names the law.
+    pub enum AnyDamped: dyn Damped {
+        hunt_crossley::HuntCrossley { "hunt-crossley" = HuntCrossley::REFERENCE }
+        kelvin_voigt::KelvinVoigt { "kelvin-voigt" = KelvinVoigt::REFERENCE }
+        tsuji::Tsuji { "tsuji" = Tsuji::REFERENCE }
+        kuwabara_kono::KuwabaraKono { "kuwabara-kono" = KuwabaraKono::REFERENCE }
+        adams::Adams { "adams-impact" = Adams::REFERENCE }
+    }
+}
 
 /// The bodies in contact and their rate-dependent law.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,6 @@
 
 use super::*;
 
-// the enum, the list of its laws by name, and the dispatch to each law; see build/laws.rs
-include!(concat!(env!("OUT_DIR"), "/any_loading.rs"));
-
 impl Loading for AnyLoading {
     fn yield_point(&self, pair: &Pair) -> YieldPoint {
         self.law().yield_point(pair)
@@ -51,9 +48,6 @@ impl Loading for AnyLoading {
     }
 
     fn strengthened_by(self, factor: f64) -> AnyLoading {
-        match self {
-            AnyLoading::StrengthenedBrinell(form) => AnyLoading::StrengthenedBrinell(form.strengthened_by(factor)),
-            law => law,
-        }
+        self.with_form(|form| form.strengthened_by(factor))
     }
 }

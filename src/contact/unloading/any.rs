@@ -2,11 +2,8 @@
 
 use super::*;
 
-// the enum, the list of its laws by name, and the dispatch to each law; see build/laws.rs
-include!(concat!(env!("OUT_DIR"), "/any_unloading.rs"));
-
 /// [`Unloading`] without its constants, because a trait object cannot have any.
-trait DynUnloading {
+pub trait DynUnloading {
     fn needs_work(&self) -> bool;
     fn holds_back(&self, pair: &Pair, peak: &Peak) -> bool;
     fn path(&self, pair: &Pair, peak: &Peak) -> Segment;
@@ -71,9 +68,6 @@ impl Unloading for AnyUnloading {
     }
 
     fn strengthened_by(self, factor: f64) -> AnyUnloading {
-        match self {
-            AnyUnloading::StrengthenedBrinell(form) => AnyUnloading::StrengthenedBrinell(form.strengthened_by(factor)),
-            law => law,
-        }
+        self.with_form(|form| form.strengthened_by(factor))
     }
 }

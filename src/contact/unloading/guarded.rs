@@ -1,16 +1,11 @@
 //! The passivity guard: unloading never returns more energy than the loading took.
 
-use super::{ContactRadius, DeformedRadius, OriginalRadius, Peak, Thornton, Unloading, hertzian};
+use super::{Peak, Unloading, hertzian};
 use crate::contact::material::Pair;
 use crate::contact::segment::Segment;
 
 /// An unloading law whose whole path is `F = F_m ((d - d_f)/d_e)^1.5`. It returns the work `W_r = 0.4 F_m d_e`.
 pub trait Hertzian: Unloading {}
-
-impl Hertzian for ContactRadius {}
-impl Hertzian for Thornton {}
-impl Hertzian for OriginalRadius {}
-impl Hertzian for DeformedRadius {}
 
 /// Limits the recovery of another law to `d_e <= 2.5 W/F_m`, so that `W_r <= W`. Where the law would return more than the work
 /// `W` of the loading, the shorter path returns exactly `W`. Elsewhere nothing changes.

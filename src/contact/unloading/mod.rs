@@ -3,19 +3,52 @@
 //! All laws determine the elastic recovery `d_e = d_m - d_f`, and with it the whole path, from the point of the loading curve
 //! where unloading begins. Reloading follows the same path.
 
+mod any;
+pub mod brinell;
+pub mod contact_radius;
+pub mod deformed_radius;
+pub mod etsion;
 pub mod guarded;
+pub mod hertz_shift;
+pub mod jackson;
+pub mod luding;
+pub mod original_radius;
 pub mod strengthened;
+pub mod thornton;
+pub mod vu_quoc_zhang;
+pub mod walton_braun;
 
 pub use guarded::Guarded;
 pub use strengthened::Strengthened;
 
-// for every law in modelDescription/laws.toml: `pub mod contact_radius; pub use contact_radius::ContactRadius;` and so on; see
-// build/laws.rs
-include!(concat!(env!("OUT_DIR"), "/unloading_laws.rs"));
-
+use super::laws::laws;
 use super::material::Pair;
 use super::segment::Segment;
 use libm::sqrt;
+
+laws! {
+    /// An unloading law chosen while a program runs. In an FMU the scene names the law.
+    pub enum AnyUnloading: dyn any::DynUnloading {
+        contact_radius::ContactRadius { "contact-radius" = ContactRadius }
+        thornton::Thornton { "thornton" = Thornton }
+        original_radius::OriginalRadius { "original-radius" = OriginalRadius }
+        deformed_radius::DeformedRadius { "deformed-radius" = DeformedRadius::REFERENCE }
+        hertz_shift::HertzShift { "hertz-shift" = HertzShift }
+        brinell::Brinell { "brinell" = Brinell::REFERENCE }
+        walton_braun::WaltonBraun { "walton-braun" = WaltonBraun::REFERENCE }
+        etsion::Etsion { "etsion" = Etsion::REFERENCE }
+        jackson::Jackson { "jackson" = Jackson::REFERENCE }
+        vu_quoc_zhang::VuQuocZhang { "vu-quoc-zhang" = VuQuocZhang::REFERENCE }
+        luding::Luding { "luding" = Luding::REFERENCE }
+    }
+    guarded {
+        ContactRadius as GuardedContactRadius,
+        Thornton as GuardedThornton,
+        OriginalRadius as GuardedOriginalRadius,
+        DeformedRadius as GuardedDeformedRadius,
+    }
+    strengthened { Brinell as StrengthenedBrinell }
+}
 
 /// The point of the loading curve where unloading begins.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -245,7 +245,7 @@ fn measure(scene: &Scene, name: &'static str, loading: AnyLoading) -> Measured {
         worst_error,
         worst_at,
         rms_error: (squares / points.len() as f64).sqrt(),
-        materials: if told.strengthened { materials::errors(&model) } else { Vec::new() },
+        materials: if loading.strengthened(0.0).is_some() { materials::errors(&model) } else { Vec::new() },
         formulas,
         parameters: parameters::constants(&loading, told),
         validity,

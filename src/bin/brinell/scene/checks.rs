@@ -15,7 +15,7 @@ use super::numbers::IMPACTOR_DENSITY;
 use super::softer::{self, Body, Both};
 use super::{QuasiStatic, Scene};
 use crate::predict;
-use crate::table::{self, VARIABLES};
+use crate::table::VARIABLES;
 use brinell::contact::damped::Damped;
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::{AnyLoading, Hertz};
@@ -37,7 +37,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         None => laws::check_loading(&file.law, &contacts)?,
     };
     let elastic = matches!(loading.1, AnyLoading::Hertz(_));
-    let hardens = damped.is_none() && table::loading_law(loading.0).strengthened;
+    let hardens = damped.is_none() && loading.1.strengthened(0.0).is_some();
     contacts.check_rate(damped.is_some() || elastic)?;
     contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
     let unloading = laws::check_unloading(&file.law, loading.0, elastic)?;

@@ -11,7 +11,7 @@ use super::power_law::{self, PowerLaw};
 use super::rate::{self, Rate};
 use super::softer::{self, Body, Both};
 use crate::nearest::unknown;
-use crate::table::{self, MATERIALS, VARIABLES};
+use crate::table::{MATERIALS, VARIABLES};
 use brinell::contact::loading::AnyLoading;
 use std::ops::Range;
 use toml::Spanned;
@@ -145,7 +145,7 @@ impl Contacts {
         };
         let given = [(Body::Target, HARDENING), (Body::Impactor, IMPACTOR_HARDENING)].into_iter().find_map(of);
         let Some((body, index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
-        let laws = AnyLoading::ALL.iter().filter(|(name, _)| table::loading_law(name).strengthened);
+        let laws = AnyLoading::ALL.iter().filter(|(_, law)| law.strengthened(0.0).is_some());
         let laws = laws.map(|(name, _)| *name).collect::<Vec<_>>().join("\", \"");
         let message = format!(
             "the hardening of the {} has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"",

@@ -9,11 +9,6 @@ use std::collections::BTreeMap;
 #[serde(deny_unknown_fields)]
 pub struct Law {
     pub name: String,
-    /// The Rust name of the law, and whether it has a form with the passivity guard: for `build/laws.rs`.
-    #[serde(rename = "rust")]
-    _rust: IgnoredAny,
-    #[serde(default, rename = "guarded")]
-    _guarded: IgnoredAny,
     /// Of an unloading law: largest error of the tangential force of one step that grows the dent, relative to Coulomb's
     /// limit.
     pub friction_error: Option<f64>,
@@ -22,9 +17,6 @@ pub struct Law {
     pub friction_error_of: BTreeMap<String, f64>,
     /// Of an unloading law: the reason why it has no tangential force.
     pub no_friction: Option<String>,
-    /// Whether the law has a form for targets that harden.
-    #[serde(default)]
-    pub strengthened: bool,
     pub title: String,
     pub formulas: Vec<String>,
     pub notes: String,
