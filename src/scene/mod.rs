@@ -5,6 +5,7 @@
 //! write its own. The scene of a prebuilt library, [`prebuilt::Prebuilt`], is read from memory.
 
 pub mod coupling;
+pub mod described;
 #[cfg(not(feature = "prebuilt"))]
 pub mod exported;
 #[cfg(feature = "prebuilt")]
@@ -14,6 +15,7 @@ pub mod storage;
 pub mod variable;
 
 pub use coupling::{Coupled, Coupling};
+pub use described::{kind, scene};
 pub use storage::{Absent, Presence, Present, Store};
 pub use variable::{Integer, Parameter, Real, Settable};
 

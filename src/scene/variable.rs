@@ -2,49 +2,92 @@
 
 use crate::contact::tangential::Quantity;
 
-/// A parameter of contacts. Each scene has either a constant or a variable for it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Parameter {
-    /// `impactor.radius` \[m\].
-    ImpactorRadius,
-    /// `impactor.youngs_modulus` \[Pa\]; infinite for a rigid impactor.
-    ImpactorYoungsModulus,
-    /// `impactor.poissons_ratio` \[-\].
-    ImpactorPoissonsRatio,
-    /// `impactor.yield_strength` \[Pa\]; infinite for an impactor that doesn't yield.
-    ImpactorYieldStrength,
-    /// `impactor.hardening_modulus` \[Pa\]; zero for an impactor that doesn't harden.
-    ImpactorHardeningModulus,
-    /// `target.radius` \[m\]; infinite for a flat target.
-    TargetRadius,
-    /// `target.youngs_modulus` \[Pa\].
-    TargetYoungsModulus,
-    /// `target.poissons_ratio` \[-\].
-    TargetPoissonsRatio,
-    /// `target.yield_strength` \[Pa\]; infinite for a target that doesn't yield.
-    TargetYieldStrength,
-    /// `target.hardening_modulus` \[Pa\]; zero for a target that doesn't harden.
-    TargetHardeningModulus,
-    /// `restitution`, which the damping of a rate-dependent law is made for.
-    Restitution,
-    /// `effective_mass` \[kg\].
-    EffectiveMass,
-    /// `initial_gap` \[m\].
-    InitialGap,
-    /// `elastic_restitution`, of a loss below yield; 1 without a loss.
-    ElasticRestitution,
-    /// `target.plate_thickness` \[m\]; infinite for a thick target.
-    TargetPlateThickness,
-    /// `friction.coefficient`; zero without friction.
-    FrictionCoefficient,
+/// Makes an enum of variables, each with its name in FMUs: the table of variables has an entry of this name. `or` adds a variant
+/// that is not in the table.
+macro_rules! variables {
+    (
+        $(#[$says:meta])*
+        pub enum $kind:ident { $($(#[$means:meta])* $variant:ident = $name:literal),+ $(,)? }
+        $(or { $(#[$other_means:meta])* $other:ident($held:ty) })?
+    ) => {
+        $(#[$says])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $kind {
+            $($(#[$means])* $variant,)+
+            $($(#[$other_means])* $other($held),)?
+        }
+
+        impl $kind {
+            /// All that the table has, with their names.
+            pub const ALL: [(&'static str, $kind); [$($name),+].len()] = [$(($name, $kind::$variant)),+];
+        }
+    };
+}
+
+variables! {
+    /// A parameter of contacts. Each scene has either a constant or a variable for it.
+    pub enum Parameter {
+        /// `impactor.radius` \[m\].
+        ImpactorRadius = "impactor.radius",
+        /// `impactor.youngs_modulus` \[Pa\]; infinite for a rigid impactor.
+        ImpactorYoungsModulus = "impactor.youngs_modulus",
+        /// `impactor.poissons_ratio` \[-\].
+        ImpactorPoissonsRatio = "impactor.poissons_ratio",
+        /// `impactor.yield_strength` \[Pa\]; infinite for an impactor that doesn't yield.
+        ImpactorYieldStrength = "impactor.yield_strength",
+        /// `impactor.hardening_modulus` \[Pa\]; zero for an impactor that doesn't harden.
+        ImpactorHardeningModulus = "impactor.hardening_modulus",
+        /// `target.radius` \[m\]; infinite for a flat target.
+        TargetRadius = "target.radius",
+        /// `target.youngs_modulus` \[Pa\].
+        TargetYoungsModulus = "target.youngs_modulus",
+        /// `target.poissons_ratio` \[-\].
+        TargetPoissonsRatio = "target.poissons_ratio",
+        /// `target.yield_strength` \[Pa\]; infinite for a target that doesn't yield.
+        TargetYieldStrength = "target.yield_strength",
+        /// `target.hardening_modulus` \[Pa\]; zero for a target that doesn't harden.
+        TargetHardeningModulus = "target.hardening_modulus",
+        /// `restitution`, which the damping of a rate-dependent law is made for.
+        Restitution = "restitution",
+        /// `effective_mass` \[kg\].
+        EffectiveMass = "effective_mass",
+        /// `initial_gap` \[m\].
+        InitialGap = "initial_gap",
+        /// `elastic_restitution`, of a loss below yield; 1 without a loss.
+        ElasticRestitution = "elastic_restitution",
+        /// `target.plate_thickness` \[m\]; infinite for a thick target.
+        TargetPlateThickness = "target.plate_thickness",
+        /// `friction.coefficient`; zero without friction.
+        FrictionCoefficient = "friction.coefficient",
+    }
 }
 
 impl Parameter {
-    /// The number of parameters.
-    pub const COUNT: usize = Parameter::FrictionCoefficient as usize + 1;
-
     /// The number of those that prebuilt libraries have, which come first.
     pub const PREBUILT: usize = Parameter::InitialGap as usize + 1;
+
+    /// The value in a scene that does not have the parameter: a rigid impactor, a flat and thick target, bodies that never yield
+    /// or do not harden, no damping, no loss below yield, no friction. NaN for a parameter that every scene has.
+    #[inline(always)]
+    pub const fn without_effect(self) -> f64 {
+        match self {
+            Parameter::ImpactorYoungsModulus
+            | Parameter::ImpactorYieldStrength
+            | Parameter::TargetRadius
+            | Parameter::TargetYieldStrength
+            | Parameter::EffectiveMass
+            | Parameter::TargetPlateThickness => f64::INFINITY,
+            Parameter::ImpactorPoissonsRatio
+            | Parameter::ImpactorHardeningModulus
+            | Parameter::TargetHardeningModulus
+            | Parameter::FrictionCoefficient => 0.0,
+            Parameter::Restitution | Parameter::ElasticRestitution => 1.0,
+            Parameter::ImpactorRadius
+            | Parameter::TargetYoungsModulus
+            | Parameter::TargetPoissonsRatio
+            | Parameter::InitialGap => f64::NAN,
+        }
+    }
 }
 
 /// A parameter of the scene that can be set, with its limits.
@@ -102,8 +145,8 @@ pub fn name_in(names: &[(&'static str, bool)], ends: &[usize], group: usize, con
 pub enum Source {
     /// The parameter with this index among [`Scene::Values`](super::Scene::Values).
     Settable(usize),
-    /// A settable parameter with one value for each contact: contact 0 would have this index.
-    PerContact(usize),
+    /// A settable parameter with one value for each contact: contact 0 would have this index, which may be below zero.
+    PerContact(isize),
     /// A constant of the scene.
     Constant(f64),
 }
@@ -115,82 +158,84 @@ impl Source {
             Some(Source::Constant(value)) => return *value,
             Some(Source::Settable(index)) => *index,
             // the first contact of a group with such values may come after the contact of the first value
-            Some(Source::PerContact(index)) => index.wrapping_add(contact),
+            Some(Source::PerContact(index)) => contact.wrapping_add_signed(*index),
             None => return f64::NAN,
         };
         settable.get(index).copied().unwrap_or(f64::NAN)
     }
 }
 
-/// A variable of type Real.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Real {
-    /// Indentation rate, the input \[m/s\].
-    IndentationRate,
-    /// Force \[N\].
-    Force,
-    /// Indentation \[m\].
-    Indentation,
-    /// Largest indentation \[m\].
-    MaxIndentation,
-    /// Residual indentation \[m\].
-    ResidualIndentation,
-    /// Contact radius \[m\].
-    ContactRadius,
-    /// Mean pressure \[Pa\].
-    MeanPressure,
-    /// Stiffness \[N/m\].
-    Stiffness,
-    /// Work done on the contact \[J\].
-    Work,
-    /// Elastic energy \[J\].
-    ElasticEnergy,
-    /// Dissipated energy \[J\].
-    DissipatedEnergy,
-    /// Impulse since the start \[N.s\].
-    Impulse,
-    /// Mean force of the last step \[N\].
-    MeanForce,
-    /// Predicted force at the end of the next step \[N\].
-    PredictedForce,
-    /// Closing speed at the end of a step \[m/s\].
-    ClosingSpeed,
-    /// Acceleration by all forces except the contact force, an input \[m/s^2\].
-    ExternalAcceleration,
-    /// Number of the regime.
-    RegimeNumber,
-    /// Tangential rate, an input \[m/s\].
-    TangentialRate,
-    /// Tangential rate in the second direction, an input \[m/s\].
-    SecondTangentialRate,
-    /// Tangential force \[N\].
-    TangentialForce,
-    /// Tangential force in the second direction \[N\].
-    SecondTangentialForce,
-    /// Mean tangential force of the last step \[N\].
-    MeanTangentialForce,
-    /// Mean tangential force of the last step in the second direction \[N\].
-    SecondMeanTangentialForce,
-    /// Integral of the tangential force since the start \[N.s\].
-    TangentialImpulse,
-    /// Integral of the tangential force in the second direction since the start \[N.s\].
-    SecondTangentialImpulse,
-    /// Predicted tangential force at the end of the next step \[N\].
-    PredictedTangentialForce,
-    /// Predicted tangential force in the second direction at the end of the next step \[N\].
-    SecondPredictedTangentialForce,
-    /// Elastic energy of the tangential strain \[J\].
-    TangentialEnergy,
-    /// Energy lost by slip \[J\].
-    FrictionWork,
-    /// Radius of the stick area \[m\].
-    StickRadius,
-    /// Number of the state of sliding.
-    SlidingNumber,
-    /// Effective mass, as an input \[kg\].
-    EffectiveMass,
-    /// The settable parameter with this index among [`Scene::Values`](super::Scene::Values).
-    Parameter(usize),
+variables! {
+    /// A variable of type Real.
+    pub enum Real {
+        /// Indentation rate, the input \[m/s\].
+        IndentationRate = "indentation_rate",
+        /// Force \[N\].
+        Force = "force",
+        /// Indentation \[m\].
+        Indentation = "indentation",
+        /// Largest indentation \[m\].
+        MaxIndentation = "max_indentation",
+        /// Residual indentation \[m\].
+        ResidualIndentation = "residual_indentation",
+        /// Contact radius \[m\].
+        ContactRadius = "contact_radius",
+        /// Mean pressure \[Pa\].
+        MeanPressure = "mean_pressure",
+        /// Stiffness \[N/m\].
+        Stiffness = "stiffness",
+        /// Work done on the contact \[J\].
+        Work = "work",
+        /// Elastic energy \[J\].
+        ElasticEnergy = "elastic_energy",
+        /// Dissipated energy \[J\].
+        DissipatedEnergy = "dissipated_energy",
+        /// Impulse since the start \[N.s\].
+        Impulse = "impulse",
+        /// Mean force of the last step \[N\].
+        MeanForce = "mean_force",
+        /// Predicted force at the end of the next step \[N\].
+        PredictedForce = "predicted_force",
+        /// Closing speed at the end of a step \[m/s\].
+        ClosingSpeed = "closing_speed",
+        /// Acceleration by all forces except the contact force, an input \[m/s^2\].
+        ExternalAcceleration = "external_acceleration",
+        /// Number of the regime.
+        RegimeNumber = "regime_number",
+        /// Tangential rate, an input \[m/s\].
+        TangentialRate = "tangential_rate",
+        /// Tangential rate in the second direction, an input \[m/s\].
+        SecondTangentialRate = "tangential_rate[2]",
+        /// Tangential force \[N\].
+        TangentialForce = "tangential_force",
+        /// Tangential force in the second direction \[N\].
+        SecondTangentialForce = "tangential_force[2]",
+        /// Mean tangential force of the last step \[N\].
+        MeanTangentialForce = "mean_tangential_force",
+        /// Mean tangential force of the last step in the second direction \[N\].
+        SecondMeanTangentialForce = "mean_tangential_force[2]",
+        /// Integral of the tangential force since the start \[N.s\].
+        TangentialImpulse = "tangential_impulse",
+        /// Integral of the tangential force in the second direction since the start \[N.s\].
+        SecondTangentialImpulse = "tangential_impulse[2]",
+        /// Predicted tangential force at the end of the next step \[N\].
+        PredictedTangentialForce = "predicted_tangential_force",
+        /// Predicted tangential force in the second direction at the end of the next step \[N\].
+        SecondPredictedTangentialForce = "predicted_tangential_force[2]",
+        /// Elastic energy of the tangential strain \[J\].
+        TangentialEnergy = "tangential_energy",
+        /// Energy lost by slip \[J\].
+        FrictionWork = "friction_work",
+        /// Radius of the stick area \[m\].
+        StickRadius = "stick_radius",
+        /// Number of the state of sliding.
+        SlidingNumber = "sliding_number",
+        /// Effective mass, as an input \[kg\].
+        EffectiveMass = "effective_mass",
+    } or {
+        /// The settable parameter with this index among [`Scene::Values`](super::Scene::Values).
+        Parameter(usize)
+    }
 }
 
 impl Real {
@@ -247,13 +292,14 @@ impl Real {
     }
 }
 
-/// A variable of type Integer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Integer {
-    /// Number of the [`Regime`](crate::contact::Regime).
-    Regime,
-    /// Number of the state of [`Sliding`](crate::contact::tangential::Sliding).
-    Sliding,
+variables! {
+    /// A variable of type Integer.
+    pub enum Integer {
+        /// Number of the [`Regime`](crate::contact::Regime).
+        Regime = "regime",
+        /// Number of the state of [`Sliding`](crate::contact::tangential::Sliding).
+        Sliding = "sliding",
+    }
 }
 
 /// The kind of variable that a value reference denotes, and its contact. The variables of a kind are consecutive.

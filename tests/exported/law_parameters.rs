@@ -133,9 +133,8 @@ fn a_scenes_constants_are_those_of_its_fmu_and_the_fmu_agrees_with_the_predictio
     let law = "loading = \"power\"\nloading_parameters = { exponent = 1.15, coefficient = 2 }";
     fs::write(folder.path().join("scene.toml"), scene(law)).unwrap();
     let constants = run(folder.path(), ["constants", "scene.toml"]).with_status(0).out;
-    for line in ["    yield_pressure_factor: 1.6,\n", "    coefficient: 2.0,\n", "    exponent: 1.15,\n"] {
-        assert!(constants.contains(line), "nothing of {line:?} in {constants}");
-    }
+    let law = "Power { yield_pressure_factor: 1.6, coefficient: 2.0, exponent: 1.15 }";
+    assert!(constants.contains(law), "{constants}");
     run(folder.path(), ["export", "scene.toml", "-o", "unit.fmu"]).with_status(0);
     let checked = run(folder.path(), ["check", "unit.fmu", "--json"]).with_status(0).json();
     let row = |quantity: &str| {

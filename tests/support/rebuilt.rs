@@ -75,7 +75,7 @@ impl Sources {
         let output = program.arg("constants").arg(scene).output().expect("cargo has built the program");
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let constants = String::from_utf8(output.stdout).expect("UTF-8");
-        let constants = constants.replacen("GUID: &str = \"unpacked\"", &format!("GUID: &str = \"{guid}\""), 1);
+        let constants = constants.replacen("guid: \"unpacked\"", &format!("guid: \"{guid}\""), 1);
         assert!(constants.contains(guid), "the constants have no GUID");
         self.write("src/scene/exported.rs", &constants);
         place

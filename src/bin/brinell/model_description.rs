@@ -135,7 +135,8 @@ fn types(xml: &mut Xml<'_>, entries: &[Entry]) -> io::Result<()> {
     }
     xml.create_element("TypeDefinitions").write_inner_content(|xml| {
         for variable in used {
-            let name = [("name", variable.rust.as_str())];
+            let name = variable.symbol().to_string();
+            let name = [("name", name.as_str())];
             xml.create_element("SimpleType").with_attributes(name).write_inner_content(|xml| {
                 xml.create_element("Enumeration").write_inner_content(|xml| {
                     for (value, item) in variable.items.iter().enumerate() {
@@ -188,9 +189,9 @@ fn scalar_variable(xml: &mut Xml<'_>, scene: &Scene, entry: &Entry, index: usize
     let given = attributes.into_iter().filter(|(_, value)| !value.is_empty());
     let real = variable.r#type == Type::Real;
     let limit = |value: Option<f64>| value.map(number).unwrap_or_default();
-    let declared = if real { "" } else { variable.rust.as_str() };
+    let declared = if real { String::new() } else { variable.symbol().to_string() };
     let kind = [
-        ("declaredType", declared.to_string()),
+        ("declaredType", declared),
         ("unit", variable.unit.clone().unwrap_or_default()),
         ("displayUnit", variable.display_unit.clone().unwrap_or_default()),
         ("min", limit(entry.minimum)),

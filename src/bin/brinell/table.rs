@@ -8,6 +8,7 @@ pub use law::{Law, LawParameter};
 use brinell::contact::damped::AnyDamped;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::unloading::AnyUnloading;
+use brinell::scene::{Integer, Parameter, Real};
 use names::{first, lists};
 use serde::Deserialize;
 use std::sync::LazyLock;
@@ -17,8 +18,6 @@ use std::sync::LazyLock;
 #[serde(deny_unknown_fields)]
 pub struct Variable {
     pub name: String,
-    /// Variant of the library's enum.
-    pub rust: String,
     #[serde(default)]
     pub r#type: Type,
     pub causality: Causality,
@@ -106,8 +105,38 @@ impl Variable {
         self.minimum.filter(|_| !self.instead(kinds).is_some_and(|instead| instead.negative))
     }
 
+    /// The variable in the library.
+    pub fn symbol(&self) -> Symbol {
+        fn named<T: Copy>(name: &str, all: &[(&str, T)]) -> T {
+            all.iter().find(|(known, _)| *known == name).expect(PART_OF_THE_PROGRAM).1
+        }
+        match (self.causality, self.r#type) {
+            (Causality::Parameter, _) => Symbol::Parameter(named(&self.name, &Parameter::ALL)),
+            (_, Type::Enumeration) => Symbol::Integer(named(&self.name, &Integer::ALL)),
+            (_, Type::Real) => Symbol::Real(named(&self.name, &Real::ALL)),
+        }
+    }
+
     fn instead(&self, kinds: &[Kind]) -> Option<&Instead> {
         self.instead.iter().find(|instead| kinds.contains(&instead.of))
+    }
+}
+
+/// A variable in the library. Its text is that of the variant, as in Rust.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symbol {
+    Real(Real),
+    Integer(Integer),
+    Parameter(Parameter),
+}
+
+impl std::fmt::Display for Symbol {
+    fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Symbol::Real(variable) => write!(to, "{variable:?}"),
+            Symbol::Integer(variable) => write!(to, "{variable:?}"),
+            Symbol::Parameter(parameter) => write!(to, "{parameter:?}"),
+        }
     }
 }
 
@@ -203,11 +232,18 @@ struct Laws {
 /// The tables are part of the program. A mistake in one is a defect of the program, which every test would show.
 const PART_OF_THE_PROGRAM: &str = "the program's own tables are well-formed";
 
+const VARIABLES_TEXT: &str = include_str!("../../../modelDescription/variables.toml");
+
+// the table describes exactly the variables of the library, those of each type in their order
+const _: () = assert!(lists(
+    VARIABLES_TEXT,
+    "[[variable]]",
+    [&first(&Parameter::ALL), &first(&Integer::ALL), &first(&Real::ALL)]
+));
+
 /// All variables.
-pub static VARIABLES: LazyLock<Vec<Variable>> = LazyLock::new(|| {
-    let text = include_str!("../../../modelDescription/variables.toml");
-    toml::from_str::<Variables>(text).expect(PART_OF_THE_PROGRAM).variable
-});
+pub static VARIABLES: LazyLock<Vec<Variable>> =
+    LazyLock::new(|| toml::from_str::<Variables>(VARIABLES_TEXT).expect(PART_OF_THE_PROGRAM).variable);
 
 /// All units.
 pub static UNITS: LazyLock<Vec<Unit>> = LazyLock::new(|| {
@@ -260,4 +296,13 @@ pub fn damped_law(name: &str) -> &'static Law {
 /// The variable `name`.
 pub fn variable(name: &str) -> &'static Variable {
     VARIABLES.iter().find(|variable| variable.name == name).expect(PART_OF_THE_PROGRAM)
+}
+
+#[cfg(test)]
+mod tests {
+    /// The C functions expect the input and the force at the first two positions.
+    #[test]
+    fn the_input_comes_first_and_the_force_second() {
+        assert_eq!([0, 1].map(|place| super::VARIABLES[place].name.as_str()), ["indentation_rate", "force"]);
+    }
 }

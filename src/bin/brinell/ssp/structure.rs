@@ -77,11 +77,11 @@ fn connectors(xml: &mut Xml, plan: &Plan, wiring: &Wiring) -> io::Result<()> {
             let variable = entry.variable;
             let connector = [("name", name.as_str()), ("kind", kind), ("description", entry.description)];
             xml.create_element("ssd:Connector").with_attributes(connector).write_inner_content(|xml| {
-                let (element, attribute) = match variable.r#type {
-                    Type::Real => ("ssc:Real", ("unit", variable.unit.as_deref())),
-                    Type::Enumeration => ("ssc:Enumeration", ("name", Some(variable.rust.as_str()))),
+                let (element, attribute, value) = match variable.r#type {
+                    Type::Real => ("ssc:Real", "unit", variable.unit.clone()),
+                    Type::Enumeration => ("ssc:Enumeration", "name", Some(variable.symbol().to_string())),
                 };
-                let given = attribute.1.map(|value| (attribute.0, value));
+                let given = value.as_deref().map(|value| (attribute, value));
                 xml.create_element(element).with_attributes(given).write_empty().map(|_| ())
             })?;
         }
@@ -158,7 +158,8 @@ fn enumerations(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
     }
     xml.create_element("ssd:Enumerations").write_inner_content(|xml| {
         for variable in used {
-            let name = ("name", variable.rust.as_str());
+            let name = variable.symbol().to_string();
+            let name = ("name", name.as_str());
             xml.create_element("ssc:Enumeration").with_attribute(name).write_inner_content(|xml| {
                 for (value, item) in variable.items.iter().enumerate() {
                     let item = [("name", item.name.as_str()), ("value", &value.to_string())];
