@@ -120,8 +120,8 @@ fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
         (&["predict", &scene, "--sweep", "initial_gap=0:1"], &["doesn't depend on initial_gap"]),
         (&["predict", &scene, "--sweep", "impactor.youngs_modulus=1e9:2e9"], &["the impactor of the scene is rigid"]),
         (&["predict", &scene, "--sweep", "target.poissons_ratio=0:0.9"], &["out of range", "0.5"]),
-        (&["predict", &scene, "--sweep", "speed=1:2", "-o", "x.pdf"], &["x.pdf", ".csv, .svg or .html"]),
-        (&["predict", &scene, "--time-history", "x.pdf"], &["x.pdf", ".csv, .svg or .html"]),
+        (&["predict", &scene, "--sweep", "speed=1:2", "-o", "x.pdf"], &["x.pdf: the name must end in .csv"]),
+        (&["predict", &scene, "--time-history", "x.pdf"], &["x.pdf: the name must end in .csv"]),
         (&["curve", &scene, "-o", "x.html"], &["x.html", ".csv or .svg"]),
         (&["curve", &scene, "--to", "1e150"], &["1e150", "too deep"]),
         (&["laws", "hooke"], &["unknown law `hooke`"]),
@@ -192,6 +192,16 @@ fn every_output_fits_a_hundred_columns() {
         vec!["predict", ball, "--sweep", "speed=0.01:10"],
         vec!["predict", ball, "--laws", "all", "--sweep", "target.yield_strength=200e6:900e6:8"],
         vec!["predict", ball, "--sweep", "speed=0.01:10", "--sweep", "impactor.radius=1e-3:1e-2:5"],
+        vec![
+            "predict",
+            ball,
+            "--friction",
+            "0.1",
+            "--sweep",
+            "angle=0:80:5",
+            "--sweep",
+            "target.youngs_modulus=1e11:2e11:5",
+        ],
         vec!["curve", ball],
         vec!["curve", damped],
         vec!["hardness", ball, "--load", "5kN"],
@@ -268,12 +278,6 @@ fn a_time_history_goes_from_first_contact_to_separation() {
             // momentum: the integral of the force is the mass times the change of speed
             let impulse: f64 = rows.windows(2).map(|w| 0.5 * (w[1][0] - w[0][0]) * (w[0][2] + w[1][2])).sum();
             close(impulse, number(&answer["mass"]) * speed * (1.0 + restitution), 2e-3);
-        }
-        for format in ["svg", "html"] {
-            let file = format!("over_time.{format}");
-            run(folder.path(), ["predict", &scene, "--laws", laws, "--time-history", &file]).with_status(0);
-            let drawn = fs::read_to_string(folder.path().join(file)).unwrap();
-            assert!(drawn.contains("<svg") && drawn.contains("closing speed [m/s]"), "{format}");
         }
     }
 }
