@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, varied};
 use super::oblique::{self, Setting};
-use super::sweep::Sweep;
+use super::sweep::{self, Sweep};
 use super::text::Answer;
 use super::{PredictError, constants, time_history};
 use crate::files::{self, deliver, ending};
@@ -184,8 +184,8 @@ impl Question<'_> {
         };
         let choices = self.depending_on(axes);
         let sweep = match setting {
-            None => Sweep::of(axes, &choices, normal),
-            Some(setting) => Sweep::of(axes, &choices, oblique(setting)),
+            None => Sweep::of(axes, &choices, sweep::VALUES, normal),
+            Some(setting) => Sweep::of(axes, &choices, oblique::VALUES, oblique(setting)),
         };
         let sweep = sweep.map_err(failed)?;
         sweep.limits.tell();

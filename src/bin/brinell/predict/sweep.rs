@@ -5,12 +5,13 @@ use super::axis::Axis;
 use crate::columns::{Column, Columns};
 use crate::laws::Choice;
 use crate::layout;
+use crate::parallel;
 use crate::validity::{Beyond, SweepLimits};
 
 /// A quantity of an impact: name, value, unit.
 pub type Quantity = (&'static str, f64, &'static str);
 
-/// Number of values of a quantity without a number of its own: alone, with another one, with several.
+/// Number of values of a quantity without a number of its own: alone (with normal impacts), with another one, with several.
 pub const VALUES: usize = 201;
 const VALUES_OF_TWO: usize = 41;
 const VALUES_OF_MORE: usize = 11;
@@ -36,7 +37,7 @@ pub struct Sweep {
 
 impl Sweep {
     /// What `predict` says of the laws of `choices` for all values of `axes`: the quantities of each impact, and the limits of
-    /// validity that it exceeds.
+    /// validity that it exceeds. A quantity that varies alone has `usual` values, if the user gives no number.
     ///
     /// # Errors
     /// Axes that determine each other, too many impacts, or [`PredictError`] for the first values that are impossible or beyond
@@ -44,33 +45,35 @@ impl Sweep {
     pub fn of(
         axes: &[Axis],
         choices: &[Choice],
-        predict: impl Fn(&Choice, &[(&Axis, f64)]) -> Result<(Vec<Quantity>, Vec<Beyond>), PredictError>,
+        usual: usize,
+        predict: impl Fn(&Choice, &[(&Axis, f64)]) -> Result<(Vec<Quantity>, Vec<Beyond>), PredictError> + Sync,
     ) -> Result<Sweep, PredictError> {
         check(axes)?;
-        let usual = [VALUES, VALUES_OF_TWO].get(axes.len() - 1).copied().unwrap_or(VALUES_OF_MORE);
+        let usual = [usual, VALUES_OF_TWO].get(axes.len() - 1).copied().unwrap_or(VALUES_OF_MORE);
         let values: Vec<Vec<f64>> = axes.iter().map(|axis| axis.values(usual)).collect();
         let count = values.iter().try_fold(1, |count: usize, values| count.checked_mul(values.len()));
         let count = count.filter(|count| *count <= MOST).ok_or_else(|| {
             let counts: Vec<_> = values.iter().map(|values| values.len().to_string()).collect();
             PredictError::Sweep(format!("{} values: at most {MOST} impacts are allowed", counts.join(" x ")))
         })?;
+        let points: Vec<Vec<f64>> = (0..count).map(|index| values_at(&values, index)).collect();
         let mut columns: Vec<_> = axes.iter().map(|axis| Column::new(axis.name, axis.unit)).collect();
         let names = axes.iter().map(|axis| (axis.name, axis.unit)).collect();
         let mut limits = SweepLimits { names, impacts: Vec::new() };
         let mut laws = Vec::new();
         for choice in choices {
-            let mut rows = Vec::new();
-            for index in 0..count {
-                let at = values_at(&values, index);
+            let impacts = parallel::each(&points, |at| {
                 let varied: Vec<_> = axes.iter().zip(at.iter().copied()).collect();
-                let (quantities, beyond) = predict(choice, &varied)?;
-                let is_new = |(name, ..): &Quantity| axes.iter().all(|axis| axis.name != *name);
-                let new: Vec<_> = quantities.into_iter().filter(is_new).collect();
+                predict(choice, &varied)
+            })?;
+            let mut rows = Vec::new();
+            for (at, (mut quantities, beyond)) in points.iter().zip(impacts) {
+                quantities.retain(|(name, ..)| axes.iter().all(|axis| axis.name != *name));
                 if columns.len() == axes.len() {
-                    columns.extend(new.iter().map(|(name, _, unit)| Column::new(*name, unit)));
+                    columns.extend(quantities.iter().map(|(name, _, unit)| Column::new(*name, unit)));
                 }
-                rows.push(at.iter().copied().chain(new.iter().map(|(_, number, _)| *number)).collect());
-                limits.impacts.push((at, beyond));
+                rows.push(at.iter().copied().chain(quantities.iter().map(|(_, number, _)| *number)).collect());
+                limits.impacts.push((at.clone(), beyond));
             }
             laws.push((choice.laws.clone(), rows));
         }

@@ -30,6 +30,9 @@ pub const METHOD: &str = "computed with the springs of the contact in a thousand
 pub const SHOWN: [&str; 5] =
     ["normal restitution", "tangential restitution", "rebound angle", "rebound spin", "sliding part"];
 
+/// Number of values in a sweep over one quantity: an oblique impact takes milliseconds.
+pub const VALUES: usize = 101;
+
 /// Moment of inertia of a solid sphere over `m R^2`.
 const SOLID_SPHERE: f64 = 0.4;
 
