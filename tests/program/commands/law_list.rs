@@ -19,7 +19,7 @@ fn laws_says_what_the_table_of_laws_says_of_accuracy_and_energy() {
         let accuracy = laws::text(entry, "accuracy");
         assert!(!accuracy.is_empty() && law["accuracy"] == accuracy, "{law}");
         assert_eq!(law["jumps"], laws::says(entry, "jumps"), "{law}");
-        let line = LIST.lines().find(|line| line.starts_with(&format!("{}/", law["name"].as_str().unwrap())));
+        let line = LIST.lines().find(|line| line.starts_with(&format!("{} ", law["name"].as_str().unwrap())));
         assert!(line.is_some_and(|line| line.contains(accuracy)), "{line:?} has no {accuracy}");
     }
     let law = |name: &str| LAWS["loading"].as_array().unwrap().iter().find(|law| law["name"] == name).unwrap().clone();

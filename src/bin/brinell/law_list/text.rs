@@ -14,7 +14,7 @@ pub fn list(list: &List) -> String {
     let mut text = paragraph(
         "",
         &"Loading laws. Error of the force against finite elements up to 1000 yield indentations d_y: the worst, and the root mean \
-         square. Energy for all bodies that an FMU can have; the largest restitution is that of targets with a Poisson's ratio nu \
+         square. Energy with the unloading law of scenes that name none, for all bodies that an FMU can have; the largest restitution is that of targets with a Poisson's ratio nu \
          from 0 on. A scene without law.loading has LAW. `brinell laws NAME` shows one law with its formulas."
             .replace("LAW", pairing::DEFAULT_LOADING),
     );
@@ -79,10 +79,10 @@ fn energy(law: &Loads) -> String {
 }
 
 fn loading_table(laws: &[Loads]) -> String {
-    let mut rows = vec![["law/unloading", "error of the force", "jumps", "energy"].map(String::from).to_vec()];
+    let mut rows = vec![["law", "error of the force", "jumps", "energy"].map(String::from).to_vec()];
     for law in laws {
         let jumps = if law.jumps { "yes" } else { "no" };
-        rows.push(vec![format!("{}/{}", law.name, law.unloading), law.accuracy.into(), jumps.into(), energy(law)]);
+        rows.push(vec![law.name.into(), law.accuracy.into(), jumps.into(), energy(law)]);
     }
     table(&rows, 1, 0)
 }
