@@ -1,7 +1,8 @@
 """Elastoplastic contact for simulations in Python: FMUs of Brinell, with FMI hidden.
 
 `Contact` is an FMU in use. `export`, `predict`, `sweep` and `curve` call the exporter; `study` runs
-thousands of impacts, and `fit` finds the parameters that explain a measurement.
+thousands of impacts, `fit` finds the parameters that explain a measurement, and `draw` draws the
+tables of `study` and `sweep`.
 """
 
 from .contact import Contact, State
@@ -9,6 +10,7 @@ from .errors import ContactError, ContactWarning, ProgramError, ProgramWarning, 
 from .fits.fit import fit
 from .fits.result import Estimate, Fit
 from .program import Prediction, curve, export, predict, program, sweep
+from .studies.picture import draw
 from .studies.plan import Range
 from .studies.study import study
 
@@ -25,6 +27,7 @@ __all__ = [
     "State",
     "UnknownName",
     "curve",
+    "draw",
     "export",
     "fit",
     "predict",

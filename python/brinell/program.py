@@ -179,29 +179,69 @@ def predict(
 
 @overload
 def sweep(
-    scene: str | Path, first: float, last: float, *, laws: None = None, mass: float | None = None
+    scene: str | Path,
+    vary: Mapping[str, str],
+    *,
+    laws: None = None,
+    mass: float | None = None,
+    speed: float | None = None,
+    angle: float | None = None,
+    spin: float | None = None,
+    friction: float | None = None,
+    inertia: float | None = None,
 ) -> Columns: ...
 
 
 @overload
 def sweep(
-    scene: str | Path, first: float, last: float, *, laws: Sequence[str], mass: float | None = None
+    scene: str | Path,
+    vary: Mapping[str, str],
+    *,
+    laws: Sequence[str],
+    mass: float | None = None,
+    speed: float | None = None,
+    angle: float | None = None,
+    spin: float | None = None,
+    friction: float | None = None,
+    inertia: float | None = None,
 ) -> dict[str, Columns]: ...
 
 
 def sweep(
     scene: str | Path,
-    first: float,
-    last: float,
+    vary: Mapping[str, str],
     *,
     laws: Sequence[str] | None = None,
     mass: float | None = None,
+    speed: float | None = None,
+    angle: float | None = None,
+    spin: float | None = None,
+    friction: float | None = None,
+    inertia: float | None = None,
 ) -> Columns | dict[str, Columns]:
-    """Predictions over closing speeds from `first` to `last` [m/s], as columns: `speed`,
-    `restitution`, `dent` ...; `valid` is 0 where the impact is outside the validity of the law. With
-    `laws`, a mapping from "LOADING/UNLOADING" to its columns."""
-    options = _options({"mass": mass}, laws)
-    tables = _tables(_run("predict", scene, *options, "--sweep", f"speed={first!r}:{last!r}"))
+    """Predictions over ranges of quantities, as columns: those that vary, `restitution`, `dent` ...;
+    `valid` is 0 where the impact is outside the validity of the law.
+
+    `vary` maps the names of quantities to ranges "FROM:TO" or "FROM:TO:COUNT" in SI units: "speed",
+    "mass", "energy", "drop_height", parameters of the scene, constants of its laws. Several give
+    every combination. `mass` [kg] and `speed` [m/s] replace those of the scene.
+
+    With "angle" [degrees from the normal] or "spin" [rad/s], varied or given, the impacts are
+    oblique: `rebound_angle`, `tangential_restitution` ... `friction` and `inertia` [kg.m^2] replace
+    the scene's coefficient and that of a solid sphere.
+
+    With `laws`, the result is a mapping from "LOADING/UNLOADING" to columns.
+    """
+    given = {"mass": mass, "speed": speed}
+    given |= {"angle": angle, "spin": spin, "friction": friction, "inertia": inertia}
+    options = _options(given, laws)
+    for name, values in vary.items():
+        if not isinstance(values, str):
+            raise TypeError(f"{name} = {values!r}: a range 'FROM:TO' or 'FROM:TO:COUNT' is needed")
+        options.append(f"--sweep={name}={values}")
+    if not vary:
+        raise ValueError("nothing is varied; for example, vary={'speed': '0.1:10'}")
+    tables = _tables(_run("predict", scene, *options))
     return tables if laws is not None else next(iter(tables.values()))
 
 

@@ -153,29 +153,6 @@ fn contradictory_settings_are_rejected() {
 }
 
 #[test]
-fn laws_shows_the_error_for_each_material() {
-    let folder = empty_folder();
-    let laws = run(folder.path(), ["laws", "--json"]).with_status(0).json();
-    let errors = |name: &str| {
-        let found = laws["loading"].as_array().unwrap().iter().find(|law| law["name"] == name);
-        found.unwrap()["materials"].as_array().unwrap().clone()
-    };
-    assert!(errors("big-alabo").is_empty());
-    let all = errors("brinell");
-    assert_eq!(all.len(), 7);
-    for material in &all {
-        let worst = |name: &str| material[name].as_f64().unwrap().abs();
-        assert!(worst("worst_force") < 7e-3 && worst("worst_unloading") < 1.4e-2, "{material}");
-        assert!(worst("worst_restitution") < 8e-3 && worst("worst_dent") < 2e-2, "{material}");
-    }
-    for command in [vec!["laws"], vec!["laws", "brinell"]] {
-        let text = run(folder.path(), command).with_status(0).out;
-        assert!(text.contains("nu = 0.45") && text.contains("H = 0.05 E"), "{text}");
-        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
-    }
-}
-
-#[test]
 fn a_power_law_becomes_the_closest_line_over_the_strains_of_the_impact() {
     let folder = empty_folder();
     let text = |impact: &str| {

@@ -1,7 +1,7 @@
 //! Passivity of the laws: the table of laws describes it for all bodies that an FMU accepts.
 
 use crate::command::{empty_folder, run};
-use crate::physics::laws::{entries, entry, text};
+use crate::physics::laws::{entry, text};
 use crate::physics::{
     self, AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit,
 };
@@ -180,92 +180,5 @@ fn an_fmu_states_whether_its_law_may_gain_energy_for_any_value_of_its_parameters
     for (law, parameters, words) in cases {
         let said = said(law, parameters);
         assert!(said.contains(words), "{law} with {parameters}: {said}");
-    }
-}
-
-#[test]
-fn laws_are_listed_with_their_measurements() {
-    let folder = empty_folder();
-    let list = run(folder.path(), ["laws", "--json"]).with_status(0).json();
-    for law in list["loading"].as_array().unwrap() {
-        let (name, unloading) = (law["name"].as_str().unwrap(), law["unloading"].as_str().unwrap());
-        let from = passive_from(name, unloading);
-        assert_eq!(law["passive"], from == Some(-1.0), "{law}");
-        assert_eq!(law["passive_from_poissons_ratio"].as_f64(), from.filter(|from| *from > -1.0), "{law}");
-        let Some(energy) = entry("loading", name).get("energy") else {
-            assert!(law["largest_restitution"].as_f64().unwrap() <= 1.0 + ROUNDING, "{law}");
-            continue;
-        };
-        for (measured, said) in
-            [("largest_restitution", "restitution"), ("largest_auxetic_restitution", "auxetic_restitution")]
-        {
-            let (measured, said) = (law[measured].as_f64().unwrap(), energy[said].as_float().unwrap());
-            assert!((measured - said).abs() < 1e-3, "{name}: {measured}, not {said}");
-        }
-    }
-    assert_eq!(list["loading"].as_array().unwrap().len(), entries("loading").count());
-}
-
-/// A row of the guide's table, from the measurements of `brinell laws`.
-fn row(law: &serde_json::Value, experiment: &serde_json::Value) -> String {
-    let number = |key: &str| law[key].as_f64().unwrap();
-    let word = |key: &str| law[key].as_str().unwrap();
-    let worst_at: f64 = format!("{:.2e}", number("worst_at")).parse().unwrap();
-    let jump = match number("largest_jump") {
-        0.0 => "none".into(),
-        jump => format!("{:+.1} %", 100.0 * jump),
-    };
-    let below = law["passive_from_poissons_ratio"].as_f64().map(|ratio| format!(" for nu < {ratio}"));
-    let energy = match law["passive"].as_bool().unwrap() {
-        true => "passive".into(),
-        false => format!("restitution up to {:.3}{}", number("largest_restitution"), below.unwrap_or_default()),
-    };
-    let (name, unloading) = (word("name"), word("unloading"));
-    let (worst, rms) = (100.0 * number("worst_error"), 100.0 * number("rms_error"));
-    let rebounds = rebounds(name, experiment);
-    format!(
-        "| `{name}` | {worst:+.1} % at {worst_at} d_y | {rms:.1} % | {jump} | {energy} (with `{unloading}`) | {rebounds} |"
-    )
-}
-
-/// The worst error of the law's measured rebounds; a dash for a law that doesn't yield.
-fn rebounds(name: &str, experiment: &serde_json::Value) -> String {
-    let laws = experiment["laws"].as_array().expect("a list of laws");
-    let own = laws.iter().find(|law| law["name"] == name);
-    own.map_or("-".into(), |law| format!("{:+.1} %", 100.0 * law["worst_restitution"].as_f64().expect("a number")))
-}
-
-/// The rows of the table in the README: error of the force, and of the measured rebounds.
-fn short_row(law: &serde_json::Value, experiment: &serde_json::Value) -> String {
-    let name = law["name"].as_str().expect("a name");
-    let worst = 100.0 * law["worst_error"].as_f64().expect("a number");
-    format!("| `{name}` | {worst:+.1} % | {} |", rebounds(name, experiment))
-}
-
-#[test]
-fn the_rows_of_the_readme_are_those_that_are_measured() {
-    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
-    let list = run(empty_folder().path(), ["laws", "--json"]).with_status(0).json();
-    let experiment = run(empty_folder().path(), ["laws", "--experiment", "--json"]).with_status(0).json();
-    let rows: Vec<String> = list["loading"].as_array().unwrap().iter().map(|law| short_row(law, &experiment)).collect();
-    let table = page.lines().skip_while(|line| !line.starts_with("| law | force against finite elements"));
-    let shown: Vec<&str> = table.skip(2).take_while(|line| line.starts_with('|')).collect();
-    assert!(shown.len() >= 4, "{shown:?}");
-    for line in shown {
-        assert!(rows.iter().any(|row| line.starts_with(row)), "{line}\nis not measured; rather\n{}", rows.join("\n"));
-    }
-}
-
-#[test]
-fn the_rows_of_the_guide_are_those_that_are_measured() {
-    let chapter = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/laws.md")).unwrap();
-    let list = run(empty_folder().path(), ["laws", "--json"]).with_status(0).json();
-    let experiment = run(empty_folder().path(), ["laws", "--experiment", "--json"]).with_status(0).json();
-    let rows: Vec<String> = list["loading"].as_array().unwrap().iter().map(|law| row(law, &experiment)).collect();
-    let table = chapter.lines().skip_while(|line| !line.starts_with("| law | worst error"));
-    let shown: Vec<&str> = table.skip(2).take_while(|line| line.starts_with('|')).collect();
-    assert!(shown.len() >= 19, "{shown:?}");
-    for line in shown {
-        assert!(rows.iter().any(|row| row == line), "{line}\nis not measured; rather\n{}", rows.join("\n"));
     }
 }

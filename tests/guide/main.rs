@@ -1,14 +1,17 @@
-//! README and guide: links are valid, code runs with the output shown, tables agree with `modelDescription/`, and the book
-//! builds (on request).
+//! README and guide: links are valid, code runs with the output shown, tables agree with `modelDescription/` and with the laws
+//! beside finite elements and measurements, and the book builds (on request).
 //!
 //! `BRINELL_WRITE=1 cargo test --release --test guide` rewrites tables and outputs instead of comparing them.
 
 mod book;
 mod code;
+mod comparisons;
 mod links;
 mod markdown;
 #[path = "../../src/bin/brinell/parallel.rs"]
 mod parallel;
+#[path = "../support/physics.rs"]
+mod physics;
 mod promises;
 #[path = "../support/python.rs"]
 mod python;

@@ -38,11 +38,13 @@ fn allowed(entry: &Table) -> String {
     }
 }
 
-fn row(cells: &[&str]) -> String {
+/// A row of a table.
+pub fn row(cells: &[&str]) -> String {
     format!("| {} |\n", cells.join(" | ")).replace("|  |", "| |").replace("|  |", "| |")
 }
 
-fn heading(cells: &[&str]) -> String {
+/// The head of a table.
+pub fn heading(cells: &[&str]) -> String {
     row(cells) + &"|---".repeat(cells.len()) + "|\n"
 }
 
@@ -152,7 +154,7 @@ fn constants(constants: &Json) -> String {
 }
 
 /// Compares the text between the comments of the table `name` in `page` with `table`, or writes it.
-fn shows(page: &str, name: &str, table: &str) {
+pub fn shows(page: &str, name: &str, table: &str) {
     let path = Path::new("docs/guide").join(page);
     let whole = read(&path);
     let [begin, end] = ["begin", "end"].map(|place| format!("<!-- table of {name}: {place} -->"));
@@ -162,10 +164,7 @@ fn shows(page: &str, name: &str, table: &str) {
     if is_writing() {
         fs::write(root().join(&path), format!("{before}{begin}{table}{end}{after}")).expect("the page can be written");
     } else {
-        assert!(
-            shown == table,
-            "{page}: the table of {name} isn't that of modelDescription/; BRINELL_WRITE=1 writes it"
-        );
+        assert!(shown == table, "{page}: the table of {name} isn't what it should be; BRINELL_WRITE=1 writes it");
     }
 }
 

@@ -1,5 +1,7 @@
 """Results of the exporter as numbers and arrays."""
 
+import re
+
 import brinell
 import numpy as np
 import pytest
@@ -46,14 +48,83 @@ def test_several_laws():
 
 
 def test_a_sweep_is_arrays_of_predictions():
-    columns = brinell.sweep(SCENE, 0.1, 10.0)
+    columns = brinell.sweep(SCENE, {"speed": "0.1:10"})
     assert columns["speed"][0] == 0.1 and columns["speed"][-1] == 10.0
     middle = len(columns["speed"]) // 2
     one = brinell.predict(SCENE, speed=columns["speed"][middle])
     assert columns["restitution"][middle] == pytest.approx(one.restitution, rel=1e-14)
     assert columns["dent"][middle] == pytest.approx(one.dent, rel=1e-14)
     assert columns["largest_force"].dtype == np.float64
-    assert set(brinell.sweep(SCENE, 0.1, 1.0, laws=["hertz", "stronge"], mass=1.0)) > {"hertz"}
+    speeds = {"speed": "0.1:1"}
+    assert set(brinell.sweep(SCENE, speeds, laws=["hertz", "stronge"], mass=1.0)) > {"hertz"}
+
+
+def test_a_sweep_over_several_quantities_is_every_combination():
+    vary = {"speed": "1:3:3", "target.yield_strength": "2e8:4e8:2"}
+    columns = brinell.sweep(SCENE, vary, mass=8e-3)
+    assert columns["speed"].tolist() == [1, 1, 2, 2, 3, 3]
+    assert columns["target.yield_strength"].tolist() == 3 * [2e8, 4e8]
+    alone = brinell.sweep(SCENE, {"target.yield_strength": "2e8:4e8:2"}, speed=2.0, mass=8e-3)
+    assert columns["restitution"][2:4].tolist() == alone["restitution"].tolist()
+
+
+def test_an_oblique_sweep_has_the_rebound_of_each_angle():
+    columns = brinell.sweep(SCENES / "oblique.toml", {"angle": "10:60:3"}, speed=2.0, friction=0.1)
+    assert columns["angle"].tolist() == [10.0, 35.0, 60.0]
+    assert (np.diff(columns["rebound_angle"]) > 0.0).all()
+    spun = brinell.sweep(SCENES / "oblique.toml", {"speed": "1:2:2"}, angle=10.0, spin=50.0)
+    assert not np.array_equal(spun["rebound_spin"], [0.0, 0.0])
+
+
+# pictures
+
+
+def texts(path):
+    return re.findall(r"<!-- (.*?) -->", path.read_text())
+
+
+def test_a_map_over_two_quantities_and_curves_of_several_laws_are_drawn(tmp_path):
+    path = tmp_path / "map.svg"
+    table = brinell.sweep(SCENE, {"speed": "0.1:10:7", "target.yield_strength": "2e8:9e8:5"})
+    brinell.draw(path, table, ["speed", "target.yield_strength"], ["restitution", "largest_force"])
+    for label in ("speed [m/s]", "target.yield_strength [Pa]", "largest_force [N]", "restitution"):
+        assert texts(path).count(label) == (2 if "." in label or "speed" in label else 1), label
+    first = path.read_bytes()
+    brinell.draw(path, table, ["speed", "target.yield_strength"], ["restitution", "largest_force"])
+    assert path.read_bytes() == first, "the same picture has the same bytes"
+    tables = brinell.sweep(SCENE, {"speed": "0.1:10:7"}, laws=["brinell", "thornton"])
+    brinell.draw(path, tables, ["speed"])
+    assert {"brinell/brinell", "thornton/thornton", "dent [µm]"} <= set(texts(path))
+
+
+def test_angles_are_drawn_over_the_speed(tmp_path):
+    path = tmp_path / "angles.svg"
+    vary = {"speed": "1:4:4", "angle": "10:60:5"}
+    table = brinell.sweep(SCENES / "oblique.toml", vary, friction=0.1)
+    results = ["rebound_angle", "tangential_restitution", "rebound_spin"]
+    brinell.draw(path, table, ["speed", "angle"], results)
+    assert {"speed [m/s]", "angle [deg]", "rebound_angle [deg]", "rebound_spin [rad/s]"} <= set(
+        texts(path)
+    )
+    brinell.draw(path, table, ["angle"], results)
+    brinell.draw(path, table, ["angle", "speed", "rebound_speed"], results)
+
+
+@pytest.mark.parametrize(
+    ("names", "results", "words"),
+    [
+        (["sped"], ["dent"], "'sped' is no column.*allowed are dent, .*speed"),
+        (["speed"], ["force"], "'force' is no column"),
+        (["speed"], [], "at least one name and one result"),
+        (["speed", "mass"], ["dent"], "a picture shows one law"),
+    ],
+)
+def test_a_picture_that_cannot_be_drawn_is_refused(tmp_path, names, results, words):
+    vary = {"speed": "1:2:2", "mass": "4e-3:5e-3:2"}
+    tables = brinell.sweep(SCENE, vary, laws=["brinell", "hertz"])
+    with pytest.raises(ValueError, match=words):
+        brinell.draw(tmp_path / "x.svg", tables, names, results)
+    assert not (tmp_path / "x.svg").exists()
 
 
 def test_a_curve_is_arrays_whose_work_is_the_integral_of_the_force():
@@ -93,7 +164,7 @@ def test_what_the_program_doubts_is_a_warning_of_python_where_it_was_called(tmp_
     calls = (
         lambda: brinell.export(scene, tmp_path / "wide.fmu"),
         lambda: brinell.predict(scene),
-        lambda: brinell.sweep(scene, 0.1, 1.0),
+        lambda: brinell.sweep(scene, {"speed": "0.1:1"}),
         lambda: brinell.curve(scene),
     )
     for call in calls:
@@ -110,6 +181,10 @@ def test_wrong_types():
         brinell.predict(SCENE, speed="1")
     with pytest.raises(TypeError, match="list of names"):
         brinell.predict(SCENE, laws="hertz")
+    with pytest.raises(TypeError, match="FROM:TO"):
+        brinell.sweep(SCENE, {"speed": (1.0, 2.0)})
+    with pytest.raises(ValueError, match="nothing is varied"):
+        brinell.sweep(SCENE, {})
 
 
 def test_where_the_program_is_looked_for(monkeypatch, tmp_path):

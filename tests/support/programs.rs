@@ -79,7 +79,7 @@ impl Program {
         for arguments in [
             ["curve", scene, "--laws", "all", "--output", "curve.csv"].as_slice(),
             &["curve", scene, "--output", "curve.svg"],
-            &["predict", scene, "--sweep", "speed=0.1:10", "--output", "sweep.html"],
+            &["predict", scene, "--sweep", "speed=0.1:10", "--output", "sweep.csv"],
         ] {
             // twice: the second run replaces a file
             for _ in 0..2 {

@@ -1,10 +1,11 @@
-"""Draws the pictures of README and guide: overview.svg and force.svg, beside this file.
+"""Draws the pictures of README and guide: overview.svg and force.svg beside this file, and docs/laws.svg.
 
     pip install matplotlib ./python
     python docs/guide/pictures/pictures.py
 """
 
 import tempfile
+import warnings
 from pathlib import Path
 
 import brinell
@@ -17,7 +18,7 @@ from matplotlib.patches import Circle, Polygon
 
 FOLDER = Path(__file__).parent
 BLUE, RED, GREY = "#0072b2", "#d55e00", "#777777"
-MASS, GRAVITY = 4e-3, 9.81  # kg, m/s^2
+MASS, GRAVITY, RADIUS = 4e-3, 9.81, 5e-3  # kg, m/s^2, m
 SCENE = """
 name = "ball"
 impactor = { radius = 5e-3 }
@@ -77,6 +78,43 @@ def sketch(axes):
     axes.axis("off")
 
 
+def loading_curves(scene):
+    """The loading curve of each law from 0.3 to 1000 yield indentations: indentation and force, in units of the yield point."""
+    modulus = 206e9 / (1.0 - 0.3**2)  # of mild steel under a rigid ball
+    indentation = RADIUS * (3.0 * np.pi * 1.1 * 300e6 / (4.0 * modulus)) ** 2
+    force = 4.0 / 3.0 * modulus * RADIUS**0.5 * indentation**1.5
+    curves, end = {}, 0.3
+    for to in (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0):
+        # the first of the branches of a curve loads to two thirds of its depth
+        for law, columns in brinell.curve(scene, laws=["all"], to=1.5 * to * indentation).items():
+            first = np.argmax(columns["indentation"] >= 0.999999 * to * indentation) + 1
+            x, f = columns["indentation"][:first] / indentation, columns["force"][:first] / force
+            curves.setdefault(law, []).append(np.column_stack([x, f])[x >= end])
+        end = to
+    return {law: np.concatenate(parts) for law, parts in curves.items()}
+
+
+def draw_laws(folder):
+    """The loading curves over Hertz's force, and the finite elements of `truth/` as dots."""
+    scene = Path(folder) / "laws.toml"
+    scene.write_text(SCENE)
+    figure, axes = pyplot.subplots(figsize=(8.6, 5.0), layout="constrained")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", brinell.ProgramWarning)  # the deepest are wider than any law is valid
+        curves = loading_curves(scene)
+    for index, (law, curve) in enumerate(curves.items()):
+        x, f = curve.T
+        style = {"linewidth": 2.5} if law == "brinell/brinell" else {"linewidth": 1.0, "linestyle": "-" if index < 10 else "--"}
+        axes.plot(x, f / x**1.5, label=law.split("/")[0], **style)
+    truth = np.loadtxt(FOLDER.parents[2] / "truth/loading.csv", delimiter=",", skiprows=1, usecols=(0, 2))
+    places = np.searchsorted(truth[:, 0], np.geomspace(0.3, 999.0, 40))
+    x, f = truth[np.unique(places)].T
+    axes.plot(x, f / x**1.5, "k.", label="finite elements")
+    axes.set(xlabel="indentation / yield indentation", ylabel="force / Hertz's force", xscale="log", ylim=0)
+    axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    figure.savefig(FOLDER.parents[1] / "laws.svg", metadata={"Date": None})
+
+
 def save(figure, name):
     figure.savefig(FOLDER / name, metadata={"Date": None})
 
@@ -109,6 +147,9 @@ def main():
     axes.plot(*np.array(rows).T, color=BLUE)
     axes.set(xlabel="indentation [um]", ylabel="force [N]")
     save(figure, "force.svg")
+
+    with tempfile.TemporaryDirectory() as folder:
+        draw_laws(folder)
 
 
 if __name__ == "__main__":

@@ -1,51 +1,95 @@
-"""A picture of a study: maps over two parameters, curves over one, dots over each of several."""
+"""Pictures of results: maps over two quantities, curves over one, dots over each of several."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from .impacts import Table
 
-SHOWN = (("restitution", "restitution", 1.0), ("dent", "dent [µm]", 1e6))
-UNITS = {"speed": "m/s", "mass": "kg", "radius": "m", "strength": "Pa", "modulus": "Pa"}
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+RESULTS = ("restitution", "dent")
+UNITS = {
+    "speed": "m/s", "mass": "kg", "radius": "m", "strength": "Pa", "modulus": "Pa", "height": "m", "energy": "J",
+    "angle": "deg", "spin": "rad/s", "force": "N", "indentation": "m", "time": "s", "work": "J", "lost": "J",
+    "impulse": "N.s",
+}  # fmt: skip
+"""Units by the last word of a name."""
 
 
-def draw(path: Path, table: Table, names: Sequence[str]) -> None:
-    """Draw the results over the varied parameters `names`; the extension of `path` selects the
-    format."""
-    width = len(names) if len(names) > 2 else 1
-    figure = Figure(figsize=(4.2 * max(width, 2) if width > 1 else 9.0, 3.8 * (1 + (width > 1))))
+def draw(
+    path: str | Path,
+    table: Table | Mapping[str, Table],
+    names: Sequence[str],
+    results: Sequence[str] = RESULTS,
+) -> None:
+    """Draw `results` over the varied quantities `names`, all of them columns of the table of
+    `study` or `sweep`; the extension of `path` selects the format.
+
+    One name gives curves, two give a map, more give dots over each. Over one name, a mapping from
+    laws to tables (`sweep` with `laws`) gives a curve of each law.
+    """
+    import matplotlib
+    from matplotlib.figure import Figure
+
+    path = Path(path)
+    tables = {"": table} if all(isinstance(one, np.ndarray) for one in table.values()) else table
+    _check(tables, names, results)
+    ((_, first), *others) = tables.items()
+    # several names: a row of each result, and a column of each name
+    rows, columns = (len(results), len(names)) if len(names) > 2 else (1, len(results))
+    figure = Figure(figsize=(max(4.2 * columns, 4.5), 3.8 * rows))
     figure.set_layout_engine("constrained")
-    for index, (result, label, factor) in enumerate(SHOWN):
-        values = factor * table[result]
+    for index, result in enumerate(results):
         if len(names) == 2:
-            axes = figure.add_subplot(1, 2, index + 1)
-            _map(figure, axes, table, names, values, label)
-        elif len(names) == 1:
-            axes = figure.add_subplot(1, 2, index + 1)
-            order = np.argsort(table[names[0]])
-            axes.plot(table[names[0]][order], values[order])
-            _axes(axes, table, names[0], label)
-        else:
-            for column, name in enumerate(names):
-                axes = figure.add_subplot(2, width, index * width + column + 1)
-                axes.plot(table[name], values, ".", markersize=2)
-                _axes(axes, table, name, label)
+            _map(figure, figure.add_subplot(rows, columns, index + 1), first, names, result)
+            continue
+        for column, name in enumerate(names):
+            axes = figure.add_subplot(rows, columns, index * len(names) + column + 1)
+            for law, one in tables.items():
+                order = np.argsort(one[name])
+                style = "." if len(names) > 1 else "-"
+                values = _values(one, result)[order]
+                axes.plot(one[name][order], values, style, markersize=2, label=law)
+            _axes(axes, first, name, _label(result))
+            if others and index == 0:
+                axes.legend(fontsize="small")
     with matplotlib.rc_context({"svg.hashsalt": "brinell"}):
         metadata = {"Date": None} if path.suffix == ".svg" else {}
         figure.savefig(path, metadata=metadata)
 
 
-def _map(
-    figure: Figure, axes: Any, table: Table, names: Sequence[str], values: Any, label: str
-) -> None:
+def _check(tables: Mapping[str, Table], names: Sequence[str], results: Sequence[str]) -> None:
+    for law, table in tables.items():
+        for name in (*names, *results):
+            if name not in table:
+                of = f" of {law}" if law else ""
+                raise ValueError(f"{name!r} is no column{of}; allowed are {', '.join(table)}")
+    if not names or not results:
+        raise ValueError("a picture needs at least one name and one result")
+    if len(names) > 1 and len(tables) > 1:
+        raise ValueError(f"over {len(names)} quantities, a picture shows one law: {list(tables)}")
+
+
+def _label(name: str) -> str:
+    """The name with its unit."""
+    unit = "µm" if name == "dent" else UNITS.get(name.replace(".", "_").rsplit("_", 1)[-1])
+    return f"{name} [{unit}]" if unit else name
+
+
+def _values(table: Table, name: str) -> NDArray[Any]:
+    return (1e6 if name == "dent" else 1.0) * table[name]
+
+
+def _map(figure: Figure, axes: Any, table: Table, names: Sequence[str], result: str) -> None:
     x, y = (table[name] for name in names)
+    values = _values(table, result)
     columns, rows = np.unique(x), np.unique(y)
     if len(columns) * len(rows) == len(values):
         order = np.lexsort((x, y))
@@ -53,23 +97,21 @@ def _map(
         drawn = axes.pcolormesh(columns, rows, grid, shading="nearest", rasterized=True)
     else:
         drawn = axes.scatter(x, y, c=values, s=6)
-    figure.colorbar(drawn, ax=axes, label=label)
+    figure.colorbar(drawn, ax=axes, label=_label(result))
     _axes(axes, table, names[0], "")
-    _axes(axes.yaxis.axes, table, names[1], "", vertical=True)
+    _axes(axes, table, names[1], "", vertical=True)
 
 
 def _axes(axes: Any, table: Table, name: str, label: str, *, vertical: bool = False) -> None:
     """Label an axis, and make it logarithmic if the values are spread logarithmically."""
     values = np.unique(table[name])
-    unit = UNITS.get(name.replace(".", "_").rsplit("_", 1)[-1])
-    text = f"{name} [{unit}]" if unit else name
     middle = values[len(values) // 2]
     # in a logarithmic range, the middle value is nearer to the geometric than to the other mean
     spread = values[0] > 0.0 and middle < 0.75 * 0.5 * (values[0] + values[-1])
     if vertical:
-        axes.set(ylabel=text, yscale="log" if spread else "linear")
+        axes.set(ylabel=_label(name), yscale="log" if spread else "linear")
         return
-    axes.set(xlabel=text, xscale="log" if spread else "linear")
+    axes.set(xlabel=_label(name), xscale="log" if spread else "linear")
     if label:
         axes.set(ylabel=label)
         axes.grid(alpha=0.3)

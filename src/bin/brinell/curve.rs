@@ -17,7 +17,7 @@ use brinell::contact::{History, Loading, TooDeep};
 use serde_json::json;
 use std::error::Error;
 use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Number of points on each branch of the path.
 const POINTS: u32 = 200;
@@ -31,7 +31,7 @@ const TABLE_ROWS: usize = 17;
 pub struct Arguments {
     /// The scene file
     pub scene: PathBuf,
-    /// Write the curve with all digits: .csv or .svg [default: print a short table]
+    /// Write the curve: .csv with all digits or, without --tangential, .svg [default: print a short table]
     #[arg(short, long)]
     pub output: Option<PathBuf>,
     /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
@@ -43,7 +43,7 @@ pub struct Arguments {
     /// Add the finite-element loading curve as dots to the picture
     #[arg(long)]
     pub truth: bool,
-    /// Draw loops of the tangential force instead, with the indentation --to held
+    /// Loops of the tangential force instead, with the indentation --to held
     #[arg(long, conflicts_with = "truth")]
     pub tangential: bool,
     /// Coefficient of friction of the loops [default: the scene's]
@@ -57,7 +57,8 @@ pub struct Arguments {
 /// The command: draws or tabulates the curve for these arguments.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let output = arguments.output.as_deref();
-    let format = ending(output, &["csv", "svg"]).map_err(WrongCall)?;
+    let formats: &[_] = if arguments.tangential { &["csv"] } else { &["csv", "svg"] };
+    let format = ending(output, formats).map_err(WrongCall)?;
     if let Some(path) = output {
         files::check_goal(path)?;
     }
@@ -70,7 +71,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let doubt = arguments.to.and_then(|to| plausible::of_depth("to", to, radius));
     doubt.into_iter().chain(too_wide(&choices, largest)).for_each(|warning| layout::warn(&warning));
     if arguments.tangential {
-        return tangential(&scene, &choices, largest, arguments, (output, format), as_json);
+        return tangential(&scene, &choices, largest, arguments, as_json);
     }
     let too_deep = |_: TooDeep| WrongCall(format!("to = {largest:e} m is too deep for the law"));
     let text = match (output, format) {
@@ -105,7 +106,6 @@ fn tangential(
     choices: &[Choice],
     held: f64,
     arguments: &Arguments,
-    (output, format): (Option<&Path>, &str),
     as_json: bool,
 ) -> Result<(), Box<dyn Error>> {
     let takes_some = arguments.laws.iter().any(|name| name == "all");
@@ -114,13 +114,12 @@ fn tangential(
     let coefficient = coefficient.ok_or_else(|| WrongCall::of(PredictError::NoCoefficient))?;
     let wanted = Wanted { coefficient, indentation: held, amplitudes: &arguments.amplitude };
     let loops = Loops::of(scene, &choices, wanted).map_err(WrongCall::of)?;
-    let text = match (output, format) {
-        (Some(_), "svg") => loops.picture().svg(860, 480),
-        (Some(_), _) => loops.columns().csv(),
-        (None, _) if as_json => format!("{}\n", json!({ "laws": loops.columns().json() })),
-        (None, _) => loops.text(),
+    let text = match &arguments.output {
+        Some(_) => loops.columns().csv(),
+        None if as_json => format!("{}\n", json!({ "laws": loops.columns().json() })),
+        None => loops.text(),
     };
-    Ok(deliver(&text, output)?)
+    Ok(deliver(&text, arguments.output.as_deref())?)
 }
 
 /// A short table for a terminal.
@@ -274,43 +273,4 @@ pub fn picture(choices: &[Choice], largest: f64, impact: &Impact, dots: bool) ->
     }
     let titles = ("indentation [um]", "force [N]");
     Ok(Picture { x_title: titles.0.into(), y_title: titles.1.into(), logarithmic: (false, false), series })
-}
-
-/// The loading curve of every law relative to Hertz's force, with the finite-element results as dots.
-pub fn over_hertz(choices: &[Choice]) -> String {
-    const POINTS: u32 = 300;
-    // from well inside the elastic range to the end of the finite-element results
-    let depth = |point: u32| 0.3 * libm::pow(1000.0 / 0.3, f64::from(point) / f64::from(POINTS));
-    let mut series: Vec<_> = choices
-        .iter()
-        .map(|choice| {
-            let model = choice.model.elastoplastic().expect("only laws with a curve are drawn");
-            let pair = &model.pair;
-            let unit = pair.yield_point(truth::YIELD_PRESSURE_FACTOR);
-            let ratio = |x: f64| {
-                let indentation = x * unit.indentation;
-                let force = model.loading.segment(pair, indentation).force(indentation);
-                (x, force / (unit.force * x * x.sqrt()))
-            };
-            let points = (0..=POINTS).map(|point| ratio(depth(point))).collect();
-            Series { label: choice.name.clone(), points, dots: false }
-        })
-        .collect();
-    // about forty dots, evenly spaced on the logarithmic axis
-    let mut next = 0.3;
-    let mut points = Vec::new();
-    for truth::Point { x, f } in truth::loading() {
-        if x >= next {
-            points.push((x, f / (x * x.sqrt())));
-            next = 1.22 * x;
-        }
-    }
-    series.push(Series { label: "finite elements".into(), points, dots: true });
-    let picture = Picture {
-        x_title: "indentation / yield indentation".into(),
-        y_title: "force / Hertz's force".into(),
-        logarithmic: (true, false),
-        series,
-    };
-    picture.svg(860, 480)
 }

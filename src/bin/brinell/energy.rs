@@ -112,11 +112,13 @@ fn told(loading: &str, unloading: &str) -> Below {
     }
 }
 
-/// The Poisson's ratio of the target from which two laws with their published constants are passive, if they are not below it.
-pub fn passive_from(loading: &str, unloading: &str) -> Option<f64> {
+/// Whether two laws with their published constants are passive for all bodies; if not, the Poisson's ratio of the target from
+/// which they are, if any.
+pub fn is_passive(loading: &str, unloading: &str) -> (bool, Option<f64>) {
     match told(loading, unloading) {
-        Below::Ratio(ratio) => Some(ratio),
-        Below::Never | Below::Any => None,
+        Below::Never => (true, None),
+        Below::Ratio(ratio) => (false, Some(ratio)),
+        Below::Any => (false, None),
     }
 }
 
@@ -139,7 +141,7 @@ fn found(scene: &Scene) -> Below {
         if looked_at.contains(&(ratios, moduli)) {
             continue;
         }
-        if bodies(&model.pair, ratios, moduli).any(|pair| balance(&Model { pair, ..model }).falls) {
+        if bodies(&model.pair, ratios, moduli).any(|pair| makes_energy(&Model { pair, ..model })) {
             return Below::Any;
         }
         looked_at.push((ratios, moduli));
@@ -177,16 +179,16 @@ fn lowest_poissons_ratio(scene: &Scene, group: usize) -> f64 {
 }
 
 /// Range of Poisson's ratios that an FMU accepts.
-pub const POISSONS_RATIO: (f64, f64) = (-0.99, 0.5);
+const POISSONS_RATIO: (f64, f64) = (-0.99, 0.5);
 
 /// Range of `E*/S` for the evaluation: far beyond all metals at both ends.
-pub const MODULUS_RATIO: (f64, f64) = (1.0, 1e9);
+const MODULUS_RATIO: (f64, f64) = (1.0, 1e9);
 
 /// One `E*/S` for laws whose normalised curve does not depend on it.
-pub const ANY_MODULUS_RATIO: f64 = 1e3;
+const ANY_MODULUS_RATIO: f64 = 1e3;
 
 /// Bodies with the size and modulus of `pair`, over ranges of Poisson's ratio and `E*/S`, with a rigid impactor.
-pub fn bodies(pair: &Pair, poissons_ratio: (f64, f64), modulus_ratio: (f64, f64)) -> impl Iterator<Item = Pair> {
+fn bodies(pair: &Pair, poissons_ratio: (f64, f64), modulus_ratio: (f64, f64)) -> impl Iterator<Item = Pair> {
     const STEPS: u32 = 8;
     let steps = |(low, high): (f64, f64)| 0..=if low == high { 0 } else { STEPS };
     let part = |step: u32| f64::from(step) / f64::from(STEPS);
@@ -205,34 +207,14 @@ pub fn bodies(pair: &Pair, poissons_ratio: (f64, f64), modulus_ratio: (f64, f64)
     })
 }
 
-/// The energy balance of two laws on some bodies.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Balance {
-    /// Largest restitution of an impact on an untouched surface.
-    pub largest_restitution: f64,
-    /// Whether the dissipated energy decreases anywhere as the largest indentation grows.
-    pub falls: bool,
-}
-
-impl Balance {
-    /// The balance for both sets of bodies.
-    pub fn and(self, other: Balance) -> Balance {
-        Balance {
-            largest_restitution: self.largest_restitution.max(other.largest_restitution),
-            falls: self.falls || other.falls,
-        }
-    }
-}
-
 /// A surplus up to this fraction of the work is attributed to rounding and to the integrals.
 const ROUNDING: f64 = 1e-10;
 
 /// Mean pressure over the yield strength at the depth that is the unit of the evaluated range.
 const UNIT_PRESSURE_FACTOR: f64 = 1.1;
 
-/// The energy balance of unloading from all points of the loading curve, as far as the law can be evaluated.
-pub fn balance(model: &Model<AnyLoading, AnyUnloading>) -> Balance {
-    let mut balance = Balance::default();
+/// Whether the dissipated energy decreases anywhere as the largest indentation grows, as far as the law can be evaluated.
+fn makes_energy(model: &Model<AnyLoading, AnyUnloading>) -> bool {
     let (mut before, mut work, mut most_lost) = (0.0, 0.0, 0.0f64);
     for depth in depths(model) {
         // an integral continues from the previous depth
@@ -240,15 +222,16 @@ pub fn balance(model: &Model<AnyLoading, AnyUnloading>) -> Balance {
         work = more.map_or_else(|| model.loading.work(&model.pair, depth), |more| work + more);
         let recovered = model.recovered_work(depth, depth);
         if !(work.is_finite() && recovered.is_finite()) {
-            break;
+            return false;
         }
         let lost = work - recovered;
-        balance.falls |= lost < most_lost - ROUNDING * work;
-        balance.largest_restitution = balance.largest_restitution.max((recovered / work).sqrt());
+        if lost < most_lost - ROUNDING * work {
+            return true;
+        }
         most_lost = most_lost.max(lost);
         before = depth;
     }
-    balance
+    false
 }
 
 /// Increasing depths [m]: over the decades around yield, and close to the corners of the law on both sides.

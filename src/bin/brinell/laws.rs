@@ -19,6 +19,28 @@ pub struct Choice {
     pub model: AnyModel,
 }
 
+/// End of the names of laws with the passivity guard.
+const GUARDED: &str = " guarded";
+
+impl Choice {
+    /// The names of the loading law and of the unloading law. An elastic law has no unloading law; a rate-dependent law has the
+    /// name of its damping instead.
+    pub fn names(&self) -> (&str, Option<&str>) {
+        let laws = self.laws.strip_suffix(GUARDED).unwrap_or(&self.laws);
+        laws.split_once('/').map_or((laws, None), |(loading, other)| (loading, Some(other)))
+    }
+
+    /// Whether the laws have the passivity guard.
+    pub fn is_guarded(&self) -> bool {
+        self.laws.ends_with(GUARDED)
+    }
+
+    /// Whether a body can yield.
+    pub fn yields(&self) -> bool {
+        self.model.elastoplastic().is_some() && self.laws != "hertz"
+    }
+}
+
 /// Laws that a scene cannot have.
 #[derive(Debug, thiserror::Error)]
 pub enum UnknownLaw {
@@ -78,7 +100,7 @@ pub fn choose(scene: &Scene, names: &[String]) -> Result<Vec<Choice>, UnknownLaw
 
 /// The laws of the scene itself.
 fn own(scene: &Scene) -> Choice {
-    let guard = if scene.passivity_guard { " guarded" } else { "" };
+    let guard = if scene.passivity_guard { GUARDED } else { "" };
     let (name, laws) = match (scene.damped, scene.unloading) {
         (Some((name, law)), _) => (name, damped_laws(name, &law)),
         (None, Some((unloading, _))) => (scene.loading.0, format!("{}/{unloading}", scene.loading.0)),

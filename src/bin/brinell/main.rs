@@ -10,7 +10,6 @@ mod constants;
 mod curve;
 mod documentation;
 mod energy;
-mod experiment;
 mod export;
 mod file_error;
 mod files;

@@ -40,11 +40,6 @@ impl Prefixed {
     pub fn heading(&self) -> String {
         if self.unit.is_empty() { String::new() } else { format!("[{}]", self.unit) }
     }
-
-    /// The unit after the `name` of a quantity.
-    pub fn after(&self, name: &str) -> String {
-        format!("{name} {}", self.heading()).trim_end().into()
-    }
 }
 
 /// The best prefix of `unit` for a number of the size of `value` [`unit`].

@@ -2,7 +2,6 @@
 
 use crate::columns::{Column, Columns};
 use crate::laws::Choice;
-use crate::plot::{Picture, Series};
 use crate::predict::oblique;
 use crate::predict::{PredictError, positive};
 use crate::scene::Scene;
@@ -51,7 +50,7 @@ struct Point {
     sliding: f64,
 }
 
-/// A loop with its name in pictures.
+/// A loop of a law.
 struct Loop {
     law: String,
     amplitude: f64,
@@ -145,25 +144,6 @@ impl Loops {
             );
         }
         text + &format!("\n{ROWS} of {count} points of each loop; -o FILE.csv writes all of them with all digits\n")
-    }
-
-    /// Tangential force over tangential displacement.
-    pub fn picture(&self) -> Picture {
-        let several = self.held.len() > 1;
-        let series = |one: &Loop| {
-            let amplitude = crate::numbers::quantity(one.amplitude, "m");
-            Series {
-                label: if several { format!("{}, {amplitude}", one.law) } else { amplitude },
-                points: one.points.iter().map(|point| (1e9 * point.displacement, point.force)).collect(),
-                dots: false,
-            }
-        };
-        Picture {
-            x_title: "tangential displacement [nm]".into(),
-            y_title: "tangential force [N]".into(),
-            logarithmic: (false, false),
-            series: self.loops.iter().map(series).collect(),
-        }
     }
 }
 

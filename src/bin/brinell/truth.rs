@@ -1,9 +1,5 @@
 //! The finite-element curves of the folder `truth/`, for comparison.
 
-mod materials;
-
-pub use materials::{MATERIALS, Material};
-
 /// The truth's unit of indentation is the yield point for this mean pressure over the yield strength.
 pub const YIELD_PRESSURE_FACTOR: f64 = 1.1;
 
@@ -19,17 +15,15 @@ pub struct Point {
 
 /// The loading curve up to 1000 yield indentations, smoothed to remove the sawtooth of the mesh.
 pub fn loading() -> Vec<Point> {
-    points(LOADING)
-}
-
-/// The points of a loading curve.
-fn points(table: &str) -> Vec<Point> {
-    let number = |text: &str| text.parse().expect("the truth is a table of numbers");
     let point = |line: &str| {
         let columns: Vec<&str> = line.split(',').collect();
         Point { x: number(columns[0]), f: number(columns[2]) }
     };
-    table.lines().skip(1).map(point).collect()
+    LOADING.lines().skip(1).map(point).collect()
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().expect("the truth is a table of numbers")
 }
 
 const UNLOADING: [(f64, &str); 5] = [
@@ -74,7 +68,6 @@ fn computed(curve: &[Point], x: f64, rows: &str) -> Impact {
 
 /// The points of an unloading, from the largest indentation down.
 fn path(rows: &str) -> Vec<Point> {
-    let number = |text: &str| text.parse().expect("the truth is a table of numbers");
     let points = rows.lines().filter_map(|line| line.strip_prefix("unload,")).map(|line| {
         let mut columns = line.split(',');
         let [x, f] = [(); 2].map(|()| number(columns.next().unwrap_or_default()));

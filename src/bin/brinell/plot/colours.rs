@@ -84,30 +84,3 @@ pub fn css_lines<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     };
     strokes(names).into_iter().map(css).collect()
 }
-
-/// The colours of the map `viridis`, evenly spaced. Their lightness increases, which shows the order to colour-blind
-/// readers too.
-///
-/// Reference: S. van der Walt, N. Smith, the colour maps of matplotlib 2.0 (CC0).
-const VIRIDIS: [(u8, u8, u8); 9] = [
-    (68, 1, 84),
-    (71, 44, 122),
-    (59, 81, 139),
-    (44, 113, 142),
-    (33, 144, 141),
-    (39, 173, 129),
-    (92, 200, 99),
-    (170, 220, 50),
-    (253, 231, 37),
-];
-
-/// The colour of `viridis` at `part` of its length, from 0 to 1.
-pub fn viridis(part: f64) -> String {
-    let place = part.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
-    let low = (place.floor() as usize).min(VIRIDIS.len() - 2);
-    let mix = |one: u8, other: u8| {
-        (f64::from(one) + (f64::from(other) - f64::from(one)) * (place - low as f64)).round() as u8
-    };
-    let ((r, g, b), (red, green, blue)) = (VIRIDIS[low], VIRIDIS[low + 1]);
-    format!("#{:02x}{:02x}{:02x}", mix(r, red), mix(g, green), mix(b, blue))
-}

@@ -3,13 +3,11 @@
 mod clip;
 mod colours;
 mod drawing;
-mod heat_map;
 mod lines;
 mod map;
 mod thin;
 
 pub use colours::css_lines;
-pub use heat_map::{HeatMap, Quantity, heat_maps};
 pub use map::{Class, Map, Row};
 
 use colours::strokes;
@@ -18,7 +16,6 @@ use drawing::Drawing;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use std::iter;
 use std::ops::Range;
 
 /// A line, or dots.
@@ -98,11 +95,6 @@ impl Picture {
             self.draw_legend(root, if beside { width - LEGEND } else { 100 });
             curves
         })
-    }
-
-    /// The picture without the names of its series.
-    pub fn svg_without_legend(&self, width: u32, height: u32) -> String {
-        svg(width, height, |root| self.draw_into(root, 0, &View::unnamed()))
     }
 
     /// The picture with the name of each line at its end.
@@ -209,29 +201,6 @@ impl Picture {
 
 /// An argument and a value.
 type Point = (f64, f64);
-
-/// Pictures of the same series beside each other as one SVG of `width` pixels, each `height` pixels high, with one
-/// legend below them in as many columns as fit.
-pub fn side_by_side(pictures: &[Picture], width: u32, height: u32) -> String {
-    const MARGIN: u32 = 24;
-    let Some(first) = pictures.first() else { return String::new() };
-    let longest = first.series.iter().map(|series| series.label.chars().count() as u32).max().unwrap_or(0);
-    // a letter is about seven pixels wide; add the sample and the space between columns
-    let column = 7 * longest + 52;
-    let columns = ((width - 2 * MARGIN) / column).max(1);
-    let rows = (first.series.len() as u32).div_ceil(columns);
-    svg(width, height + rows * LINE + MARGIN, |root| {
-        let (upper, lower) = root.split_vertically(SCALE * height);
-        let areas = upper.split_evenly((1, pictures.len()));
-        let drawn = iter::zip(pictures, &areas).map(|(picture, area)| picture.draw_into(area, 0, &View::unnamed()));
-        let curves = drawn.collect();
-        for index in 0..first.series.len() {
-            let (row, place) = (index as u32 / columns, index as u32 % columns);
-            first.draw_name(&lower, index, (MARGIN + place * column, MARGIN / 2 + row * LINE));
-        }
-        curves
-    })
-}
 
 /// Whether two lines look the same.
 fn coincide(one: &[(f64, f64)], other: &[(f64, f64)]) -> bool {

@@ -95,12 +95,6 @@ impl Axis {
         };
         (0..count).map(value).collect()
     }
-
-    /// The name with its unit, for the axis of a picture.
-    pub fn title(&self) -> String {
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
-        format!("{}{unit}", self.name.replace('_', " "))
-    }
 }
 
 /// The quantity `name` with its unit.
@@ -179,8 +173,7 @@ fn with_bodies(scene: &Scene, choice: &Choice, bodies: &[(&str, f64)]) -> Result
         // a rigid impactor has no modulus, a flat target no radius, and an elastic law no strength
         let is_there = scene.group_value(0, name).is_some() || ["target.radius", HARDENING].contains(name);
         let strength = *name == Body::Target.yield_strength();
-        let yields = choice.model.elastoplastic().is_some() && choice.laws != "hertz";
-        if if strength { !yields } else { !is_there } {
+        if if strength { !choice.yields() } else { !is_there } {
             return Err(missing(name));
         }
     }

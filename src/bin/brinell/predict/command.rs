@@ -1,20 +1,15 @@
 //! The command `predict`: its arguments and the format of its output.
 
-use super::axis::Axis;
-use super::map::Map;
+use super::axis::{Axis, varied};
 use super::oblique::{self, Setting};
-use super::sweep::Sweep;
+use super::sweep::{self, Sweep};
 use super::text::Answer;
-use super::time_history::TimeHistory;
-use super::{PredictError, inverse, page, rebound};
-use crate::columns::Columns;
+use super::{PredictError, constants, time_history};
 use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
-use crate::layout::{self, paragraph, shown};
-use crate::numbers::quantity;
+use crate::layout::{self, shown};
 use crate::scene::{Scene, plausible};
 use crate::units;
-use crate::validity;
 use crate::wrong_call::WrongCall;
 use brinell::contact::impact::Impact;
 use serde_json::json;
@@ -42,14 +37,14 @@ pub struct Arguments {
     /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
     #[arg(long, value_delimiter = ',')]
     pub laws: Vec<String>,
-    /// Vary a quantity, such as speed=0.01:10 or impactor.radius=1e-3:5e-3:8; twice: a map
+    /// Vary a quantity, such as speed=0.01:10 or impactor.radius=1e-3:5e-3:8; again: every combination
     #[arg(long, value_name = "NAME=FROM:TO[:COUNT]")]
     pub sweep: Vec<String>,
-    /// Write the sweep with all digits: .csv, .svg or .html [default: print a short table]
-    #[arg(short, long, value_name = "FILE", requires = "sweep")]
+    /// Write the sweep with all digits [default: print a short table]
+    #[arg(short, long, value_name = "FILE.csv", requires = "sweep")]
     pub output: Option<PathBuf>,
-    /// Write force, indentation and speed over time: .csv, .svg or .html
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["sweep", "dent", "restitution"])]
+    /// Write force, indentation and speed over time
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["sweep", "dent", "restitution"])]
     pub time_history: Option<PathBuf>,
     /// Angle of incidence from the normal [degrees], for an oblique impact; the speed is then that along the path
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
@@ -71,13 +66,14 @@ pub struct Arguments {
     pub restitution: Option<f64>,
 }
 
+/// The quantities of a sweep's table in a terminal.
+const SHOWN: [&str; 5] = ["restitution", "largest force", "largest indentation", "dent", "loading time"];
+
 /// Runs the command.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
-    let formats = ["csv", "svg", "html"];
-    let output = arguments.output.as_deref();
-    let format = ending(output, &formats).map_err(WrongCall)?;
-    let history_format = ending(arguments.time_history.as_deref(), &formats).map_err(WrongCall)?;
-    for path in [output, arguments.time_history.as_deref()].into_iter().flatten() {
+    let (output, time_history) = (arguments.output.as_deref(), arguments.time_history.as_deref());
+    for path in [output, time_history].into_iter().flatten() {
+        ending(Some(path), &["csv"]).map_err(WrongCall)?;
         files::check_goal(path)?;
     }
     let axes = arguments.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>();
@@ -91,41 +87,40 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let scene = scene
         .with_strengths_for(Some(&Impact { speed: normal, ..impact }))
         .ok_or("the impact is too hard for the law of the scene")?;
-    let choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
+    let mut choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
+    if setting.is_some() {
+        let takes_some = arguments.laws.iter().any(|name| name == "all");
+        choices = oblique::with_friction(choices, takes_some).map_err(WrongCall::of)?;
+    }
     let question = Question { scene: &scene, choices: &choices, impact, as_json };
-    if let Some(setting) = setting {
-        return question.oblique((setting, arguments.laws.iter().any(|name| name == "all")), axes, output, format);
-    }
     if !axes.is_empty() {
-        return question.sweep(axes, output, format);
+        return question.sweep(setting, &axes, output);
     }
-    if let Some(dent) = arguments.dent {
-        return Ok(question.invert(super::positive("dent", dent).map_err(WrongCall::of)?)?);
-    }
-    if let Some(measured) = arguments.restitution {
-        let goal = rebound::measured(measured).map_err(WrongCall::of)?;
-        let rebounds = rebound::explain(&choices, &impact, goal)?;
-        for (choice, rebound) in choices.iter().zip(&rebounds) {
-            let [speeds, strengths] = rebound.numbers();
-            question.doubt(choice, &speeds, &strengths);
-        }
+    if let Some(setting) = setting {
+        let answer = oblique::Answer::of(&scene, &choices, (impact, setting)).map_err(failed)?;
         match as_json {
-            true => println!("{}", rebound::as_json(&rebounds, &impact, goal)),
-            false => print!("{}", rebound::text(&rebounds, &impact, goal)),
+            true => println!("{}", answer.json()),
+            false => print!("{}", answer.text()),
         }
         return Ok(());
     }
+    if let Some(dent) = arguments.dent {
+        return question.explain_dent(dent);
+    }
+    if let Some(measured) = arguments.restitution {
+        return question.explain_rebound(measured);
+    }
     let answer = Answer::of(&scene, &choices, impact, arguments.drop_height)?;
-    if let Some(path) = &arguments.time_history {
-        question.write_history(path, history_format)?;
+    if let Some(path) = time_history {
+        deliver(&time_history::columns(&choices, &impact)?.csv(), Some(path))?;
     }
     let mut object = answer.json();
-    object["time_history"] = json!(arguments.time_history.as_ref().map(|path| path.to_string_lossy()));
+    object["time_history"] = json!(time_history.map(Path::to_string_lossy));
     match as_json {
         true => println!("{object}"),
         false => print!("{}", answer.text()),
     }
-    if let Some(path) = arguments.time_history.as_deref().filter(|_| !as_json) {
+    if let Some(path) = time_history.filter(|_| !as_json) {
         println!("\ntime history: {}", shown(path));
     }
     Ok(())
@@ -163,156 +158,59 @@ fn failed(error: PredictError) -> Box<dyn Error> {
 }
 
 /// An impact on a scene with several laws, and the format of the output.
-struct Question<'a> {
-    scene: &'a Scene,
-    choices: &'a [Choice],
-    impact: Impact,
-    as_json: bool,
+pub struct Question<'a> {
+    pub scene: &'a Scene,
+    pub choices: &'a [Choice],
+    pub impact: Impact,
+    pub as_json: bool,
 }
 
 impl Question<'_> {
-    /// Impacts over one or two quantities, as a table, a picture or a page.
-    fn sweep(&self, axes: Vec<Axis>, output: Option<&Path>, format: &str) -> Result<(), Box<dyn Error>> {
-        let Question { scene, choices, impact, .. } = *self;
-        // with several laws, those without a yield strength don't depend on it
-        let strength = axes.iter().any(|axis| axis.name == "target.yield_strength") && choices.len() > 1;
-        let yields = |choice: &&Choice| choice.model.elastoplastic().is_some() && choice.laws != "hertz";
-        let mut choices: Vec<Choice> = choices.iter().filter(|choice| !strength || yields(choice)).cloned().collect();
-        // with several laws, those without the constant don't depend on it
-        let constant = |axis: &&Axis| super::constants::is_one(axis.name);
-        let has_all =
-            |choice: &Choice| axes.iter().filter(constant).all(|axis| super::constants::has(choice, axis.name));
+    /// Impacts over ranges of quantities, oblique ones with a `setting`: as a table, CSV or JSON.
+    fn sweep(&self, setting: Option<Setting>, axes: &[Axis], output: Option<&Path>) -> Result<(), Box<dyn Error>> {
+        let Question { scene, impact, .. } = *self;
+        let normal = |choice: &Choice, values: &[(&Axis, f64)]| {
+            let (choice, impact) = varied(scene, choice, impact, values)?;
+            let prediction = super::one(&choice, &impact)?;
+            let regime = ("regime", f64::from(prediction.regime as i32), "");
+            let quantities = super::quantities(&prediction).into_iter().chain([regime]).collect();
+            Ok((quantities, super::beyond(scene, &choice, &impact, &prediction)))
+        };
+        let oblique = |setting| {
+            move |choice: &Choice, values: &[(&Axis, f64)]| {
+                let outcome = oblique::one(scene, choice, (impact, setting), values)?;
+                Ok((outcome.quantities().to_vec(), outcome.beyond))
+            }
+        };
+        let choices = self.depending_on(axes);
+        let sweep = match setting {
+            None => Sweep::of(axes, &choices, sweep::VALUES, normal),
+            Some(setting) => Sweep::of(axes, &choices, oblique::VALUES, oblique(setting)),
+        };
+        let sweep = sweep.map_err(failed)?;
+        sweep.limits.tell();
+        let Impact { mass, speed } = impact;
+        let text = match output {
+            Some(_) => sweep.columns.csv(),
+            None if self.as_json => {
+                format!("{}\n", json!({ "mass": mass, "speed": speed, "laws": sweep.columns.json() }))
+            }
+            None => sweep.text(setting.map_or(&SHOWN, |_| &oblique::SHOWN)),
+        };
+        Ok(deliver(&text, output)?)
+    }
+
+    /// Of several laws, those that depend on the strength and on the constants that vary.
+    fn depending_on(&self, axes: &[Axis]) -> Vec<Choice> {
+        let mut choices = self.choices.to_vec();
+        if choices.len() > 1 && axes.iter().any(|axis| axis.name == "target.yield_strength") {
+            choices.retain(Choice::yields);
+        }
+        let constants = || axes.iter().filter(|axis| constants::is_one(axis.name));
+        let has_all = |choice: &Choice| constants().all(|axis| constants::has(choice, axis.name));
         if choices.iter().any(has_all) {
             choices.retain(has_all);
         }
-        let choices = choices.as_slice();
-        let text = match <[Axis; 2]>::try_from(axes) {
-            Ok(axes) => {
-                let map = Map::of(scene, choices, impact, axes).map_err(failed)?;
-                let page = || page::of_map(scene, choices, impact, &map);
-                map.limits.tell();
-                self.written((output, format), &|| map.columns(), &|| map.svg(), &page, &|| map.text())
-            }
-            Err(axes) if axes.len() == 1 => {
-                let axis = axes.into_iter().next().expect("one");
-                let sweep = Sweep::of(scene, choices, impact, axis).map_err(failed)?;
-                let page = || page::of_sweep(scene, choices, &sweep);
-                sweep.limits.tell();
-                self.written((output, format), &|| sweep.columns(), &|| sweep.svg(), &page, &|| sweep.text())
-            }
-            Err(axes) => return Err(WrongCall(format!("--sweep is given {} times: at most two", axes.len())).into()),
-        };
-        Ok(deliver(&text, output)?)
-    }
-
-    /// Oblique impacts: one, or several over a quantity.
-    fn oblique(
-        &self,
-        (setting, takes_some): (Setting, bool),
-        axes: Vec<Axis>,
-        output: Option<&Path>,
-        format: &str,
-    ) -> Result<(), Box<dyn Error>> {
-        let choices = oblique::with_friction(self.choices.to_vec(), takes_some).map_err(WrongCall::of)?;
-        let (scene, asked) = (self.scene, (self.impact, setting));
-        let axis = match <[Axis; 1]>::try_from(axes) {
-            Ok([axis]) => axis,
-            Err(none) if none.is_empty() => {
-                let answer = oblique::Answer::of(scene, &choices, asked).map_err(failed)?;
-                match self.as_json {
-                    true => println!("{}", answer.json()),
-                    false => print!("{}", answer.text()),
-                }
-                return Ok(());
-            }
-            Err(axes) => {
-                let count = axes.len();
-                return Err(
-                    WrongCall(format!("--sweep is given {count} times: at most once for oblique impacts")).into()
-                );
-            }
-        };
-        let sweep = oblique::Sweep::of(scene, &choices, asked, axis).map_err(failed)?;
-        let page = || page::of_oblique(scene, asked, &sweep);
-        sweep.limits().tell();
-        let text = self.written((output, format), &|| sweep.columns(), &|| sweep.svg(), &page, &|| sweep.text());
-        Ok(deliver(&text, output)?)
-    }
-
-    /// A result in the requested format.
-    fn written(
-        &self,
-        (output, format): (Option<&Path>, &str),
-        columns: &dyn Fn() -> Columns,
-        svg: &dyn Fn() -> String,
-        page: &dyn Fn() -> String,
-        text: &dyn Fn() -> String,
-    ) -> String {
-        match (output, format) {
-            (None, _) if self.as_json => {
-                let Impact { mass, speed } = self.impact;
-                format!("{}\n", json!({ "mass": mass, "speed": speed, "laws": columns().json() }))
-            }
-            (None, _) => text(),
-            (_, "html") => page(),
-            (_, "svg") => svg(),
-            _ => columns().csv(),
-        }
-    }
-
-    /// Warns about answers of an inverse prediction that are outside the validity of the law.
-    fn doubt(&self, choice: &Choice, speeds: &[f64], strengths: &[f64]) {
-        let Question { scene, impact, .. } = *self;
-        let at = |speed: &f64| Some((choice.clone(), Impact { speed: *speed, ..impact }, quantity(*speed, "m/s")));
-        let with = |strength: &f64| {
-            let model = choice.model.with_yield_strength(*strength)?;
-            Some((Choice { model, ..choice.clone() }, impact, quantity(*strength, "Pa")))
-        };
-        for (choice, impact, answer) in speeds.iter().filter_map(at).chain(strengths.iter().filter_map(with)) {
-            let Ok(prediction) = super::one(&choice, &impact) else { continue };
-            for limit in super::beyond(scene, &choice, &impact, &prediction) {
-                layout::warn(&format!("{}, {answer}: {}", choice.laws, validity::words(limit)));
-            }
-        }
-    }
-
-    /// Writes force, indentation and speed over time.
-    fn write_history(&self, path: &Path, format: &str) -> Result<(), Box<dyn Error>> {
-        let history = TimeHistory::of(self.choices, &self.impact)?;
-        let text = match format {
-            "html" => page::of_time_history(self.scene, self.choices, self.impact, &history),
-            "svg" => history.svg(),
-            _ => history.columns().csv(),
-        };
-        Ok(deliver(&text, Some(path))?)
-    }
-
-    /// The speed that causes `dent` [m], and the yield strength that explains it after the impact.
-    fn invert(&self, dent: f64) -> Result<(), PredictError> {
-        let Question { choices, impact, as_json, .. } = *self;
-        let mut answers = Vec::new();
-        for choice in choices {
-            let speed = inverse::speed_of_dent(choice, impact.mass, dent)?;
-            let strength = inverse::strength_of_dent(choice, &impact, dent)?;
-            self.doubt(choice, &[speed], &[strength]);
-            if as_json {
-                answers.push(json!({ "law": choice.laws, "speed": speed, "yield_strength": strength }));
-                continue;
-            }
-            let words = format!(
-                "by {}, {} leaves a dent of {} at {} on the target of the scene, or at {} on a target with a yield strength of {}",
-                choice.laws,
-                quantity(impact.mass, "kg"),
-                quantity(dent, "m"),
-                quantity(speed, "m/s"),
-                quantity(impact.speed, "m/s"),
-                quantity(strength, "Pa")
-            );
-            print!("{}", paragraph("", &words));
-        }
-        if as_json {
-            println!("{}", json!({ "dent": dent, "mass": impact.mass, "impact_speed": impact.speed, "laws": answers }));
-        }
-        Ok(())
+        choices
     }
 }

@@ -41,17 +41,9 @@ pub fn is_one(name: &str) -> bool {
     name.starts_with(LOADING) || name.starts_with(UNLOADING)
 }
 
-/// The names of the laws of `choice`. An elastic law has no unloading law; a rate-dependent law has a damping instead.
-fn laws_of(choice: &Choice) -> (&str, Option<&str>, bool) {
-    let (laws, guarded) =
-        choice.laws.strip_suffix(" guarded").map_or((choice.laws.as_str(), false), |laws| (laws, true));
-    let (loading, other) = laws.split_once('/').map_or((laws, None), |(loading, other)| (loading, Some(other)));
-    (loading, other, guarded)
-}
-
 /// The table entry of the law of `choice` that could have a constant called `name`.
 fn law_with(choice: &Choice, name: &str) -> Option<&'static table::Law> {
-    let (loading, other, _) = laws_of(choice);
+    let (loading, other) = choice.names();
     match (&choice.model, name.starts_with(LOADING)) {
         (AnyModel::Damped(_), true) => Some(table::damped_law(loading)),
         (AnyModel::Elastoplastic(_) | AnyModel::Lossy(_), true) => Some(table::loading_law(loading)),
@@ -78,7 +70,8 @@ pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result
     let constant = name.rsplit('.').next().unwrap_or_default();
     let number = Spanned::new(0..0, toml::Value::Float(value));
     let given: Given = Spanned::new(0..0, BTreeMap::from([(Spanned::new(0..0, constant.to_string()), number)]));
-    let (loading, unloading, guarded) = laws_of(choice);
+    let names = choice.clone();
+    let ((loading, unloading), guarded) = (names.names(), names.is_guarded());
     let mut model = match choice.model {
         AnyModel::Elastoplastic(model) => model,
         AnyModel::Lossy(model) => model.plastic,

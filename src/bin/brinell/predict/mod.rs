@@ -4,11 +4,8 @@ pub mod axis;
 pub mod command;
 mod constants;
 mod inverse;
-mod map;
 mod notes;
 pub mod oblique;
-mod page;
-mod rebound;
 pub mod sweep;
 mod text;
 pub mod time_history;
@@ -142,7 +139,7 @@ fn beyond(scene: &Scene, choice: &Choice, impact: &Impact, prediction: &Predicti
 }
 
 /// The quantities of a prediction: name, value, unit.
-fn quantities(prediction: &Prediction) -> [(&'static str, f64, &'static str); 9] {
+fn quantities(prediction: &Prediction) -> [sweep::Quantity; 9] {
     [
         ("largest force", prediction.max_force, "N"),
         ("largest indentation", prediction.max_indentation, "m"),

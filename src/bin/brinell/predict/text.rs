@@ -1,6 +1,6 @@
 //! A prediction as text for people and as JSON for programs.
 
-use super::{PredictError, energy_lost, methods, notes, one, onsets, quantities};
+use super::{PredictError, beyond, energy_lost, methods, notes, one, onsets, quantities};
 use crate::laws::Choice;
 use crate::layout::{paragraph, table};
 use crate::numbers::{Prefixed, cell, prefixed, quantity};
@@ -42,7 +42,7 @@ impl Answer<'_> {
 
     /// The quantities outside the validity of the law, in words.
     fn warnings(&self, choice: &Choice, prediction: &Prediction) -> Vec<String> {
-        validity::warnings(&choice.model.pair(), self.scene.contacts[0].density, prediction, self.impact.speed)
+        beyond(self.scene, choice, &self.impact, prediction).into_iter().map(validity::words).collect()
     }
 
     /// The warnings for people: one warning for several laws.
@@ -50,10 +50,7 @@ impl Answer<'_> {
         if let ([choice], [prediction]) = (self.choices, self.predictions.as_slice()) {
             return self.warnings(choice, prediction);
         }
-        let density = self.scene.contacts[0].density;
-        let beyond = |choice: &Choice, prediction: &Prediction| {
-            validity::beyond(&choice.model.pair(), density, prediction.max_contact_radius, self.impact.speed)
-        };
+        let beyond = |choice, prediction| beyond(self.scene, choice, &self.impact, prediction);
         let wide = self.laws().filter(|(choice, prediction)| {
             beyond(choice, prediction).iter().any(|limit| matches!(limit, validity::Beyond::Width(_)))
         });

@@ -4,7 +4,6 @@ use super::PredictError;
 use crate::columns::{Column, Columns};
 use crate::laws::Choice;
 use crate::model::AnyModel;
-use crate::plot::{Picture, Series, side_by_side};
 use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::motion::{Drive, follow};
 use brinell::contact::{History, Model, damped, losses};
@@ -23,11 +22,6 @@ pub struct Moment {
     pub force: f64,
     /// Closing speed [m/s].
     pub speed: f64,
-}
-
-/// Impacts over time with several laws.
-pub struct TimeHistory {
-    laws: Vec<(String, Vec<Moment>)>,
 }
 
 /// The time history of `impact` from first contact to separation; `None` beyond the range of the law.
@@ -83,60 +77,20 @@ fn followed<L: brinell::contact::Loading, U: brinell::contact::Unloading>(
     Some(all)
 }
 
-impl TimeHistory {
-    /// `impact` with the laws of `choices`.
-    ///
-    /// # Errors
-    /// [`PredictError::Beyond`]
-    pub fn of(choices: &[Choice], impact: &Impact) -> Result<TimeHistory, PredictError> {
-        let law = |choice: &Choice| {
-            let moments = moments(&choice.model, impact);
-            let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass: impact.mass, speed: impact.speed };
-            Ok((choice.laws.clone(), moments.ok_or_else(beyond)?))
-        };
-        Ok(TimeHistory { laws: choices.iter().map(law).collect::<Result<_, PredictError>>()? })
-    }
-
-    /// The data as columns.
-    pub fn columns(&self) -> Columns {
-        let names = [("time", "s"), ("indentation", "m"), ("force", "N"), ("speed", "m/s")];
-        let row = |moment: &Moment| vec![moment.time, moment.indentation, moment.force, moment.speed];
-        let law = |(law, moments): &(String, Vec<Moment>)| (law.clone(), moments.iter().map(row).collect());
-        Columns {
-            columns: names.into_iter().map(|(name, unit)| Column::new(name, unit)).collect(),
-            laws: self.laws.iter().map(law).collect(),
-        }
-    }
-
-    /// Force, indentation and speed over time.
-    pub fn panels(&self) -> [Picture; 3] {
-        let panel = |title: &str, value: fn(&Moment) -> f64| {
-            let line = |(law, moments): &(String, Vec<Moment>)| Series {
-                label: law.clone(),
-                points: moments.iter().map(|moment| (1e6 * moment.time, value(moment))).collect(),
-                dots: false,
-            };
-            Picture {
-                x_title: "time [us]".into(),
-                y_title: title.into(),
-                logarithmic: (false, false),
-                series: self.laws.iter().map(line).collect(),
-            }
-        };
-        [
-            panel("force [N]", |moment| moment.force),
-            panel("indentation [um]", |moment| 1e6 * moment.indentation),
-            panel("closing speed [m/s]", |moment| moment.speed),
-        ]
-    }
-
-    /// The three panels as one picture.
-    pub fn svg(&self) -> String {
-        side_by_side(&self.panels(), 1200, 380)
-    }
-
-    /// The names of the laws.
-    pub fn laws(&self) -> impl Iterator<Item = &str> {
-        self.laws.iter().map(|(law, _)| law.as_str())
-    }
+/// `impact` over time with the laws of `choices`, as columns.
+///
+/// # Errors
+/// [`PredictError::Beyond`]
+pub fn columns(choices: &[Choice], impact: &Impact) -> Result<Columns, PredictError> {
+    let names = [("time", "s"), ("indentation", "m"), ("force", "N"), ("speed", "m/s")];
+    let row = |moment: &Moment| vec![moment.time, moment.indentation, moment.force, moment.speed];
+    let law = |choice: &Choice| {
+        let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass: impact.mass, speed: impact.speed };
+        let moments = moments(&choice.model, impact).ok_or_else(beyond)?;
+        Ok((choice.laws.clone(), moments.iter().map(row).collect()))
+    };
+    Ok(Columns {
+        columns: names.into_iter().map(|(name, unit)| Column::new(name, unit)).collect(),
+        laws: choices.iter().map(law).collect::<Result<_, PredictError>>()?,
+    })
 }

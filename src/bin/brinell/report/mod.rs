@@ -4,7 +4,6 @@ mod card;
 mod choice;
 mod contact;
 mod data;
-mod experiment;
 mod extremes;
 mod oblique;
 mod page;
@@ -183,7 +182,6 @@ impl Report {
         let mut parts =
             vec![precision::part(&scene.name, &lines), stability.part(), laws.part(), extremes::part(&cases)];
         parts.extend(oblique.map(|oblique| oblique.part()));
-        parts.push(experiment::part());
         Ok(Report {
             name: scene.name.clone(),
             card,

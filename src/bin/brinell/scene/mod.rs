@@ -37,7 +37,7 @@ pub use error::{Mistake, SceneError};
 pub use group::{Group, Parameter};
 pub use losses::Loss;
 pub use power_law::PowerLaw;
-pub use rate::{InImpact, QuasiStatic, Rate, STEPS, TABOR};
+pub use rate::{InImpact, QuasiStatic, Rate};
 pub use softer::{Body, Both};
 
 /// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.

@@ -9,7 +9,7 @@ use crate::model::{AnyModel, strengthened};
 use crate::nearest::unknown;
 use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::rate;
-pub use brinell::contact::rate::{Rate, STEPS, TABOR};
+pub use brinell::contact::rate::Rate;
 use brinell::contact::{Model, Pair};
 use serde::Serialize;
 use toml::Spanned;

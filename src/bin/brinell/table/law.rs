@@ -23,6 +23,9 @@ pub struct Law {
     /// The range in which the law was derived or holds, for loading laws.
     #[serde(default)]
     pub validity: String,
+    /// Largest and root mean square error of the force of a loading law against finite elements, in words.
+    #[serde(default)]
+    pub accuracy: String,
     pub reference: String,
     /// The unloading law with which a loading law was published, if any.
     pub unloading: Option<String>,
@@ -36,9 +39,10 @@ pub struct Law {
     pub lowers_hertz: bool,
     /// The only loading law with which an unloading law can be combined.
     pub made_for: Option<MadeFor>,
-    /// Whether the force of a loading law jumps, and the fraction by which its contact radius falls: for the tests.
-    #[serde(default, rename = "jumps")]
-    _jumps: IgnoredAny,
+    /// Whether the force of a loading law jumps.
+    #[serde(default)]
+    pub jumps: bool,
+    /// The fraction by which its contact radius falls there: for the tests.
     #[serde(default, rename = "radius_falls_by")]
     _radius_falls_by: IgnoredAny,
     /// Whether the normalised curve of a loading law depends on `E*/S`.

@@ -1,20 +1,19 @@
 //! `brinell predict --angle`: the rebound of a ball that hits a surface obliquely, with friction.
 
-mod asked;
-mod picture;
-mod sweep;
 mod text;
 
-pub use sweep::Sweep;
 pub use text::Answer;
 
 use super::axis::{Axis, OF_OBLIQUE_IMPACT, varied};
+use super::command::Arguments;
+use super::sweep::Quantity;
 use super::{PredictError, positive};
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::scene::Scene;
 use crate::table;
 use crate::validity::Beyond;
+use crate::wrong_call::WrongCall;
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::tangential::impact::{Ball, Rebound, predict};
@@ -26,6 +25,13 @@ pub const FRICTION: &str = "friction.coefficient";
 
 /// The method of the computation, in words.
 pub const METHOD: &str = "computed with the springs of the contact in a thousand steps";
+
+/// The quantities of a sweep's table in a terminal.
+pub const SHOWN: [&str; 5] =
+    ["normal restitution", "tangential restitution", "rebound angle", "rebound spin", "sliding part"];
+
+/// Number of values in a sweep over one quantity: an oblique impact takes milliseconds.
+pub const VALUES: usize = 101;
 
 /// Moment of inertia of a solid sphere over `m R^2`.
 const SOLID_SPHERE: f64 = 0.4;
@@ -83,8 +89,33 @@ impl Setting {
     }
 }
 
-/// End of the names of laws with the passivity guard.
-const GUARDED: &str = " guarded";
+impl Arguments {
+    /// The setting of an oblique impact, if one is asked for.
+    ///
+    /// # Errors
+    /// A number that no oblique impact can have, or an argument that belongs to one, where none is asked for.
+    pub fn setting(&self, scene: &Scene, axes: &[Axis]) -> Result<Option<Setting>, WrongCall> {
+        let varied = |name: &str| axes.iter().find(|axis| axis.name == name).map(|axis| axis.from);
+        let is_oblique = [self.angle, self.spin].iter().any(Option::is_some);
+        if !is_oblique && varied("angle").is_none() && varied("spin").is_none() {
+            let idle = [("friction", self.friction.or(varied(FRICTION))), ("inertia", self.inertia)];
+            return match idle.iter().find(|(_, value)| value.is_some()) {
+                Some((name, _)) => Err(WrongCall::of(PredictError::NotOblique(name))),
+                None => Ok(None),
+            };
+        }
+        let coefficient = self.friction.or(varied(FRICTION)).or(scene.group_value(0, FRICTION));
+        let missing = || WrongCall::of(PredictError::NoCoefficient);
+        let setting = Setting {
+            angle: self.angle.or(varied("angle")).unwrap_or(0.0),
+            spin: self.spin.or(varied("spin")).unwrap_or(0.0),
+            coefficient: coefficient.ok_or_else(missing)?,
+            inertia: self.inertia,
+        };
+        setting.check().map_err(WrongCall::of)?;
+        Ok(Some(setting))
+    }
+}
 
 /// Whether the quantity `name` belongs to oblique impacts only.
 pub fn is_quantity(name: &str) -> bool {
@@ -108,16 +139,11 @@ pub fn refusal(choice: &Choice) -> Option<String> {
         AnyModel::Lossy(_) => return Some("a loss below yield and friction can't be combined".into()),
         AnyModel::Elastoplastic(_) => {}
     }
-    if choice.laws.ends_with(GUARDED) {
+    if choice.is_guarded() {
         return Some("with the passivity guard, its accuracy was not measured".into());
     }
-    let law = table::unloading_law(unloading_of(choice)?);
+    let law = table::unloading_law(choice.names().1?);
     law.no_friction.as_ref().map(|why| format!("with the unloading law {}, {why}", law.name))
-}
-
-/// The name of the unloading law of `choice`; `None` for an elastic law.
-pub fn unloading_of(choice: &Choice) -> Option<&str> {
-    choice.laws.trim_end_matches(GUARDED).split_once('/').map(|(_, unloading)| unloading)
 }
 
 /// The laws of `choices` that have friction: all of them, or those of a list that includes every law.
@@ -232,7 +258,7 @@ impl Outcome {
     }
 
     /// The quantities of the rebound: name, value, unit.
-    pub fn quantities(&self) -> [(&'static str, f64, &'static str); 12] {
+    pub fn quantities(&self) -> [Quantity; 12] {
         let ball = &self.rebound.ball;
         [
             ("rebound angle", self.angle(), "deg"),

@@ -1,6 +1,6 @@
 //! An oblique impact as text for people and as JSON for programs.
 
-use super::{METHOD, Outcome, Setting, one, unloading_of};
+use super::{METHOD, Outcome, Setting, one};
 use crate::laws::Choice;
 use crate::layout::{self, paragraph};
 use crate::numbers::{cell, quantity, significant};
@@ -177,6 +177,6 @@ fn single(outcome: &Outcome) -> String {
 
 /// The error of friction with the laws of `choice`, as the table of laws gives it.
 fn error_of(choice: &Choice) -> Option<f64> {
-    let loading = choice.laws.split('/').next()?;
-    table::unloading_law(unloading_of(choice)?).friction_error_after(loading)
+    let (loading, unloading) = choice.names();
+    table::unloading_law(unloading?).friction_error_after(loading)
 }

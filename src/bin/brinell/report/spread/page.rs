@@ -135,7 +135,7 @@ impl Laws<'_> {
         table.rows.extend(dots.iter().map(|(speed, restitution)| row(TRUTH, *speed, *restitution)));
         let line = |(label, points)| Series { label, points, dots: false };
         let mut picture = Picture {
-            x_title: axis.title(),
+            x_title: "speed [m/s]".into(),
             y_title: "coefficient of restitution".into(),
             logarithmic: (axis.is_logarithmic(), false),
             series: lines.into_iter().map(line).collect(),
