@@ -214,6 +214,7 @@ fn an_implausible_number_causes_a_question() {
             "300e6\ntangent_modulus = 2\n[law]\nloading = \"brinell\"",
             "target.tangent_modulus = 2 Pa; did you mean",
         ),
+        ("speed = 1.0", "speed = 5000.0", "impact.speed = 5000 m/s; did you mean 5?"),
         ("5e-3", "5e-3\ndensity = 7.85", "impactor.density = 7.85 kg/m^3; did you mean 7850?"),
     ] {
         let doubted = doubted(&with_impact().replacen(from, to, 1));
@@ -294,6 +295,17 @@ fn an_impactor_takes_a_material_and_a_density() {
     );
     assert_eq!(by_name["laws"], by_numbers["laws"]);
     let volume = 4.0 / 3.0 * std::f64::consts::PI * 5e-3f64.powi(3);
+    for (tables, question) in [
+        ("[impact]\nmass = 4e7\nspeed = 1.0\n", "impact.mass = 40e6 kg; did you mean 40000?"),
+        ("[coupling]\neffective_mass = 4e7\n", "coupling.effective_mass = 40e6 kg; did you mean 40000?"),
+        (
+            "[coupling]\neffective_mass = 1.0\n[[contact]]\nname = \"left\"\neffective_mass = 4e7\n",
+            "left.effective_mass = 40e6 kg; did you mean 40000?",
+        ),
+    ] {
+        let doubted = doubted(&format!("{SCENE}{tables}"));
+        assert!(doubted.contains(question) && doubted.lines().count() == 1, "nothing of {question} in {doubted}");
+    }
     assert!((number(&by_name["mass"]) / (7850.0 * volume) - 1.0).abs() < 1e-12);
     let lighter = predicted("material = \"mild steel\"\ndensity = 1000.0", "");
     assert!((number(&lighter["mass"]) / (1000.0 * volume) - 1.0).abs() < 1e-12);

@@ -316,7 +316,13 @@ fn implausible_numbers_of_the_command_line_are_asked_about_with_what_was_probabl
     assert!(curve.err.contains("to = 10 m; did you mean 10e-6?"), "{curve:?}");
     for (arguments, words) in [
         (&["--speed", "5000"][..], "warning: speed = 5000 m/s; did you mean 5?"),
+        (&["--mass", "5e6"], "warning: mass = 5e6 kg; did you mean 5000?"),
+        (&["--drop-height", "500"], "warning: drop-height = 500 m; did you mean 0.5?"),
+        (&["--mass", "0.004", "--energy", "2e5"], "warning: energy = 200e3 J; did you mean 200?"),
         (&["--sweep", "speed=1000:10000"], "warning: speed = 10000 m/s; did you mean 10?"),
+        (&["--sweep", "mass=1:1e7:2"], "warning: mass = 10e6 kg; did you mean 10000?"),
+        (&["--sweep", "drop_height=1:1000:2"], "warning: drop_height = 1000 m; did you mean 1?"),
+        (&["--sweep", "energy=1:1e6:2"], "warning: energy = 1e6 J; did you mean 1000?"),
         (&["--sweep", "target.yield_strength=200:400"], "warning: target.yield_strength = 200 Pa; did you mean 200e6?"),
         (&["--sweep", "impactor.radius=1:10"], "warning: impactor.radius = 10 m; did you mean 0.01?"),
         (&["--sweep", "speed=1:2:2", "--sweep", "target.youngs_modulus=190:210:2"], "190 Pa; did you mean 190e9?"),
@@ -329,6 +335,8 @@ fn implausible_numbers_of_the_command_line_are_asked_about_with_what_was_probabl
     }
     for arguments in [
         &["--speed", "1e-3"][..],
+        &["--mass", "1e-12", "--drop-height", "0.001"],
+        &["--energy", "1e-3"],
         &["--sweep", "target.radius=5:50:2"],
         &["--sweep", "target.yield_strength=200e6:900e6:2"],
         &["--sweep", "impactor.radius=1e-3:1e-2:2"],

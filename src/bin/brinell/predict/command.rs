@@ -79,8 +79,8 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let axes = arguments.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>();
     let axes = axes.map_err(WrongCall::of)?;
     let scene = Scene::read_aloud(&arguments.scene)?;
-    implausible(&scene, arguments, &axes).iter().for_each(|doubt| layout::warn(doubt));
     let impact = impact(&scene, arguments).map_err(WrongCall::of)?;
+    implausible(&scene, arguments, impact.mass, &axes).iter().for_each(|doubt| layout::warn(doubt));
     let setting = arguments.setting(&scene, &axes)?;
     // the strength is that of the normal impact
     let normal = setting.map_or(impact.speed, |setting| impact.speed * setting.angle.to_radians().cos());
@@ -140,13 +140,19 @@ fn impact(scene: &Scene, arguments: &Arguments) -> Result<Impact, PredictError> 
     Ok(impact)
 }
 
-/// The doubts about numbers of the command line: a speed, a dent, and the ends of ranges.
-fn implausible(scene: &Scene, arguments: &Arguments, axes: &[Axis]) -> Vec<String> {
-    let speed = arguments.speed.and_then(|speed| plausible::of_quantity("speed", speed));
+/// The doubts about numbers of the command line: an impact of this `mass` [kg], a dent, and the ends of ranges.
+fn implausible(scene: &Scene, arguments: &Arguments, mass: f64, axes: &[Axis]) -> Vec<String> {
+    let given = [("speed", arguments.speed), ("mass", arguments.mass), ("drop-height", arguments.drop_height)];
+    let given = given.into_iter().filter_map(|(name, value)| plausible::of_quantity(name, value?));
+    let energy = arguments.energy.and_then(|energy| plausible::of_energy("energy", energy, mass));
     let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::INFINITY);
     let dent = arguments.dent.and_then(|dent| plausible::of_depth("dent", dent, radius));
-    let range = |axis: &Axis| [axis.from, axis.to].iter().find_map(|end| plausible::of_quantity(axis.name, *end));
-    speed.into_iter().chain(dent).chain(axes.iter().filter_map(range)).collect()
+    let end = |axis: &Axis, end: f64| match axis.name {
+        "energy" => plausible::of_energy(axis.name, end, mass),
+        name => plausible::of_quantity(name, end),
+    };
+    let range = |axis: &Axis| [axis.from, axis.to].into_iter().find_map(|value| end(axis, value));
+    given.chain(energy).chain(dent).chain(axes.iter().filter_map(range)).collect()
 }
 
 /// An impossible quantity or range is a wrong call. A law that can't be evaluated is not.

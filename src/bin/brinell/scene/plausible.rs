@@ -7,21 +7,21 @@ use std::ops::RangeInclusive;
 use toml::Spanned;
 
 /// The plausible range of a number of a contact.
-struct Expected {
+struct Expected<'a> {
     range: RangeInclusive<f64>,
     unit: &'static str,
     /// Factors of units that the user may have had in mind, the most likely one first.
     factors: &'static [f64],
     /// Origin of the range.
-    why: &'static str,
+    why: &'a str,
 }
 
 /// From some micrometres, where continuum mechanics ends, to the size of a machine.
-const RADIUS: Expected =
+const RADIUS: Expected<'static> =
     Expected { range: 1e-6..=2.0, unit: "m", factors: &[1e-3, 1e-6], why: "balls and tips have 1 um to 2 m" };
 
 /// From soft rubber to diamond.
-const MODULUS: Expected = Expected {
+const MODULUS: Expected<'static> = Expected {
     range: 1e5..=1.3e12,
     unit: "Pa",
     factors: &[1e9, 1e6],
@@ -29,7 +29,7 @@ const MODULUS: Expected = Expected {
 };
 
 /// From soft polymers to ceramics.
-const STRENGTH: Expected = Expected {
+const STRENGTH: Expected<'static> = Expected {
     range: 1e5..=3e10,
     unit: "Pa",
     factors: &[1e6, 1e9],
@@ -37,7 +37,7 @@ const STRENGTH: Expected = Expected {
 };
 
 /// The slope of the flow stress over the strain, from soft polymers to the elastic slope of the stiffest solids.
-const HARDENING: Expected = Expected {
+const HARDENING: Expected<'static> = Expected {
     range: 1e5..=1.3e12,
     unit: "Pa",
     factors: &[1e6, 1e9],
@@ -45,7 +45,7 @@ const HARDENING: Expected = Expected {
 };
 
 /// From foam to osmium.
-const DENSITY: Expected = Expected {
+const DENSITY: Expected<'static> = Expected {
     range: 20.0..=23_000.0,
     unit: "kg/m^3",
     factors: &[1e3],
@@ -68,6 +68,18 @@ macro_rules! numbers {
         ]
     };
 }
+
+/// From a ball of the smallest plausible radius and density to one of the largest.
+const MASS: Expected<'static> = Expected {
+    range: 1e-16..=1e6,
+    unit: "kg",
+    factors: &[1e-3, 1e-6],
+    why: "balls of 1 um to 2 m have 1e-16 kg to 1000 t",
+};
+
+/// Up to the highest drop towers; a body may also fall by a fraction of its size.
+const DROP_HEIGHT: Expected<'static> =
+    Expected { range: 0.0..=200.0, unit: "m", factors: &[1e-3, 1e-6], why: "drop towers have up to 200 m" };
 
 /// The doubts about `file`, each with its place.
 pub fn doubts(file: &File) -> Vec<Mistake> {
@@ -93,11 +105,20 @@ pub fn doubts(file: &File) -> Vec<Mistake> {
         }
     };
     bodies("", file.impactor.as_ref().map(Spanned::get_ref), file.target.as_ref().map(Spanned::get_ref));
+    let mut own_masses = Vec::new();
     for contact in file.contact.iter().flat_map(|contacts| contacts.get_ref()) {
         let contact = contact.get_ref();
         let owner = format!("{}.", contact.name.get_ref());
         bodies(&owner, Some(&contact.impactor), Some(&contact.target));
+        let mass = contact.effective_mass.as_ref();
+        own_masses.extend(mass.and_then(|mass| MASS.doubt(&format!("{owner}effective_mass"), mass)));
     }
+    doubts.extend(own_masses);
+    let impact = file.impact.as_ref().map(Spanned::get_ref);
+    doubts.extend(impact.and_then(|impact| SPEED.doubt("impact.speed", &impact.speed)));
+    doubts.extend(impact.and_then(|impact| MASS.doubt("impact.mass", impact.mass.as_ref()?)));
+    let coupling = file.coupling.as_ref().map(Spanned::get_ref);
+    doubts.extend(coupling.and_then(|coupling| MASS.doubt("coupling.effective_mass", &coupling.effective_mass)));
     doubts
 }
 
@@ -106,7 +127,7 @@ fn of_power_law(body: &str, law: Option<&Spanned<PowerLawTable>>) -> Option<Mist
     STRENGTH.doubt(&format!("{body}.power_law.coefficient"), &law?.get_ref().coefficient)
 }
 
-impl Expected {
+impl Expected<'_> {
     /// The doubt about the value of `key`, if it is implausible.
     fn doubt(&self, key: &str, value: &Spanned<f64>) -> Option<Mistake> {
         self.question(key, *value.get_ref()).map(|message| Mistake(value.span(), message))
@@ -147,7 +168,7 @@ fn too_strong(owner: &str, strength: &Spanned<f64>, modulus: &Spanned<f64>) -> O
 }
 
 /// Up to the fastest projectiles; the slowest contacts creep.
-const SPEED: Expected =
+const SPEED: Expected<'static> =
     Expected { range: 0.0..=3e3, unit: "m/s", factors: &[1e-3], why: "bodies meet at up to 3 km/s" };
 
 /// The doubt about a `value` on the command line of the quantity `name`: a speed, or a parameter of the scene.
@@ -161,9 +182,18 @@ pub fn of_quantity(name: &str, value: f64) -> Option<String> {
         "hardening_modulus" | "tangent_modulus" => &HARDENING,
         "density" => &DENSITY,
         "speed" => &SPEED,
+        "mass" | "effective_mass" => &MASS,
+        "drop-height" | "drop_height" => &DROP_HEIGHT,
         _ => return None,
     };
     expected.question(name, value)
+}
+
+/// The doubt about a kinetic `energy` [J] of a `mass` [kg]: the speed that it gives; `name` is its name on the command line.
+pub fn of_energy(name: &str, energy: f64, mass: f64) -> Option<String> {
+    let most = 0.5 * mass * SPEED.range.end() * SPEED.range.end();
+    let why = format!("the mass is {}, and {}", quantity(mass, "kg"), SPEED.why);
+    Expected { range: 0.0..=most, unit: "J", factors: &[1e-3, 1e-6], why: &why }.question(name, energy)
 }
 
 /// The doubt about the depth [m] of a dent by an impactor with this `radius` [m]; `name` is its name on the command line.
