@@ -41,11 +41,15 @@ fn input_derivatives_where_the_fmu_cannot_choose_are_refused_with_the_reason() {
 #[test]
 fn a_strength_of_the_impactor_that_cannot_act_is_refused() {
     // softer than the target, as strong, and stronger
-    for strength in ["200e6", "300e6", "700e6"] {
+    for (strength, said) in [("200e6", "200000000"), ("300e6", "300000000"), ("7e9", "7e9")] {
         refused(
             "radius = 5e-3",
             &format!("radius = 5e-3\nyield_strength = §{strength}"),
-            &["impactor.yield_strength = ", "rigid impactor cannot yield", "give impactor.youngs_modulus"],
+            &[
+                &format!("impactor.yield_strength = {said}: "),
+                "rigid impactor cannot yield",
+                "give impactor.youngs_modulus",
+            ],
         );
     }
     refused(
@@ -95,10 +99,10 @@ fn losses_below_yield_that_cannot_be_are_refused() {
 #[test]
 fn an_impact_without_an_answer_is_refused() {
     let deep = "[law]\nloading = \"jackson-green\"\n§[impact]\nmass = 1e250\nspeed = 1e9\n";
-    refused_with(deep, &["mass = 1e250 kg", "speed = 1000000000.0 m/s", "deeper than the law can be evaluated"]);
+    refused_with(deep, &["mass = 1e250 kg", "speed = 1e9 m/s", "deeper than the law can be evaluated"]);
     // so light that the damper alone decides
     let endless = "[law]\nloading = \"kuwabara-kono\"\n§[impact]\nmass = 1e-30\nspeed = 1.0\n";
-    refused_with(endless, &["mass = 1e-30 kg", "speed = 1.0 m/s", "damped so strongly that it never ends"]);
+    refused_with(endless, &["mass = 1e-30 kg", "speed = 1 m/s", "damped so strongly that it never ends"]);
 }
 
 #[test]
@@ -157,11 +161,11 @@ fn constants_that_belong_to_a_fit_as_a_whole_are_refused() {
 fn constants_out_of_order_are_refused() {
     refused_with(
         "[law]\nloading = \"big-alabo\"\nloading_parameters = { second_region = §90.0 }",
-        &["law.loading_parameters.second_region = 90.0 must be below fully_plastic = 82.5"],
+        &["law.loading_parameters.second_region = 90 must be below fully_plastic = 82.5"],
     );
     refused_with(
         "[law]\nloading = \"johnson\"\nloading_parameters = { plastic_pressure_factor = §1.0 }",
-        &["yield_pressure_factor = 1.1 must be below plastic_pressure_factor = 1.0"],
+        &["yield_pressure_factor = 1.1 must be below plastic_pressure_factor = 1"],
     );
 }
 
@@ -188,7 +192,7 @@ fn constants_that_leave_no_law_are_refused_with_the_place_on_the_curve() {
 fn constants_of_two_laws_that_contradict_each_other_are_refused() {
     refused_with(
         "[law]\nloading = \"luding\"\nloading_parameters = §{ stiffness_ratio = 5 }",
-        &["`stiffness_ratio` must be the same", "law.loading_parameters (5.0)", "law.unloading_parameters (4.0)"],
+        &["`stiffness_ratio` must be the same", "law.loading_parameters (5)", "law.unloading_parameters (4)"],
     );
     refused_with(
         "[law]\nloading = \"kogut-etsion\"\nunloading = \"etsion\"\nloading_parameters = §{ hardness_factor = 3.0 }",

@@ -194,7 +194,7 @@ fn a_number_out_of_range_is_refused_with_the_range() {
 
 #[test]
 fn a_target_that_the_impactor_does_not_fit_is_refused() {
-    for (radius, said) in [("-4e-3", "-0.004"), ("-5e-3", "-0.005"), ("0", "0.0"), ("-0.0", "-0.0")] {
+    for (radius, said) in [("-4e-3", "-0.004"), ("-5e-3", "-0.005"), ("0", "0"), ("-0.0", "-0")] {
         let said = format!("target.radius = {said} does not fit impactor.radius = 0.005");
         refused("[target]", &format!("[target]\nradius = §{radius}"), &[&said, "wider"]);
     }

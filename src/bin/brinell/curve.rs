@@ -5,6 +5,7 @@ use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
 use crate::model::AnyModel;
 use crate::plot::{Picture, Series};
+use crate::numbers::in_message;
 use crate::predict::PredictError;
 use crate::predict::oblique;
 use crate::scene::{Scene, plausible};
@@ -73,7 +74,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     if arguments.tangential {
         return tangential(&scene, &choices, largest, arguments, as_json);
     }
-    let too_deep = |_: TooDeep| WrongCall(format!("to = {largest:e} m is too deep for the law"));
+    let too_deep = |_: TooDeep| WrongCall(format!("to = {} m is too deep for the law", in_message(largest)));
     let text = match (output, format) {
         (Some(_), "svg") => picture(&choices, largest, impact, arguments.truth).map_err(too_deep)?.svg(860, 480),
         (Some(_), _) => columns(&choices, largest, impact).map_err(too_deep)?.csv(),

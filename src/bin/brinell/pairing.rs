@@ -1,6 +1,7 @@
 //! Compatible loading and unloading laws and constants, according to the table of laws.
 
 use crate::laws::published;
+use crate::numbers::in_message;
 use crate::parameters::value_of;
 use crate::table;
 use brinell::contact::loading::AnyLoading;
@@ -51,9 +52,9 @@ pub fn check_ties(
         let (one, other) = (value_of(&loading, name), value_of(&unloading, name));
         if one != other {
             return Err(format!(
-                "`{name}` must be the same in law.loading_parameters ({:?}) and law.unloading_parameters ({:?})",
-                one.unwrap_or(f64::NAN),
-                other.unwrap_or(f64::NAN)
+                "`{name}` must be the same in law.loading_parameters ({}) and law.unloading_parameters ({})",
+                in_message(one.unwrap_or(f64::NAN)),
+                in_message(other.unwrap_or(f64::NAN))
             ));
         }
     }
@@ -62,8 +63,8 @@ pub fn check_ties(
         if one != published {
             return Err(format!(
                 "law.unloading = \"{unloading_name}\" takes its units from \"{loading_name}\" as published: with it \
-                 `{name}` must be {:?}; law.unloading = \"contact-radius\" takes any",
-                published.unwrap_or(f64::NAN)
+                 `{name}` must be {}; law.unloading = \"contact-radius\" takes any",
+                in_message(published.unwrap_or(f64::NAN))
             ));
         }
     }

@@ -1,7 +1,7 @@
 //! The constants of a law: their list, and the law with the constants of a scene.
 
 use crate::nearest::unknown;
-use crate::numbers::out_of_range;
+use crate::numbers::{in_message, out_of_range};
 use crate::scene::Mistake;
 use crate::table;
 use serde::Serialize;
@@ -95,7 +95,8 @@ pub fn apply<T: Serialize + DeserializeOwned>(
         let (small, large) = (value(&parameter.name), value(below));
         let mut mentioned = given.keys().filter(|name| *name.get_ref() == parameter.name || name.get_ref() == below);
         if let Some(name) = mentioned.next().filter(|_| small >= large) {
-            let message = format!("{key}_parameters.{} = {small:?} must be below {below} = {large:?}", parameter.name);
+            let [small, large] = [small, large].map(in_message);
+            let message = format!("{key}_parameters.{} = {small} must be below {below} = {large}", parameter.name);
             return Err(Mistake(given[name].span(), message));
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::columns::{Column, Columns};
 use crate::laws::Choice;
+use crate::numbers::in_message;
 use crate::predict::oblique;
 use crate::predict::{PredictError, positive};
 use crate::scene::Scene;
@@ -36,7 +37,7 @@ pub struct Wanted<'a> {
 pub enum LoopError {
     #[error("{0}")]
     Refused(#[from] PredictError),
-    #[error("to = {0:e} m is too deep for the law")]
+    #[error("to = {} m is too deep for the law", in_message(*.0))]
     TooDeep(f64),
 }
 

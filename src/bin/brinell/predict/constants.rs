@@ -4,6 +4,7 @@ use super::PredictError;
 use crate::law_check;
 use crate::laws::{Choice, published};
 use crate::model::AnyModel;
+use crate::numbers::in_message;
 use crate::pairing::check_ties;
 use crate::parameters::{Given, apply};
 use crate::scene::{Mistake, Scene};
@@ -89,7 +90,7 @@ pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result
         let changed = apply(own, "law.unloading", Some(&given), law).map_err(wrong)?;
         model.unloading = if guarded { changed.guarded().unwrap_or(changed) } else { changed };
     }
-    let refused = |message: String| PredictError::Sweep(format!("with {name} = {value:?} {message}"));
+    let refused = |message: String| PredictError::Sweep(format!("with {name} = {} {message}", in_message(value)));
     if let Some(unloading) = unloading.filter(|_| !guarded) {
         check_ties((loading, model.loading), (unloading, model.unloading)).map_err(PredictError::Sweep)?;
     }

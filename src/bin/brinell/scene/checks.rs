@@ -14,6 +14,7 @@ use super::names::{check_description, check_name};
 use super::numbers::IMPACTOR_DENSITY;
 use super::softer::{self, Body, Both};
 use super::{QuasiStatic, Scene};
+use crate::numbers::in_message;
 use crate::predict;
 use crate::table::VARIABLES;
 use brinell::contact::damped::Damped;
@@ -188,7 +189,8 @@ fn check_impact(
     };
     let mass = positive("impact.mass", given)?;
     if let Some(known) = known.map(Spanned::get_ref).filter(|known| **known != mass) {
-        let message = format!("impact.mass = {mass:?} and coupling.effective_mass = {known:?} must be the same mass");
+        let [mass, known] = [mass, *known].map(in_message);
+        let message = format!("impact.mass = {mass} and coupling.effective_mass = {known} must be the same mass");
         return Err(Mistake(given.span(), message));
     }
     Ok(Impact { mass, speed })
@@ -206,19 +208,21 @@ fn check_pair(scene: &Scene, group: usize, contacts: &Contacts) -> Result<(), Mi
     let socket = contacts.number(group, "target.radius").unwrap_or(&flat);
     let radius = scene.group_value(group, "impactor.radius").unwrap_or(f64::NAN);
     let message = format!(
-        "target.radius = {:?} does not fit impactor.radius = {radius:?}: a socket (negative) must be wider than the \
-         impactor, and no radius is below 1e-12 m",
-        socket.get_ref()
+        "target.radius = {} does not fit impactor.radius = {}: a socket (negative) must be wider than the impactor, and no \
+         radius is below 1e-12 m",
+        in_message(*socket.get_ref()),
+        in_message(radius)
     );
     Err(Mistake(socket.span(), message))
 }
 
 /// The message about an impact for which the law cannot be evaluated.
 fn too_hard(scene: &Scene, group: usize) -> String {
-    let Impact { mass, speed } = scene.impact_of(group);
+    let impact = scene.impact_of(group);
+    let [mass, speed] = [impact.mass, impact.speed].map(in_message);
     let what = match scene.is_rate_dependent() {
         false => "drives the bodies deeper than the law can be evaluated",
         true => "drives the bodies deeper than the law can be evaluated, or is damped so strongly that it never ends",
     };
-    format!("the impact of mass = {mass:?} kg and speed = {speed:?} m/s {what}")
+    format!("the impact of mass = {mass} kg and speed = {speed} m/s {what}")
 }

@@ -4,7 +4,7 @@ use super::Scene;
 use super::contacts::Contacts;
 use super::error::Mistake;
 use super::numbers::{IMPACTOR_HARDENING, IMPACTOR_STRENGTH};
-use crate::numbers::{cell, quantity};
+use crate::numbers::{cell, in_message, quantity};
 use brinell::contact::impact::Prediction;
 use std::f64::consts::PI;
 
@@ -88,9 +88,9 @@ pub fn check(contacts: &Contacts, index: usize, given: bool) -> Result<(), Mista
     let is_rigid = contacts.number(index, "impactor.youngs_modulus").is_none();
     if given && is_rigid {
         let message = format!(
-            "impactor.yield_strength = {:?}: a rigid impactor cannot yield; give impactor.youngs_modulus and poissons_ratio, or \
+            "impactor.yield_strength = {}: a rigid impactor cannot yield; give impactor.youngs_modulus and poissons_ratio, or \
              a material, or leave the strength out",
-            strength.get_ref()
+            in_message(*strength.get_ref())
         );
         return Err(Mistake(strength.span(), contacts.said(index, &message)));
     }
