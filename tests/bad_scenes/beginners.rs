@@ -162,7 +162,41 @@ fn a_value_of_another_kind_is_told_in_words_of_the_file() {
         ("radius = 5e-3", "radius = +-1", "this is no number"),
         ("radius = 5e-3", "radius = NaN", "this is no number"),
         ("radius = 5e-3", "radius = five", "this is neither a number nor text in quotes in `radius = five`"),
-        ("radius = 5e-3", "radius = 5,3", "radius = 5,3: metres, a number without unit"),
+        ("radius = 5e-3", "radius = 2024-01-01", "this is a date, expected a number in `radius = 2024-01-01`"),
+        ("radius = 5e-3", "radius = 07:32:00", "this is a date, expected a number in `radius = 07:32:00`"),
+        (
+            "[impactor]\nradius = 5e-3",
+            "impact = 2024-01-01",
+            "this is a date, expected a table in `impact = 2024-01-01`",
+        ),
+        ("[impactor]\nradius = 5e-3", "fmu = 2024-01-01", "this is a date, expected a table in `fmu = 2024-01-01`"),
+        (
+            "[impactor]\nradius = 5e-3",
+            "contact = 2024-01-01",
+            "this is a date, expected a list in `contact = 2024-01-01`",
+        ),
+        (
+            "[impactor]\nradius = 5e-3",
+            "law.loading = 2024-01-01",
+            "expected text in quotes in `law.loading = 2024-01-01`",
+        ),
+        (
+            "[target]",
+            "[target]\nsurface = 2024-01-01",
+            "this is a date, expected text in quotes in `surface = 2024-01-01`",
+        ),
+        (
+            "[impactor]\nradius = 5e-3",
+            "fmu.standalone = 2024-01-01",
+            "this is a date, expected true or false in `fmu.standalone",
+        ),
+        ("[target]", "[target]\nsurface = 5", "this isn't text in quotes in `surface = 5`"),
+        ("[impactor]\nradius = 5e-3", "law.loading_parameters = 5", "expected a table in `law.loading_parameters = 5`"),
+        (
+            "[impactor]\nradius = 5e-3",
+            "law.loading_parameters = 2024-01-01",
+            "this is a date, expected a table in `law.loading_parameters = 2024-01-01`",
+        ),
     ] {
         let text = SCENE.replacen(from, to, 1);
         let text = if to.starts_with(['[', 'r']) {
@@ -172,6 +206,46 @@ fn a_value_of_another_kind_is_told_in_words_of_the_file() {
         };
         let said = said(&text).replace("\n  ", " ");
         assert!(said.contains(hint), "nothing of {hint} in {said}");
+    }
+}
+
+#[test]
+fn a_decimal_comma_is_called_so_wherever_it_is() {
+    for (from, to, hint) in [
+        ("5e-3", "5,3", "scene.toml:3:11: radius = 5,3: this is a decimal comma; write 5.3"),
+        ("5e-3", "5,3e-3 # mm", "radius = 5,3e-3: this is a decimal comma; write 5.3e-3"),
+        ("5e-3", "\"5,3 mm\"", "radius = 5,3 mm: metres, a number without unit: 5.3e-3"),
+        ("0.3", "0,3", "scene.toml:6:19: poissons_ratio = 0,3: this is a decimal comma; write 0.3"),
+        ("0.3", "\"0,3\"", "poissons_ratio = 0,3: this is a decimal comma; write 0.3"),
+        ("206e9", "206,000", "write 206.000, or 206000 if it separates thousands"),
+        (
+            "yield_strength = 300e6",
+            "power_law = { coefficient = 400,5e6, exponent = 0.2 }",
+            "coefficient = 400,5e6: this is a",
+        ),
+        (
+            "yield_strength = 300e6",
+            "power_law = { coefficient = 4e8, exponent = 0,2 }",
+            "exponent = 0,2: this is a decimal",
+        ),
+        (
+            "yield_strength = 300e6",
+            "power_law = {exponent=0,2,coefficient=4e8}",
+            "exponent = 0,2: this is a decimal comma",
+        ),
+        ("300e6", "300e6\n[friction]\ncoefficient = 0,3", "coefficient = 0,3: this is a decimal comma; write 0.3"),
+    ] {
+        let said = said(&SCENE.replacen(from, to, 1)).replace("\n  ", " ");
+        assert!(said.contains(hint) && said.lines().count() == 1, "nothing of {hint} in {said}");
+    }
+    // a comma with another meaning
+    for (from, to) in [
+        ("5e-3", "[5,3]"),
+        ("\"ball\"", "\"ball\"\ndescription = \"E=5,3\" x"),
+        ("yield_strength = 300e6", "power_law = { coefficient = 4,exponent = 0.2, }}"),
+    ] {
+        let said = said(&SCENE.replacen(from, to, 1));
+        assert!(!said.contains("decimal comma"), "{said}");
     }
 }
 
@@ -219,6 +293,17 @@ fn an_implausible_number_causes_a_question() {
     ] {
         let doubted = doubted(&with_impact().replacen(from, to, 1));
         assert!(doubted.starts_with("brinell: warning: scene.toml:"), "{doubted}");
+        assert!(doubted.contains(question) && doubted.lines().count() == 1, "nothing of {question} in {doubted}");
+    }
+    for (tables, question) in [
+        ("[impact]\nmass = 4e7\nspeed = 1.0\n", "impact.mass = 40e6 kg; did you mean 40000?"),
+        ("[coupling]\neffective_mass = 4e7\n", "coupling.effective_mass = 40e6 kg; did you mean 40000?"),
+        (
+            "[coupling]\neffective_mass = 1.0\n[[contact]]\nname = \"left\"\neffective_mass = 4e7\n",
+            "left.effective_mass = 40e6 kg; did you mean 40000?",
+        ),
+    ] {
+        let doubted = doubted(&format!("{SCENE}{tables}"));
         assert!(doubted.contains(question) && doubted.lines().count() == 1, "nothing of {question} in {doubted}");
     }
     for good in ["5e-6", "0.5", "1.0"] {
@@ -295,17 +380,6 @@ fn an_impactor_takes_a_material_and_a_density() {
     );
     assert_eq!(by_name["laws"], by_numbers["laws"]);
     let volume = 4.0 / 3.0 * std::f64::consts::PI * 5e-3f64.powi(3);
-    for (tables, question) in [
-        ("[impact]\nmass = 4e7\nspeed = 1.0\n", "impact.mass = 40e6 kg; did you mean 40000?"),
-        ("[coupling]\neffective_mass = 4e7\n", "coupling.effective_mass = 40e6 kg; did you mean 40000?"),
-        (
-            "[coupling]\neffective_mass = 1.0\n[[contact]]\nname = \"left\"\neffective_mass = 4e7\n",
-            "left.effective_mass = 40e6 kg; did you mean 40000?",
-        ),
-    ] {
-        let doubted = doubted(&format!("{SCENE}{tables}"));
-        assert!(doubted.contains(question) && doubted.lines().count() == 1, "nothing of {question} in {doubted}");
-    }
     assert!((number(&by_name["mass"]) / (7850.0 * volume) - 1.0).abs() < 1e-12);
     let lighter = predicted("material = \"mild steel\"\ndensity = 1000.0", "");
     assert!((number(&lighter["mass"]) / (1000.0 * volume) - 1.0).abs() < 1e-12);

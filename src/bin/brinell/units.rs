@@ -91,6 +91,27 @@ pub fn with_unit(text: &str, unit: &str) -> Option<f64> {
     Some(number * size)
 }
 
+/// The message about a number with a decimal comma, and perhaps a unit where none is allowed; `unit` is the SI unit if there is one:
+/// `this is a decimal comma; write 5.3`.
+pub fn decimal_comma(text: &str, unit: Option<&str>) -> Option<String> {
+    let text = text.trim_matches(['"', '\'']);
+    let (whole, rest) = text.split_once(',')?;
+    let sign = ['+', '-'];
+    let is_whole = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_');
+    let digits = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+    if !is_whole(whole.trim().trim_start_matches(sign)) || digits == 0 || rest.contains([',', '=']) {
+        return None;
+    }
+    let point = format!("{}.{rest}", whole.trim());
+    let (_, suffix) = split(&point)?;
+    if !suffix.is_empty() {
+        return hint(&point, unit?);
+    }
+    let is_group = digits == 3 && rest.len() == 3 && whole.trim().trim_start_matches(sign) != "0";
+    let group = if is_group { format!(", or {whole}{rest} if it separates thousands") } else { String::new() };
+    Some(format!("this is a decimal comma; write {point}{group}"))
+}
+
 /// The message about a number with a unit, where none is allowed: `metres, a number without unit: 5e-3`.
 pub fn hint(text: &str, unit: &str) -> Option<String> {
     let kind = KINDS.iter().find(|kind| kind.unit == unit)?;
@@ -104,7 +125,8 @@ pub fn hint(text: &str, unit: &str) -> Option<String> {
 
 /// A number on the command line, in this SI unit.
 fn number(text: &str, unit: &str) -> Result<f64, String> {
-    text.parse().map_err(|_| hint(text, unit).unwrap_or_else(|| format!("a number in {} is expected", kind(unit).name)))
+    let said = || decimal_comma(text, Some(unit)).or_else(|| hint(text, unit));
+    text.parse().map_err(|_| said().unwrap_or_else(|| format!("a number in {} is expected", kind(unit).name)))
 }
 
 /// A mass [kg] on the command line.
@@ -159,6 +181,25 @@ mod tests {
         for text in ["5", "5e-3", "", "five", "mm"] {
             assert_eq!(hint(text, "m"), None);
         }
+    }
+
+    #[test]
+    fn a_decimal_comma_is_called_so() {
+        for (text, unit, said) in [
+            ("5,3", Some("m"), "this is a decimal comma; write 5.3"),
+            ("-0,25", None, "this is a decimal comma; write -0.25"),
+            ("5,3e-3", Some("m"), "this is a decimal comma; write 5.3e-3"),
+            ("0,125", None, "this is a decimal comma; write 0.125"),
+            ("206,000", Some("Pa"), "this is a decimal comma; write 206.000, or 206000 if it separates thousands"),
+            ("\"5,3 mm\"", Some("m"), "metres, a number without unit: 5.3e-3"),
+            ("5,3 furlongs", Some("m"), "metres, a number without unit"),
+        ] {
+            assert_eq!(decimal_comma(text, unit).as_deref(), Some(said));
+        }
+        for text in ["5", "5.3", "5, 3", "1,2,3", "1.5,3", ",5", "5,", "a,5", "5,3=4", "0,3 x", ""] {
+            assert_eq!(decimal_comma(text, None), None, "{text}");
+        }
+        assert_eq!(speeds("1,5"), Err("this is a decimal comma; write 1.5".into()));
     }
 
     #[test]

@@ -5,6 +5,7 @@ use crate::nearest::{nearest, one_of};
 use crate::numbers::in_message;
 use crate::table::VARIABLES;
 use crate::units;
+use toml::value::Datetime;
 
 /// Unsupported features, with the words by which users would look for them.
 const UNSUPPORTED: [(&[&str], &str); 7] = [
@@ -45,10 +46,15 @@ pub fn words(message: &str, line: &str, meant: &str) -> String {
     if let Some(field) = message.strip_prefix("missing field ") {
         return missing(field, line);
     }
+    // the parser takes a date for a table with a key of its own
+    if meant.parse::<Datetime>().is_ok() {
+        let expected = message.rsplit_once(", expected ").map_or("a string", |(_, expected)| expected);
+        return format!("this is a date, expected {} in `{}`", wanted(expected), shortened(line));
+    }
     if let Some(names) = message.strip_prefix("unknown field ") {
         return unknown_field(names);
     }
-    if let Some(hint) = hint(line, meant) {
+    if let Some(hint) = decimal_comma(line).or_else(|| hint(line, meant)) {
         return hint;
     }
     if let Some(names) = message.strip_prefix("unknown variant ") {
@@ -72,14 +78,14 @@ fn in_words_of_the_file(message: &str) -> String {
     let (problem, expected) = message.rsplit_once(", expected ").unwrap_or((message, ""));
     if let Some(value) = problem.strip_prefix("invalid type: ") {
         let is = KINDS.iter().find(|(kind, _)| value.starts_with(kind)).map_or(value, |(_, words)| words);
-        let wanted = WANTED.iter().find(|(theirs, _)| expected.starts_with(theirs)).map_or(expected, |(_, ours)| ours);
-        return format!("this is {is}, expected {wanted}");
+        return format!("this is {is}, expected {}", wanted(expected));
     }
     if NO_NUMBER.iter().any(|theirs| problem.starts_with(theirs)) {
         return "this is no number: numbers are written like 0.3, 206e9 or -5".into();
     }
     match problem {
         "string values must be quoted" | "invalid boolean" => "this is neither a number nor text in quotes".into(),
+        "wanted string or table" => "this isn't text in quotes".into(),
         "unexpected key or value" => "the line goes on after its end".into(),
         _ => message.trim_end_matches(", expected nothing").into(),
     }
@@ -96,14 +102,24 @@ const KINDS: [(&str, &str); 6] = [
 ];
 
 /// What the parser expects, and how a scene calls it.
-const WANTED: [(&str, &str); 6] = [
+const WANTED: [(&str, &str); 10] = [
     ("f64", "a number"),
     ("i64", "a whole number"),
     ("a string", "text in quotes"),
     ("a boolean", "true or false"),
     ("a sequence", "a list"),
     ("struct ", "a table"),
+    ("a map", "a table"),
+    ("a spanned value", "a table"),
+    // the keys of a table
+    ("one of ", "a table"),
+    ("`", "a table"),
 ];
+
+/// What the parser expects, in the words of a scene.
+fn wanted(expected: &str) -> &str {
+    WANTED.iter().find(|(theirs, _)| expected.starts_with(theirs)).map_or(expected, |(_, ours)| ours)
+}
 
 /// How the parser begins what it says about a wrong number.
 const NO_NUMBER: [&str; 10] = [
@@ -169,6 +185,25 @@ fn hint(line: &str, meant: &str) -> Option<String> {
     let unit = unit_of(key)?;
     let hint = units::hint(value, unit)?;
     Some(format!("{key} = {}: {hint}", shortened(value.trim())))
+}
+
+/// The message about a number with a decimal comma, as in `radius = 5,3` or `{ exponent = 0,2 }`.
+fn decimal_comma(line: &str) -> Option<String> {
+    let line = line.split('#').next()?;
+    line.match_indices('=').find_map(|(place, _)| {
+        let (before, after) = (line[..place].trim_end(), line[place + 1..].trim_start());
+        // an `=` in a text in quotes follows no key
+        if before.matches('"').count() % 2 == 1 {
+            return None;
+        }
+        let key = before.rsplit([' ', '\t', '{', ',', '.']).next()?;
+        let value = after.trim_start_matches('"').split(['"', '}']).next()?;
+        // a second comma ends the number in a table
+        let end = value.match_indices(',').nth(1).map_or(value.len(), |(end, _)| end);
+        let value = value[..end].trim();
+        let hint = units::decimal_comma(value, unit_of(key))?;
+        Some(format!("{key} = {}: {hint}", shortened(value)))
+    })
 }
 
 /// The SI unit of a key.
