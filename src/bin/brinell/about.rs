@@ -2,7 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::files::FileError;
-use crate::layout::shown;
+use crate::layout::{json_line, shown};
 use crate::prebuilt_folder::{self, PrebuiltFolder};
 use crate::{package, platform};
 use clap::CommandFactory;
@@ -23,7 +23,7 @@ pub fn version(as_json: bool) {
         let platform = platform.map(|(folder, target)| json!({ "folder": folder, "target": target }));
         let prebuilt = prebuilt.map(|it| json!({ "platforms": folders(&it), "folder": it.path.to_string_lossy() }));
         let all = json!({ "version": VERSION, "library": library, "platform": platform, "prebuilt": prebuilt });
-        println!("{all}");
+        print!("{}", json_line(&all));
         return;
     }
     println!("brinell {VERSION}");

@@ -3,9 +3,10 @@
 use crate::columns::{Column, Columns};
 use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
+use crate::layout::json_line;
 use crate::model::AnyModel;
-use crate::plot::{Picture, Series};
 use crate::numbers::in_message;
+use crate::plot::{Picture, Series};
 use crate::predict::PredictError;
 use crate::predict::oblique;
 use crate::scene::{Scene, plausible};
@@ -81,7 +82,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
         (None, _) => {
             let columns = columns(&choices, largest, impact).map_err(too_deep)?;
             match as_json {
-                true => format!("{}\n", json!({ "laws": columns.json() })),
+                true => json_line(&json!({ "laws": columns.json() })),
                 false => table(&columns),
             }
         }
@@ -117,7 +118,7 @@ fn tangential(
     let loops = Loops::of(scene, &choices, wanted).map_err(WrongCall::of)?;
     let text = match &arguments.output {
         Some(_) => loops.columns().csv(),
-        None if as_json => format!("{}\n", json!({ "laws": loops.columns().json() })),
+        None if as_json => json_line(&json!({ "laws": loops.columns().json() })),
         None => loops.text(),
     };
     Ok(deliver(&text, arguments.output.as_deref())?)

@@ -1,7 +1,7 @@
 //! `brinell export`: builds the FMU of a scene and lists what it contains.
 
 use crate::files;
-use crate::layout::{shown, tell};
+use crate::layout::{json_line, shown, tell};
 use crate::package::{self, ExportError, Way};
 use crate::plan::Plan;
 use crate::platform::Platform;
@@ -35,7 +35,7 @@ pub fn run(
         return Ok(exported.path);
     }
     if as_json {
-        println!("{}", summary.json(&exported));
+        print!("{}", json_line(&summary.json(&exported)));
     } else {
         summary.print(&exported);
     }

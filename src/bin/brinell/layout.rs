@@ -1,5 +1,6 @@
 //! Text for a terminal: paragraphs and tables of at most [`WIDTH`] columns.
 
+use serde::Serialize;
 use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::Path;
@@ -22,6 +23,21 @@ pub fn paragraph(heading: &str, text: &str) -> String {
 /// give commands to the terminal.
 pub fn harmless(text: &str) -> String {
     text.chars().map(|c| if c.is_control() && c != '\n' { char::REPLACEMENT_CHARACTER } else { c }).collect()
+}
+
+/// `value` as JSON for standard output: one line. JSON may have the characters U+007F to U+009F raw in its texts, but standard
+/// output may be a terminal, which takes some of them for commands; they are escaped, and a reader finds them as they were.
+pub fn json_line(value: &impl Serialize) -> String {
+    let text = serde_json::to_string(value).expect("answers have no other keys than text");
+    let mut line = String::with_capacity(text.len() + 1);
+    for c in text.chars() {
+        match c {
+            '\u{7f}'..='\u{9f}' => line += &format!("\\u{:04x}", u32::from(c)),
+            c => line.push(c),
+        }
+    }
+    line.push('\n');
+    line
 }
 
 /// A path for the terminal: a name may contain line ends, too.
@@ -145,6 +161,16 @@ mod tests {
         assert_eq!(held(&number).len(), 305);
         let path = "y/".repeat(2000);
         assert_eq!(held(&path), path);
+    }
+
+    #[test]
+    fn json_gives_no_commands_to_the_terminal_and_is_read_back_as_it_was() {
+        let all: String = ('\0'..='\u{2100}').chain(['\u{feff}', char::MAX]).collect();
+        let line = json_line(&serde_json::json!({ &all: [&all] }));
+        let inside = line.strip_suffix('\n').expect("a line");
+        assert!(!inside.contains(char::is_control), "{inside:?}");
+        let read: serde_json::Value = serde_json::from_str(&line).expect("JSON");
+        assert_eq!(read[&all][0], all);
     }
 
     #[test]

@@ -1,13 +1,13 @@
 //! `brinell materials`: the built-in materials.
 
-use crate::layout::{paragraph, table};
+use crate::layout::{json_line, paragraph, table};
 use crate::numbers::quantity;
 use crate::table::MATERIALS;
 
 /// The command: prints the list.
 pub fn run(as_json: bool) {
     if as_json {
-        println!("{}", serde_json::to_string(&*MATERIALS).expect("a table of numbers and words"));
+        print!("{}", json_line(&*MATERIALS));
         return;
     }
     let heading = ["material", "Young's modulus", "Poisson's ratio", "yield strength", "density"];

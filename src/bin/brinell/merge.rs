@@ -2,7 +2,7 @@
 
 use crate::files::{FileError, write_whole};
 use crate::importer::{self, Bound, Description, ImportError};
-use crate::layout::shown;
+use crate::layout::{json_line, shown};
 use crate::package::{self, ExportError};
 use crate::platform::Platform;
 use serde_json::json;
@@ -57,7 +57,8 @@ pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeE
     let mut platforms: Vec<_> = files.iter().filter_map(|(name, _)| platform(name)).collect();
     platforms.dedup();
     if as_json {
-        println!("{}", json!({ "fmu": output.to_string_lossy(), "size": archive.len(), "platforms": platforms }));
+        let object = json!({ "fmu": output.to_string_lossy(), "size": archive.len(), "platforms": platforms });
+        print!("{}", json_line(&object));
     } else {
         println!("{}\n  {} bytes, for {}", shown(output), archive.len(), platforms.join(", "));
     }

@@ -1,7 +1,7 @@
 //! `brinell new`: a commented scene to start from.
 
 use crate::files::{self, FileError};
-use crate::layout::shown;
+use crate::layout::{json_line, shown};
 use crate::scene::Scene;
 use crate::wrong_call::WrongCall;
 use serde_json::json;
@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     })?;
     write_new(&path, &text)?;
     if as_json {
-        println!("{}", json!({ "scene": path.to_string_lossy() }));
+        print!("{}", json_line(&json!({ "scene": path.to_string_lossy() })));
     } else {
         let file = shown(&path);
         println!("{file}\nnext:  brinell predict {file}\n       brinell export {file}");

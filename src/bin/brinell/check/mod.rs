@@ -9,7 +9,7 @@ mod trial;
 
 use crate::files::FileError;
 use crate::importer::{Archive, Description, ImportError, Instance};
-use crate::layout::{harmless, paragraph, shown, without_middle};
+use crate::layout::{harmless, json_line, paragraph, shown, without_middle};
 use crate::numbers::quantity;
 use crate::scene::{Scene, SceneError};
 use apart::Found;
@@ -179,11 +179,7 @@ fn wrong_starts(instance: &mut Instance, description: &Description) -> Result<Ve
 impl Outcome {
     /// As it is printed.
     fn text(&self, as_json: bool) -> String {
-        if as_json {
-            serde_json::to_string(self).expect("an outcome has no map with other keys than text") + "\n"
-        } else {
-            harmless(&self.to_string())
-        }
+        if as_json { json_line(self) } else { harmless(&self.to_string()) }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{ADMITTED, Dent, load_ratio, run_test, strength_of};
 use crate::laws::{self, Choice};
-use crate::layout::{paragraph, table};
+use crate::layout::{json_line, paragraph, table};
 use crate::numbers::{quantity, significant};
 use crate::predict::positive;
 use crate::regime;
@@ -86,7 +86,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
         }
     }
     match as_json {
-        true => println!("{}", as_value(&answers, &left_out, load, ball, hardness)),
+        true => print!("{}", json_line(&as_value(&answers, &left_out, load, ball, hardness))),
         false => print!("{}", text(&answers, &left_out, load, ball, hardness)),
     }
     Ok(())

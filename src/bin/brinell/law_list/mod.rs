@@ -5,6 +5,7 @@ mod text;
 use crate::energy;
 use crate::law_text::{self, LawText};
 use crate::laws::{loading_names, unloading_of};
+use crate::layout::json_line;
 use crate::model::Dampings;
 use crate::nearest::unknown;
 use crate::parameters::{self, Constant};
@@ -33,7 +34,7 @@ pub fn run(Arguments { name }: &Arguments, as_json: bool) -> Result<(), Box<dyn 
         return Err(WrongCall(unknown("law", name, loading_names().chain(unloading))).into());
     }
     match name {
-        _ if as_json => println!("{}", serde_json::to_string(&list)?),
+        _ if as_json => print!("{}", json_line(&list)),
         Some(_) => print!("{}", text::one(&list)),
         None => print!("{}", text::list(&list)),
     }

@@ -4,6 +4,7 @@ use super::kinds::{KINDS, Laws, Library};
 use super::store::{self, Written};
 use crate::arguments::PrebuildArguments;
 use crate::files::FileError;
+use crate::layout::json_line;
 use crate::package::{Builder, ExportError, Source, Way};
 use crate::platform::{self, Target};
 use crate::{parallel, symbols};
@@ -28,7 +29,8 @@ pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn E
         let Written { libraries, unpacked, packed } = store::write(&arguments.output, target, &listed)?;
         let triple = target.triple;
         if as_json {
-            println!("{}", json!({ "target": triple, "libraries": libraries, "size": unpacked, "compressed": packed }));
+            let object = json!({ "target": triple, "libraries": libraries, "size": unpacked, "compressed": packed });
+            print!("{}", json_line(&object));
         } else {
             println!("{triple}: {libraries} libraries of {unpacked} bytes, {packed} bytes compressed");
         }

@@ -7,7 +7,7 @@ use super::text::Answer;
 use super::{PredictError, constants, time_history};
 use crate::files::{self, deliver, ending};
 use crate::laws::{self, Choice};
-use crate::layout::{self, shown};
+use crate::layout::{self, json_line, shown};
 use crate::scene::{Scene, plausible};
 use crate::units;
 use crate::wrong_call::WrongCall;
@@ -99,7 +99,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     if let Some(setting) = setting {
         let answer = oblique::Answer::of(&scene, &choices, (impact, setting)).map_err(failed)?;
         match as_json {
-            true => println!("{}", answer.json()),
+            true => print!("{}", json_line(&answer.json())),
             false => print!("{}", answer.text()),
         }
         return Ok(());
@@ -117,7 +117,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let mut object = answer.json();
     object["time_history"] = json!(time_history.map(Path::to_string_lossy));
     match as_json {
-        true => println!("{object}"),
+        true => print!("{}", json_line(&object)),
         false => print!("{}", answer.text()),
     }
     if let Some(path) = time_history.filter(|_| !as_json) {
@@ -198,9 +198,7 @@ impl Question<'_> {
         let Impact { mass, speed } = impact;
         let text = match output {
             Some(_) => sweep.columns.csv(),
-            None if self.as_json => {
-                format!("{}\n", json!({ "mass": mass, "speed": speed, "laws": sweep.columns.json() }))
-            }
+            None if self.as_json => json_line(&json!({ "mass": mass, "speed": speed, "laws": sweep.columns.json() })),
             None => sweep.text(setting.map_or(&SHOWN, |_| &oblique::SHOWN)),
         };
         Ok(deliver(&text, output)?)

@@ -6,7 +6,7 @@
 use super::command::Question;
 use super::{PredictError, beyond, one, positive};
 use crate::laws::Choice;
-use crate::layout::{self, paragraph};
+use crate::layout::{self, json_line, paragraph};
 use crate::numbers::{quantity, significant};
 use crate::validity;
 use crate::wrong_call::WrongCall;
@@ -43,7 +43,8 @@ impl Question<'_> {
             print!("{}", paragraph("", &words));
         }
         if as_json {
-            println!("{}", json!({ "dent": dent, "mass": impact.mass, "impact_speed": impact.speed, "laws": answers }));
+            let object = json!({ "dent": dent, "mass": impact.mass, "impact_speed": impact.speed, "laws": answers });
+            print!("{}", json_line(&object));
         }
         Ok(())
     }
@@ -62,7 +63,7 @@ impl Question<'_> {
             self.doubt(choice, &speeds.numbers(), &strengths.numbers());
         }
         match as_json {
-            true => println!("{}", json(&rebounds, &impact, goal)),
+            true => print!("{}", json_line(&json(&rebounds, &impact, goal))),
             false => print!("{}", text(&rebounds, &impact, goal)),
         }
         Ok(())

@@ -18,7 +18,7 @@ mod ways;
 
 use crate::files::{self, FileError, write_whole};
 use crate::importer::ImportError;
-use crate::layout::{paragraph, shown};
+use crate::layout::{json_line, paragraph, shown};
 use crate::package::ExportError;
 use crate::scene::Scene;
 use card::Card;
@@ -77,7 +77,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<bool, Box<dyn Error>>
     let report = Report::of(&scene, peer, *quick)?;
     let page = report.write_into(&folder)?;
     if as_json {
-        println!("{}", report.json());
+        print!("{}", json_line(&report.json()));
     } else {
         report.lines().iter().for_each(|line| print!("{}", paragraph("", line)));
         println!("{}", shown(&page));

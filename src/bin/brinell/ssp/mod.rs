@@ -10,7 +10,7 @@ mod wiring;
 use crate::arguments::SspArguments;
 use crate::files::{check_goal, ending, write_whole};
 use crate::interface::Entry;
-use crate::layout::{paragraph, shown};
+use crate::layout::{json_line, paragraph, shown};
 use crate::package::{self, Exported};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -93,7 +93,7 @@ fn tell(plan: &Plan, files: &Files, system: Exported, as_json: bool) {
             "ssp": path.to_string_lossy(), "size": size, "guid": guid, "component": COMPONENT, "fmu": files.unit, "parameter_values": files.values,
             "inputs": inputs, "outputs": outputs, "parameters": parameters,
         });
-        println!("{object}");
+        print!("{}", json_line(&object));
         return;
     }
     println!("{}", shown(&path));
