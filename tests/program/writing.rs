@@ -82,6 +82,34 @@ fn an_fmu_of_another_scene_is_replaced_only_where_it_is_named() {
 }
 
 #[test]
+fn a_system_of_another_scene_is_replaced_only_where_it_is_named() {
+    let folder = empty_folder();
+    let text = fs::read_to_string(scene("steel_ball")).unwrap();
+    let write = |name: &str, speed: &str| {
+        fs::write(folder.path().join(name), text.replace("speed = 1.0", &format!("speed = {speed}"))).unwrap();
+    };
+    let system = folder.path().join("steel_ball.ssp");
+    let pack = |arguments: &[&str], status| run(folder.path(), [&["ssp"], arguments].concat()).with_status(status);
+    write("one.toml", "2.0");
+    write("two.toml", "3.0");
+    pack(&["one.toml"], 0);
+    // a new text of the same scene
+    write("one.toml", "2.5");
+    pack(&["one.toml"], 0);
+    let before = fs::read(&system).unwrap();
+    let refused = pack(&["two.toml"], 1).err;
+    assert!(refused.starts_with("brinell: steel_ball.ssp: this is the system of ./one.toml"), "{refused}");
+    assert!(fs::read(&system).unwrap() == before && !refused.contains("building"));
+    pack(&["two.toml", "-o", "steel_ball.ssp"], 0);
+    assert!(fs::read(&system).unwrap() != before);
+    write("steel_ball.ssp", "3.0");
+    let refused = pack(&["two.toml"], 1).err;
+    assert!(refused.starts_with("brinell: steel_ball.ssp: this is no system of a scene"), "{refused}");
+    let refused = pack(&["steel_ball.ssp", "-o", "steel_ball.ssp"], 1).err;
+    assert!(refused.contains("the scene itself"), "{refused}");
+}
+
+#[test]
 fn a_goal_that_can_never_be_written_is_refused_before_any_work() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();

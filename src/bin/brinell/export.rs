@@ -24,7 +24,7 @@ pub fn run(
         files::check_kept(&path, source)?;
     }
     if output.is_none() {
-        files::check_own(&path, &scene.text, source)?;
+        files::check_own(&path, None, &scene.text, source)?;
     }
     tell(&format!("building {} ...", shown(&path)));
     let plan = Plan::of(scene);

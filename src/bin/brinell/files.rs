@@ -153,11 +153,13 @@ pub fn check_kept(path: &Path, input: &Path) -> Result<(), FileError> {
 }
 
 /// Rejects a `path` that nobody has named if another file is there than an FMU of the scene with this `text`, which is in the
-/// file `source`. The FMU of an earlier text of the scene is replaced, but not that of a scene beside it which has the same name.
+/// file `source`, or a system with that FMU as its `unit`. What was made from an earlier text of the scene is replaced, but not what
+/// belongs to a scene beside it which has the same name.
 ///
 /// # Errors
 /// [`FileError`]
-pub fn check_own(path: &Path, text: &str, source: Option<&Path>) -> Result<(), FileError> {
+pub fn check_own(path: &Path, unit: Option<&str>, text: &str, source: Option<&Path>) -> Result<(), FileError> {
+    let what = if unit.is_some() { "system" } else { "FMU" };
     let kept = |whose: &str| {
         let said = format!("this is {whose}, which isn't replaced; `-o FILE` names the file to write");
         Err(FileError::at(path)(io::Error::new(io::ErrorKind::AlreadyExists, said)))
@@ -165,7 +167,7 @@ pub fn check_own(path: &Path, text: &str, source: Option<&Path>) -> Result<(), F
     if !path.exists() {
         return Ok(());
     }
-    let Some(old) = importer::scene_in(path) else { return kept("no FMU of a scene") };
+    let Some(old) = importer::scene_in(path, unit) else { return kept(&format!("no {what} of a scene")) };
     if old == text {
         return Ok(());
     }
@@ -174,7 +176,7 @@ pub fn check_own(path: &Path, text: &str, source: Option<&Path>) -> Result<(), F
     // the scene itself has another text
     let mut scenes = files.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
     match scenes.find(|file| file.is_file() && fs::read(file).is_ok_and(|bytes| bytes == old.as_bytes())) {
-        Some(other) => kept(&format!("the FMU of {}, which has the same name", shown(&other))),
+        Some(other) => kept(&format!("the {what} of {}, which has the same name", shown(&other))),
         None => Ok(()),
     }
 }

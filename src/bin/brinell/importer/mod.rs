@@ -14,7 +14,7 @@ use crate::numbers::in_message;
 use crate::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
 use std::ffi::c_int;
-use std::io::BufReader;
+use std::io::{BufReader, Cursor, Read, Seek};
 use std::path::Path;
 use std::{env, fs, io};
 use tempfile::TempDir;
@@ -79,13 +79,23 @@ pub enum ImportError {
 /// The scene of an FMU that this program has made.
 const SCENE: &str = "resources/scene.toml";
 
-/// The scene of the FMU at `path`, if this program has made it.
-pub fn scene_in(path: &Path) -> Option<String> {
-    let mut archive = bounded::open(fs::File::open(path).ok()?).ok()?;
-    let mut bound = Bound::of(&archive).ok()?;
-    let mut text = Vec::new();
-    bound.copy(&mut archive.by_name(SCENE).ok()?, &mut text).ok()?;
+/// The scene of the FMU at `path`, or of the FMU `unit` in the system there, if this program has made it.
+pub fn scene_in(path: &Path, unit: Option<&str>) -> Option<String> {
+    let file = fs::File::open(path).ok()?;
+    let text = match unit {
+        None => part(file, SCENE)?,
+        Some(unit) => part(Cursor::new(part(file, unit)?), SCENE)?,
+    };
     String::from_utf8(text).ok()
+}
+
+/// The contents of the file `name` in an archive.
+fn part(archive: impl Read + Seek, name: &str) -> Option<Vec<u8>> {
+    let mut archive = bounded::open(archive).ok()?;
+    let mut bound = Bound::of(&archive).ok()?;
+    let mut bytes = Vec::new();
+    bound.copy(&mut archive.by_name(name).ok()?, &mut bytes).ok()?;
+    Some(bytes)
 }
 
 /// An error with its causes.

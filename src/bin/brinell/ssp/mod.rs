@@ -8,7 +8,7 @@ mod values;
 mod wiring;
 
 use crate::arguments::SspArguments;
-use crate::files::{check_goal, ending, write_whole};
+use crate::files::{check_goal, check_kept, check_own, ending, write_whole};
 use crate::interface::Entry;
 use crate::layout::{json_line, paragraph, shown};
 use crate::package::{self, Exported};
@@ -37,25 +37,29 @@ const COMPONENT: &str = "contact";
 /// # Errors
 /// The error of the name, the scene, the connections, the export, or the file.
 pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
-    let SspArguments { scene, output, with, connect, platforms, way } = arguments;
+    let SspArguments { scene: source, output, with, connect, platforms, way } = arguments;
     let output = output.as_deref();
     // rejected before anything is built
     ending(output, &["ssp"]).map_err(WrongCall)?;
     let way = way.chosen();
     let platforms = platforms.chosen(way)?;
-    let scene = Scene::read_aloud(scene)?;
+    let scene = Scene::read_aloud(source)?;
     let plan = Plan::of(&scene);
     let wiring = Wiring::read(&plan, with, connect).map_err(|error| -> Box<dyn Error> {
         if error.is_in_call() { WrongCall::of(error).into() } else { error.into() }
     })?;
     let path = output.map_or_else(|| format!("{}.ssp", scene.name).into(), Path::to_path_buf);
+    let files = Files::of(&plan);
     check_goal(&path)?;
+    check_kept(&path, source)?;
+    if output.is_none() {
+        check_own(&path, Some(&files.unit), &scene.text, Some(source))?;
+    }
     for warning in &wiring.warnings {
         crate::layout::tell(&format!("brinell: warning: {warning}"));
     }
     crate::layout::tell(&format!("building {} ...", shown(&path)));
     let (unit, exported) = package::build(&plan, way, &platforms)?;
-    let files = Files::of(&plan);
     let structure = document(|xml| structure::write(xml, &plan, &files, &wiring));
     let values = document(|xml| values::write(xml, &plan));
     let mut parts = vec![
