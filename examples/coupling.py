@@ -240,6 +240,13 @@ WAYS = {
 }
 
 
+def first_root(polynomial, step):
+    """The first time within `step` [s] at which the `polynomial` of the time is 0."""
+    roots = np.roots(polynomial)
+    real = roots[abs(roots.imag) <= 1e-9 * step].real
+    return min(root for root in real if 0.0 <= root <= step * (1.0 + 1e-9))
+
+
 def contact_time(unit, impact, step, place):
     """The duration of the contact [s] by input derivatives: the times at which the polynomials of the importer pass the
     surface and the dent."""
@@ -252,16 +259,11 @@ def contact_time(unit, impact, step, place):
         unit.set_rate(speed, acceleration, jerk)
         unit.step(step)
         after, dent = unit.get("indentation"), unit.get("residual_indentation")
-
-        def passes(level):
-            roots = np.roots([jerk / 6.0, acceleration / 2.0, speed, before - level])
-            real = roots[abs(roots.imag) <= 1e-9 * step].real
-            return start + min(root for root in real if 0.0 <= root <= step * (1.0 + 1e-9))
-
+        motion = [jerk / 6.0, acceleration / 2.0, speed]
         if began is None and after > 0.0:
-            began = passes(0.0)
+            began = start + first_root([*motion, before], step)
         elif began is not None and after <= dent:
-            return passes(dent) - began
+            return start + first_root([*motion, before - dent], step) - began
         speed -= step * unit.get("mean_force") / impact.mass
         force = unit.get("force")
         slope, curvature = unit.force_derivatives()

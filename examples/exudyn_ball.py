@@ -24,7 +24,7 @@ SOLVERS = {
 def ball():
     """A ball above the plate: the system, and the number of the node."""
     system = exudyn.SystemContainer().AddSystem()
-    start = dict(initialDisplacement=[0, 0, HEIGHT], gravity=[0, 0, -GRAVITY])
+    start = {"initialDisplacement": [0, 0, HEIGHT], "gravity": [0, 0, -GRAVITY]}
     ball = system.CreateMassPoint(mass=MASS, **start, returnDict=True)
     return system, ball["nodeNumber"]
 

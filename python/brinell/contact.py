@@ -17,7 +17,6 @@ from .library import WARNING, Instance, Library
 from .stepping import Force, Stepping
 from .variables import Gaps, Numbers, Parameters, Variables, number
 
-
 AFTER_REFUSAL = (
     "; the contact steps again after contact.reset(), or after contact.restore() with a saved state"
 )
