@@ -67,9 +67,16 @@ fn every_comment_of_a_new_scene_that_is_a_key_can_be_taken_in() {
 #[test]
 fn an_invalid_name_is_refused_and_nothing_is_written() {
     let folder = empty_folder();
-    for name in ["4ball", "steel ball", "a\"b", "../ball"] {
+    for (name, why) in [
+        ("4ball", "letters, digits and `_`"),
+        ("steel ball", "letters, digits and `_`"),
+        ("a\"b", "letters, digits and `_`"),
+        ("../ball", "letters, digits and `_`"),
+        ("con", "a device on Windows"),
+        ("int", "a word of the language C"),
+    ] {
         let refused = run(folder.path(), ["new", name]).with_status(2);
-        assert!(refused.err.contains("letters, digits and `_`"), "{refused:#?}");
+        assert!(refused.err.contains(&format!("name = {name:?} is")) && refused.err.contains(why), "{refused:#?}");
     }
     assert!(contents(folder.path()).is_empty());
 }

@@ -104,10 +104,22 @@ fn a_curve_goes_in_out_in_again_and_out_and_its_energies_add_up() {
 fn what_is_wrong_in_a_call_is_said_and_nothing_is_written() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    let cases: [(&[&str], &[&str]); 21] = [
+    let cases: [(&[&str], &[&str]); 30] = [
         (&["predict", &scene, "--mass", "0"], &["mass = 0", "positive"]),
         (&["predict", &scene, "--speed", "NaN"], &["speed = NaN", "positive"]),
         (&["predict", &scene, "--energy=-1"], &["energy = -1", "positive"]),
+        (&["predict", &scene, "--speed", "-1e-3"], &["speed = -0.001", "positive"]),
+        (&["predict", &scene, "--dent", "-1"], &["dent = -1", "positive"]),
+        (&["predict", &scene, "--restitution", "-0.5"], &["restitution = -0.5", "above 0"]),
+        (&["predict", &scene, "--friction", "-1", "--angle", "9"], &["friction = -1", "out of range"]),
+        (&["curve", &scene, "--to", "-1"], &["to = -1", "positive"]),
+        (&["hardness", &scene, "--force", "-1"], &["load = -1", "positive"]),
+        (&["hardness", &scene, "--load", "-1kN"], &["load = -1000", "positive"]),
+        (&["check", "x.fmu", "--time-limit", "0"], &["--time-limit", "at least 1 is expected"]),
+        (
+            &["predict", &scene, "--sweep", "law.loading_parameters.exponent=1.1:1.4"],
+            &["--sweep law.loading_parameters.exponent: unknown parameter", "big-alabo"],
+        ),
         (&["predict", &scene, "--drop-height", "5mm"], &["--drop-height", "metres, a number without unit: 5e-3"]),
         (&["predict", &scene, "--mass", "heavy"], &["--mass", "a number in kilograms"]),
         (&["predict", &scene, "--laws", "hooke"], &["unknown loading law `hooke`", "big-alabo"]),

@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(long, value_delimiter = ',')]
     pub laws: Vec<String>,
     /// Largest indentation [m] [default: that of the scene's impact]
-    #[arg(long, value_parser = units::lengths)]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::lengths)]
     pub to: Option<f64>,
     /// Add the finite-element loading curve as dots to the picture
     #[arg(long)]
@@ -49,10 +49,10 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "truth")]
     pub tangential: bool,
     /// Coefficient of friction of the loops [default: the scene's]
-    #[arg(long, requires = "tangential")]
+    #[arg(long, allow_hyphen_values = true, requires = "tangential")]
     pub friction: Option<f64>,
     /// Amplitudes of the loops [m] [default: 0.3, 0.6, 0.9 and 1.2 of that at which the contact slides]
-    #[arg(long, value_delimiter = ',', value_parser = units::lengths, requires = "tangential")]
+    #[arg(long, allow_hyphen_values = true, value_delimiter = ',', value_parser = units::lengths, requires = "tangential")]
     pub amplitude: Vec<f64>,
 }
 

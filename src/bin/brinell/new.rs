@@ -2,12 +2,13 @@
 
 use crate::files::{self, FileError};
 use crate::layout::{json_line, shown};
-use crate::scene::Scene;
+use crate::scene::{Mistake, check_name};
 use crate::wrong_call::WrongCall;
 use serde_json::json;
 use std::error::Error;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use toml::Spanned;
 
 /// The scene, with `NAME` in place of its name.
 const TEMPLATE: &str = include_str!("new_scene.toml");
@@ -26,14 +27,9 @@ pub struct Arguments {
 /// Writes the scene, unless the file exists.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let Arguments { name, output } = arguments;
+    check_name(&Spanned::new(0..0, name.clone())).map_err(|Mistake(_, message)| WrongCall(message))?;
     let path = output.clone().unwrap_or_else(|| format!("{name}.toml").into());
     let text = TEMPLATE.replace("NAME", name);
-    // only the name can be wrong
-    Scene::parse(text.clone(), &path).map_err(|_| {
-        WrongCall(format!(
-            "{name:?} can't be the name of a scene: use letters, digits and `_`, and begin with no digit"
-        ))
-    })?;
     write_new(&path, &text)?;
     if as_json {
         print!("{}", json_line(&json!({ "scene": path.to_string_lossy() })));

@@ -102,13 +102,15 @@ pub fn in_message(value: f64) -> String {
 
 /// A message without what Rust says about a text that is no number.
 pub fn in_words(message: &str) -> String {
-    const WORDS: [(&str, &str); 6] = [
+    const WORDS: [(&str, &str); 7] = [
         ("invalid float literal", "a number is expected"),
         ("cannot parse float from empty string", "a number is expected"),
         ("invalid digit found in string", "a whole number is expected"),
         ("cannot parse integer from empty string", "a whole number is expected"),
         ("number too large to fit in target type", "the number is too large"),
         ("number too small to fit in target type", "the number is too small"),
+        // an open range
+        ("0 is not in 1..18446744073709551615", "the number is too small: at least 1 is expected"),
     ];
     WORDS.iter().fold(message.into(), |message, (theirs, ours)| message.replace(theirs, ours))
 }

@@ -119,16 +119,17 @@ fn an_oblique_sweep_is_a_table() {
 fn an_impossible_oblique_impact_is_rejected_with_the_reason() {
     let folder = empty_folder();
     let scene = scene("steel_ball").display().to_string();
-    let cases: [(&[&str], &str); 14] = [
+    let cases: [(&[&str], &str); 15] = [
         (&["--angle", "30"], "the scene has no friction: give it [friction] coefficient, or --friction"),
         (&["--friction", "0.1"], "--friction belongs to an oblique impact: add --angle"),
         (&["--inertia", "1e-8"], "--inertia belongs to an oblique impact"),
         (&["--sweep", "friction.coefficient=0.1:1"], "--friction belongs to an oblique impact"),
         (&["--angle", "90", "--friction", "0.1"], "angle = 90 must be above -90 and below 90 degrees"),
         (&["--angle", "NaN", "--friction", "0.1"], "angle = NaN must be"),
+        (&["--angle", "-9.5e+1", "--friction", "0.1"], "angle = -95 must be"),
         (&["--spin", "inf", "--friction", "0.1"], "spin = inf rad/s must be finite"),
         (&["--angle", "1", "--friction", "11"], "friction = 11 is out of range: allowed is 0 to 10"),
-        (&["--angle", "1", "--friction", "-0.1"], "unexpected argument"),
+        (&["--angle", "1", "--friction", "-0.1"], "friction = -0.1 is out of range"),
         (&["--angle", "1", "--friction", "0.1", "--inertia", "0"], "inertia = 0 must be positive"),
         (&["--friction", "0.1", "--sweep", "angle=0:90"], "angle = 90 must be above -90"),
         (

@@ -21,13 +21,13 @@ pub struct Arguments {
     /// The scene file: ball and target, which must be flat
     pub scene: PathBuf,
     /// Test load with its unit, such as 29.4kN or 3000kgf
-    #[arg(long, group = "size", value_parser = units::loads)]
+    #[arg(long, allow_hyphen_values = true, group = "size", value_parser = units::loads)]
     pub load: Option<f64>,
     /// Test load [N]
-    #[arg(long, group = "size", value_parser = units::forces)]
+    #[arg(long, allow_hyphen_values = true, group = "size", value_parser = units::forces)]
     pub force: Option<f64>,
     /// A measured Brinell hardness (HBW): print the yield strength of the target instead
-    #[arg(long, value_name = "HBW")]
+    #[arg(long, allow_hyphen_values = true, value_name = "HBW")]
     pub brinell: Option<f64>,
     /// Laws to compare: LOADING or LOADING/UNLOADING, or "all" [default: the scene's]
     #[arg(long, value_delimiter = ',')]

@@ -7,6 +7,7 @@ pub mod command;
 
 use crate::laws::Choice;
 use crate::model::AnyModel;
+use crate::numbers::in_message;
 use brinell::contact::loading::AnyLoading;
 use brinell::contact::regime::LARGEST_INDENTATION;
 use brinell::contact::unloading::AnyUnloading;
@@ -120,7 +121,8 @@ fn depth_of_force(model: &Model<AnyLoading, AnyUnloading>, force: f64) -> Option
 /// A sentence with the reason why there is no result.
 pub fn run_test(choice: &Choice, load: f64, ball: f64) -> Result<Dent, String> {
     let model = elastoplastic(choice)?;
-    test(&model, load, ball).ok_or_else(|| format!("the law {} can't be evaluated for this load", choice.laws))
+    test(&model, load, ball)
+        .ok_or_else(|| format!("the law {} can't be evaluated for load = {} N", choice.laws, in_message(load)))
 }
 
 fn elastoplastic(choice: &Choice) -> Result<Model<AnyLoading, AnyUnloading>, String> {
@@ -147,8 +149,10 @@ pub fn strength_of(choice: &Choice, load: f64, ball: f64, hardness: f64) -> Resu
         _ => false,
     };
     let modulus = model.pair.modulus;
-    let none =
-        || format!("by the law {} no yield strength of the target explains HBW {hardness} at this load", choice.laws);
+    let none = || {
+        let [hardness, load] = [hardness, load].map(in_message);
+        format!("by the law {} no yield strength of the target explains HBW {hardness} at load = {load} N", choice.laws)
+    };
     // a fitted law may not be finite for targets nearly as strong as stiff: the first increase counts
     let ratio = STRENGTHS.1 / STRENGTHS.0;
     let strength = |step: u32| modulus * STRENGTHS.0 * libm::pow(ratio, f64::from(step) / f64::from(STEPS));

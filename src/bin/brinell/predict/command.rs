@@ -23,16 +23,16 @@ pub struct Arguments {
     /// The scene file
     pub scene: PathBuf,
     /// Effective mass [kg], instead of the scene's
-    #[arg(long, value_parser = units::masses)]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::masses)]
     pub mass: Option<f64>,
     /// Closing speed [m/s], instead of the scene's
-    #[arg(long, value_parser = units::speeds, conflicts_with_all = ["energy", "drop_height"])]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::speeds, conflicts_with_all = ["energy", "drop_height"])]
     pub speed: Option<f64>,
     /// Kinetic energy [J], instead of a speed
-    #[arg(long, value_parser = units::energies, conflicts_with = "drop_height")]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::energies, conflicts_with = "drop_height")]
     pub energy: Option<f64>,
     /// Drop height [m], instead of a speed
-    #[arg(long, value_parser = units::lengths)]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::lengths)]
     pub drop_height: Option<f64>,
     /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
     #[arg(long, value_delimiter = ',')]
@@ -47,22 +47,22 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["sweep", "dent", "restitution"])]
     pub time_history: Option<PathBuf>,
     /// Angle of incidence from the normal [degrees], for an oblique impact; the speed is then that along the path
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
     pub angle: Option<f64>,
     /// Spin of the ball before an oblique impact [rad/s]; positive like that of its contact point
-    #[arg(long, value_name = "RAD/S", allow_negative_numbers = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
+    #[arg(long, value_name = "RAD/S", allow_hyphen_values = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
     pub spin: Option<f64>,
     /// Coefficient of friction of an oblique impact [default: the scene's]
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub friction: Option<f64>,
     /// Moment of inertia of the ball in an oblique impact [kg.m^2] [default: that of a solid sphere]
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub inertia: Option<f64>,
     /// A measured dent [m]: print the speed and the yield strength that explain it
-    #[arg(long, value_parser = units::lengths, conflicts_with = "sweep")]
+    #[arg(long, allow_hyphen_values = true, value_parser = units::lengths, conflicts_with = "sweep")]
     pub dent: Option<f64>,
     /// A measured restitution: print the speeds and yield strengths that explain it
-    #[arg(long, conflicts_with_all = ["sweep", "dent"])]
+    #[arg(long, allow_hyphen_values = true, conflicts_with_all = ["sweep", "dent"])]
     pub restitution: Option<f64>,
 }
 

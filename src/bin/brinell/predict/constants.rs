@@ -64,7 +64,10 @@ pub fn has(choice: &Choice, name: &str) -> bool {
 /// # Errors
 /// The allowed values of the constant, or that no law has it.
 pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result<(), PredictError> {
-    let wrong = |Mistake(_, message): Mistake| PredictError::Sweep(message);
+    let wrong = |Mistake(_, message): Mistake| {
+        let is_named = message.starts_with(name);
+        PredictError::Sweep(if is_named { message } else { format!("{name}: {message}") })
+    };
     let Some(law) = law_with(choice, name) else {
         return Err(PredictError::Sweep(format!("{name}: {} has no unloading law with constants", choice.laws)));
     };

@@ -36,6 +36,7 @@ use std::path::Path;
 pub use error::{Mistake, SceneError};
 pub use group::{Group, Parameter};
 pub use losses::Loss;
+pub use names::check_name;
 pub use power_law::PowerLaw;
 pub use rate::{InImpact, QuasiStatic, Rate};
 pub use softer::{Body, Both};
