@@ -1,6 +1,6 @@
 //! `brinell merge`: joins FMUs of one scene for different platforms.
 
-use crate::files::{FileError, write_whole};
+use crate::files::{FileError, check_goal, write_whole};
 use crate::importer::{self, Bound, Description, ImportError};
 use crate::layout::{json_line, shown};
 use crate::package::{self, ExportError};
@@ -49,6 +49,7 @@ pub struct Fmu {
 /// # Errors
 /// [`MergeError`]; nothing is written then.
 pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeError> {
+    check_goal(output)?;
     let fmus = paths.iter().map(|path| Fmu::read(path)).collect::<Result<Vec<_>, _>>()?;
     let files = join(fmus)?;
     let files: Vec<(String, &[u8])> = files.iter().map(|(name, bytes)| (name.clone(), bytes.as_slice())).collect();
