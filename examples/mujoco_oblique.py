@@ -77,7 +77,7 @@ if __name__ == "__main__":
     # a ball that slides throughout is known
     coulomb = 1.0 - 2.0 * 0.092 / np.tan(np.radians(ANGLES[-3:]))
     judge.agree("restitution of a ball that slides throughout", rebounds[0][-3:], coulomb, 1e-6)
-    table = judge.FOLDER.parent / "experiment/oblique_elastic.csv"
+    table = judge.FOLDER.parent / "data/experiment/oblique_elastic.csv"
     with table.open(encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["quantity"] == "omega"]
     angle, spin = np.array([[float(row["angle_deg"]), float(row["value"])] for row in rows]).T

@@ -4,7 +4,7 @@ A harmonic force on the surface moves it, besides in phase, by `Q w F/(rho c_s^3
 Lamb's integral at the point of the force: body waves below the wave number of shear waves, and the residue of the Rayleigh
 pole. Two thirds of Q at nu = 0.25 belong to the pole, as G. F. Miller and H. Pursey found (Proc. R. Soc. A 233 (1955) 55-69).
 
-Run it with the packages of fit/requirements.txt: python fit/fit_waves.py
+Run it with the packages of data/fit/requirements.txt: python data/fit/fit_waves.py
 """
 
 import numpy as np

@@ -9,7 +9,7 @@ use libm::{exp, pow, sqrt};
 /// Poisson's ratio of the fit of the law `brinell`.
 pub const POISSONS_RATIO: f64 = 0.3;
 
-// The constants from `fit/fit_materials.py`. A test compares them with the file that it writes.
+// The constants from `data/fit/fit_materials.py`. A test compares them with the file that it writes.
 const GROWTH: [f64; 2] = [0.741, 0.097];
 const DECAY_SCALE: f64 = 21.26;
 const DECAY_POWER: f64 = 0.5854;
@@ -46,7 +46,7 @@ pub const KNOTS: [f64; 11] = [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 160.0, 250.0, 500
 /// and so is the curve. Under an elastic body the `k` of the yielding body alone is larger than that of the pair, with
 /// hardening as without it.
 ///
-/// The two effects are taken as independent, which is right within 0.8 % of the force (`truth/both`). Fitted for `nu` from 0.2
+/// The two effects are taken as independent, which is right within 0.8 % of the force (`data/truth/both`). Fitted for `nu` from 0.2
 /// to 0.45 and `H/E` up to 0.1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strength {

@@ -46,7 +46,7 @@ fn rebound(instance: &mut Instance, degrees: f64, step: f64) -> (f64, f64) {
 #[test]
 fn rebounds_through_the_unit_agree_with_the_measurement() {
     let unit = Unit::load(&unit::scene("oblique"));
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/experiment/oblique_elastic.csv");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/experiment/oblique_elastic.csv");
     let text = std::fs::read_to_string(path).expect("a table of the project");
     let (mut restitutions, mut spins) = (Vec::new(), Vec::new());
     for row in text.lines().skip(1).map(|line| line.rsplit(',').collect::<Vec<_>>()) {

@@ -10,7 +10,7 @@ FRICTION = unit("oblique")
 RADIUS, SPEED = 2.5e-3, 3.9  # m, m/s
 MASS = 4.0 / 3.0 * pi * RADIUS**3 * 4000.0  # kg
 INERTIA = 0.4 * MASS * RADIUS**2  # kg.m^2
-TABLES = Path(__file__).parents[2] / "truth/friction/tables.csv"
+TABLES = Path(__file__).parents[2] / "data/truth/friction/tables.csv"
 
 
 def rows(case, limit):

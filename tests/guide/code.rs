@@ -21,7 +21,7 @@ use tempfile::TempDir;
 const ENGINES: [&str; 3] = ["mujoco", "exudyn", "pydrake"];
 
 /// Pages whose code is not run, because it is about internals.
-const NOT_RUN: [&str; 4] = ["CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "truth/README.md"];
+const NOT_RUN: [&str; 4] = ["CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "data/truth/README.md"];
 
 /// A page in a folder of its own.
 struct Run {

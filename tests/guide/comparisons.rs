@@ -83,7 +83,7 @@ impl Errors {
 
 /// The errors of a loading law up to a thousand yield indentations, on the bodies of the default scene.
 fn errors(name: &str) -> Errors {
-    Errors::of(&model(name, mild(), 0.0), &numbers("truth/loading.csv", ""), (0.0, f64::INFINITY))
+    Errors::of(&model(name, mild(), 0.0), &numbers("data/truth/loading.csv", ""), (0.0, f64::INFINITY))
 }
 
 /// The largest jump of the force, relative to it.
@@ -149,11 +149,11 @@ fn materials() -> String {
     ] {
         let youngs_modulus = mild().modulus * (1.0 - poissons_ratio * poissons_ratio);
         let model = model("brinell", Pair { poissons_ratio, youngs_modulus, ..mild() }, hardening * youngs_modulus);
-        let curve = numbers(&format!("truth/materials/loading_{file}.csv"), "");
+        let curve = numbers(&format!("data/truth/materials/loading_{file}.csv"), "");
         let errors = Errors::of(&model, &curve, (1.2, 500.0));
         let (mut unloading, mut restitution, mut dent) = (0.0, 0.0, 0.0);
         for depth in depths {
-            let back = numbers(&format!("truth/materials/unloading_{file}_from_{depth}.csv"), "unload,");
+            let back = numbers(&format!("data/truth/materials/unloading_{file}_from_{depth}.csv"), "unload,");
             let unit = unit(&model.pair);
             let largest = back[0][0] * unit.indentation;
             let path = model.unloading_path(largest);
@@ -223,7 +223,7 @@ fn device(name: &str, yield_strength: f64) -> Prediction {
 
 /// The measured restitution of the device D.
 fn measured(vickers: f64) -> f64 {
-    let points = numbers("experiment/leeb_restitution.csv", "");
+    let points = numbers("data/experiment/leeb_restitution.csv", "");
     let pair =
         points.windows(2).find(|pair| (pair[0][1]..=pair[1][1]).contains(&vickers)).expect("it was measured there");
     pair[0][0] + (pair[1][0] - pair[0][0]) * (vickers - pair[0][1]) / (pair[1][1] - pair[0][1])
@@ -339,10 +339,10 @@ fn rates(c: f64) -> [(String, Rebounds); 3] {
 
 /// The dents of the devices D and G: diameter under the load and depth after it.
 fn dents() -> String {
-    let devices = read(Path::new("experiment/leeb_dents.csv"));
+    let devices = read(Path::new("data/experiment/leeb_dents.csv"));
     let names = devices.lines().skip(1).map(|line| line.split(',').next().unwrap_or_default());
     let dents: Vec<_> =
-        names.zip(numbers("experiment/leeb_dents.csv", "")).filter(|(name, _)| ["D", "G"].contains(name)).collect();
+        names.zip(numbers("data/experiment/leeb_dents.csv", "")).filter(|(name, _)| ["D", "G"].contains(name)).collect();
     let cell = |diameter: f64, depth: f64| format!("{:.0} / {:.1}", 1e6 * diameter, 1e6 * depth);
     let line =
         |name: String, cells: Vec<String>| row(&[name].iter().chain(&cells).map(String::as_str).collect::<Vec<_>>());
@@ -371,7 +371,7 @@ fn the_tables_of_errors_are_those_that_are_measured() {
     shows("validation.md", "strain rates", &(heading(&[&["rate"][..], &REBOUNDS].concat()) + &rates));
 }
 
-/// What `brinell` says was computed independently of this project: `experiment/README.md`.
+/// What `brinell` says was computed independently of this project: `data/experiment/README.md`.
 #[test]
 fn the_rebounds_of_two_laws_are_those_of_an_independent_computation() {
     let near = |found: [f64; 3], expected: [f64; 3], error: f64| {

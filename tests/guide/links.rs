@@ -62,20 +62,8 @@ fn wrong_links_are_found() {
 }
 
 /// Folders whose files are named in the text.
-const FOLDERS: [&str; 12] = [
-    "benches/",
-    "build/",
-    "docs/",
-    "examples/",
-    "experiment/",
-    "fit/",
-    "modelDescription/",
-    "python/",
-    "scenes/",
-    "src/",
-    "tests/",
-    "truth/",
-];
+const FOLDERS: [&str; 10] =
+    ["benches/", "build/", "data/", "docs/", "examples/", "modelDescription/", "python/", "scenes/", "src/", "tests/"];
 
 #[test]
 fn files_that_are_named_exist() {

@@ -30,7 +30,7 @@ fn root() -> &'static Path {
 
 /// Every Markdown file for readers, as a path in the repository.
 fn pages() -> Vec<PathBuf> {
-    let own = ["README.md", "CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "python/README.md", "truth/README.md"];
+    let own = ["README.md", "CONTRIBUTING.md", "DESIGN.md", "CHANGELOG.md", "python/README.md", "data/truth/README.md"];
     let mut pages: Vec<_> = own.map(PathBuf::from).into();
     collect(Path::new("docs"), &mut pages);
     assert!(pages.len() > own.len() + 20, "the guide is missing: {pages:?}");

@@ -64,7 +64,7 @@ fn pytest(file: &str) {
         .env("BRINELL_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         .env("BRINELL_TEST_UNITS", serde_json::to_string(&units).unwrap())
         .env("BRINELL_TEST_SCENES", root.join("scenes"))
-        .env("BRINELL_TEST_TRUTH", root.join("truth"))
+        .env("BRINELL_TEST_TRUTH", root.join("data/truth"))
         .output()
         .expect("the virtual environment has an interpreter");
     let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);

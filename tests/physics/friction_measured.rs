@@ -75,7 +75,7 @@ fn rms(name: &str, quantity: &str, computed: impl Fn(f64) -> f64) -> f64 {
     (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt()
 }
 
-const MEASURED: &str = "experiment/oblique_elastic.csv";
+const MEASURED: &str = "data/experiment/oblique_elastic.csv";
 
 #[test]
 fn rebounds_of_aluminium_oxide_from_glass_agree_with_the_measurement() {
@@ -112,7 +112,7 @@ fn chung_and_ooi(psi: f64) -> Rebound {
 
 #[test]
 fn rebounds_of_equal_bodies_agree_with_finite_elements() {
-    let elements = "experiment/oblique_elastic_finite_elements.csv";
+    let elements = "data/experiment/oblique_elastic_finite_elements.csv";
     let slip = rms(elements, "psi2", |psi| chung_and_ooi(psi).slip / 0.3);
     let spin = rms(elements, "omega_n", |psi| chung_and_ooi(psi).ball.spin * 0.01 / 0.3);
     println!("rms of psi2 {slip:.4}, of the spin {spin:.4}");

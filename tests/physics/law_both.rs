@@ -1,5 +1,5 @@
 //! The law `brinell` for targets that harden and have another Poisson's ratio as well: against finite elements with both
-//! (`truth/both/`), the theory of first yield, and the limits of hard and deep. The law assumes that the two effects are factors
+//! (`data/truth/both/`), the theory of first yield, and the limits of hard and deep. The law assumes that the two effects are factors
 //! of one strength; nothing here was used in its fit.
 
 use crate::law_strengthened::{force, on_steel, read};
@@ -14,7 +14,7 @@ const HARDENINGS: [f64; 6] = [0.0, 0.005, 0.02, 0.05, 0.075, 0.1];
 
 /// The indentation and the smoothed force of a finite-element curve.
 fn curve(poissons_ratio: f64, hardening: f64) -> Vec<[f64; 2]> {
-    let text = read(&format!("truth/both/loading_nu{poissons_ratio}_H{hardening}.csv"));
+    let text = read(&format!("data/truth/both/loading_nu{poissons_ratio}_H{hardening}.csv"));
     let number = |row: &str, column: usize| -> Option<f64> { row.split(',').nth(column)?.parse().ok() };
     let rows = text.lines().skip(1).map(|row| [0, 2].map(|column| number(row, column).expect("a number")));
     let within: Vec<_> = rows.filter(|row| row[0] >= 1.2 && row[0] <= 100.0).collect();
@@ -53,7 +53,7 @@ fn the_force_is_within_0_8_percent_of_finite_elements_with_hardening_and_another
 #[test]
 fn the_finite_elements_agree_with_those_of_the_fit_where_both_exist() {
     for (ratio, hardening, name, allowed) in [(0.3, 0.1, "H0.1", 3e-3), (0.45, 0.0, "nu0.45", 8e-3)] {
-        let text = read(&format!("truth/materials/loading_{name}.csv"));
+        let text = read(&format!("data/truth/materials/loading_{name}.csv"));
         let number = |row: &str, column: usize| -> Option<f64> { row.split(',').nth(column)?.parse().ok() };
         let rows = text.lines().skip(1).map(|row| [0, 2].map(|column| number(row, column).expect("a number")));
         let known: Vec<[f64; 2]> = rows.collect();

@@ -1,4 +1,4 @@
-//! The law `brinell` compared with the finite-element results of its fit, in `truth/`.
+//! The law `brinell` compared with the finite-element results of its fit, in `data/truth/`.
 
 use crate::physics::{AnyModel, advance, model, pressed, unit};
 use brinell::contact::Loading;
@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// The rows of a finite-element table, without its heading.
 fn truth(name: &str) -> Vec<Vec<String>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/truth").join(name);
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     text.lines().skip(1).map(|line| line.split(',').map(str::to_string).collect()).collect()
 }
@@ -79,7 +79,7 @@ fn the_unloading_path_is_within_half_a_percent_of_the_largest_force() {
 
 #[test]
 fn recovery_dissipation_and_restitution_are_within_one_percent_of_the_truth() {
-    // x_m, recovery in d_y, returned work over loading work: the table in truth/README.md
+    // x_m, recovery in d_y, returned work over loading work: the table in data/truth/README.md
     let table = [
         (3.0, 2.516, 0.8482),
         (10.0, 6.030, 0.6031),
@@ -159,7 +159,7 @@ fn the_law_equals_the_fitted_one() {
 
 #[test]
 fn the_constants_in_the_source_equal_those_of_the_fit() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fit/brinell_law.json");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/fit/brinell_law.json");
     let written: serde_json::Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     let list = |name: &str| -> Vec<f64> {
         written[name].as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect()

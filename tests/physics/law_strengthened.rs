@@ -1,5 +1,5 @@
 //! The law `brinell` for targets that harden and for other Poisson's ratios, compared with the finite-element curves
-//! in `truth/materials/`.
+//! in `data/truth/materials/`.
 
 use crate::physics::{
     AnyModel, MASS, Random, advance, corners, logarithmic, mild, model, pressed, random_bodies, unit,
@@ -37,7 +37,7 @@ pub fn read(name: &str) -> String {
 
 /// The first columns, as numbers, of the rows of a finite-element table that begin with `start`, without that.
 fn truth(name: &str, start: &str) -> Vec<Vec<f64>> {
-    let text = read(&format!("truth/materials/{name}.csv"));
+    let text = read(&format!("data/truth/materials/{name}.csv"));
     let rows = text.lines().skip(1).filter_map(|line| line.strip_prefix(start));
     rows.map(|row| row.split(',').map_while(|cell| cell.parse().ok()).collect()).collect()
 }
@@ -191,7 +191,7 @@ fn the_law_equals_the_fitted_one() {
 
 #[test]
 fn the_constants_in_the_source_equal_those_of_the_fit() {
-    let written: serde_json::Value = serde_json::from_str(&read("fit/materials_law.json")).unwrap();
+    let written: serde_json::Value = serde_json::from_str(&read("data/fit/materials_law.json")).unwrap();
     let source = read("src/contact/strength.rs");
     let has = |line: &str| assert!(source.contains(line), "src/contact/strength.rs lacks {line}");
     for (name, value) in written.as_object().unwrap() {

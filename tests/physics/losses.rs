@@ -99,7 +99,7 @@ fn waves_and_plate_take_the_energy_of_their_theories_from_an_elastic_impact() {
 
 #[test]
 fn the_radiation_of_a_half_space_is_that_of_lambs_problem() {
-    // from fit/fit_waves.py, which integrates
+    // from data/fit/fit_waves.py, which integrates
     for (poissons_ratio, number) in
         [(-0.5, 0.389364), (0.0, 0.213964), (0.25, 0.148134), (0.3, 0.137227), (0.5, 0.104424)]
     {

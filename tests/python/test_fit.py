@@ -19,7 +19,7 @@ from brinell.fits.result import quantity
 matplotlib.use("Agg")
 
 SCENES = Path(os.environ["BRINELL_TEST_SCENES"])
-RECORD = SCENES.parent / "experiment/indentation_record.csv"
+RECORD = SCENES.parent / "data/experiment/indentation_record.csv"
 SPEEDS = (0.05, 0.1, 0.2, 0.4, 0.8, 1.2, 2.0, 3.0, 5.0, 8.0)
 JOHNSON_COOK = 'rate = {{ model = "johnson-cook", c = {}, reference_rate = 1.0 }}'
 COWPER_SYMONDS = 'rate = {{ model = "cowper-symonds", d = {}, q = 5.0 }}'

@@ -29,7 +29,7 @@ pub fn file(name: &str) -> String {
 pub fn table(name: &str) -> Vec<Row> {
     let mut columns: Vec<String> = Vec::new();
     let mut rows = Vec::new();
-    for line in file("truth/friction/tables.csv").lines().filter(|line| !line.starts_with('#')) {
+    for line in file("data/truth/friction/tables.csv").lines().filter(|line| !line.starts_with('#')) {
         let fields: Vec<&str> = line.split(',').collect();
         if fields[0] == "table" {
             columns = fields.iter().map(|&field| field.to_string()).collect();

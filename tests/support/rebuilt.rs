@@ -59,7 +59,7 @@ impl Sources {
         for part in ["Cargo.toml", "Cargo.lock", "build.rs"] {
             fs::copy(root.join(part), sources.folder.join(part)).expect("the target folder can be written to");
         }
-        for part in ["benches", "examples", "tests", "docs", "scenes", "truth", "LICENSE"] {
+        for part in ["benches", "examples", "tests", "docs", "scenes", "data", "LICENSE"] {
             std::os::unix::fs::symlink(root.join(part), sources.folder.join(part)).expect("the folder is new");
         }
         sources

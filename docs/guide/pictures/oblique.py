@@ -37,7 +37,7 @@ def computed():
 
 def rows(quantity):
     """The digitisation, angle and value of each measured point."""
-    with (PROJECT / "experiment/oblique_elastic.csv").open() as file:
+    with (PROJECT / "data/experiment/oblique_elastic.csv").open() as file:
         found = [row for row in csv.DictReader(file) if row["quantity"] == quantity]
     return [(row["digitisation"], float(row["angle_deg"]), float(row["value"])) for row in found]
 
@@ -60,7 +60,7 @@ def measured_slips():
 
 def slips_by_finite_elements():
     """Maw's numbers of Chung and Ooi's finite elements."""
-    with (PROJECT / "experiment/oblique_elastic_finite_elements.csv").open() as file:
+    with (PROJECT / "data/experiment/oblique_elastic_finite_elements.csv").open() as file:
         found = [row for row in csv.DictReader(file) if row["quantity"] == "psi2"]
     return [[float(row[name]) for row in found] for name in ("psi1", "value")]
 

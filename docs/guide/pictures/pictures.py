@@ -95,7 +95,7 @@ def loading_curves(scene):
 
 
 def draw_laws(folder):
-    """The loading curves over Hertz's force, and the finite elements of `truth/` as dots."""
+    """The loading curves over Hertz's force, and the finite elements of `data/truth/` as dots."""
     scene = Path(folder) / "laws.toml"
     scene.write_text(SCENE)
     figure, axes = pyplot.subplots(figsize=(8.6, 5.0), layout="constrained")
@@ -106,7 +106,7 @@ def draw_laws(folder):
         x, f = curve.T
         style = {"linewidth": 2.5} if law == "brinell/brinell" else {"linewidth": 1.0, "linestyle": "-" if index < 10 else "--"}
         axes.plot(x, f / x**1.5, label=law.split("/")[0], **style)
-    truth = np.loadtxt(FOLDER.parents[2] / "truth/loading.csv", delimiter=",", skiprows=1, usecols=(0, 2))
+    truth = np.loadtxt(FOLDER.parents[2] / "data/truth/loading.csv", delimiter=",", skiprows=1, usecols=(0, 2))
     places = np.searchsorted(truth[:, 0], np.geomspace(0.3, 999.0, 40))
     x, f = truth[np.unique(places)].T
     axes.plot(x, f / x**1.5, "k.", label="finite elements")

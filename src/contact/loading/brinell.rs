@@ -9,7 +9,7 @@ use libm::sqrt;
 /// Number of pieces of the curve above yield.
 const PIECES: usize = 8;
 
-/// Force and contact area fitted to finite-element indentation (`truth/`, fitted by `fit/fit_brinell.py`), with
+/// Force and contact area fitted to finite-element indentation (`data/truth/`, fitted by `data/fit/fit_brinell.py`), with
 /// `x = d/d_y`, `f = F/F_y`, `A = a^2/(R d_y)`:
 ///
 /// - `x < 1`: Hertz, `f = x^1.5`, `A = x`;
@@ -62,7 +62,7 @@ impl Piece {
 }
 
 impl Brinell {
-    /// The constants from `fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
+    /// The constants from `data/fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
     /// the pair has. An FMU has [`Strengthened`](super::Strengthened) for any other ratio.
     ///
     /// The last slopes correspond to a mean pressure of 3.0 S, the limit of the finite-element results, on an area of `2.86 R d`, that of a rigid, perfectly plastic solid (B. Storåkers,

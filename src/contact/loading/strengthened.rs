@@ -14,7 +14,7 @@ use libm::sqrt;
 /// everywhere. Below yield it is Hertz's law. The contact area is `A(k) (phi/Phi(k))^-0.8647`: at a given indentation
 /// a harder material has a smaller contact.
 ///
-/// Against the finite-element curves in `truth/materials`: force within 0.5 % for `x` from 1.2 to 500, contact radius
+/// Against the finite-element curves in `data/truth/materials`: force within 0.5 % for `x` from 1.2 to 500, contact radius
 /// within 2.1 %. Without hardening and with a Poisson's ratio of 0.3 it equals the law `brinell` bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]

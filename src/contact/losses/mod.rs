@@ -99,7 +99,7 @@ impl Loss for Fitted {
 /// A force `F(t)` on a small area of an elastic half-space radiates the power `kappa (dF/dt)^2`, with
 /// `kappa = Q(nu)/(rho c_s^3)` and the speed of shear waves `c_s`. To first order in `kappa`, the surface then moves as with
 /// a damping of `kappa K_s^2`. `Q` is the imaginary part of the surface displacement in Lamb's problem. Here it is a
-/// polynomial with an error of up to 0.25 % (`fit/fit_waves.py`).
+/// polynomial with an error of up to 0.25 % (`data/fit/fit_waves.py`).
 ///
 /// Assumptions: the target is a half-space, so that no wave comes back; the contact is small compared with the waves, as in
 /// the theory of Hertz; the other body radiates nothing, as a compact ball does; and a yielding material radiates like an
@@ -113,7 +113,7 @@ pub struct Waves {
     pub target: Solid,
 }
 
-/// The coefficients of `Q(nu)`, from `fit/fit_waves.py`.
+/// The coefficients of `Q(nu)`, from `data/fit/fit_waves.py`.
 const RADIATION: [f64; 6] = [0.213974, -0.297563, 0.120823, 0.045239, 0.040769, 0.017964];
 
 impl Loss for Waves {

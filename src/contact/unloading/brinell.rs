@@ -14,7 +14,7 @@ use libm::sqrt;
 /// The slope of an elastic unloading is `2 E* a` at every point. The contact radius is therefore the stiffness over
 /// `2 E*`. Within 0.4 % of `F_m` of the finite-element results at every point of five depths; recovery within 0.8 %,
 /// dissipated energy within 0.5 %, restitution within 0.2 %. Fitted for the loading law `brinell` by
-/// `fit/fit_brinell.py`.
+/// `data/fit/fit_brinell.py`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "exporter", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Brinell {
@@ -27,7 +27,7 @@ pub struct Brinell {
 }
 
 impl Brinell {
-    /// The constants from `fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
+    /// The constants from `data/fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
     /// the pair has: [`Strengthened`](super::Strengthened) takes account of both. `decline` is chosen by judgement, since only one depth depends on it.
     pub const REFERENCE: Brinell = Brinell { height: 0.6976, onset: 0.0313, decline: 0.7 };
 

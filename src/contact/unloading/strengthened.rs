@@ -16,7 +16,7 @@ use libm::{cbrt, sqrt};
 ///   `b^2 = R d_Y beta`, `beta = u^2 A(k/u^2) (phi/(u^3 Phi(k/u^2)))^-1.111`. `b` is the contact radius to some percent.
 ///
 /// The contact radius on the path is proportional to the stiffness. Within 0.9 % of `F_m` of the finite-element
-/// curves in `truth/materials`, restitution within 0.6 %. Made for the loading law
+/// curves in `data/truth/materials`, restitution within 0.6 %. Made for the loading law
 /// [`Strengthened`](crate::contact::loading::Strengthened). Without hardening and with a Poisson's ratio of 0.3 it
 /// equals the law `brinell` bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq)]

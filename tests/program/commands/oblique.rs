@@ -19,9 +19,9 @@ fn predicted(text: &str, arguments: &[&str]) -> Value {
     run(folder.path(), all).with_status(0).json()
 }
 
-/// Columns of `experiment/oblique_elastic.csv` for a quantity.
+/// Columns of `data/experiment/oblique_elastic.csv` for a quantity.
 fn measured(quantity: &str) -> Vec<(f64, f64)> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiment/oblique_elastic.csv");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/experiment/oblique_elastic.csv");
     let text = fs::read_to_string(path).unwrap();
     let rows = text.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
     let own = rows.filter(|row| row[1] == quantity);

@@ -10,7 +10,7 @@ fn restitution_over_speed_has_every_law() {
     }
     let truth = rows(&DEFAULT.1, "restitution").iter().filter(|row| row["law"] == "finite elements");
     let truth: Vec<f64> = truth.map(|row| row["restitution"].as_f64().expect("a number")).collect();
-    // from truth/README.md; its slowest impact is slower than a hundredth of the scene's speed
+    // from data/truth/README.md; its slowest impact is slower than a hundredth of the scene's speed
     let printed = [0.777, 0.645, 0.536, 0.450];
     assert_eq!(truth.len(), printed.len(), "{truth:?}");
     assert!(truth.iter().zip(printed).all(|(one, other)| (one - other).abs() < 6e-4), "{truth:?}");
