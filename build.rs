@@ -1,5 +1,4 @@
-//! Generates the C header, and the list of the sources that the program embeds: those of the library and of `libm`, which
-//! together make up an FMU.
+//! Generates the C header, and the sources that the program embeds: those of the crates of an FMU, and of `libm`.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -10,27 +9,38 @@ fn main() {
 #[cfg(feature = "exporter")]
 mod exporter {
     use serde_json::Value;
+    use std::collections::BTreeMap;
     use std::env;
     use std::fmt::Write;
     use std::fs;
     use std::path::{Path, PathBuf};
     use std::process::Command;
 
-    /// The file with the exported functions.
-    const INTERFACE: &str = "src/fmi2/exports.rs";
+    /// The crates of an FMU.
+    const CRATES: [&str; 3] = ["contact", "fmu", "unit"];
 
-    /// The exporter's own files, and the file that it generates for every prebuilt library.
-    const NOT_EMBEDDED: [&str; 2] = ["src/bin", "src/scene/kind.rs"];
+    /// The file with the exported functions.
+    const INTERFACE: &str = "exports.rs";
 
     pub fn prepare() {
-        let folder = |variable: &str| PathBuf::from(env::var_os(variable).expect("cargo sets it"));
-        let (root, out) = (folder("CARGO_MANIFEST_DIR"), folder("OUT_DIR"));
-        println!("cargo::rerun-if-changed=src");
         println!("cargo::rerun-if-changed=Cargo.lock");
-        write_header(&root, &out.join("brinell.h"));
-        let mut text = sources("LIBRARY_SOURCE", &root, "");
-        text.push_str(&sources("LIBM_SOURCE", &libm(&root, &out.join("libm")), "libm/"));
-        fs::write(out.join("library_source.rs"), text).expect("OUT_DIR can be written");
+        let (root, out) = (folder("CARGO_MANIFEST_DIR"), folder("OUT_DIR"));
+        write_header(&sources("unit").join(INTERFACE), &out.join("brinell.h"));
+        let mut text = String::new();
+        for name in CRATES {
+            text.push_str(&list(name, &sources(name)));
+        }
+        text.push_str(&list("libm", &libm(&root, &out.join("libm")).join("src")));
+        fs::write(out.join("sources.rs"), text).expect("OUT_DIR can be written");
+    }
+
+    fn folder(variable: &str) -> PathBuf {
+        PathBuf::from(env::var_os(variable).expect("cargo sets it"))
+    }
+
+    /// The folder of the sources of a crate, which its build script tells.
+    fn sources(name: &str) -> PathBuf {
+        folder(&format!("DEP_BRINELL_{}_SOURCES", name.to_uppercase()))
     }
 
     /// The folder of the `libm` of `Cargo.lock`: in cargo's registry, or among vendored sources. It is found through a package
@@ -78,7 +88,7 @@ mod exporter {
 
     /// The prototypes of the functions. A C program that includes the standard's header and then this one compiles only if
     /// every signature agrees; `tests/importing/abi.rs` checks this.
-    fn write_header(root: &Path, header: &Path) {
+    fn write_header(interface: &Path, header: &Path) {
         let config = cbindgen::Config {
             language: cbindgen::Language::C,
             style: cbindgen::Style::Type,
@@ -90,36 +100,31 @@ mod exporter {
             export: cbindgen::ExportConfig { item_types: vec![cbindgen::ItemType::Functions], ..Default::default() },
             ..Default::default()
         };
-        let builder = cbindgen::Builder::new().with_config(config).with_src(root.join(INTERFACE));
+        let builder = cbindgen::Builder::new().with_config(config).with_src(interface);
         builder.generate().expect("the interface has a C header").write_to_file(header);
     }
 
-    /// A constant of this `name` with the path (after `prefix`) and the text of every file of the library in `root`.
-    fn sources(name: &str, root: &Path, prefix: &str) -> String {
-        let mut files = Vec::new();
-        collect(&root.join("src"), root, &mut files);
-        files.sort();
-        let mut text = format!("pub const {name}: &[(&str, &str)] = &[\n");
+    /// A constant with the path, in a folder of the name of the crate, and the text of every file of its sources.
+    fn list(name: &str, folder: &Path) -> String {
+        let mut files = BTreeMap::new();
+        collect(folder, &format!("{name}/src"), &mut files);
+        let mut text = format!("pub const {}_SOURCE: &[(&str, &str)] = &[\n", name.to_uppercase());
         for (name, path) in files {
-            writeln!(text, "    ({:?}, include_str!({path:?})),", format!("{prefix}{name}"))
-                .expect("a String takes everything");
+            writeln!(text, "    ({name:?}, include_str!({path:?})),").expect("a String takes everything");
         }
         text.push_str("];\n");
         text
     }
 
-    fn collect(folder: &Path, root: &Path, files: &mut Vec<(String, PathBuf)>) {
+    fn collect(folder: &Path, name: &str, files: &mut BTreeMap<String, PathBuf>) {
+        println!("cargo::rerun-if-changed={}", folder.display());
         for entry in fs::read_dir(folder).expect("sources are readable") {
             let path = entry.expect("sources are readable").path();
-            let inside = path.strip_prefix(root).expect("below the root");
-            let name = inside.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/");
-            if NOT_EMBEDDED.contains(&name.as_str()) {
-                continue;
-            }
+            let name = format!("{name}/{}", path.file_name().expect("an entry has a name").to_string_lossy());
             if path.is_dir() {
-                collect(&path, root, files);
+                collect(&path, &name, files);
             } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push((name, path));
+                files.insert(name, path);
             }
         }
     }

@@ -2,9 +2,9 @@
 //!
 //! It needs the physics alone: `cargo run --release --example chain --no-default-features`.
 
-use brinell::contact::loading::Brinell as Loading;
-use brinell::contact::unloading::Brinell as Unloading;
-use brinell::contact::{Body, History, Model, Pair, Surface};
+use brinell_contact::loading::Brinell as Loading;
+use brinell_contact::unloading::Brinell as Unloading;
+use brinell_contact::{Body, History, Model, Pair, Surface};
 
 /// Radius of the balls [m].
 const RADIUS: f64 = 10e-3;

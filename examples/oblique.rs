@@ -4,8 +4,8 @@
 //!
 //! It needs only the physics: `cargo run --release --example oblique --no-default-features`.
 
-use brinell::contact::tangential::{Friction, Stuck, Way};
-use brinell::contact::{Body, Loading, Pair, Segment, loading};
+use brinell_contact::tangential::{Friction, Stuck, Way};
+use brinell_contact::{Body, Loading, Pair, Segment, loading};
 
 /// Steps of the leap-frog method in a contact, about.
 const STEPS: f64 = 1000.0;

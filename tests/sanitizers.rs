@@ -45,8 +45,8 @@ static SUITES: LazyLock<Suites> = LazyLock::new(Suites::build);
 /// A mistake that a build must report: file, text, replacement. A `~` in the replacement is the text.
 type Mistake = (&'static str, &'static str, &'static str);
 
-const STEPPING: &str = "src/instance/stepping.rs";
-const LIFECYCLE: &str = "src/fmi2/lifecycle.rs";
+const STEPPING: &str = "crates/fmu/src/instance/stepping.rs";
+const LIFECYCLE: &str = "crates/fmu/src/fmi2/lifecycle.rs";
 
 /// A line of every step.
 const STEP: &str = "        let in_order = self.clock.takes(time, end, step, Self::SHORTEST);\n";

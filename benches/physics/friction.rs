@@ -1,8 +1,8 @@
 //! Oblique impacts of a ball, compared with a normal impact: the cost of a step in sliding, in partial slip, in stick
 //! with growth, and with merging of segments in each step. The same in two directions, along one line and while the motion turns.
 
-use brinell::contact::Segment;
-use brinell::contact::tangential::{Stuck, Way, plane};
+use brinell_contact::Segment;
+use brinell_contact::tangential::{Stuck, Way, plane};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;

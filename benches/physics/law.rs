@@ -1,9 +1,9 @@
 //! The physics in Rust, without FMI: a step on a branch, a change of branch, every output, the prediction of an impact.
 
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::loading::BigAlabo;
-use brinell::contact::unloading::ContactRadius;
-use brinell::contact::{Body, History, Loading, Model, Pair, Surface};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::loading::BigAlabo;
+use brinell_contact::unloading::ContactRadius;
+use brinell_contact::{Body, History, Loading, Model, Pair, Surface};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;

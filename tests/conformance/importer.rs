@@ -2,7 +2,7 @@
 
 use crate::face::Face;
 use crate::functions::{Functions, memory, variadic};
-use brinell::fmi2::abi::*;
+use brinell_fmu::fmi2::abi::*;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr::{null, null_mut};

@@ -3,7 +3,7 @@
 //! SAFETY of all calls: the component lives, and arrays have as many elements as announced.
 
 use crate::importer::{ERROR, Importer, OK, Phase, STEP, callbacks, functions};
-use brinell::fmi2::abi::*;
+use brinell_fmu::fmi2::abi::*;
 use std::ffi::{CStr, c_int};
 use std::ptr::{null, null_mut};
 

@@ -86,19 +86,19 @@ fn an_elastic_fmu_is_smaller_by_the_omitted_code() {
 fn with_names(scene: &Path) -> Vec<u8> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = empty_folder();
-    for part in ["Cargo.toml", "Cargo.lock", "build.rs"] {
+    for part in ["Cargo.toml", "Cargo.lock"] {
         fs::copy(root.join(part), folder.path().join(part)).unwrap();
     }
     // listed in the manifest, but not compiled
-    for named in ["benches", "examples", "tests"] {
+    for named in ["src", "build.rs", "benches", "examples", "tests"] {
         std::os::unix::fs::symlink(root.join(named), folder.path().join(named)).unwrap();
     }
-    copy(&root.join("src"), &folder.path().join("src"));
-    fs::write(folder.path().join("src/scene/exported.rs"), constants(scene)).unwrap();
+    copy(&root.join("crates"), &folder.path().join("crates"));
+    fs::write(folder.path().join("crates/unit/src/exported.rs"), constants(scene)).unwrap();
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("with_names");
     let settings = ["opt-level='s'", "lto='fat'", "codegen-units=1", "panic='abort'", "debug='line-tables-only'"];
     let settings = settings.iter().flat_map(|setting| ["--config".into(), format!("profile.release.{setting}")]);
-    let arguments = "rustc --release --lib --locked --no-default-features --features fmu --crate-type cdylib -- \
+    let arguments = "rustc --release --package brinell-unit --locked --features cdylib --crate-type cdylib -- \
                      -Clink-arg=-nostartfiles -Clink-arg=-nodefaultlibs";
     let output = Command::new(env!("CARGO"))
         .current_dir(folder.path())
@@ -110,7 +110,7 @@ fn with_names(scene: &Path) -> Vec<u8> {
         .output()
         .expect("cargo runs this test");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    fs::read(target.join("release/libbrinell.so")).expect("the library that was built")
+    fs::read(target.join("release/libbrinell_unit.so")).expect("the library that was built")
 }
 
 fn copy(from: &Path, to: &Path) {
@@ -124,7 +124,7 @@ fn copy(from: &Path, to: &Path) {
 
 /// The files of the laws of one kind, by name, without those that every law needs.
 fn law_files(kind: &str) -> BTreeSet<String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/contact").join(kind);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/contact/src").join(kind);
     let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     names.filter(|name| name.ends_with(".rs") && name != "mod.rs").collect()
 }

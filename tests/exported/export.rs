@@ -144,8 +144,8 @@ fn json_has_the_keys_that_programs_read() {
 fn the_constants_in_the_source_are_those_of_the_default_scene() {
     let folder = empty_folder();
     let constants = run(folder.path(), ["constants", scene("steel_ball").to_str().unwrap()]).with_status(0);
-    let source = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene/exported.rs")).unwrap();
-    assert!(constants.out == source, "src/scene/exported.rs is not what the exporter writes:\n{}", constants.out);
+    let source = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/unit/src/exported.rs")).unwrap();
+    assert!(constants.out == source, "crates/unit/src/exported.rs is not what the exporter writes:\n{}", constants.out);
 }
 
 #[test]

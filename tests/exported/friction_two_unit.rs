@@ -3,8 +3,8 @@
 use crate::loaded::{ERROR, Instance, OK, Unit, take_message};
 use crate::physics::Random;
 use crate::unit;
-use brinell::contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
-use brinell::contact::{Body, Contact, Model, Pair, Surface, loading, unloading};
+use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
+use brinell_contact::{Body, Contact, Model, Pair, Surface, loading, unloading};
 use std::f64::consts::PI;
 
 const STEP: f64 = 1e-6;

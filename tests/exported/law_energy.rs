@@ -5,9 +5,9 @@ use crate::physics::laws::{entry, text};
 use crate::physics::{
     self, AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit,
 };
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Loading, Model, Pair, Surface};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Loading, Model, Pair, Surface};
 use std::fs;
 
 /// A surplus up to this fraction of the work is attributed to rounding and to the integrals.

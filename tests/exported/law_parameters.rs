@@ -2,9 +2,9 @@
 
 use crate::command::{empty_folder, run};
 use crate::physics::laws::{self, text};
-use brinell::contact::loading::{AnyLoading, Power};
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, Loading, Pair};
+use brinell_contact::loading::{AnyLoading, Power};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Body, Loading, Pair};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;

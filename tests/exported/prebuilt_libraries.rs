@@ -174,8 +174,8 @@ fn states_of_other_scenes_are_rejected() {
 fn the_kind_in_the_source_tree_is_that_of_the_default_scene() {
     let folder = empty_folder();
     let kind = run(folder.path(), ["kind".as_ref(), command::scene("steel_ball").as_os_str()]).with_status(0);
-    let source = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene/kind.rs")).unwrap();
-    assert!(kind.out == source, "src/scene/kind.rs is not what the program writes:\n{}", kind.out);
+    let source = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/unit/src/kind.rs")).unwrap();
+    assert!(kind.out == source, "crates/unit/src/kind.rs is not what the program writes:\n{}", kind.out);
 }
 
 /// The same bytes from any run, with any number of threads.

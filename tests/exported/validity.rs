@@ -2,9 +2,9 @@
 
 use crate::command::{self, empty_folder, run};
 use crate::physics::{AnyModel, all_models, mild, pair_of};
-use brinell::contact::damped::{self, AnyDamped};
-use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, largest_speed};
-use brinell::contact::{Contact, History, Loading};
+use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, largest_speed};
+use brinell_contact::{Contact, History, Loading};
 use std::fs;
 use std::process::Command;
 

@@ -8,7 +8,7 @@ use crate::call::{Call, INSTANCES, STATES, Simple, Wrong};
 use crate::face::Face;
 use crate::functions::{memory, variadic};
 use crate::judge::{Seen, check_values};
-use brinell::fmi2::abi::*;
+use brinell_fmu::fmi2::abi::*;
 use std::ffi::{CString, c_char, c_int, c_void};
 use std::ptr::{null, null_mut};
 use values::finite;

@@ -4,11 +4,11 @@ use crate::physics::laws::{entries, entry, says, text};
 use crate::physics::{self, AnyModel, mild, passive_from, unit};
 use crate::tables::{heading, row, shows};
 use crate::{is_writing, read, root};
-use brinell::contact::impact::{Impact, Prediction, predict};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::rate::{Rate, STEPS, TABOR};
-use brinell::contact::regime::LARGEST_INDENTATION;
-use brinell::contact::{Body, Loading, Model, Pair, Surface};
+use brinell_contact::impact::{Impact, Prediction, predict};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::rate::{Rate, STEPS, TABOR};
+use brinell_contact::regime::LARGEST_INDENTATION;
+use brinell_contact::{Body, Loading, Model, Pair, Surface};
 use std::fs;
 use std::path::Path;
 
@@ -341,8 +341,10 @@ fn rates(c: f64) -> [(String, Rebounds); 3] {
 fn dents() -> String {
     let devices = read(Path::new("data/experiment/leeb_dents.csv"));
     let names = devices.lines().skip(1).map(|line| line.split(',').next().unwrap_or_default());
-    let dents: Vec<_> =
-        names.zip(numbers("data/experiment/leeb_dents.csv", "")).filter(|(name, _)| ["D", "G"].contains(name)).collect();
+    let dents: Vec<_> = names
+        .zip(numbers("data/experiment/leeb_dents.csv", ""))
+        .filter(|(name, _)| ["D", "G"].contains(name))
+        .collect();
     let cell = |diameter: f64, depth: f64| format!("{:.0} / {:.1}", 1e6 * diameter, 1e6 * depth);
     let line =
         |name: String, cells: Vec<String>| row(&[name].iter().chain(&cells).map(String::as_str).collect::<Vec<_>>());

@@ -63,7 +63,7 @@ fn wrong_links_are_found() {
 
 /// Folders whose files are named in the text.
 const FOLDERS: [&str; 10] =
-    ["benches/", "build/", "data/", "docs/", "examples/", "modelDescription/", "python/", "scenes/", "src/", "tests/"];
+    ["benches/", "crates/", "data/", "docs/", "examples/", "modelDescription/", "python/", "scenes/", "src/", "tests/"];
 
 #[test]
 fn files_that_are_named_exist() {
@@ -77,7 +77,8 @@ fn files_that_are_named_exist() {
             // patterns and commands are not names
             let is_name = FOLDERS.iter().any(|folder| name.starts_with(folder)) && !name.contains(['*', ' ', '{']);
             // the page of promises names tests from their folder on
-            let is_there = [root().to_path_buf(), root().join("tests")].iter().any(|folder| folder.join(&name).exists());
+            let is_there =
+                [root().to_path_buf(), root().join("tests")].iter().any(|folder| folder.join(&name).exists());
             if is_name && !is_there {
                 missing.push(format!("{}: {name}", page.display()));
             }

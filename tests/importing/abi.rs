@@ -13,7 +13,7 @@ use std::sync::LazyLock;
 
 const PROOF: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/c/abi.c");
 const HEADER: &str = include_str!(concat!(env!("OUT_DIR"), "/brinell.h"));
-const ABI: &str = include_str!("../../src/fmi2/abi.rs");
+const ABI: &str = include_str!("../../crates/fmu/src/fmi2/abi.rs");
 
 /// The folder of the standard's headers, which are part of fmpy.
 static STANDARD: LazyLock<PathBuf> = LazyLock::new(|| {

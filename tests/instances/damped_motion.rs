@@ -2,12 +2,12 @@
 
 use crate::physics;
 use crate::scenes::{Choice, Chosen, DampedMassive, choose, ready, set_rate};
-use brinell::contact::damped::{self, AnyDamped, Damped, History, Model};
-use brinell::contact::impact::Impact;
-use brinell::contact::motion::{Drive, Outcome};
-use brinell::contact::{Contact, Pair};
-use brinell::instance::Instance;
-use brinell::scene::{Present, Real};
+use brinell_contact::damped::{self, AnyDamped, Damped, History, Model};
+use brinell_contact::impact::Impact;
+use brinell_contact::motion::{Drive, Outcome};
+use brinell_contact::{Contact, Pair};
+use brinell_fmu::instance::Instance;
+use brinell_fmu::scene::{Present, Real};
 
 type One = Chosen<DampedMassive, 1, Present>;
 

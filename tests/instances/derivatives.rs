@@ -3,9 +3,9 @@
 use crate::physics::{self, Random, mild};
 use crate::scenes::{Choice, Chosen, DampedMassive, LossyMassive, OUTPUTS, choose, ready, set_rate};
 use crate::{DampedOne, DampedSeveral, MassiveOne, One, STEP, Several, every_pairing, some_pairings};
-use brinell::contact::damped::AnyDamped;
-use brinell::instance::{Fault, Instance};
-use brinell::scene::{Present, Real, Scene};
+use brinell_contact::damped::AnyDamped;
+use brinell_fmu::instance::{Fault, Instance};
+use brinell_fmu::scene::{Present, Real, Scene};
 
 /// Compares derivatives with respect to time with differences of the outputs over the following steps.
 #[test]

@@ -7,11 +7,11 @@ use crate::scenes::{
     Choice, Chosen, Damped, DampedMassive, Elastoplastic, Lossy, LossyMassive, Massive, OUTPUTS, Rated, Rough,
     RoughPlane, choose, frictions, words,
 };
-use brinell::contact::damped::AnyDamped;
-use brinell::contact::rate::Rate;
-use brinell::contact::{Contact, Surface};
-use brinell::instance::{Fault, Instance};
-use brinell::scene::{Present, Real, Scene};
+use brinell_contact::damped::AnyDamped;
+use brinell_contact::rate::Rate;
+use brinell_contact::{Contact, Surface};
+use brinell_fmu::instance::{Fault, Instance};
+use brinell_fmu::scene::{Present, Real, Scene};
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Present>;

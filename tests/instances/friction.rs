@@ -3,7 +3,7 @@
 use crate::physics::Random;
 use crate::scenes::{OUTPUTS, choose, ready, set_rate, set_tangential_rate};
 use crate::{One, RoughOne, RoughPlaneOne, STEP, some_pairings};
-use brinell::scene::{Real, Scene};
+use brinell_fmu::scene::{Real, Scene};
 
 /// Friction changes nothing along the normal.
 #[test]

@@ -6,10 +6,10 @@
 
 use crate::physics::{Random, all_models, mild};
 use crate::scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, choose, outputs, ready, set_rate, words};
-use brinell::contact::damped::AnyDamped;
-use brinell::instance::{Instance, Phase};
-use brinell::scene::exported::Exported;
-use brinell::scene::{Coupled, Present, Real, Scene};
+use brinell_contact::damped::AnyDamped;
+use brinell_fmu::instance::{Instance, Phase};
+use brinell_fmu::scene::{Coupled, Present, Real, Scene};
+use brinell_unit::exported::Exported;
 
 type One = Chosen<Elastoplastic, 1, Present>;
 type Several = Chosen<Elastoplastic, 3, Present>;

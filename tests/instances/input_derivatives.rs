@@ -3,9 +3,9 @@
 use crate::physics::Random;
 use crate::scenes::{choose, frictions, ready, set_rate, set_tangential_rate};
 use crate::{One, RoughOne, RoughPlaneOne, RoughPlaneSeveral, RoughSeveral, STEP, Several, some_pairings};
-use brinell::contact::Contact;
-use brinell::instance::{FASTEST, Fault};
-use brinell::scene::{Real, Scene};
+use brinell_contact::Contact;
+use brinell_fmu::instance::{FASTEST, Fault};
+use brinell_fmu::scene::{Real, Scene};
 
 /// The prediction after a step with derivatives continues from its end; after any other step it follows the input.
 #[test]

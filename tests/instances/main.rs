@@ -23,14 +23,14 @@ mod smallest_gaps;
 mod stability_warning;
 mod wiring;
 
-use brinell::contact::Contact;
-use brinell::contact::damped::AnyDamped;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::losses::{AnyLoss, Fitted, Plate, Solid, Waves};
-use brinell::contact::unloading::AnyUnloading;
-use brinell::instance::{FASTEST, Fault, Instance, LATEST, Phase, Plain, SHORTEST};
-use brinell::scene::exported::Exported;
-use brinell::scene::{Coupled, Present, Real, Scene};
+use brinell_contact::Contact;
+use brinell_contact::damped::AnyDamped;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::losses::{AnyLoss, Fitted, Plate, Solid, Waves};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_fmu::instance::{FASTEST, Fault, Instance, LATEST, Phase, Plain, SHORTEST};
+use brinell_fmu::scene::{Coupled, Present, Real, Scene};
+use brinell_unit::exported::Exported;
 use physics::{Random, all_models, mild};
 use scenes::{
     Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, Rough, RoughPlane, choose, outputs, ready, set_rate,

@@ -4,9 +4,9 @@
 use crate::masters::{MASS, Master, PATTERNS, Parallel, Serial, WiredParallel, WiredSerial, choice};
 use crate::physics::{self, AnyModel, Random, all_models, mild};
 use crate::scenes::Choice;
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::{Loading, Surface};
-use brinell::scene::{Real, Scene};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::{Loading, Surface};
+use brinell_fmu::scene::{Real, Scene};
 
 /// Runs `one` with both kinds of importers, with input derivatives and with inputs.
 fn with_each_master(choice: Choice, speed: f64, acceleration: f64, mut one: impl FnMut(&str, &mut dyn AnyMaster)) {

@@ -2,10 +2,10 @@
 
 use crate::physics::Random;
 use crate::scenes::{Choice, Chosen, Guarded, choose, ready, set_rate, words};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::instance::{Instance, Plain};
-use brinell::scene::{Absent, Scene};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_fmu::instance::{Instance, Plain};
+use brinell_fmu::scene::{Absent, Scene};
 
 /// Every loading law with each unloading law that can be guarded.
 fn every_guarded() -> impl Iterator<Item = (String, Choice)> {

@@ -3,11 +3,11 @@
 use crate::masters::{MASS, Master, choice};
 use crate::physics::{AnyModel, all_models, mild, model};
 use crate::scenes::{self, Chosen, Rated, outputs, words};
-use brinell::contact::impact::{self, Impact, Prediction};
-use brinell::contact::rate::{Model, Rate};
-use brinell::contact::{Loading, Surface};
-use brinell::instance::Instance;
-use brinell::scene::{Absent, Coupled, Present, Real, Scene};
+use brinell_contact::impact::{self, Impact, Prediction};
+use brinell_contact::rate::{Model, Rate};
+use brinell_contact::{Loading, Surface};
+use brinell_fmu::instance::Instance;
+use brinell_fmu::scene::{Absent, Coupled, Present, Real, Scene};
 
 type Serial = Chosen<Rated, 1, Present>;
 type Parallel = Chosen<Rated<Coupled<Present>>, 1, Present>;

@@ -7,11 +7,11 @@ use crate::scenes::{
     RoughPlane, choose, frictions, outputs, ready, set_rate, words,
 };
 use crate::{LOSSES, some_pairings};
-use brinell::contact::damped::{AnyDamped, Damped as _};
-use brinell::contact::losses::{AnyLoss, Form, Loss};
-use brinell::contact::{Contact, Surface};
-use brinell::instance::{Instance, Phase};
-use brinell::scene::{Absent, Coupled, Coupling, Presence, Present, Real, Scene, Store};
+use brinell_contact::damped::{AnyDamped, Damped as _};
+use brinell_contact::losses::{AnyLoss, Form, Loss};
+use brinell_contact::{Contact, Surface};
+use brinell_fmu::instance::{Instance, Phase};
+use brinell_fmu::scene::{Absent, Coupled, Coupling, Presence, Present, Real, Scene, Store};
 
 /// Sets all rates of a contact.
 fn set<S: Scene>(instance: &mut Instance<S>, contact: usize, rate: f64, [one, two]: [f64; 2]) {

@@ -5,9 +5,9 @@ use crate::scenes::{
     choose, outputs, ready, words,
 };
 use crate::{LOSSES, every_pairing, some_pairings};
-use brinell::contact::damped::AnyDamped;
-use brinell::instance::Fault;
-use brinell::scene::{Absent, Coupled, Present, Real, Scene};
+use brinell_contact::damped::AnyDamped;
+use brinell_fmu::instance::Fault;
+use brinell_fmu::scene::{Absent, Coupled, Present, Real, Scene};
 
 /// Gaps [m]: subnormal, at the border of the normal numbers, and small enough that their squares vanish.
 const GAPS: [f64; 6] = [5e-324, 1e-320, 1e-310, f64::MIN_POSITIVE, 1e-300, 1e-160];

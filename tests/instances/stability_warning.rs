@@ -3,10 +3,10 @@
 use crate::masters::{MASS, PATTERNS, Pattern, choice};
 use crate::physics::{AnyModel, Random, all_models, mild};
 use crate::scenes::{Choice, Chosen, Elastoplastic, choose, ready, set_rate};
-use brinell::contact::Surface;
-use brinell::contact::impact::{Impact, predict};
-use brinell::instance::Warning;
-use brinell::scene::{Absent, Present, Real, Scene};
+use brinell_contact::Surface;
+use brinell_contact::impact::{Impact, predict};
+use brinell_fmu::instance::Warning;
+use brinell_fmu::scene::{Absent, Present, Real, Scene};
 
 type One = Chosen<Elastoplastic, 1, Absent>;
 type WithMomentum = Chosen<Elastoplastic, 1, Present>;

@@ -3,10 +3,10 @@
 use crate::masters::{MASS, Master, PATTERNS, Parallel, Serial, WiredParallel, WiredSerial, choice};
 use crate::physics::{Random, all_models, mild};
 use crate::scenes::{Choice, Chosen, Massive, choose, ready, set_rate, words};
-use brinell::contact::Surface;
-use brinell::contact::impact::{Impact, predict};
-use brinell::instance::{Fault, Instance, Warning};
-use brinell::scene::{Coupled, Present, Real, Scene};
+use brinell_contact::Surface;
+use brinell_contact::impact::{Impact, predict};
+use brinell_fmu::instance::{Fault, Instance, Warning};
+use brinell_fmu::scene::{Coupled, Present, Real, Scene};
 
 type SeveralWired = Chosen<Massive<Coupled<Present, Present, Present>>, 3, Present>;
 

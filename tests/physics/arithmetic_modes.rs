@@ -4,7 +4,7 @@
 
 use crate::arithmetic::{MODES, control, set_control};
 use crate::physics::{AnyModel, TURNS, advance, all_models, mild, model, on_grid, pressed};
-use brinell::contact::History;
+use brinell_contact::History;
 use std::hint::black_box;
 
 /// The result of `work` in a mode of arithmetic.

@@ -4,7 +4,7 @@ use crate::physics::{
     AnyModel, Random, TURNS, advance, all_models, corners, exactly, go, is_passive, mild, model, on_grid, pair_of,
     pressed, unloading_stiffness,
 };
-use brinell::contact::{History, Loading, Regime, Surface};
+use brinell_contact::{History, Loading, Regime, Surface};
 
 #[test]
 fn no_motion_changes_nothing() {

@@ -1,14 +1,14 @@
 //! The rate-dependent laws: reference values, energy, and the forces along a path.
 
 use crate::physics::{MASS, logarithmic, mild};
-use brinell::contact::Contact;
-use brinell::contact::behaviour::is_finite_at;
-use brinell::contact::damped::hunt_crossley::DampingFactor;
-use brinell::contact::damped::tsuji::TsujiDamping;
-use brinell::contact::damped::{
+use brinell_contact::Contact;
+use brinell_contact::behaviour::is_finite_at;
+use brinell_contact::damped::hunt_crossley::DampingFactor;
+use brinell_contact::damped::tsuji::TsujiDamping;
+use brinell_contact::damped::{
     Adams, AnyDamped, Damped, History, HuntCrossley, KelvinVoigt, KuwabaraKono, Model, Tsuji, impact,
 };
-use brinell::contact::impact::{Impact, Prediction};
+use brinell_contact::impact::{Impact, Prediction};
 use std::f64::consts::PI;
 
 fn model_of(law: AnyDamped, restitution: f64) -> Model<AnyDamped> {
@@ -342,7 +342,7 @@ fn a_stored_history_goes_on_as_before() {
 fn factors_follow_the_bodies() {
     // twice the modulus: twice the stiffness; K_h chi and the C of the others change with their own powers
     let pair = mild();
-    let stiffer = brinell::contact::Pair { modulus: 2.0 * pair.modulus, ..pair };
+    let stiffer = brinell_contact::Pair { modulus: 2.0 * pair.modulus, ..pair };
     for (name, law, power) in [
         ("hunt-crossley", hunt_crossley(DampingFactor::Exact), 1.0),
         ("tsuji", AnyDamped::Tsuji(Tsuji::REFERENCE), 0.5),

@@ -1,10 +1,10 @@
 //! The ends of laws: a fit must reject what is beyond its range, not return numbers that are not finite.
 
 use crate::physics::{AnyModel, MASS, Random, all_models, mild, model, pair_of};
-use brinell::contact::damped::AnyDamped;
-use brinell::contact::impact::{Impact, predict, restitution};
-use brinell::contact::quadrature::logarithmic_integral;
-use brinell::contact::{History, Pair, damped, losses};
+use brinell_contact::damped::AnyDamped;
+use brinell_contact::impact::{Impact, predict, restitution};
+use brinell_contact::quadrature::logarithmic_integral;
+use brinell_contact::{History, Pair, damped, losses};
 
 /// Log-uniform numbers from `10^low` to `10^high`.
 fn decades(random: &mut Random, low: f64, high: f64) -> f64 {

@@ -1,11 +1,11 @@
 //! Two equal bodies that yield: by symmetry the plane between them stays flat, and each is pressed by a rigid plane.
 
 use crate::physics::{AnyModel, Random, belong_together};
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::rate::{self, Rate};
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, Loading, Model, Pair, Surface};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::rate::{self, Rate};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Body, Loading, Model, Pair, Surface};
 use std::collections::BTreeSet;
 
 /// A ball against an equal one, and the same ball against a rigid plane, with this hardening modulus \[Pa\] and these laws.

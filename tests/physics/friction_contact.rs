@@ -2,9 +2,9 @@
 
 use crate::friction::assert_close;
 use crate::physics::{MASS, Random, mild};
-use brinell::contact::path::Course;
-use brinell::contact::tangential::{Friction, Quantity, RoughContact, RoughModel, Sliding, Springs};
-use brinell::contact::{Contact, History, damped, loading, losses, rate, unloading};
+use brinell_contact::path::Course;
+use brinell_contact::tangential::{Friction, Quantity, RoughContact, RoughModel, Sliding, Springs};
+use brinell_contact::{Contact, History, damped, loading, losses, rate, unloading};
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const STEP: f64 = 1e-6;
@@ -15,8 +15,8 @@ type Plastic = Model<loading::Brinell, unloading::Brinell>;
 type Rough = RoughContact<12>;
 
 fn model<L, U>(loading: L, unloading: U) -> Model<L, U> {
-    let surface = brinell::contact::Surface::Dented;
-    RoughModel { normal: brinell::contact::Model { pair: mild(), loading, unloading, surface }, friction: FRICTION }
+    let surface = brinell_contact::Surface::Dented;
+    RoughModel { normal: brinell_contact::Model { pair: mild(), loading, unloading, surface }, friction: FRICTION }
 }
 
 fn elastic() -> Elastic {

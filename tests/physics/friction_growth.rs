@@ -2,9 +2,9 @@
 
 use crate::friction;
 use crate::physics::{self, Random, all_models, is_passive, mild, unit};
-use brinell::contact::History;
-use brinell::contact::tangential::{Friction, RoughModel, Sliding, Springs};
-use brinell::contact::{loading::AnyLoading, unloading::AnyUnloading};
+use brinell_contact::History;
+use brinell_contact::tangential::{Friction, RoughModel, Sliding, Springs};
+use brinell_contact::{loading::AnyLoading, unloading::AnyUnloading};
 
 pub const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const LATTICE: bool = true;
@@ -182,7 +182,7 @@ fn a_restored_contact_continues_with_the_same_bits() {
 fn a_fresh_surface_leaves_no_dent_for_the_springs() {
     let unit = unit(&mild()).indentation;
     for (name, mut model) in models() {
-        model.normal.surface = brinell::contact::Surface::Fresh;
+        model.normal.surface = brinell_contact::Surface::Fresh;
         let mut run = Run::<12>::new(&model);
         run.step(&model, (50.0 * unit, 20.0 * unit), 10);
         let back = -unit - run.contact.indentation();

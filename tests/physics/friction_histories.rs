@@ -3,9 +3,9 @@
 
 use super::friction_growth::{Model, models};
 use crate::physics::{AnyModel, Random};
-use brinell::contact::path::Course;
-use brinell::contact::tangential::{Friction, PlaneContact, RoughContact, Sliding};
-use brinell::contact::{Contact, Pair};
+use brinell_contact::path::Course;
+use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, Sliding};
+use brinell_contact::{Contact, Pair};
 use std::f64::consts::PI;
 
 const STEP: f64 = 1e-6;

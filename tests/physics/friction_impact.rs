@@ -2,10 +2,10 @@
 
 use crate::friction::assert_close;
 use crate::physics::{self, all_models, mild};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::tangential::impact::{Ball, Rebound, in_steps, predict};
-use brinell::contact::tangential::{Friction, RoughModel, Sliding};
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::tangential::impact::{Ball, Rebound, in_steps, predict};
+use brinell_contact::tangential::{Friction, RoughModel, Sliding};
+use brinell_contact::unloading::AnyUnloading;
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const MASS: f64 = 4.11e-3;

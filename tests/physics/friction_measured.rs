@@ -1,8 +1,8 @@
 //! Oblique impacts compared with measurements, finite elements and the limit of full sliding.
 
 use crate::friction::{Ball, Rebound, assert_close, file, hertz};
-use brinell::contact::tangential::{Friction, Stuck, Way};
-use brinell::contact::{Body, Pair, Segment};
+use brinell_contact::tangential::{Friction, Stuck, Way};
+use brinell_contact::{Body, Pair, Segment};
 use std::f64::consts::PI;
 
 /// A thousandth of the duration of an impact with Hertz's law [s].

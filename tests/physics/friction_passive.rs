@@ -3,8 +3,8 @@
 
 use crate::physics::laws;
 use crate::physics::{AnyModel, Random, all_models, is_passive, unit};
-use brinell::contact::tangential::{Friction, RoughContact, RoughModel};
-use brinell::contact::{Body, Contact, Pair, loading::AnyLoading, unloading::AnyUnloading};
+use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
+use brinell_contact::{Body, Contact, Pair, loading::AnyLoading, unloading::AnyUnloading};
 
 type Model = RoughModel<AnyLoading, AnyUnloading>;
 type Rough = RoughContact<12>;

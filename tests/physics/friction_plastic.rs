@@ -2,10 +2,10 @@
 
 use crate::friction::{Ball, Rebound, Row, assert_close, table};
 use crate::physics;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::tangential::{Friction, RoughModel, Springs};
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, History, Loading, Pair};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::tangential::{Friction, RoughModel, Springs};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Body, History, Loading, Pair};
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 
@@ -145,7 +145,7 @@ fn restitution_on_steel<const N: usize>(laws: (&str, &str), degrees: f64, steps:
     let ball = Body { radius: 5e-3, youngs_modulus: 206e9, poissons_ratio: 0.3 };
     let block = Body { radius: f64::INFINITY, ..ball };
     let pair = Pair::new(&ball, &block, 300e6).expect("two bodies");
-    let normal = brinell::contact::Model { pair, ..physics::model(laws.0, laws.1) };
+    let normal = brinell_contact::Model { pair, ..physics::model(laws.0, laws.1) };
     let model = RoughModel { normal, friction: Friction::between(&ball, &block, pair.modulus, 0.4) };
     let mut contact = History::start(&model.normal, 0.0).expect("within range");
     let mut springs: Springs<N> = Springs::start(&model, &contact);

@@ -2,8 +2,8 @@
 
 use crate::friction::{assert_close, hertz};
 use crate::physics::Random;
-use brinell::contact::Segment;
-use brinell::contact::tangential::{Friction, Sliding, Stuck, Way};
+use brinell_contact::Segment;
+use brinell_contact::tangential::{Friction, Sliding, Stuck, Way};
 use std::f64::consts::PI;
 
 const MODULUS: f64 = 2e11;
@@ -358,7 +358,7 @@ fn damaged_words_are_rejected() {
 
 #[test]
 fn a_stiffness_ratio_follows_from_the_bodies() {
-    use brinell::contact::{Body, Pair};
+    use brinell_contact::{Body, Pair};
     let steel = Body { radius: 5e-3, youngs_modulus: 206e9, poissons_ratio: 0.3 };
     let flat = Body { radius: f64::INFINITY, ..steel };
     let rigid = Body { radius: 5e-3, youngs_modulus: f64::INFINITY, poissons_ratio: 0.1 };

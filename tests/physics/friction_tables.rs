@@ -1,8 +1,8 @@
 //! The tangential force on elastic curves compared with tables from another program: histories, and impacts in steps.
 
 use crate::friction::{self, Ball, Rebound, assert_close, hertz, table};
-use brinell::contact::tangential::{Friction, Stuck, Way};
-use brinell::contact::{Body, Pair, Segment};
+use brinell_contact::tangential::{Friction, Stuck, Way};
+use brinell_contact::{Body, Pair, Segment};
 use std::f64::consts::PI;
 
 /// One material, 4 G*/E* = 2 (1 - nu)/(2 - nu).

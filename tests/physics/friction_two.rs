@@ -5,8 +5,8 @@ mod springs;
 
 use crate::friction::{hertz, table};
 use crate::physics::Random;
-use brinell::contact::tangential::plane::{Stuck, Way};
-use brinell::contact::tangential::{self, Friction};
+use brinell_contact::tangential::plane::{Stuck, Way};
+use brinell_contact::tangential::{self, Friction};
 use histories::{DEEPEST, MODULUS, RADIUS, Run, Step, any_sizes, circles, distance, length, like_the_table};
 use springs::Springs;
 use std::f64::consts::PI;

@@ -2,8 +2,8 @@
 
 use super::friction_growth::{FRICTION, Model, allowed, history, models};
 use crate::physics::Random;
-use brinell::contact::History;
-use brinell::contact::tangential::{PlaneSprings, Sliding};
+use brinell_contact::History;
+use brinell_contact::tangential::{PlaneSprings, Sliding};
 use std::f64::consts::PI;
 
 struct Run<const N: usize> {

@@ -3,9 +3,9 @@
 
 use super::friction_growth::{Model, history, models};
 use crate::physics::Random;
-use brinell::contact::Contact;
-use brinell::contact::path::Course;
-use brinell::contact::tangential::{PlaneContact, Quantity, RoughContact, Sliding};
+use brinell_contact::Contact;
+use brinell_contact::path::Course;
+use brinell_contact::tangential::{PlaneContact, Quantity, RoughContact, Sliding};
 use std::f64::consts::PI;
 
 /// Long enough that no list is ever full.

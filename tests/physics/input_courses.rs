@@ -1,11 +1,12 @@
 //! Steps along a course: number of evaluations of the law, exactness, and independence of the division into steps.
 
 use crate::physics::{Random, mild, model, unit};
-use brinell::contact::momentum::impulse;
-use brinell::contact::path::Course;
-use brinell::contact::{Contact, History, Loading, Model, Regime, Surface, Unloading, loading, unloading};
-use brinell::instance::Instance;
-use brinell::scene::{Real, exported::Exported};
+use brinell_contact::momentum::impulse;
+use brinell_contact::path::Course;
+use brinell_contact::{Contact, History, Loading, Model, Regime, Surface, Unloading, loading, unloading};
+use brinell_fmu::instance::Instance;
+use brinell_fmu::scene::Real;
+use brinell_unit::exported::Exported;
 use std::cell::Cell;
 
 /// A claim about every law made of segments.

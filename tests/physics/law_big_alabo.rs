@@ -1,8 +1,8 @@
 //! The law of Big-Alabo, Harrison and Cartmell.
 
 use crate::physics::{mild, model, pressed, unit};
-use brinell::contact::Loading;
-use brinell::contact::loading::BigAlabo;
+use brinell_contact::Loading;
+use brinell_contact::loading::BigAlabo;
 
 const EPSILON: f64 = f64::EPSILON;
 

@@ -4,7 +4,7 @@
 
 use crate::law_strengthened::{force, on_steel, read};
 use crate::physics::{AnyModel, corners, logarithmic, unit};
-use brinell::contact::{Loading, Pair};
+use brinell_contact::{Loading, Pair};
 
 /// Finite-element curves: Poisson's ratio, `H/E`, and the largest error of the law.
 const CURVES: [(f64, f64, f64); 4] = [(0.2, 0.1, 8e-3), (0.4, 0.05, 3e-3), (0.45, 0.1, 3e-3), (0.45, 0.02, 5e-3)];

@@ -1,7 +1,7 @@
 //! The law `brinell` compared with the finite-element results of its fit, in `data/truth/`.
 
 use crate::physics::{AnyModel, advance, model, pressed, unit};
-use brinell::contact::Loading;
+use brinell_contact::Loading;
 use std::fs;
 use std::path::Path;
 
@@ -164,8 +164,8 @@ fn the_constants_in_the_source_equal_those_of_the_fit() {
     let list = |name: &str| -> Vec<f64> {
         written[name].as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect()
     };
-    let loading = brinell::contact::loading::Brinell::REFERENCE;
-    let unloading = brinell::contact::unloading::Brinell::REFERENCE;
+    let loading = brinell_contact::loading::Brinell::REFERENCE;
+    let unloading = brinell_contact::unloading::Brinell::REFERENCE;
     assert_eq!(loading.knots.to_vec(), list("knots"));
     assert_eq!(loading.force_slopes.to_vec(), list("force_slopes"));
     assert_eq!(loading.area_slopes.to_vec(), list("area_slopes"));

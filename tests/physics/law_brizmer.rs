@@ -3,9 +3,9 @@
 
 use crate::physics::{AnyModel, MASS, mild, model};
 use crate::printed::{agrees, agrees_in_digits};
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::loading::Brizmer;
-use brinell::contact::{History, Loading, Pair};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::loading::Brizmer;
+use brinell_contact::{History, Loading, Pair};
 use std::f64::consts::PI;
 
 /// Indentations of the tables [d_c].

@@ -2,9 +2,9 @@
 
 use crate::physics::{AnyModel, MASS, mild, model, pair_of, unit};
 use crate::printed::{agrees, agrees_in_digits};
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::loading::{AnyLoading, Johnson};
-use brinell::contact::{Loading, Pair, Regime};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::loading::{AnyLoading, Johnson};
+use brinell_contact::{Loading, Pair, Regime};
 use std::f64::consts::PI;
 
 /// Mean pressure over the yield strength, and `E* a/(S R)`, at `x` yield indentations.

@@ -1,8 +1,8 @@
 //! Luding's spring: forces, dents and restitution compared with his formulas.
 
 use crate::physics::{self, MASS, go, model, pressed, unit};
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::{History, Loading};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::{History, Loading};
 
 /// `k_1` [N/m], `k_2/k_1`, `d*` [m] and the deepest dent [m] of the reference constants on the pair of the tables.
 fn constants() -> (f64, f64, f64, f64) {

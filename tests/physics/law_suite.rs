@@ -7,10 +7,10 @@ use crate::physics::{
     AnyModel, all_models, corners, go, has_jumps, is_passive, is_scale_free, loading_force, logarithmic, mild, model,
     pair_of, pressed, radius_falls_by, unit, unloading_force, unloading_stiffness,
 };
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::regime::LARGEST_INDENTATION;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{History, Loading, Regime};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::regime::LARGEST_INDENTATION;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{History, Loading, Regime};
 
 const EPSILON: f64 = f64::EPSILON;
 

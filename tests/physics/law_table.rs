@@ -5,9 +5,9 @@ use crate::physics::{
     AnyModel, Random, belong_together, corners, loading_force, logarithmic, model, pair_of, passive_from,
     random_bodies, unit,
 };
-use brinell::contact::Model;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::Model;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
 
 /// The law of this name, with an arbitrary unloading law.
 fn of(name: &str) -> AnyModel {

@@ -2,7 +2,7 @@
 //! compiled at any level of optimisation.
 
 use crate::physics::{AnyModel, Random, all_models, corners, has_jumps, loading_force, random_bodies, unit};
-use brinell::contact::{History, Loading};
+use brinell_contact::{History, Loading};
 use std::env;
 use std::process::Command;
 
@@ -137,7 +137,7 @@ fn every_level_of_optimisation_gives_the_same_bits() {
     for level in ["0", "1", "2", "3", "\"s\"", "\"z\""] {
         let mut cargo = Command::new(env!("CARGO"));
         cargo.args(["test", "--quiet", "--release", "--no-default-features", "--test", "physics"]);
-        for package in ["brinell", "libm"] {
+        for package in ["brinell-contact", "libm"] {
             cargo.args(["--config", &format!("profile.release.package.{package}.opt-level={level}")]);
         }
         let test = "laws_everywhere::motions_for_any_bodies_are_the_same_each_time";

@@ -2,16 +2,16 @@
 //! is at rest.
 
 use crate::physics::{AnyModel, MASS, all_models, logarithmic, mild, model, unit};
-use brinell::contact::impact::{Impact, Prediction};
-use brinell::contact::losses::{AnyLoss, Fitted, Form, History, Loss, Model, Plate, Solid, Waves, follow, impact};
-use brinell::contact::motion::Drive;
-use brinell::contact::quadrature::graded_integral;
-use brinell::contact::{self, Contact, Loading, Surface};
+use brinell_contact::impact::{Impact, Prediction};
+use brinell_contact::losses::{AnyLoss, Fitted, Form, History, Loss, Model, Plate, Solid, Waves, follow, impact};
+use brinell_contact::motion::Drive;
+use brinell_contact::quadrature::graded_integral;
+use brinell_contact::{Contact, Loading, Surface};
 
 const DENSITY: f64 = 7850.0;
 
 /// The material of the target of `pair`.
-fn solid(pair: &contact::Pair, density: f64) -> Solid {
+fn solid(pair: &brinell_contact::Pair, density: f64) -> Solid {
     Solid { density, youngs_modulus: pair.youngs_modulus, poissons_ratio: pair.poissons_ratio }
 }
 
@@ -19,7 +19,7 @@ fn steel() -> Solid {
     solid(&mild(), DENSITY)
 }
 
-type Lossy = Model<contact::loading::AnyLoading, contact::unloading::AnyUnloading, AnyLoss>;
+type Lossy = Model<brinell_contact::loading::AnyLoading, brinell_contact::unloading::AnyUnloading, AnyLoss>;
 
 fn losses() -> [AnyLoss; 3] {
     [
@@ -103,7 +103,7 @@ fn the_radiation_of_a_half_space_is_that_of_lambs_problem() {
     for (poissons_ratio, number) in
         [(-0.5, 0.389364), (0.0, 0.213964), (0.25, 0.148134), (0.3, 0.137227), (0.5, 0.104424)]
     {
-        let pair = contact::Pair { poissons_ratio, youngs_modulus: 2.0 * (1.0 + poissons_ratio), ..mild() };
+        let pair = brinell_contact::Pair { poissons_ratio, youngs_modulus: 2.0 * (1.0 + poissons_ratio), ..mild() };
         // shear modulus and density of one
         assert_close(&format!("nu = {poissons_ratio}"), Waves { target: solid(&pair, 1.0) }.factor(), number, 3e-3);
     }
@@ -113,9 +113,9 @@ fn the_radiation_of_a_half_space_is_that_of_lambs_problem() {
 fn a_steel_ball_on_a_steel_block_loses_what_hunter_and_reed_say() {
     // the published form: 1.04 (v/c0)^0.6 for nu = 0.25, with a force in the shape of a sine; the true shape gives 7 % more
     let modulus = 2.1e11;
-    let body = contact::Body { radius: 5e-3, youngs_modulus: modulus, poissons_ratio: 0.25 };
-    let flat = contact::Body { radius: f64::INFINITY, ..body };
-    let pair = contact::Pair::new(&body, &flat, f64::INFINITY).unwrap();
+    let body = brinell_contact::Body { radius: 5e-3, youngs_modulus: modulus, poissons_ratio: 0.25 };
+    let flat = brinell_contact::Body { radius: f64::INFINITY, ..body };
+    let pair = brinell_contact::Pair::new(&body, &flat, f64::INFINITY).unwrap();
     let plastic = AnyModel { pair, ..model("hertz", "contact-radius") };
     let lossy = with(&plastic, AnyLoss::Waves(Waves { target: solid(&pair, DENSITY) }));
     let mass = DENSITY * 4.0 / 3.0 * std::f64::consts::PI * 5e-3f64.powi(3);

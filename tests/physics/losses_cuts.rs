@@ -1,12 +1,12 @@
 //! A body of known mass under a contact with a loss reaches the same state, however the time is divided into steps.
 
 use crate::physics::{AnyModel, Random, all_models, pair_of};
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::losses::{AnyLoss, Fitted, History, Model, Plate, Solid, Waves, follow};
-use brinell::contact::motion::Drive;
-use brinell::contact::{self, Contact, Loading, Surface};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::losses::{AnyLoss, Fitted, History, Model, Plate, Solid, Waves, follow};
+use brinell_contact::motion::Drive;
+use brinell_contact::{Contact, Loading, Surface};
 
-type Lossy = Model<brinell::contact::loading::AnyLoading, brinell::contact::unloading::AnyUnloading, AnyLoss>;
+type Lossy = Model<brinell_contact::loading::AnyLoading, brinell_contact::unloading::AnyUnloading, AnyLoss>;
 
 /// A motion to be divided into steps.
 #[derive(Debug)]
@@ -219,7 +219,8 @@ fn bodies_come_to_rest_in_steps_of_few_evaluations_wherever_they_rest() {
             // where the bodies rest, or how deep they have been before
             let (rest, dent) = (random.log_uniform(1e-4, 0.1), [0.0, random.log_uniform(2.0, 100.0)]);
             let mass = random.log_uniform(1e-9, 1e3);
-            let resting = contact::history::History::start(&plastic, -rest * yields.indentation).expect("within range");
+            let resting =
+                brinell_contact::history::History::start(&plastic, -rest * yields.indentation).expect("within range");
             let acceleration = resting.force() / mass;
             let swing = (yields.indentation * rest / acceleration).sqrt();
             let speed = acceleration * swing * random.log_uniform(0.1, 3.0);

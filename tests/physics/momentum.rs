@@ -1,9 +1,9 @@
 //! The impulse of a step: exact for any course of the rate, across every corner of the law.
 
 use crate::physics::{AnyModel, Random, all_models, mild, model, unit};
-use brinell::contact::momentum::impulse;
-use brinell::contact::path::Course;
-use brinell::contact::{History, Surface};
+use brinell_contact::momentum::impulse;
+use brinell_contact::path::Course;
+use brinell_contact::{History, Surface};
 
 /// The impulse from many small steps, each with Simpson's rule, and the final contact.
 fn slowly(history: &History, model: &AnyModel, course: &Course, step: f64, parts: u32) -> (f64, History) {

@@ -1,9 +1,9 @@
 //! A contact that knows the mass: its motion within one step.
 
 use crate::physics::{self, AnyModel, MASS, all_models, mild, model, unit};
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::motion::{Drive, NoMotion, Outcome, follow};
-use brinell::contact::{History, Loading, Surface};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::motion::{Drive, NoMotion, Outcome, follow};
+use brinell_contact::{History, Loading, Surface};
 
 fn go(history: &mut History, model: &AnyModel, acceleration: f64, speed: f64, step: f64) -> Outcome {
     follow(history, model, &Drive { mass: MASS, acceleration }, speed, step).expect("within range")

@@ -1,9 +1,9 @@
 //! A contact that knows the mass reaches the same state, however the time is divided into steps.
 
 use crate::physics::{AnyModel, Random, all_models, pair_of};
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::motion::{Drive, follow};
-use brinell::contact::{History, Surface};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::motion::{Drive, follow};
+use brinell_contact::{History, Surface};
 
 /// A motion to be divided into steps.
 #[derive(Debug)]

@@ -1,8 +1,8 @@
 //! A contact that knows the mass in delicate cases: at the surface, at rest, in equilibrium, and pulled away.
 
 use crate::physics::{self, AnyModel, MASS, all_models, mild, model, unit};
-use brinell::contact::motion::{Drive, NoMotion, Outcome, follow};
-use brinell::contact::{History, Surface};
+use brinell_contact::motion::{Drive, NoMotion, Outcome, follow};
+use brinell_contact::{History, Surface};
 
 fn go(history: &mut History, model: &AnyModel, acceleration: f64, speed: f64, step: f64) -> Outcome {
     follow(history, model, &Drive { mass: MASS, acceleration }, speed, step).expect("within range")

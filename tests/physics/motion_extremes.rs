@@ -1,8 +1,8 @@
 //! A contact that knows the mass, over the whole range of numbers: every step ends with finite results and the right energy.
 
 use crate::physics::{AnyModel, Random, all_models, pair_of};
-use brinell::contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follow};
-use brinell::contact::{History, Surface};
+use brinell_contact::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, follow};
+use brinell_contact::{History, Surface};
 
 /// Log-uniform, or zero, or the smallest number, of either sign.
 fn signed(random: &mut Random, low: f64, high: f64) -> f64 {

@@ -3,10 +3,10 @@
 
 use crate::arithmetic::{control, set_control};
 use crate::physics::{AnyModel, Random, all_models, pair_of};
-use brinell::contact::momentum::impulse;
-use brinell::contact::motion::{Drive, follow};
-use brinell::contact::path::Course;
-use brinell::contact::{Contact, History, Model, Surface, loading, unloading};
+use brinell_contact::momentum::impulse;
+use brinell_contact::motion::{Drive, follow};
+use brinell_contact::path::Course;
+use brinell_contact::{Contact, History, Model, Surface, loading, unloading};
 
 /// Invalid operation, division by zero and overflow, as bits of the control and status register.
 const TRAPPED: u32 = 0b1101;

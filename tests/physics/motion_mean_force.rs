@@ -2,8 +2,8 @@
 //! be rounded like it.
 
 use crate::physics::{AnyModel, Random, all_models, mild};
-use brinell::contact::motion::{Drive, follow};
-use brinell::contact::{Contact, History, Surface};
+use brinell_contact::motion::{Drive, follow};
+use brinell_contact::{Contact, History, Surface};
 
 /// Number of steps.
 const STEPS: u32 = 40_000;

@@ -4,9 +4,9 @@ use crate::physics::{
     self, AnyModel, Random, TURNS, advance, all_models, exactly, go, is_passive, loading_force, mild, model, on_grid,
     pressed, unit, unloading_force,
 };
-use brinell::contact::loading::KogutEtsion;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Contact, History, Regime, Surface};
+use brinell_contact::loading::KogutEtsion;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Contact, History, Regime, Surface};
 
 /// The outputs along a path: force, energies, dent, contact radius.
 fn readings(history: &History, model: &AnyModel) -> [f64; 5] {
@@ -207,7 +207,7 @@ fn increments_that_leave_the_range_are_refused_and_change_nothing() {
 
 #[test]
 fn the_range_has_the_same_end_however_it_is_reached() {
-    use brinell::contact::regime::LARGEST_INDENTATION;
+    use brinell_contact::regime::LARGEST_INDENTATION;
     for (name, dented) in all_models(mild()) {
         for model in [dented, AnyModel { surface: Surface::Fresh, ..dented }] {
             assert!(History::start(&model, LARGEST_INDENTATION).is_err(), "{name}: started there");

@@ -1,12 +1,12 @@
 //! Predictions: the root of the energy balance, and the cost to find it.
 
 use crate::physics::{AnyModel, MASS, logarithmic, mild, model, unit};
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::material::YieldPoint;
-use brinell::contact::regime::Regime;
-use brinell::contact::unloading::ContactRadius;
-use brinell::contact::{Loading, Model, Pair, Segment, Surface};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::material::YieldPoint;
+use brinell_contact::regime::Regime;
+use brinell_contact::unloading::ContactRadius;
+use brinell_contact::{Loading, Model, Pair, Segment, Surface};
 use std::cell::Cell;
 
 /// A law that counts the evaluations of its work.

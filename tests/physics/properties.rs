@@ -3,9 +3,9 @@
 use crate::physics::{
     self, AnyModel, advance, all_models, is_passive, is_scale_free, loading_force, mild, pressed, unit,
 };
-use brinell::contact::impact::{Impact, predict};
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, History, Pair, Regime, Surface};
+use brinell_contact::impact::{Impact, predict};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Body, History, Pair, Regime, Surface};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 

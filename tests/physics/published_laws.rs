@@ -3,8 +3,8 @@
 
 use crate::physics::{self, AnyModel, MASS, loading_force, mild, model, pair_of, unit};
 use crate::printed::{agrees, agrees_in_digits};
-use brinell::contact::Loading;
-use brinell::contact::impact::{Impact, Prediction, predict};
+use brinell_contact::Loading;
+use brinell_contact::impact::{Impact, Prediction, predict};
 
 const X: [f64; 7] = [1.0, 2.0, 5.0, 13.93, 30.0, 82.5, 200.0];
 const SPEEDS: [f64; 7] = [0.05, 0.1, 0.5, 1.0, 5.0, 20.0, 100.0];
@@ -212,7 +212,7 @@ fn the_walton_braun_line_meets_hertz_where_the_mean_pressure_is_1_1_times_the_yi
 
 #[test]
 fn the_power_law_follows_its_constants() {
-    use brinell::contact::loading::Power;
+    use brinell_contact::loading::Power;
     let law = Power { yield_pressure_factor: 1.0, coefficient: 2.0, exponent: 1.5 };
     let pair = mild();
     let point = law.yield_point(&pair);

@@ -2,8 +2,8 @@
 
 use crate::physics::{self, MASS, loading_force, mild, model, pair_of, unit};
 use crate::printed::{agrees, agrees_in_digits};
-use brinell::contact::Loading;
-use brinell::contact::impact::{Impact, Prediction, predict};
+use brinell_contact::Loading;
+use brinell_contact::impact::{Impact, Prediction, predict};
 
 /// Indentations of the tables [d_y].
 const X: [f64; 7] = [1.0, 2.0, 5.0, 13.93, 30.0, 82.5, 200.0];
@@ -286,7 +286,7 @@ fn jackson_and_green_with_the_fitted_dent_have_the_restitution_of_the_printed_ch
         (20.0, 0.096168, None),
     ];
     let law = model("jackson-green", "jackson");
-    let unit = brinell::contact::loading::JacksonGreen::REFERENCE.unit(&law.pair);
+    let unit = brinell_contact::loading::JacksonGreen::REFERENCE.unit(&law.pair);
     let yield_speed = (0.8 * unit.force * unit.indentation / MASS).sqrt();
     agrees_in_digits("V_c", yield_speed, 0.0017757891, 8);
     for (speed, printed, fit) in MILD {

@@ -1,11 +1,11 @@
 //! Bodies of known mass on a target whose strength depends on the strain rate, without FMI.
 
-use brinell::contact::impact::{self, Impact};
-use brinell::contact::loading::{self, AnyLoading, Loading};
-use brinell::contact::motion::Drive;
-use brinell::contact::rate::{self, History, Model, Rate};
-use brinell::contact::unloading::{self, AnyUnloading, Unloading};
-use brinell::contact::{self, Contact, Pair, Surface};
+use brinell_contact::impact::{self, Impact};
+use brinell_contact::loading::{self, AnyLoading, Loading};
+use brinell_contact::motion::Drive;
+use brinell_contact::rate::{self, History, Model, Rate};
+use brinell_contact::unloading::{self, AnyUnloading, Unloading};
+use brinell_contact::{Contact, Pair, Surface};
 
 const MASS: f64 = 4.11e-3;
 const RATES: [Rate; 2] = [Rate::JohnsonCook { c: 0.014, reference_rate: 1.0 }, Rate::CowperSymonds { d: 40.4, q: 5.0 }];
@@ -25,7 +25,7 @@ fn hardening() -> Hard {
 }
 
 fn model<L, U>((loading, unloading): (L, U), rate: Rate, surface: Surface) -> Model<L, U> {
-    Model { slow: contact::Model { pair: pair(), loading, unloading, surface }, rate }
+    Model { slow: brinell_contact::Model { pair: pair(), loading, unloading, surface }, rate }
 }
 
 /// Moves the bodies from `speed` in steps of `step` until they part; returns their closing speed then.

@@ -2,8 +2,8 @@
 
 use crate::physics::{AnyModel, MASS, mild, model, pair_of, unit};
 use crate::printed::{agrees, agrees_in_digits, closure};
-use brinell::contact::impact::{Impact, Prediction, predict};
-use brinell::contact::{Body, Loading, Pair, Surface};
+use brinell_contact::impact::{Impact, Prediction, predict};
+use brinell_contact::{Body, Loading, Pair, Surface};
 
 fn impact(model: &AnyModel, speed: f64) -> Prediction {
     predict(model, &Impact { mass: MASS, speed }).expect("an ordinary impact")

@@ -2,8 +2,8 @@
 
 use crate::physics::{self, MASS, loading_force, mild, model, pair_of, unit};
 use crate::printed::{agrees, agrees_in_digits, closure, yield_speed};
-use brinell::contact::Loading;
-use brinell::contact::loading::BigAlabo;
+use brinell_contact::Loading;
+use brinell_contact::loading::BigAlabo;
 
 #[test]
 fn the_mild_pair_has_the_printed_constants() {

@@ -4,10 +4,10 @@
 //! law are as much slower. With a power of two as `k` the numbers differ in their exponents only.
 
 use crate::physics::{MASS, mild, model};
-use brinell::contact::damped::{self, Adams, AnyDamped, KelvinVoigt, KuwabaraKono};
-use brinell::contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
-use brinell::contact::motion::{self, Drive, Follow};
-use brinell::contact::{Contact, rate};
+use brinell_contact::damped::{self, Adams, AnyDamped, KelvinVoigt, KuwabaraKono};
+use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
+use brinell_contact::motion::{self, Drive, Follow};
+use brinell_contact::{Contact, rate};
 
 /// Length of the steps, about that of an impact [s].
 const STEP: f64 = 1e-4;

@@ -4,14 +4,14 @@
 //! The laws here are those of the project with a last digit that changes from call to call.
 
 use crate::physics::{AnyModel, MASS, Random, TURNS, all_models, mild, on_grid};
-use brinell::contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
-use brinell::contact::material::YieldPoint;
-use brinell::contact::momentum::impulse;
-use brinell::contact::motion::{Drive, follow};
-use brinell::contact::path::Course;
-use brinell::contact::regime::{LARGEST_INDENTATION, Regime};
-use brinell::contact::tangential::{Friction, RoughContact, RoughModel};
-use brinell::contact::{Contact, History, Loading, Model, Pair, Peak, Segment, Surface, Unloading, loading, unloading};
+use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
+use brinell_contact::material::YieldPoint;
+use brinell_contact::momentum::impulse;
+use brinell_contact::motion::{Drive, follow};
+use brinell_contact::path::Course;
+use brinell_contact::regime::{LARGEST_INDENTATION, Regime};
+use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
+use brinell_contact::{Contact, History, Loading, Model, Pair, Peak, Segment, Surface, Unloading, loading, unloading};
 use std::cell::{Cell, RefCell};
 
 thread_local! {

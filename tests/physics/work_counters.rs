@@ -1,10 +1,10 @@
 //! The work of a step, measured without a clock as the number of evaluations of the law. It reveals a slowdown on any machine.
 
 use crate::physics::{Random, all_models, mild, on_grid, random_bodies, unit};
-use brinell::contact::loading::{self, BigAlabo};
-use brinell::contact::material::YieldPoint;
-use brinell::contact::unloading::{self, ContactRadius, Guarded};
-use brinell::contact::{Contact, History, Loading, Model, Pair, Peak, Regime, Segment, Surface, Unloading};
+use brinell_contact::loading::{self, BigAlabo};
+use brinell_contact::material::YieldPoint;
+use brinell_contact::unloading::{self, ContactRadius, Guarded};
+use brinell_contact::{Contact, History, Loading, Model, Pair, Peak, Regime, Segment, Surface, Unloading};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 

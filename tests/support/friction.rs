@@ -2,7 +2,7 @@
 
 #![allow(dead_code)] // each test file uses a part of it
 
-use brinell::contact::Segment;
+use brinell_contact::Segment;
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! The C functions of a library, with the types of the standard.
 #![allow(dead_code, reason = "each test file uses what it needs")]
 
-use brinell::fmi2::abi::*;
+use brinell_fmu::fmi2::abi::*;
 use libloading::Library;
 use std::ffi::{c_char, c_int, c_void};
 use std::path::Path;

@@ -7,9 +7,9 @@
 
 use super::physics::{AnyModel, Random};
 use super::scenes::{Choice, Chosen, Massive, choose, ready, set_rate};
-use brinell::contact::Surface;
-use brinell::instance::Instance;
-use brinell::scene::{Absent, Coupled, Present, Real, Scene};
+use brinell_contact::Surface;
+use brinell_fmu::instance::Instance;
+use brinell_fmu::scene::{Absent, Coupled, Present, Real, Scene};
 
 pub type Serial = Chosen<Massive, 1, Present>;
 pub type Parallel = Chosen<Massive<Coupled<Present>>, 1, Present>;

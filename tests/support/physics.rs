@@ -5,10 +5,10 @@
 #[path = "laws.rs"]
 pub mod laws;
 
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::material::YieldPoint;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, History, Loading, Model, Pair, Surface};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::material::YieldPoint;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Body, History, Loading, Model, Pair, Surface};
 use std::f64::consts::PI;
 use std::mem::discriminant;
 
@@ -180,7 +180,7 @@ pub fn loading_force(model: &AnyModel, indentation: f64) -> f64 {
 pub fn corners(model: &AnyModel) -> Vec<f64> {
     let mut corners = Vec::new();
     let mut corner = model.loading.next_corner(&model.pair, 0.0);
-    while corner < brinell::contact::regime::LARGEST_INDENTATION {
+    while corner < brinell_contact::regime::LARGEST_INDENTATION {
         corners.push(corner);
         corner = model.loading.next_corner(&model.pair, corner);
     }

@@ -6,8 +6,8 @@
 #![allow(dead_code)] // each test file uses a part of it
 
 use super::physics::{AnyModel, MASS, mild, model, unit};
-use brinell::contact::Model;
-use brinell::contact::unloading::{AnyUnloading, DeformedRadius};
+use brinell_contact::Model;
+use brinell_contact::unloading::{AnyUnloading, DeformedRadius};
 
 /// Checks that `got` agrees with a number printed with this number of `decimals`.
 pub fn agrees(what: &str, got: f64, printed: f64, decimals: i32) {

@@ -53,13 +53,13 @@ impl Sources {
         let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         let sources = Sources { folder: all.join("source"), target: all.join("target") };
         let _ = fs::remove_dir_all(&sources.folder);
-        for part in ["src", "modelDescription"] {
+        for part in ["crates", "modelDescription"] {
             copy(&root.join(part), &sources.folder.join(part));
         }
-        for part in ["Cargo.toml", "Cargo.lock", "build.rs"] {
+        for part in ["Cargo.toml", "Cargo.lock"] {
             fs::copy(root.join(part), sources.folder.join(part)).expect("the target folder can be written to");
         }
-        for part in ["benches", "examples", "tests", "docs", "scenes", "data", "LICENSE"] {
+        for part in ["src", "build.rs", "benches", "examples", "tests", "docs", "scenes", "data", "LICENSE"] {
             std::os::unix::fs::symlink(root.join(part), sources.folder.join(part)).expect("the folder is new");
         }
         sources
@@ -77,7 +77,7 @@ impl Sources {
         let constants = String::from_utf8(output.stdout).expect("UTF-8");
         let constants = constants.replacen("guid: \"unpacked\"", &format!("guid: \"{guid}\""), 1);
         assert!(constants.contains(guid), "the constants have no GUID");
-        self.write("src/scene/exported.rs", &constants);
+        self.write("crates/unit/src/exported.rs", &constants);
         place
     }
 
@@ -128,7 +128,7 @@ impl Sources {
     /// The messages of the compiler.
     pub fn library(&self, name: &str, way: &Way) -> Result<PathBuf, String> {
         let mut cargo = self.cargo(way.toolchain);
-        cargo.args(["rustc", "--release", "--lib", "--locked", "--no-default-features", "--features", "fmu"]);
+        cargo.args(["rustc", "--release", "--package", "brinell-unit", "--locked", "--features", "cdylib"]);
         for setting in PROFILE.iter().chain(way.profile) {
             cargo.arg("--config").arg(format!("profile.release.{setting}"));
         }
@@ -144,7 +144,7 @@ impl Sources {
         if !output.status.success() {
             return Err(String::from_utf8_lossy(&output.stderr).into_owned());
         }
-        let made = self.target.join(TRIPLE).join("release/libbrinell.so");
+        let made = self.target.join(TRIPLE).join("release/libbrinell_unit.so");
         let library = self.target.join(name).with_extension("so");
         fs::copy(&made, &library).map_err(|error| error.to_string())?;
         Ok(library)
@@ -156,7 +156,7 @@ impl Sources {
     /// What the tests say, if one of them fails.
     pub fn test(&self, file: &str, filter: &str) -> Result<(), String> {
         let mut cargo = self.cargo("");
-        cargo.args(["test", "--release", "--locked", "--no-default-features", "--features", "c-interface"]);
+        cargo.args(["test", "--release", "--locked", "--no-default-features"]);
         cargo.args(if file == "lib" { vec!["--lib"] } else { vec!["--test", file] }).arg("--").arg(filter);
         let output = cargo.output().map_err(|error| error.to_string())?;
         let said = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);

@@ -12,15 +12,17 @@ pub use kinds::{
     Damped, DampedMassive, Elastoplastic, Guarded, Held, Kind, Lossy, LossyMassive, Massive, Rated, Rough, RoughPlane,
 };
 
-use brinell::contact::damped::AnyDamped;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::losses::{self, AnyLoss};
-use brinell::contact::motion::Follow;
-use brinell::contact::rate::Rate;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Contact, Pair, Surface};
-use brinell::instance::Instance;
-use brinell::scene::{Absent, Guard, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of};
+use brinell_contact::damped::AnyDamped;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::losses::{self, AnyLoss};
+use brinell_contact::motion::Follow;
+use brinell_contact::rate::Rate;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Contact, Pair, Surface};
+use brinell_fmu::instance::Instance;
+use brinell_fmu::scene::{
+    Absent, Guard, Integer, Parameter, Presence, Present, Real, Scene, Settable, Store, identity_of,
+};
 use std::cell::RefCell;
 use std::marker::PhantomData;
 

@@ -13,7 +13,7 @@ use crate::plot::{Picture, Series};
 use crate::scene::{Loss, Parameter, Scene};
 use crate::strength_text;
 use crate::table::{self, Causality};
-use brinell::contact::impact::Prediction;
+use brinell_contact::impact::Prediction;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 

@@ -6,10 +6,10 @@
 
 use crate::scene::Scene;
 use crate::{laws, table};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::regime::LARGEST_INDENTATION;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Loading, Model, Pair};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::regime::LARGEST_INDENTATION;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Loading, Model, Pair};
 
 /// Whether the FMU of a scene can return energy that was not put in, for all values of its settable parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]

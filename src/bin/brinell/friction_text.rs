@@ -3,8 +3,8 @@
 use crate::html::escape;
 use crate::scene::Scene;
 use crate::table;
-use brinell::contact::Body;
-use brinell::contact::tangential::Friction;
+use brinell_contact::Body;
+use brinell_contact::tangential::Friction;
 use std::fmt::Write;
 
 /// Writes the section about the friction of `scene`, if it has any.

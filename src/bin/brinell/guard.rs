@@ -1,7 +1,7 @@
 //! The ranges in which the passivity guard of a scene acts, found by evaluation.
 
 use crate::scene::Scene;
-use brinell::contact::Loading;
+use brinell_contact::Loading;
 
 /// Largest evaluated indentation, in yield indentations: ten to the power of `DECADES`.
 const DEEPEST: f64 = 1e6;

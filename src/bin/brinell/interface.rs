@@ -3,7 +3,7 @@
 use crate::nominal;
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, Follows, Kind, VARIABLES, Variable};
-use brinell::contact::damped::Damped;
+use brinell_contact::damped::Damped;
 
 /// Variables of one kind: one for each contact of a group, or a parameter. Value references number them all in the order of the
 /// list; the indices in the model description have the same order.

@@ -1,9 +1,9 @@
 //! Checks of laws with constants from a scene on the scene's bodies.
 
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::regime::LARGEST_INDENTATION;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Loading, Model};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::regime::LARGEST_INDENTATION;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Loading, Model};
 
 type AnyModel = Model<AnyLoading, AnyUnloading>;
 

@@ -4,10 +4,10 @@ use crate::laws;
 use crate::numbers::significant;
 use crate::parameters::numbers_of;
 use crate::table::{self, Law};
-use brinell::contact::Loading;
-use brinell::contact::damped::AnyDamped;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::Loading;
+use brinell_contact::damped::AnyDamped;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
 use serde::Serialize;
 
 /// The texts of a law with numbers filled in.

@@ -4,10 +4,10 @@ use crate::model::{AnyModel, Dampings, strengthened};
 use crate::nearest::unknown;
 use crate::pairing;
 use crate::scene::Scene;
-use brinell::contact::damped::{self, AnyDamped};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Model, Pair};
+use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Model, Pair};
 
 /// A model of the scene, with laws that may differ from the scene's.
 #[derive(Clone)]

@@ -1,13 +1,13 @@
 //! The physical model of the contact of a scene.
 
-use brinell::contact::damped::hunt_crossley::DampingFactor;
-use brinell::contact::damped::tsuji::TsujiDamping;
-use brinell::contact::damped::{self, AnyDamped, HuntCrossley, Tsuji};
-use brinell::contact::impact::{self, Impact, Prediction};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::losses::{self, AnyLoss};
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Loading, Model, Pair};
+use brinell_contact::damped::hunt_crossley::DampingFactor;
+use brinell_contact::damped::tsuji::TsujiDamping;
+use brinell_contact::damped::{self, AnyDamped, HuntCrossley, Tsuji};
+use brinell_contact::impact::{self, Impact, Prediction};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::losses::{self, AnyLoss};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Loading, Model, Pair};
 
 // number of predictions that this thread has made
 #[cfg(test)]

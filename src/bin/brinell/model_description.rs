@@ -12,7 +12,7 @@ use std::io::{self, Write};
 
 type Xml<'a> = Writer<&'a mut dyn Write>;
 
-/// The log categories of `src/fmi2/report.rs`.
+/// The log categories of `crates/fmu/src/fmi2/report.rs`.
 const LOG_CATEGORIES: [(&str, &str); 4] = [
     (
         "logStatusWarning",

@@ -88,7 +88,7 @@ pub fn one_of(names: &[&str]) -> String {
 mod tests {
     use super::*;
     use crate::table::MATERIALS;
-    use brinell::contact::loading::AnyLoading;
+    use brinell_contact::loading::AnyLoading;
 
     #[test]
     fn a_mistyped_name_finds_the_one_that_is_meant() {

@@ -2,7 +2,7 @@
 
 use crate::scene::Scene;
 use crate::table::Variable;
-use brinell::contact::impact::Prediction;
+use brinell_contact::impact::Prediction;
 use std::f64::consts::PI;
 
 /// Typical values of one group of contacts.

@@ -4,8 +4,8 @@ use crate::laws::published;
 use crate::numbers::in_message;
 use crate::parameters::value_of;
 use crate::table;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
 
 /// The loading law of a scene that names none. A contact in which nothing yields is elastic: "hertz".
 pub const DEFAULT_LOADING: &str = "brinell";

@@ -7,7 +7,7 @@ use crate::nominal::{Experiment, experiment};
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Kind};
 use crate::validity;
-use brinell::contact::impact::Prediction;
+use brinell_contact::impact::Prediction;
 
 /// The plan of an FMU.
 pub struct Plan<'a> {

@@ -1,6 +1,6 @@
 //! The names of the regimes of a law.
 
-use brinell::contact::Regime;
+use brinell_contact::Regime;
 
 /// The name of a regime.
 pub fn words(regime: Regime) -> &'static str {

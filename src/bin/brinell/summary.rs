@@ -6,10 +6,10 @@ use crate::package::{Exported, Origin, Packed};
 use crate::plan::{Constant, Plan};
 use crate::scene::{Group, Parameter, Scene};
 use crate::table::{self, Causality, VARIABLES};
-use brinell::contact::Surface;
-use brinell::contact::damped::AnyDamped;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::Surface;
+use brinell_contact::damped::AnyDamped;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
 use serde_json::{Value, json};
 
 /// Inputs, outputs, parameters and the features that the FMU does not have.

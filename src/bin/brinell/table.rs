@@ -5,10 +5,10 @@ mod names;
 
 pub use law::{Law, LawParameter};
 
-use brinell::contact::damped::AnyDamped;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::scene::{Integer, Parameter, Real};
+use brinell_contact::damped::AnyDamped;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_fmu::scene::{Integer, Parameter, Real};
 use names::{first, lists};
 use serde::Deserialize;
 use std::sync::LazyLock;

@@ -6,11 +6,11 @@ use crate::numbers::in_message;
 use crate::predict::oblique;
 use crate::predict::{PredictError, positive};
 use crate::scene::Scene;
-use brinell::contact::History;
-use brinell::contact::TooDeep;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::tangential::{RoughModel, Springs};
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::History;
+use brinell_contact::TooDeep;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::tangential::{RoughModel, Springs};
+use brinell_contact::unloading::AnyUnloading;
 
 /// Number of points on each branch of a loop.
 const POINTS: u32 = 200;

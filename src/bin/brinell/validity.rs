@@ -2,9 +2,9 @@
 
 use crate::layout;
 use crate::numbers::{quantity, significant};
-use brinell::contact::Pair;
-use brinell::contact::impact::Prediction;
-use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};
+use brinell_contact::Pair;
+use brinell_contact::impact::Prediction;
+use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO, wave_speed};
 
 /// Fraction of the energy of an elastic impact that waves take, for this ratio of speed to wave speed.
 ///

@@ -5,7 +5,7 @@
 use crate::checks::order::phase_of;
 use crate::face::Face;
 use crate::importer::{ERROR, Importer, OK, Phase, STEP};
-use brinell::fmi2::abi::{fmi2Component, fmi2FMUstate};
+use brinell_fmu::fmi2::abi::{fmi2Component, fmi2FMUstate};
 use std::ffi::c_int;
 use std::ptr::{null, null_mut};
 

@@ -2,7 +2,7 @@
 
 use crate::face::Face;
 use crate::importer::{ERROR, Importer, Log, NAME, OK, Phase, STEP, callbacks, functions};
-use brinell::fmi2::abi::*;
+use brinell_fmu::fmi2::abi::*;
 use std::ffi::{CStr, CString, c_int};
 use std::ptr::{null, null_mut};
 

@@ -3,7 +3,7 @@
 use crate::checks::order::phase_of;
 use crate::face::Face;
 use crate::importer::{ERROR, Importer, OK, Phase};
-use brinell::fmi2::abi::fmi2FMUstate;
+use brinell_fmu::fmi2::abi::fmi2FMUstate;
 use std::ffi::c_char;
 use std::ptr::null_mut;
 

@@ -2,7 +2,7 @@
 
 use super::{ERROR, Instance, OK, Phase, Runner, State, WARNING};
 use crate::judge::same_values;
-use brinell::fmi2::abi::fmi2FMUstate;
+use brinell_fmu::fmi2::abi::fmi2FMUstate;
 use std::ptr::null_mut;
 
 impl Runner<'_> {

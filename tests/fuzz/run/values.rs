@@ -2,7 +2,7 @@
 
 use super::{Runner, WARNING};
 use crate::call::Kind;
-use brinell::fmi2::abi::{fmi2Component, fmi2String};
+use brinell_fmu::fmi2::abi::{fmi2Component, fmi2String};
 use std::ffi::{CString, c_int};
 use std::ptr::{null, null_mut};
 

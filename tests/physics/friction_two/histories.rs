@@ -2,9 +2,9 @@
 
 use crate::friction::hertz;
 use crate::physics::Random;
-use brinell::contact::Segment;
-use brinell::contact::tangential::Motion;
-use brinell::contact::tangential::plane::{Stuck, Way};
+use brinell_contact::Segment;
+use brinell_contact::tangential::Motion;
+use brinell_contact::tangential::plane::{Stuck, Way};
 use std::f64::consts::PI;
 
 pub const MODULUS: f64 = 2e11;

@@ -2,7 +2,7 @@
 
 use super::{close, number};
 use crate::command::{empty_folder, run, scene};
-use brinell::contact::loading::AnyLoading;
+use brinell_contact::loading::AnyLoading;
 use serde_json::Value;
 use std::fs;
 

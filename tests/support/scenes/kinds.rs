@@ -1,15 +1,15 @@
 //! The kinds of contacts: the law, friction, losses, and whether a mass moves them.
 
 use super::{Choice, chosen};
-use brinell::contact::damped::{self, AnyDamped};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::losses::{self, AnyLoss};
-use brinell::contact::motion::{Follow, follow};
-use brinell::contact::rate;
-use brinell::contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, Contact, History, Model, Pair};
-use brinell::scene::{Absent, Coupled, Coupling, Presence, Present};
+use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::losses::{self, AnyLoss};
+use brinell_contact::motion::{Follow, follow};
+use brinell_contact::rate;
+use brinell_contact::tangential::{Friction, PlaneContact, RoughContact, RoughModel};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Body, Contact, History, Model, Pair};
+use brinell_fmu::scene::{Absent, Coupled, Coupling, Presence, Present};
 use std::marker::PhantomData;
 
 /// Whether the passivity guard acts in a contact of a model.

@@ -1,7 +1,7 @@
 //! The importer of a check: it moves the mass against one contact, as a user's importer would.
 
 use crate::importer::{ImportError, Instance};
-use brinell::contact::impact::Impact;
+use brinell_contact::impact::Impact;
 
 /// Number of fixed-point iterations between a rate-dependent force and the speed that it causes.
 const ITERATIONS: u32 = 3;

@@ -5,12 +5,12 @@ use super::row::Row;
 use crate::constants::{MEMORY, parameters, start_value};
 use crate::importer::{Description, ImportError, Instance};
 use crate::scene::Scene;
-use brinell::contact::Contact;
-use brinell::contact::impact::Impact;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::tangential::{RoughContact, RoughModel};
-use brinell::contact::unloading::AnyUnloading;
-use brinell::scene::with_friction;
+use brinell_contact::Contact;
+use brinell_contact::impact::Impact;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::tangential::{RoughContact, RoughModel};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_fmu::scene::with_friction;
 
 /// The tangential variables of FMUs with one and with two directions: what is behind their names, and the component of the
 /// motion, which is along one line.

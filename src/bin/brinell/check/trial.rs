@@ -7,7 +7,7 @@ use crate::importer::{Description, ImportError, Instance};
 use crate::layout::table;
 use crate::numbers::{percent, quantity};
 use crate::scene::{Parameter, Scene};
-use brinell::contact::impact::Prediction;
+use brinell_contact::impact::Prediction;
 use serde::Serialize;
 
 /// The impact on one contact.

@@ -1,4 +1,4 @@
-//! The kind of a prebuilt library as data in Rust: the file `src/scene/kind.rs` of the library, a call of `kind!`.
+//! The kind of a prebuilt library as data in Rust: the file `crates/unit/src/kind.rs` of the library, a call of `kind!`.
 
 use super::{File, laws, parts};
 use crate::scene::Scene;

@@ -1,4 +1,4 @@
-//! The scene as data in Rust: the file `src/scene/exported.rs` of the library, a call of `scene!`.
+//! The scene as data in Rust: the file `crates/unit/src/exported.rs` of the library, a call of `scene!`.
 
 pub mod kind;
 mod laws;
@@ -51,7 +51,7 @@ struct File {
 
 impl File {
     fn new(head: &str, name: &str) -> File {
-        File { text: format!("{head}\ncrate::scene::{name}! {{\n") }
+        File { text: format!("{head}\nbrinell_fmu::scene::{name}! {{\n") }
     }
 
     /// Adds an entry.

@@ -12,7 +12,7 @@ pub fn start_value(scene: &Scene, group: usize, name: &str) -> f64 {
 
 /// The value of the parameter `name` in a scene that hasn't got it.
 fn without_effect(name: &str) -> f64 {
-    let found = brinell::scene::Parameter::ALL.into_iter().find(|(known, _)| *known == name);
+    let found = brinell_fmu::scene::Parameter::ALL.into_iter().find(|(known, _)| *known == name);
     found.map_or(f64::NAN, |(_, parameter)| parameter.without_effect())
 }
 

@@ -9,7 +9,7 @@ use crate::regime;
 use crate::scene::Scene;
 use crate::units;
 use crate::wrong_call::WrongCall;
-use brinell::contact::validity::LARGEST_RADIUS_RATIO;
+use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use serde_json::{Value, json};
 use std::error::Error;
 use std::path::PathBuf;

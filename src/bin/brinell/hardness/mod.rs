@@ -8,11 +8,11 @@ pub mod command;
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::numbers::in_message;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::regime::LARGEST_INDENTATION;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::validity::LARGEST_RADIUS_RATIO;
-use brinell::contact::{Loading, Model, Regime};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::regime::LARGEST_INDENTATION;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::validity::LARGEST_RADIUS_RATIO;
+use brinell_contact::{Loading, Model, Regime};
 use std::f64::consts::PI;
 
 /// The factor of the Brinell number and of the load ratio for forces in newtons: 1/9.80665, rounded to three digits as in ISO

@@ -11,10 +11,10 @@ use crate::nearest::unknown;
 use crate::parameters::{self, Constant};
 use crate::scene::Scene;
 use crate::wrong_call::WrongCall;
-use brinell::contact::damped::{self, AnyDamped};
-use brinell::contact::impact::Impact;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::impact::Impact;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
 use serde::Serialize;
 use std::error::Error;
 

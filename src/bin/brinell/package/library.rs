@@ -18,7 +18,7 @@ use tempfile::TempDir;
 
 /// Options of the crate of an FMU, which is optimized as one unit with the crates that it uses.
 const UNIT: [&str; 5] =
-    ["--crate-name=unit", "--crate-type=cdylib", "--edition=2024", "--cfg=feature=\"fmu\"", "-Clto=fat"];
+    ["--crate-name=unit", "--crate-type=cdylib", "--edition=2024", "--cfg=feature=\"cdylib\"", "-Clto=fat"];
 
 /// Additional option of a prebuilt library.
 const PREBUILT: &str = "--cfg=feature=\"prebuilt\"";
@@ -53,8 +53,8 @@ impl Source<'_> {
     /// Path and text of the file.
     fn file(&self) -> (&'static str, &str) {
         match self {
-            Source::Scene { constants, .. } => ("src/scene/exported.rs", constants),
-            Source::Kind { text } => ("src/scene/kind.rs", text),
+            Source::Scene { constants, .. } => ("unit/src/exported.rs", constants),
+            Source::Kind { text } => ("unit/src/kind.rs", text),
         }
     }
 
@@ -202,7 +202,7 @@ impl Build<'_> {
         let parts = Parts { cache, folder, rustc, target };
         parts.create()?;
         parts.make_crates(optimization(source), source.is_standalone())?;
-        parts.write(Parts::unit_source().chain([source.file()]).chain(link::files()))?;
+        parts.write(Parts::UNIT.iter().copied().chain([source.file()]).chain(link::files()))?;
         for object in self.objects(source) {
             match object {
                 VERSION => parts.write([(VERSION, resource::version(source.name()))].into_iter())?,

@@ -32,7 +32,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use way::{Libraries, make};
 
-include!(concat!(env!("OUT_DIR"), "/library_source.rs"));
+include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
 const LICENSE: &str = include_str!("../../../../LICENSE");
 const THIRD_PARTY: &str = include_str!("../../../../modelDescription/licenses.txt");
@@ -126,7 +126,7 @@ pub fn identified(text: &str, guid: &str) -> String {
 
 /// The common input of all libraries: names and texts of the files.
 pub fn sources<'a>() -> impl Iterator<Item = &'a str> {
-    LIBRARY_SOURCE.iter().chain(LIBM_SOURCE).flat_map(|&(name, text)| [name, text])
+    [CONTACT_SOURCE, FMU_SOURCE, UNIT_SOURCE, LIBM_SOURCE].into_iter().flatten().flat_map(|&(name, text)| [name, text])
 }
 
 /// Identifier of the library: 16 digits of a hash of its source and that of `libm`.

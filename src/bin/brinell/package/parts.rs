@@ -4,7 +4,7 @@
 use super::error::ExportError;
 use super::folder::Cache;
 use super::rustc::Rustc;
-use super::{Hash, LIBM_SOURCE, LIBRARY_SOURCE};
+use super::{CONTACT_SOURCE, FMU_SOURCE, Hash, LIBM_SOURCE, UNIT_SOURCE};
 use crate::files::FileError;
 use crate::platform::Target;
 use std::path::Path;
@@ -16,6 +16,40 @@ const SETTINGS: [&str; 4] = ["-Cpanic=abort", "-Ccodegen-units=1", "-Cdebuginfo=
 /// An option of crates that are compiled to bitcode only: the crate of an FMU is optimized together with them.
 const BITCODE: &str = "-Clinker-plugin-lto";
 
+/// A crate that the crate of an FMU uses.
+struct Crate {
+    file: &'static str,
+    root: &'static str,
+    options: &'static [&'static str],
+    source: &'static [(&'static str, &'static str)],
+}
+
+/// These crates; each uses those before it.
+const CRATES: [Crate; 3] = [
+    Crate { file: "liblibm.rlib", root: "libm/src/lib.rs", options: &LIBM, source: LIBM_SOURCE },
+    Crate {
+        file: "libbrinell_contact.rlib",
+        root: "contact/src/lib.rs",
+        options: &["--crate-name=brinell_contact", "--crate-type=rlib", "--edition=2024", "--extern=libm=liblibm.rlib"],
+        source: CONTACT_SOURCE,
+    },
+    Crate {
+        file: "libbrinell_fmu.rlib",
+        root: "fmu/src/lib.rs",
+        options: &[
+            "--crate-name=brinell_fmu",
+            "--crate-type=rlib",
+            "--edition=2024",
+            "--extern=brinell_contact=libbrinell_contact.rlib",
+            DEPENDENCIES,
+        ],
+        source: FMU_SOURCE,
+    },
+];
+
+/// The folder of the crates that others use.
+const DEPENDENCIES: &str = "-Ldependency=.";
+
 /// Options of `libm`: the output of its build script for these features.
 const LIBM: [&str; 6] = [
     "--crate-name=libm",
@@ -26,22 +60,7 @@ const LIBM: [&str; 6] = [
     "--cfg=optimizations_enabled",
 ];
 
-/// Source and file of `libm`.
-const LIBM_FILES: [&str; 3] = ["libm/src/lib.rs", "-o", "liblibm.rlib"];
-
-/// Options of the library of this package.
-const LIBRARY: [&str; 5] = [
-    "--crate-name=brinell",
-    "--crate-type=rlib",
-    "--edition=2024",
-    "--cfg=feature=\"c-interface\"",
-    "--extern=libm=liblibm.rlib",
-];
-
-/// Source and file of the library.
-const LIBRARY_FILES: [&str; 3] = ["src/lib.rs", "-o", "libbrinell.rlib"];
-
-/// An option of the library in an FMU that imports nothing from its process.
+/// An option of the functions of an FMU that imports nothing from its process.
 const STANDALONE: &str = "--cfg=feature=\"standalone\"";
 
 /// The functions that copy and compare bytes, for a system without a reliable C library, as one object file for the
@@ -52,10 +71,10 @@ const BYTES: [&str; 6] =
 /// The root of the crate of [`BYTES`]. Without `no_builtins` the compiler would replace the functions with calls of
 /// themselves.
 const BYTES_ROOT: (&str, &str) =
-    ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"src/fmi2/bytes.rs\"]\nmod bytes;\n");
+    ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"fmu/src/fmi2/bytes.rs\"]\nmod bytes;\n");
 
 /// The module of that crate.
-const BYTES_SOURCE: (&str, &str) = ("src/fmi2/bytes.rs", include_str!("../../../fmi2/bytes.rs"));
+const BYTES_SOURCE: &str = "fmu/src/fmi2/bytes.rs";
 
 /// The parts of one library for one target.
 pub struct Parts<'a> {
@@ -68,16 +87,13 @@ pub struct Parts<'a> {
 
 impl Parts<'_> {
     /// The root of the crate of an FMU.
-    pub const UNIT_ROOT: &'static str = "src/fmu.rs";
+    pub const UNIT_ROOT: &'static str = "unit/src/lib.rs";
+
+    /// The files of that crate; that of its scene is only an example.
+    pub const UNIT: &'static [(&'static str, &'static str)] = UNIT_SOURCE;
 
     /// The arguments with which that crate finds those that it uses.
-    pub const USED: [&'static str; 2] = ["--extern=brinell=libbrinell.rlib", "-Ldependency=."];
-
-    /// The files of the crate of an FMU, all but the one of its scene.
-    pub fn unit_source<'a>() -> impl Iterator<Item = (&'a str, &'a str)> {
-        let files = [Parts::UNIT_ROOT, "src/fmi2/exports.rs", "src/fmi2/block.rs", "src/fmi2/panic.rs"];
-        LIBRARY_SOURCE.iter().copied().filter(move |(name, _)| files.contains(name))
-    }
+    pub const USED: [&'static str; 2] = ["--extern=brinell_fmu=libbrinell_fmu.rlib", DEPENDENCIES];
 
     /// The options of every compilation for the target.
     pub fn settings(&self) -> Vec<&'static str> {
@@ -98,13 +114,15 @@ impl Parts<'_> {
     /// # Errors
     /// [`ExportError`]
     pub fn make_crates(&self, optimization: &str, standalone: bool) -> Result<(), ExportError> {
-        let common = [optimization, BITCODE];
-        let libm = [common.as_slice(), &LIBM, &LIBM_FILES].concat();
-        self.make("liblibm.rlib", &libm, LIBM_SOURCE)?;
-        let standalone = if standalone { [STANDALONE].as_slice() } else { &[] };
-        let library = [common.as_slice(), standalone, &LIBRARY, &LIBRARY_FILES].concat();
-        // another `libm` would not fit
-        self.make("libbrinell.rlib", &library, &[LIBRARY_SOURCE, LIBM_SOURCE].concat())
+        let mut sources = Vec::new();
+        for Crate { file, root, options, source } in CRATES {
+            let memory = (standalone && file == "libbrinell_fmu.rlib").then_some(STANDALONE);
+            let arguments = [&[optimization, BITCODE], options, memory.as_slice(), &[root, "-o", file]].concat();
+            // with another version of a crate that it uses it would not fit
+            sources.extend(source);
+            self.make(file, &arguments, &sources)?;
+        }
+        Ok(())
     }
 
     /// The file of the functions that copy and compare bytes.
@@ -116,7 +134,8 @@ impl Parts<'_> {
     /// [`ExportError`]
     pub fn make_bytes(&self) -> Result<(), ExportError> {
         let file = Parts::BYTES_OBJECT;
-        self.make(file, &[BYTES.as_slice(), &[file, BYTES_ROOT.0]].concat(), &[BYTES_ROOT, BYTES_SOURCE])
+        let source = FMU_SOURCE.iter().find(|(name, _)| *name == BYTES_SOURCE).expect("the crate has this file");
+        self.make(file, &[BYTES.as_slice(), &[file, BYTES_ROOT.0]].concat(), &[BYTES_ROOT, *source])
     }
 
     /// Puts `file` into the folder: from the cache, otherwise compiled from `sources` with these `arguments` and

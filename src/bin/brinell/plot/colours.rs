@@ -1,8 +1,8 @@
 //! Colours and strokes of lines. A law has the same colour in every picture.
 
 use super::SCALE;
-use brinell::contact::damped::AnyDamped;
-use brinell::contact::loading::AnyLoading;
+use brinell_contact::damped::AnyDamped;
+use brinell_contact::loading::AnyLoading;
 
 /// Colours that most colour-blind readers can also distinguish (P. Green-Armytage; M. Okabe, K. Ito).
 const COLOURS: [(u8, u8, u8); 12] = [

@@ -1,7 +1,7 @@
 //! Writing the data of a scene into a prebuilt library.
 
 use crate::signature::{self, SignatureError};
-use brinell::scene::prebuilt::block::{Block, Data, MAGIC, VERSION};
+use brinell_fmu::scene::prebuilt::block::{Block, Data, MAGIC, VERSION};
 use object::{BinaryFormat, Object, ObjectSection};
 use std::ops::Range;
 

@@ -6,11 +6,11 @@ use crate::interface::Entry;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::table::{Causality, VARIABLES};
-use brinell::contact::Surface;
-use brinell::contact::damped::AnyDamped;
-use brinell::scene::Parameter;
-use brinell::scene::identity_of;
-use brinell::scene::prebuilt::block::{Data, FIRST_PARAMETER, Flag, GUID, TEXTS, VARIABLES as PLACES};
+use brinell_contact::Surface;
+use brinell_contact::damped::AnyDamped;
+use brinell_fmu::scene::Parameter;
+use brinell_fmu::scene::identity_of;
+use brinell_fmu::scene::prebuilt::block::{Data, FIRST_PARAMETER, Flag, GUID, TEXTS, VARIABLES as PLACES};
 
 /// A scene that fits no prebuilt library.
 #[derive(Debug, thiserror::Error)]

@@ -6,8 +6,8 @@ use crate::package::{self, Hash};
 use crate::pairing;
 use crate::scene::{Coupling, Scene};
 use crate::table::{Causality, VARIABLES, Variable};
-use brinell::contact::damped::{AnyDamped, Damped};
-use brinell::contact::loading::AnyLoading;
+use brinell_contact::damped::{AnyDamped, Damped};
+use brinell_contact::loading::AnyLoading;
 use std::path::Path;
 
 /// Outputs of a library, and its co-simulation algorithm.

@@ -2,7 +2,7 @@
 
 use super::fill::{FillError, fill};
 use crate::signature::{SignatureError, check};
-use brinell::scene::prebuilt::block::{Block, Data, GUID};
+use brinell_fmu::scene::prebuilt::block::{Block, Data, GUID};
 use sha2::{Digest, Sha256};
 
 const LIBRARY: u64 = 42;

@@ -1,7 +1,7 @@
 //! Prebuilt libraries: FMUs without a compiler.
 //!
 //! Scenes with the same laws differ almost only in data. A prebuilt library has a block of memory for these data
-//! (`brinell::scene::prebuilt`). `brinell prebuild` compiles such libraries once. An export copies the library that
+//! (`brinell_fmu::scene::prebuilt`). `brinell prebuild` compiles such libraries once. An export copies the library that
 //! fits and writes the data of its scene to the copy.
 
 pub mod command;
@@ -20,8 +20,8 @@ use crate::model_description;
 use crate::package::{self, GUID_TO_COME, Hash};
 use crate::plan::Plan;
 use crate::platform::{Platform, Target};
-use brinell::scene::identity_of;
-use brinell::scene::prebuilt::block::{Block, Data};
+use brinell_fmu::scene::identity_of;
+use brinell_fmu::scene::prebuilt::block::{Block, Data};
 use fill::FillError;
 use std::io;
 use store::Store;

@@ -8,7 +8,7 @@ use crate::nearest::{nearest, one_of};
 use crate::numbers::{in_message, out_of_range};
 use crate::scene::{Body, Scene};
 use crate::table::{self, Causality, VARIABLES};
-use brinell::contact::impact::Impact;
+use brinell_contact::impact::Impact;
 
 /// A quantity with its range.
 #[derive(Clone, Debug)]

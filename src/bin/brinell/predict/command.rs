@@ -11,7 +11,7 @@ use crate::layout::{self, json_line, shown};
 use crate::scene::{Scene, plausible};
 use crate::units;
 use crate::wrong_call::WrongCall;
-use brinell::contact::impact::Impact;
+use brinell_contact::impact::Impact;
 use serde_json::json;
 use std::error::Error;
 use std::path::{Path, PathBuf};

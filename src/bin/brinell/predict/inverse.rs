@@ -10,7 +10,7 @@ use crate::layout::{self, json_line, paragraph};
 use crate::numbers::{quantity, significant};
 use crate::validity;
 use crate::wrong_call::WrongCall;
-use brinell::contact::impact::Impact;
+use brinell_contact::impact::Impact;
 use serde_json::{Value, json};
 use std::error::Error;
 

@@ -17,9 +17,9 @@ use crate::pairing;
 use crate::scene::Scene;
 use crate::table;
 use crate::validity::{self, Beyond};
-use brinell::contact::Loading;
-use brinell::contact::Regime;
-use brinell::contact::impact::{Impact, Prediction};
+use brinell_contact::Loading;
+use brinell_contact::Regime;
+use brinell_contact::impact::{Impact, Prediction};
 use std::error::Error;
 
 /// Standard gravity [m/s^2].
@@ -167,7 +167,7 @@ fn onsets(choice: &Choice, mass: f64) -> Vec<(Regime, f64)> {
     let (law, pair) = (model.loading, model.pair);
     let mut regime = law.regime(&pair, 0.0);
     let mut corner = law.next_corner(&pair, 0.0);
-    while corner < brinell::contact::regime::LARGEST_INDENTATION {
+    while corner < brinell_contact::regime::LARGEST_INDENTATION {
         let above = law.regime(&pair, corner);
         if above != regime {
             onsets.push((above, (2.0 * law.work(&pair, corner) / mass).sqrt()));

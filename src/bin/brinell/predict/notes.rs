@@ -4,10 +4,10 @@ use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::numbers::{cell, quantity};
 use crate::scene::{Loss, Scene, softer};
-use brinell::contact::impact::{Impact, Prediction};
-use brinell::contact::loading::{AnyLoading, Hertz};
-use brinell::contact::losses::Loss as _;
-use brinell::contact::{Model, Surface};
+use brinell_contact::impact::{Impact, Prediction};
+use brinell_contact::loading::{AnyLoading, Hertz};
+use brinell_contact::losses::Loss as _;
+use brinell_contact::{Model, Surface};
 
 /// On a surface that keeps its dents, a second impact at the same place is elastic.
 const ENDLESS: &str = "The surface keeps its dent (surface = \"dented\", the default). A ball that falls into its own dent again \

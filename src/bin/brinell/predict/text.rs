@@ -7,8 +7,8 @@ use crate::numbers::{Prefixed, cell, prefixed, quantity};
 use crate::regime;
 use crate::scene::{InImpact, Scene};
 use crate::validity;
-use brinell::contact::Regime;
-use brinell::contact::impact::{Impact, Prediction};
+use brinell_contact::Regime;
+use brinell_contact::impact::{Impact, Prediction};
 use serde_json::{Value, json};
 
 /// Predictions of one impact with several laws.

@@ -4,9 +4,9 @@ use super::PredictError;
 use crate::columns::{Column, Columns};
 use crate::laws::Choice;
 use crate::model::AnyModel;
-use brinell::contact::impact::{Impact, Prediction};
-use brinell::contact::motion::{Drive, follow};
-use brinell::contact::{History, Model, damped, losses};
+use brinell_contact::impact::{Impact, Prediction};
+use brinell_contact::motion::{Drive, follow};
+use brinell_contact::{History, Model, damped, losses};
 
 /// Number of moments during the loading; there are as many during the unloading.
 const MOMENTS: u32 = 200;
@@ -55,7 +55,7 @@ fn thinned(all: &[Moment]) -> Vec<Moment> {
 }
 
 /// The motion with the law, in equal steps of the loading and of the unloading. Each step is exact, whatever its length.
-fn followed<L: brinell::contact::Loading, U: brinell::contact::Unloading>(
+fn followed<L: brinell_contact::Loading, U: brinell_contact::Unloading>(
     model: &Model<L, U>,
     impact: &Impact,
     prediction: &Prediction,

@@ -13,8 +13,8 @@ use crate::plot::{NameAt, Picture, Series, View};
 use crate::scene::Scene;
 use crate::table;
 use crate::validity;
-use brinell::contact::impact::Prediction;
-use brinell::contact::validity::LARGEST_RADIUS_RATIO;
+use brinell_contact::impact::Prediction;
+use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use serde_json::{Value, json};
 
 /// Number of steps in the time history of the force.

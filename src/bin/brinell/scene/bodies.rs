@@ -1,8 +1,8 @@
 //! The bodies of each contact, and values that follow from them alone.
 
 use super::{Scene, softer};
-use brinell::contact::losses::Loss;
-use brinell::contact::{Body, Pair};
+use brinell_contact::losses::Loss;
+use brinell_contact::{Body, Pair};
 use std::collections::HashMap;
 
 impl Scene {

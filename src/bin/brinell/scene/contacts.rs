@@ -12,7 +12,7 @@ use super::rate::{self, Rate};
 use super::softer::{self, Body, Both};
 use crate::nearest::unknown;
 use crate::table::{MATERIALS, VARIABLES};
-use brinell::contact::loading::AnyLoading;
+use brinell_contact::loading::AnyLoading;
 use std::ops::Range;
 use toml::Spanned;
 

@@ -3,7 +3,7 @@
 use super::error::Mistake;
 use super::mistakes;
 use crate::parameters::Given;
-use brinell::contact::Surface;
+use brinell_contact::Surface;
 use serde::Deserialize;
 use toml::Spanned;
 

@@ -6,7 +6,7 @@ use super::hardening;
 use super::names::check_identifier;
 use super::numbers::{Numbers, check_numbers};
 use crate::table::VARIABLES;
-use brinell::contact::Surface;
+use brinell_contact::Surface;
 use std::collections::HashSet;
 use std::ops::Range;
 use toml::Spanned;

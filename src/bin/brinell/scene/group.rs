@@ -1,6 +1,6 @@
 //! Groups of equal contacts, and their parameters.
 
-use brinell::contact::Surface;
+use brinell_contact::Surface;
 
 /// A parameter of a scene.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,9 +11,9 @@ use crate::nearest::unknown;
 use crate::pairing;
 use crate::parameters;
 use crate::table;
-use brinell::contact::damped::{AnyDamped, Damped};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::damped::{AnyDamped, Damped};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
 use toml::Spanned;
 
 /// The rate-dependent law of the scene, with its damping variant and constants.

@@ -6,11 +6,11 @@ use super::error::Mistake;
 use super::file::{File, Target};
 use crate::model::AnyModel;
 use crate::numbers::{in_message, out_of_range, quantity};
-use brinell::contact::damped::Damped;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Body, Model};
+use brinell_contact::damped::Damped;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::losses::{self, AnyLoss, Fitted, Plate, Solid, Waves};
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Body, Model};
 use std::ops::RangeInclusive;
 use toml::{Spanned, Value};
 

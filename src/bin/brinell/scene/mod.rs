@@ -25,11 +25,11 @@ mod rate;
 pub mod softer;
 
 use crate::model::{AnyModel, strengthened};
-use brinell::contact::damped::{self, AnyDamped};
-use brinell::contact::impact::{Impact, Prediction};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Model, strength};
+use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::impact::{Impact, Prediction};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Model, strength};
 use std::io::{self, Read};
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use super::error::Mistake;
 use super::file::PowerLawTable;
 use super::softer::Body;
-use brinell::contact::rate::FIRST_STRAIN;
+use brinell_contact::rate::FIRST_STRAIN;
 use serde::Serialize;
 use toml::Spanned;
 

@@ -7,10 +7,10 @@ use super::softer::{Body, Both};
 use super::{Scene, limits};
 use crate::model::{AnyModel, strengthened};
 use crate::nearest::unknown;
-use brinell::contact::impact::{Impact, Prediction};
-use brinell::contact::rate;
-pub use brinell::contact::rate::Rate;
-use brinell::contact::{Model, Pair};
+use brinell_contact::impact::{Impact, Prediction};
+use brinell_contact::rate;
+pub use brinell_contact::rate::Rate;
+use brinell_contact::{Model, Pair};
 use serde::Serialize;
 use toml::Spanned;
 

@@ -5,7 +5,7 @@ use super::contacts::Contacts;
 use super::error::Mistake;
 use super::numbers::{IMPACTOR_HARDENING, IMPACTOR_STRENGTH};
 use crate::numbers::{cell, in_message, quantity};
-use brinell::contact::impact::Prediction;
+use brinell_contact::impact::Prediction;
 use std::f64::consts::PI;
 
 /// One of the two bodies.

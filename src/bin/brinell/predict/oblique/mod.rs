@@ -14,11 +14,11 @@ use crate::scene::Scene;
 use crate::table;
 use crate::validity::Beyond;
 use crate::wrong_call::WrongCall;
-use brinell::contact::impact::Impact;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::tangential::impact::{Ball, Rebound, predict};
-use brinell::contact::tangential::{Friction, RoughModel};
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::impact::Impact;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::tangential::impact::{Ball, Rebound, predict};
+use brinell_contact::tangential::{Friction, RoughModel};
+use brinell_contact::unloading::AnyUnloading;
 
 /// The coefficient of friction, a parameter of the scene.
 pub const FRICTION: &str = "friction.coefficient";

@@ -8,7 +8,7 @@ use crate::predict::PredictError;
 use crate::scene::Scene;
 use crate::table;
 use crate::validity;
-use brinell::contact::impact::Impact;
+use brinell_contact::impact::Impact;
 use serde_json::{Map, Value, json};
 
 /// The meaning of the signs.

@@ -9,7 +9,7 @@ use crate::report::unit;
 use crate::report::ways::{LEAP_FROG, Needs};
 use crate::scene::{Body, Scene};
 use crate::validity::{self, Beyond};
-use brinell::contact::impact::{Impact, Prediction};
+use brinell_contact::impact::{Impact, Prediction};
 
 /// Bodies and impact that differ from the scene's.
 pub struct Bodies {

@@ -9,7 +9,7 @@ use super::data::{Table, number, text};
 use super::progress::Progress;
 use crate::scene::Scene;
 use crate::validity::Beyond;
-use brinell::contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
+use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use impacts::{Bodies, Change};
 
 /// Tolerances of an impact with leap-frog: energy relative to the incoming energy, force relative to itself.

@@ -5,9 +5,9 @@ use super::{Case, EXACT, Verdict};
 use crate::importer::ImportError;
 use crate::report::contact::Contact;
 use crate::report::progress::{Progress, Work};
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Loading, Model, Surface};
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::unloading::AnyUnloading;
+use brinell_contact::{Loading, Model, Surface};
 
 /// The driver of a contact.
 type Run = Box<dyn Fn(&mut Contact) -> Result<(), ImportError>>;

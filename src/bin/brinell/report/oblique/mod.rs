@@ -10,7 +10,7 @@ use crate::importer::ImportError;
 use crate::laws::{Choice, choose};
 use crate::predict::oblique::{self, FRICTION, Outcome, Setting};
 use crate::scene::Scene;
-use brinell::contact::tangential::impact::Ball;
+use brinell_contact::tangential::impact::Ball;
 use single_spring::SingleSpring;
 
 /// Angles of incidence as the ratio of the tangential speed to the normal one and the coefficient of friction: from sticking

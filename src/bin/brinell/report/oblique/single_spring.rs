@@ -2,10 +2,10 @@
 
 use super::Rough;
 use crate::importer::ImportError;
-use brinell::contact::History;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::tangential::RoughModel;
-use brinell::contact::unloading::AnyUnloading;
+use brinell_contact::History;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::tangential::RoughModel;
+use brinell_contact::unloading::AnyUnloading;
 
 /// A contact whose tangential force grows by Mindlin's stiffness `8 G* a` times the slip and is cut at Coulomb's limit. If it
 /// `rescales`, the force falls in unloading with the contact radius `a`.

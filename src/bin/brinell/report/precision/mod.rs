@@ -6,7 +6,7 @@ use super::contact::Contact;
 use super::progress::{Progress, Work};
 use super::ways::{Way, gaps};
 use crate::importer::ImportError;
-use brinell::contact::impact::{Impact, Prediction};
+use brinell_contact::impact::{Impact, Prediction};
 use std::time::Instant;
 
 pub use page::part;

@@ -8,9 +8,9 @@ use crate::model::AnyModel;
 use crate::predict;
 use crate::scene::Scene;
 use crate::truth;
-use brinell::contact::impact::Prediction;
-use brinell::contact::loading::AnyLoading;
-use brinell::contact::material::{Pair, YieldPoint};
+use brinell_contact::impact::Prediction;
+use brinell_contact::loading::AnyLoading;
+use brinell_contact::material::{Pair, YieldPoint};
 
 /// The compared quantities.
 struct Quantity {

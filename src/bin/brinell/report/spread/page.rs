@@ -13,8 +13,8 @@ use crate::predict::sweep::VALUES;
 use crate::report::data::{Table, number, text};
 use crate::report::{Figure, Part};
 use crate::truth;
-use brinell::contact::TooDeep;
-use brinell::contact::impact::Impact;
+use brinell_contact::TooDeep;
+use brinell_contact::impact::Impact;
 use std::convert::Infallible;
 use std::ops::Range;
 

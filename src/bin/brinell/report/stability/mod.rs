@@ -13,7 +13,7 @@ use super::{Figure, Part};
 use crate::importer::ImportError;
 use crate::numbers::quantity;
 use crate::plot::{Picture, Series, View};
-use brinell::contact::impact::{Impact, Prediction};
+use brinell_contact::impact::{Impact, Prediction};
 use limit::Limit;
 
 /// The results; steps are `h sqrt(K/m)`.

@@ -1,0 +1,218 @@
+//! Prediction of an impact on a rate-dependent contact.
+
+use super::{Damped, Model};
+use crate::Regime;
+use crate::impact::{Impact, Prediction};
+use crate::regime::LARGEST_INDENTATION;
+use libm::{fabs, pow, sqrt};
+
+/// An instant of the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Time since first contact \[s\].
+    pub time: f64,
+    /// Indentation \[m\].
+    pub indentation: f64,
+    /// Closing speed \[m/s\].
+    pub speed: f64,
+}
+
+/// Largest error of a step, relative to the largest indentation and to the incoming speed.
+const TOLERANCE: f64 = 1e-13;
+
+/// More steps than any contact needs: with this tolerance it takes a few thousand.
+const MOST_STEPS: u32 = 1_000_000;
+
+/// The impact `impact` on an untouched contact. The energy balance depends on the path, so the motion `m d'' = -F(d, d')` is
+/// integrated by a pair of Runge-Kutta methods of order 5 and 4. Events are found by bisection of the last step. This is only
+/// used for predictions, not during a co-simulation. The results are accurate to about 1e-10.
+///
+/// `None` if the mass or the speed is not positive and finite, if the energy is below the smallest normal number, or if the
+/// motion leaves the range of the law.
+///
+/// Reference: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19-26.
+pub fn predict<D: Damped + Copy>(model: &Model<D>, impact: &Impact) -> Option<Prediction> {
+    follow(model, impact, |_, _| {})
+}
+
+/// [`predict`] that also passes every instant of the integration, from first contact to the end, to `watch`, together with the
+/// force \[N\].
+pub fn follow<D: Damped + Copy>(
+    model: &Model<D>,
+    impact: &Impact,
+    mut watch: impl FnMut(&State, f64),
+) -> Option<Prediction> {
+    let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
+    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+    // a subnormal energy has already lost digits
+    if !positive(impact.mass) || !positive(impact.speed) || !positive(energy) || energy < f64::MIN_POSITIVE {
+        return None;
+    }
+    let motion = Motion::new(model, impact)?;
+    let mut state = State { time: 0.0, indentation: 0.0, speed: impact.speed };
+    let mut step = 1e-6 * motion.time;
+    let (mut turning, mut largest) = (state, motion.force(&state));
+    watch(&state, 0.0);
+    for _ in 0..MOST_STEPS {
+        let (next, error) = motion.step(&state, step);
+        let factor = 0.9 * pow(TOLERANCE / (error + f64::MIN_POSITIVE), 0.2);
+        // written positively to reject NaN
+        let accepted = error <= TOLERANCE;
+        if !accepted {
+            step *= if factor > 0.1 { factor } else { 0.1 };
+            continue;
+        }
+        if state.speed > 0.0 && next.speed <= 0.0 {
+            turning = motion.event(&state, step, |state| state.speed <= 0.0);
+        }
+        largest = fmax(largest, motion.largest_force(&state, &next, step));
+        if motion.is_over(&next) {
+            let end = motion.event(&state, step, |state| motion.is_over(state));
+            watch(&end, 0.0);
+            let rebound_energy = 0.5 * impact.mass * end.speed * end.speed;
+            return Some(Prediction {
+                max_indentation: turning.indentation,
+                max_force: largest,
+                max_contact_radius: sqrt(model.pair.radius * turning.indentation),
+                regime: Regime::Elastic,
+                residual_indentation: 0.0,
+                energy,
+                rebound_energy,
+                restitution: -end.speed / impact.speed,
+                loading_time: turning.time,
+                unloading_time: end.time - turning.time,
+            });
+        }
+        state = next;
+        watch(&state, motion.force(&state));
+        step *= if factor < 5.0 { factor } else { 5.0 };
+    }
+    None
+}
+
+fn fmax(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
+}
+
+/// The motion of a mass under the law.
+struct Motion<'a, D> {
+    law: &'a D,
+    elastic: f64,
+    damping: f64,
+    mass: f64,
+    speed: f64,
+    /// Scale of the indentation \[m\]: the elastic energy there is the kinetic energy.
+    length: f64,
+    /// Scale of the time \[s\].
+    time: f64,
+}
+
+impl<'a, D: Damped + Copy> Motion<'a, D> {
+    fn new(model: &'a Model<D>, impact: &Impact) -> Option<Motion<'a, D>> {
+        let Impact { mass, speed } = *impact;
+        let factors = model.law.factors(&model.pair, model.restitution, model.mass);
+        let by_touch = model.law.scaled_by_touch();
+        let damping = if by_touch { factors.damping / speed } else { factors.damping };
+        let energy = 0.5 * mass * speed * speed;
+        let (mut low, mut high) = (0u64, LARGEST_INDENTATION.to_bits());
+        let holds = factors.elastic * model.law.elastic(LARGEST_INDENTATION).integral > energy;
+        while high - low > 1 {
+            // the bits of positive f64 numbers, read as integers, keep their order
+            let middle = low + (high - low) / 2;
+            let beyond = factors.elastic * model.law.elastic(f64::from_bits(middle)).integral > energy;
+            *(if beyond { &mut high } else { &mut low }) = middle;
+        }
+        let length = f64::from_bits(high);
+        holds.then_some(Motion {
+            law: &model.law,
+            elastic: factors.elastic,
+            damping,
+            mass,
+            speed,
+            length,
+            time: length / speed,
+        })
+    }
+
+    /// Force \[N\]. It is negative where the surface would have to pull, so that the end of the contact is a change of sign.
+    fn force(&self, state: &State) -> f64 {
+        let d = state.indentation;
+        if d > 0.0 {
+            self.elastic * self.law.elastic(d).value + self.damping * state.speed * self.law.damping(d).value
+        } else {
+            0.0
+        }
+    }
+
+    fn is_over(&self, state: &State) -> bool {
+        state.speed < 0.0 && (state.indentation <= 0.0 || self.force(state) <= 0.0)
+    }
+
+    /// The state after `step` \[s\], and the relative error.
+    fn step(&self, state: &State, step: f64) -> (State, f64) {
+        let mut slopes = [(0.0, 0.0); 7];
+        let mut next = *state;
+        for (stage, row) in STAGES.iter().enumerate() {
+            let (mut indentation, mut speed) = (state.indentation, state.speed);
+            for (weight, slope) in row.iter().zip(&slopes) {
+                indentation += step * weight * slope.0;
+                speed += step * weight * slope.1;
+            }
+            next = State { time: state.time + step, indentation, speed };
+            if let Some(slope) = slopes.get_mut(stage) {
+                *slope = (speed, -self.force(&next) / self.mass);
+            }
+        }
+        let (mut lengths, mut speeds) = (0.0, 0.0);
+        for (weight, slope) in ERROR.iter().zip(&slopes) {
+            lengths += step * weight * slope.0;
+            speeds += step * weight * slope.1;
+        }
+        (next, fmax(fabs(lengths) / self.length, fabs(speeds) / self.speed))
+    }
+
+    /// The state within the `step` from `state` at which `happens` becomes true. It must be true at the end of the step.
+    fn event(&self, state: &State, step: f64, happens: impl Fn(&State) -> bool) -> State {
+        let (mut low, mut high) = (0.0, step);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *(if happens(&self.step(state, middle).0) { &mut high } else { &mut low }) = middle;
+        }
+        self.step(state, high).0
+    }
+
+    /// The largest force between `state` and `next` \[N\]: at an end, or at a maximum, which is found by section search.
+    fn largest_force(&self, state: &State, next: &State, step: f64) -> f64 {
+        let (mut low, mut high) = (0.0, step);
+        let force = |step: f64| self.force(&self.step(state, step).0);
+        let ends = fmax(self.force(state), self.force(next));
+        // the force is smooth: if it is lower in the middle, or monotone, the maximum is at an end
+        if force(0.5 * step) <= 0.5 * (self.force(state) + self.force(next)) {
+            return ends;
+        }
+        for _ in 0..50 {
+            let third = (high - low) / 3.0;
+            if force(low + third) < force(high - third) {
+                low += third;
+            } else {
+                high -= third;
+            }
+        }
+        fmax(ends, force(0.5 * (low + high)))
+    }
+}
+
+/// The stages of Dormand and Prince; the last one is the step itself.
+pub(crate) const STAGES: [[f64; 6]; 7] = [
+    [0.0; 6],
+    [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
+    [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
+    [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0, 0.0, 0.0],
+    [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0, 0.0],
+    [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+];
+
+/// The difference between the methods of order 5 and 4.
+pub(crate) const ERROR: [f64; 7] =
+    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];

@@ -1,0 +1,81 @@
+//! The list of the laws of a kind, written once.
+
+/// Makes the laws of a kind public, and an enum of them for programs that choose a law while they run.
+///
+/// An entry has the module and the type of a law, its name in scenes, and its reference constants; one type can be several laws.
+/// After the entries come the laws with the passivity guard, and those with a form for targets that harden, each with the variant
+/// of that form.
+macro_rules! laws {
+    (
+        $(#[$says:meta])*
+        pub enum $any:ident: $interface:ty {
+            $($module:ident::$law:ident { $($name:literal = $reference:expr),+ $(,)? })+
+        }
+        $(guarded { $($bare:ident as $guarded:ident),+ $(,)? })?
+        $(strengthened { $($plain:ident as $strengthened:ident),+ $(,)? })?
+    ) => {
+        $(pub use $module::$law;)+
+
+        $(#[$says])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        pub enum $any {
+            $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)+
+            $($(#[doc = "See [`Guarded`]."] $guarded(Guarded<$bare>),)+)?
+            $($(#[doc = "See [`Strengthened`]."] $strengthened(Strengthened),)+)?
+        }
+
+        impl $any {
+            /// All laws with their names in a scene and their reference constants.
+            pub const ALL: [(&'static str, $any); [$($($name),+),+].len()] = [$($(($name, $any::$law($reference)),)+)+];
+
+            fn law(&self) -> &$interface {
+                match self {
+                    $($any::$law(law) => law,)+
+                    $($($any::$guarded(law) => law,)+)?
+                    $($($any::$strengthened(law) => law,)+)?
+                }
+            }
+        }
+
+        $(
+            $(impl guarded::Hertzian for $bare {})+
+
+            impl $any {
+                /// The law with the passivity guard; `None` for a law that has no guarded form.
+                pub fn guarded(self) -> Option<$any> {
+                    match self {
+                        $($any::$bare(law) => Some($any::$guarded(Guarded(law))),)+
+                        _ => None,
+                    }
+                }
+            }
+        )?
+
+        $(
+            impl $any {
+                /// The law with the Poisson's ratio of the target and this hardening modulus \[Pa\]; `None` for a law that has no
+                /// such form.
+                pub fn strengthened(self, hardening_modulus: f64) -> Option<$any> {
+                    match self {
+                        $($any::$plain(law) => Some($any::$strengthened(Strengthened { law, hardening_modulus })),)+
+                        $($any::$strengthened(form) => {
+                            Some($any::$strengthened(Strengthened { hardening_modulus, ..form }))
+                        })+
+                        _ => None,
+                    }
+                }
+
+                /// The law with its form for targets that harden changed, if it is one.
+                fn with_form(self, change: impl Fn(Strengthened) -> Strengthened) -> $any {
+                    match self {
+                        $($any::$strengthened(form) => $any::$strengthened(change(form)),)+
+                        law => law,
+                    }
+                }
+            }
+        )?
+    };
+}
+
+pub(super) use laws;

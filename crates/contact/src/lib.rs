@@ -1,0 +1,258 @@
+//! The physics: a rigid or elastic sphere pressed into an elastoplastic half-space.
+//!
+//! `f64` only; no allocation, no input or output, no panic, and no `unsafe`. A [`Model`] holds the bodies in contact
+//! and their laws; a [`History`] holds the whole state of a contact. [`History::advance`] moves it along a path. Force,
+//! stiffness, energies and dent are functions of the two. The trait [`Contact`] is the common interface of elastoplastic and
+//! [rate-dependent](damped) contacts.
+//!
+//! # Model
+//! A sphere of effective radius `R` is pressed into a half-space of effective modulus `E*` and yield strength `S`. The
+//! normal force `F` is a function of the indentation and of the largest indentation so far:
+//!
+//! - *loading* follows the curve of a [loading law](loading): Hertz's until the mean pressure reaches 1.1 S, then
+//!   the elastoplastic and the fully plastic branches of the law;
+//! - *unloading* follows the curve of an [unloading law](unloading) down to the dent that remains; reloading
+//!   follows it back up, and continues along the loading curve.
+//!
+//! Work, elastic and dissipated energy are functions of the state; nothing is accumulated. At a constant rate over a step, the
+//! result does not depend on how the time is divided into steps.
+//!
+//! # Validity
+//! The model is a quasi-static normal contact of a paraboloid, with friction on top: `a/R` up to about 0.3, a contact time that is long
+//! compared with the travel time of elastic waves, no hardening, no strain-rate effects. [`validity`] gives the limits
+//! as numbers.
+//!
+//! # Units
+//! SI throughout: m, kg, s, N, Pa, J. The documentation of each public item states its unit.
+//!
+//! # Example
+//! ```
+//! use brinell_contact::{Body, History, Model, Pair, Surface, impact, loading::BigAlabo, unloading::ContactRadius};
+//!
+//! let ball = Body { radius: 5e-3, youngs_modulus: f64::INFINITY, poissons_ratio: 0.0 };
+//! let block = Body { radius: f64::INFINITY, youngs_modulus: 206e9, poissons_ratio: 0.3 };
+//! let pair = Pair::new(&ball, &block, 300e6).unwrap();
+//! let model = Model { pair, loading: BigAlabo::REFERENCE, unloading: ContactRadius, surface: Surface::Dented };
+//!
+//! let mut history = History::start(&model, 0.0).unwrap();
+//! history.advance(&model, 10e-6).unwrap(); // 10 um in
+//! history.advance(&model, -1e-6).unwrap(); // 1 um back
+//! assert!(history.force() > 0.0 && history.residual_indentation(&model) > 7e-6);
+//!
+//! let outcome = impact::predict(&model, &impact::Impact { mass: 4.11e-3, speed: 1.0 }).unwrap();
+//! assert!((outcome.restitution - 0.4463).abs() < 1e-4);
+//! ```
+//!
+//! # Modules
+//! | module | content |
+//! |---|---|
+//! | [`material`] | bodies, effective radius and modulus, yield point |
+//! | [`segment`] | the form of the branches of most laws: `F = c0 + c1 z + c2 z^1.5 + c3 z^2` |
+//! | [`loading`] | one file for each loading law |
+//! | [`unloading`] | one file for each unloading law |
+//! | [`numbers`] | arithmetic that raises no exceptions |
+//! | [`path`] | the indentation, summed without loss of digits |
+//! | [`dual`] | slopes of long formulas by automatic differentiation |
+//! | [`quadrature`] | numerical integration where work or time has no closed form |
+//! | [`behaviour`] | the trait [`Contact`] |
+//! | [`history`] | the state of a contact and its path through the branches |
+//! | [`impact`] | prediction of an impact from the energy balance |
+//! | [`piece`] | the smooth pieces of a law |
+//! | [`momentum`] | the integral of force over time, along branches or by pieces |
+//! | [`motion`] | the motion of bodies of known mass |
+//! | [`damped`] | rate-dependent laws, with a history of their own |
+//! | [`losses`] | losses below yield: damping, elastic waves, a plate that gives way |
+//! | [`rate`] | strain rate: the strength of an impact from its closing speed |
+//! | [`strength`] | hardening and Poisson's ratio as one effective strength |
+//! | [`tangential`] | friction: the tangential force of a contact |
+//! | [`validity`] | the range in which the laws are valid |
+//! | [`words`] | numbers as words for saved states |
+//!
+//! # References
+//! - A. Big-Alabo, P. Harrison, M. P. Cartmell, "Contact model for elastoplastic analysis of half-space indentation by a
+//!   spherical impactor", *Computers & Structures* 151 (2015) 20-29.
+//! - K. L. Johnson, *Contact Mechanics*, Cambridge University Press, 1985.
+#![cfg_attr(not(test), no_std)]
+#![forbid(unsafe_code)]
+#![deny(rustdoc::broken_intra_doc_links)]
+#![warn(missing_docs)]
+
+pub mod behaviour;
+pub mod damped;
+pub mod dual;
+pub mod history;
+pub mod impact;
+mod laws;
+pub mod loading;
+pub mod losses;
+pub mod material;
+pub mod momentum;
+pub mod motion;
+pub mod numbers;
+mod panel;
+pub mod path;
+pub mod piece;
+pub mod quadrature;
+pub mod rate;
+pub mod regime;
+pub mod segment;
+pub mod strength;
+pub mod tangential;
+pub mod unloading;
+pub mod validity;
+pub mod words;
+
+pub use behaviour::Contact;
+pub use history::History;
+pub use loading::Loading;
+pub use material::{Body, Pair, YieldPoint};
+pub use regime::{Regime, TooDeep};
+pub use segment::Segment;
+pub use unloading::{Peak, Unloading};
+
+/// The surface that a new contact meets after the bodies have separated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Surface {
+    /// The dent that the last contact left: the force begins again at the residual indentation.
+    #[default]
+    Dented,
+    /// An untouched spot. Once the bodies have separated beyond the original surface, the dent is forgotten, but its energy
+    /// still counts.
+    Fresh,
+}
+
+/// The bodies in contact and their laws.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Model<L, U> {
+    /// The two bodies.
+    pub pair: Pair,
+    /// The loading curve.
+    pub loading: L,
+    /// The unloading law.
+    pub unloading: U,
+    /// The surface that a new contact meets.
+    pub surface: Surface,
+}
+
+impl<L: Loading, U: Unloading> Model<L, U> {
+    /// The point where the contact begins to yield.
+    pub fn yield_point(&self) -> YieldPoint {
+        self.loading.yield_point(&self.pair)
+    }
+
+    /// Whether a contact that yields at `point` yields before it reaches `indentation` \[m\].
+    #[inline(always)]
+    fn yields_before(&self, point: &YieldPoint, indentation: f64) -> bool {
+        self.loading.can_yield() && indentation > point.indentation
+    }
+
+    /// Whether every branch is a segment, and none a tangent.
+    #[inline(always)]
+    pub fn is_segmented(&self) -> bool {
+        U::SEGMENTED && self.loading.is_segmented()
+    }
+
+    /// The point of the loading curve at `indentation` \[m\], as the start of an unloading.
+    pub fn peak(&self, indentation: f64) -> Peak {
+        Peak { work: self.work_for_unloading(indentation), ..self.point_of_loading(indentation) }
+    }
+
+    /// The same without the work. It is not inlined, to keep the code small where speed does not matter.
+    #[inline(never)]
+    fn point_of_loading(&self, indentation: f64) -> Peak {
+        let point = self.yield_point();
+        let force = self.loading.segment(&self.pair, indentation).force(indentation);
+        let contact_radius = self.loading.radius_at(&self.pair, &point, indentation, force);
+        Peak { indentation, force, contact_radius, yield_force: point.force, work: f64::NAN }
+    }
+
+    /// [`Model::peak`] of a contact that yields at `point` and has this `force` \[N\] at `indentation` \[m\].
+    #[inline(always)]
+    fn peak_at(&self, point: &YieldPoint, indentation: f64, force: f64) -> Peak {
+        let contact_radius = self.loading.radius_at(&self.pair, point, indentation, force);
+        let work = self.work_for_unloading(indentation);
+        Peak { indentation, force, contact_radius, yield_force: point.force, work }
+    }
+
+    /// Work of loading up to `indentation` \[J\]; NaN if the unloading law does not need it.
+    #[inline(always)]
+    fn work_for_unloading(&self, indentation: f64) -> f64 {
+        if self.unloading.needs_work() { self.loading.work(&self.pair, indentation) } else { f64::NAN }
+    }
+
+    /// The unloading path from `max_indentation` \[m\] > 0: its lower end is the residual indentation, its upper end
+    /// `max_indentation`. Up to the yield point it is the loading curve itself.
+    #[inline(always)]
+    pub fn unloading_path(&self, max_indentation: f64) -> Segment {
+        // for a law that never yields, the plastic code is compiled out
+        match self.loading.can_yield() {
+            true => self.path_of_dent(max_indentation),
+            false => self.elastic_path(max_indentation),
+        }
+    }
+
+    /// The same for a law that yields.
+    #[inline(never)]
+    fn path_of_dent(&self, max_indentation: f64) -> Segment {
+        if self.is_elastic_at(max_indentation) {
+            self.elastic_path(max_indentation)
+        } else {
+            self.path_from(&self.peak(max_indentation))
+        }
+    }
+
+    /// The same before yield.
+    fn elastic_path(&self, max_indentation: f64) -> Segment {
+        Segment { upper: max_indentation, ..self.loading.segment(&self.pair, 0.0) }
+    }
+
+    /// The same from a `peak` beyond the yield point.
+    #[inline(never)]
+    fn path_from(&self, peak: &Peak) -> Segment {
+        self.unloading.path(&self.pair, peak)
+    }
+
+    /// The segment of the unloading path at `indentation` \[m\].
+    pub fn unloading_segment(&self, max_indentation: f64, indentation: f64) -> Segment {
+        let path = self.unloading_path(max_indentation);
+        if U::SEGMENTED || self.is_elastic_at(max_indentation) {
+            return path;
+        }
+        self.unloading.tangent(&self.pair, &self.peak(max_indentation), &path, indentation)
+    }
+
+    /// Work returned on the unloading path from `indentation` \[m\] down to the residual indentation \[J\].
+    pub fn recovered_work(&self, max_indentation: f64, indentation: f64) -> f64 {
+        let path = self.unloading_path(max_indentation);
+        if U::SEGMENTED || self.is_elastic_at(max_indentation) {
+            return path.work(indentation);
+        }
+        self.unloading.work(&self.pair, &self.peak(max_indentation), &path, indentation)
+    }
+
+    /// The indentation up to which the loading law is valid \[m\].
+    pub fn valid_depth(&self) -> f64 {
+        validity::largest_indentation(self.pair.radius, |depth| self.point_of_loading(depth).contact_radius)
+    }
+
+    /// Whether the passivity guard shortens the path from `max_indentation` \[m\].
+    pub fn is_held_back_at(&self, max_indentation: f64) -> bool {
+        !self.is_elastic_at(max_indentation) && self.unloading.holds_back(&self.pair, &self.peak(max_indentation))
+    }
+
+    /// Whether a contact that was never deeper than `max_indentation` \[m\] has not yielded.
+    #[inline(never)]
+    pub fn is_elastic_at(&self, max_indentation: f64) -> bool {
+        !self.yields_before(&self.yield_point(), max_indentation)
+    }
+}
+
+/// The Rust code of the guide, as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/guide/rust.md")]
+mod guide {}
+
+/// The Rust code of the page on friction, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/guide/friction.md")]
+mod friction {}

@@ -1,0 +1,196 @@
+//! The state of a contact with losses.
+
+mod behaviour;
+
+use super::bodies;
+use super::held::{Spent, on_segment, on_the_way};
+use super::{Damping, Form, Loss, Model};
+use crate::Surface;
+use crate::loading::Loading;
+use crate::numbers::{largest, quotient};
+use crate::path::Sum;
+use crate::regime::{LARGEST_INDENTATION, Regime, TooDeep};
+use crate::unloading::Unloading;
+use libm::fabs;
+
+/// The whole state of a contact with losses, and the factor of its loss.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct History<K> {
+    /// The state of the elastoplastic law.
+    pub(super) plastic: crate::History,
+    pub(super) loss: K,
+    factor: f64,
+    /// Largest speed of indentation since the contact began \[m/s\]; zero before.
+    pub(super) swiftest: f64,
+    /// d2F/d(indentation)^2 of the elastoplastic law where the last step ended \[N/m^2\], if the law has no segments.
+    bend: f64,
+    /// Energy lost without yield \[J\].
+    pub(super) heat: Sum,
+}
+
+impl<K: Loss> History<K> {
+    /// A contact at `gap` \[m\] before any motion.
+    ///
+    /// # Errors
+    /// [`TooDeep`] as for the [elastoplastic](crate::History::start) contact.
+    pub fn start<L: Loading, U: Unloading>(model: &Model<L, U, K>, gap: f64) -> Result<History<K>, TooDeep> {
+        let mut history = History {
+            plastic: crate::History::start(&model.plastic, gap)?,
+            loss: model.loss,
+            factor: model.loss.factor(),
+            swiftest: 0.0,
+            bend: 0.0,
+            heat: Sum::new(0.0),
+        };
+        history.note_bend(model);
+        Ok(history)
+    }
+
+    /// Whether the bodies are apart.
+    pub(super) fn is_apart(&self) -> bool {
+        self.plastic.regime() == Regime::Apart
+    }
+
+    /// The loss for a motion with speeds of up to `rate` \[m/s\].
+    pub(super) fn damping_for(&self, rate: f64) -> Damping {
+        // every contact has its own largest speed
+        let before = if self.is_apart() { 0.0 } else { self.swiftest };
+        Damping { form: self.loss.form(), factor: self.factor, swiftest: largest(fabs(rate), before) }
+    }
+
+    /// Moves the contact at `rate` \[m/s\] for `step` \[s\]; the rate of a contact on a plate is that of the other body.
+    ///
+    /// # Errors
+    /// [`TooDeep`] outside the range of the law, and for a heat that overflows; the history is then unchanged.
+    pub fn advance<L: Loading, U: Unloading>(
+        &mut self,
+        model: &Model<L, U, K>,
+        rate: f64,
+        step: f64,
+    ) -> Result<(), TooDeep> {
+        let (next, _) = self.moved(model, rate, step)?;
+        *self = next;
+        Ok(())
+    }
+
+    /// The contact after a step, and the impulse of the step \[N.s\].
+    ///
+    /// # Errors
+    /// As for [`History::advance`].
+    pub(super) fn moved<L: Loading, U: Unloading>(
+        &self,
+        model: &Model<L, U, K>,
+        rate: f64,
+        step: f64,
+    ) -> Result<(History<K>, f64), TooDeep> {
+        // to the last bit like a short step
+        let mut flown = *self;
+        if flown.is_apart() && flown.plastic.advance_on_branch(rate * step) {
+            return Ok((flown, 0.0));
+        }
+        if self.loss.form() == Form::Mobility {
+            return bodies::driven(self, model, rate, step);
+        }
+        let (mut next, increment) = (*self, rate * step);
+        let from = self.plastic.indentation();
+        next.plastic.advance(&model.plastic, increment)?;
+        let to = next.plastic.indentation();
+        let damping = self.damping_for(rate);
+        let stays =
+            !self.is_apart() && self.plastic.branch().contains(from) && next.plastic.branch() == self.plastic.branch();
+        let Spent { work, heat } = match stays {
+            true => on_segment(self.plastic.branch(), &damping, (from, to), rate),
+            false => on_the_way(&self.plastic, &model.plastic, &damping, to, rate)?,
+        };
+        next.swiftest = damping.swiftest;
+        next.take(model, heat)?;
+        let impulse = quotient(work + heat, rate, increment != 0.0, self.force(rate) * step);
+        Ok((next, impulse))
+    }
+
+    /// Adds `heat` \[J\] and updates whatever follows from the position.
+    ///
+    /// # Errors
+    /// [`TooDeep`] for a heat that overflows.
+    pub(super) fn take<L: Loading, U: Unloading>(&mut self, model: &Model<L, U, K>, heat: f64) -> Result<(), TooDeep> {
+        self.heat = self.heat.plus(heat);
+        self.note_bend(model);
+        let finite = self.heat.total() < f64::INFINITY && fabs(self.plastic.indentation()) < LARGEST_INDENTATION;
+        if finite { Ok(()) } else { Err(TooDeep { indentation: self.plastic.indentation() }) }
+    }
+
+    /// Keeps the curvature of a law without segments: only the model knows it.
+    fn note_bend<L: Loading, U: Unloading>(&mut self, model: &Model<L, U, K>) {
+        let needed = self.loss.form() == Form::Radiation && !model.plastic.is_segmented();
+        self.bend = if needed && !self.is_apart() { self.plastic.curvature(&model.plastic) } else { 0.0 };
+    }
+
+    /// Force \[N\] and stiffness \[N/m\] of the elastoplastic law.
+    fn elastic(&self) -> (f64, f64) {
+        if self.is_apart() { (0.0, 0.0) } else { (self.plastic.force(), self.plastic.stiffness()) }
+    }
+
+    /// Normal force at `rate` \[m/s\], in N.
+    pub fn force(&self, rate: f64) -> f64 {
+        let (force, stiffness) = self.elastic();
+        self.damping_for(rate).force(force, stiffness, rate)
+    }
+
+    /// dF/d(indentation) at constant `rate` \[N/m\].
+    pub fn stiffness(&self, rate: f64) -> f64 {
+        let (force, stiffness) = self.elastic();
+        let damping = self.damping_for(rate);
+        match damping.form {
+            Form::Mobility => stiffness,
+            Form::Proportional => stiffness * damping.gain(rate),
+            Form::Radiation if damping.force(force, stiffness, rate) > 0.0 => {
+                let branch = self.plastic.branch();
+                // where a power begins, the curvature is infinite, but not its product with the stiffness
+                let bend = match self.bend == 0.0 {
+                    true if stiffness > 0.0 => branch.curvature(self.plastic.indentation()),
+                    _ => self.bend,
+                };
+                stiffness * (1.0 + 2.0 * damping.factor * bend * rate)
+            }
+            Form::Radiation => 0.0,
+        }
+    }
+
+    /// dF/d(rate) \[N.s/m\].
+    pub fn damping(&self, rate: f64) -> f64 {
+        let (force, stiffness) = self.elastic();
+        let damping = self.damping_for(rate);
+        if damping.force(force, stiffness, rate) <= 0.0 {
+            return 0.0;
+        }
+        match damping.form {
+            Form::Mobility => 0.0,
+            // the fastest motion determines its own scale
+            Form::Proportional => {
+                let follows = fabs(rate) < self.swiftest;
+                quotient(force * self.factor, self.swiftest, follows, 0.0)
+            }
+            Form::Radiation => self.factor * stiffness * stiffness,
+        }
+    }
+
+    /// Whether the passivity guard shortens the unloading path of the present dent.
+    pub fn is_held_back<L: Loading, U: Unloading>(&self, model: &Model<L, U, K>) -> bool {
+        self.plastic.is_held_back(&model.plastic)
+    }
+
+    /// The elastoplastic contact without the loss.
+    pub fn plastic(&self) -> &crate::History {
+        &self.plastic
+    }
+
+    /// Energy lost without yield \[J\].
+    pub fn heat(&self) -> f64 {
+        self.heat.total()
+    }
+
+    /// Whether a fresh surface waits for the bodies below zero.
+    pub(super) fn forgets<L, U>(model: &crate::Model<L, U>) -> bool {
+        model.surface == Surface::Fresh
+    }
+}

@@ -1,0 +1,164 @@
+//! The motion of bodies of known mass under the contact force.
+//!
+//! An impact takes some tens of microseconds, a step of a multibody tool about a millisecond. This module solves
+//! `m x'' = m a - F(x)` within the step, however many times the bodies touch in it: from event to event (`bodies`), in flight
+//! (`flight`) and on the smooth pieces of the law (`stretch`). There is no time stepping: between two events, the speed is a
+//! function of the position (`field`, `turning`), and the time is an integral over the position (`travel`). A `short` motion on
+//! one segment needs no integral: it is a sine and a cosine on a `line`, and a power series in time on a `curve`.
+
+mod bodies;
+mod curve;
+mod field;
+mod fit;
+pub(crate) mod flight;
+mod line;
+mod moment;
+mod moments;
+mod series;
+mod short;
+mod stretch;
+mod travel;
+mod turning;
+
+use super::Model;
+use super::history::History;
+use super::loading::Loading;
+use super::numbers::largest;
+use super::regime::{Regime, TooDeep};
+use super::unloading::Unloading;
+use bodies::Bodies;
+use field::Start;
+use flight::Flight;
+use stretch::{Ended, Stretch};
+
+/// The inputs of the motion of the two bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Effective mass \[kg\] > 0: `1/m = 1/m1 + 1/m2`.
+    pub mass: f64,
+    /// Closing acceleration by all forces except the contact force \[m/s^2\], constant over the step.
+    pub acceleration: f64,
+}
+
+/// The result of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Closing speed at the end \[m/s\].
+    pub speed: f64,
+    /// Closing speed removed by the contact force \[m/s\]: its impulse over the mass. It is zero without contact, and never
+    /// negative.
+    pub taken: f64,
+    /// Number of evaluations of the force of a segment or of its work. An evaluation of a law without segments counts as ten.
+    pub evaluations: u32,
+    /// The largest indentation during the step \[m\], which a fresh surface forgets.
+    pub deepest: f64,
+}
+
+/// The type of [`follow`] for the history and the model of a scene.
+pub type Follow<H, M> = fn(&mut H, &M, &Drive, f64, f64) -> Result<Outcome, NoMotion>;
+
+/// The reason why a step could not be computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoMotion {
+    /// The indentation left the range of the law, or a number is not finite.
+    TooDeep(TooDeep),
+    /// The step takes more than [`MOST_EVALUATIONS`], as for bodies that touch thousands of times and lose energy each time, or
+    /// more than [`MOST_PERIODS`] of a lossless motion.
+    TooLong,
+}
+
+impl From<TooDeep> for NoMotion {
+    fn from(fault: TooDeep) -> NoMotion {
+        NoMotion::TooDeep(fault)
+    }
+}
+
+/// Largest number of evaluations of the force in a step. This takes a few hundredths of a second for laws with segments and at
+/// most half a second for others. An impact takes a few hundred evaluations, with laws without segments a few thousand.
+pub const MOST_EVALUATIONS: u32 = 1_000_000;
+
+/// The number of evaluations that one evaluation of a law without segments counts for.
+const COSTLY: u32 = 10;
+
+/// Largest number of periods of an oscillation, or of lossless rebounds, in a step. The phase at the end is then known to a
+/// thousandth of a period.
+pub const MOST_PERIODS: f64 = 1e12;
+
+/// Shorter distances \[m\] count as zero, because their products lose digits.
+const SMALLEST: f64 = 1e-290;
+
+/// Moves the contact through `step` \[s\] > 0, with the closing speed `speed` \[m/s\] at the start.
+///
+/// # Errors
+/// [`NoMotion`]; the history is then at an intermediate state.
+pub fn follow<L: Loading, U: Unloading>(
+    history: &mut History,
+    model: &Model<L, U>,
+    drive: &Drive,
+    speed: f64,
+    step: f64,
+) -> Result<Outcome, NoMotion> {
+    if let Some(outcome) = at_once(history, drive, speed, step) {
+        return Ok(outcome);
+    }
+    let mut bodies = Bodies::new(history, model, drive, speed, step)?;
+    while bodies.go_on()? {}
+    bodies.stop()
+}
+
+/// [`follow`] that ends early where the bodies are about to touch a surface without a dent at a closing speed that `is_new`
+/// accepts. Then it also returns the time left \[s\].
+///
+/// # Errors
+/// As for [`follow`].
+pub(crate) fn follow_to_touch<L: Loading, U: Unloading>(
+    history: &mut History,
+    model: &Model<L, U>,
+    drive: &Drive,
+    speed: f64,
+    step: f64,
+    is_new: &dyn Fn(f64) -> bool,
+) -> Result<(Outcome, Option<f64>), NoMotion> {
+    if let Some(outcome) = at_once(history, drive, speed, step) {
+        return Ok((outcome, None));
+    }
+    let mut bodies = Bodies::new(history, model, drive, speed, step)?;
+    loop {
+        if let Some(left) = bodies.before_touch(is_new) {
+            return Ok((bodies.stop()?, Some(left)));
+        }
+        if !bodies.go_on()? {
+            return Ok((bodies.stop()?, None));
+        }
+    }
+}
+
+/// The step of bodies that stay in flight or on one branch of the law, if it is short. Otherwise it changes nothing.
+fn at_once(history: &mut History, drive: &Drive, speed: f64, time: f64) -> Option<Outcome> {
+    let Drive { mass, acceleration } = *drive;
+    let indentation = history.indentation();
+    if history.regime() == Regime::Apart {
+        let flight = Flight { speed, acceleration };
+        let end = flight.speed_after(time);
+        // if the bodies turn, the turning point is farther than the end
+        let done = speed * end >= 0.0 && history.advance_on_branch(flight.way(time));
+        let deepest = history.max_indentation();
+        return done.then_some(Outcome { speed: end, taken: 0.0, evaluations: 0, deepest });
+    }
+    let (segment, is_loading) = (history.branch(), history.is_loading());
+    let inverse_mass = 1.0 / mass;
+    let net = acceleration - segment.force(indentation) * inverse_mass;
+    let rising = speed > 0.0;
+    // a rough estimate is enough to decide whether the branch is left
+    let is_near = segment.contains(indentation + time * (speed + 0.5 * net * time)) && (rising || !is_loading);
+    if !is_near || speed == 0.0 {
+        return None;
+    }
+    let (sign, bound) = if rising { (1.0, segment.upper - indentation) } else { (-1.0, indentation - segment.lower) };
+    let start = Start { indentation, speed, net, acceleration, inverse_mass, time };
+    let (Stretch { way, speed: end, gain, ended, .. }, evaluations) =
+        short::stretch(segment, &start, sign, bound, false)?;
+    let done = ended == Ended::WithStep && history.advance_on_branch(way);
+    let taken = largest(acceleration * time - gain, 0.0);
+    done.then_some(Outcome { speed: end, taken, evaluations, deepest: history.max_indentation() })
+}

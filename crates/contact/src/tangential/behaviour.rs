@@ -1,0 +1,273 @@
+//! A contact with friction as a [`Contact`].
+
+use super::parts::{MOST_PARTS, ends_of_parts, next_of};
+use super::{Quantity, Rough, RoughModel, Shear, Sliding, SpringsOf};
+use crate::Model;
+use crate::behaviour::Contact;
+use crate::history::History;
+use crate::loading::Loading;
+use crate::material::YieldPoint;
+use crate::numbers::largest;
+use crate::path::{Course, Sum};
+use crate::regime::{Regime, TooDeep};
+use crate::unloading::Unloading;
+use crate::words::{load_numbers, store_numbers};
+use core::borrow::Borrow;
+
+impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Contact<RoughModel<L, U>>
+    for Rough<K, D, MEAN>
+{
+    const FOLLOWS_RATE: bool = false;
+    const DERIVATIVES: i32 = 2;
+    const WORDS: usize = 13 + SpringsOf::<K, D, true>::WORDS + 5 * D + if MEAN { 3 * D + 3 } else { 0 };
+    const DIRECTIONS: usize = D;
+
+    /// Where the contact begins to yield.
+    type Kept = YieldPoint;
+
+    fn kept(model: &RoughModel<L, U>) -> YieldPoint {
+        model.normal.yield_point()
+    }
+
+    fn start(model: &RoughModel<L, U>, gap: f64) -> Result<Self, TooDeep> {
+        let normal = History::start(&model.normal, gap)?;
+        let springs = SpringsOf::start(model, &normal);
+        let (none, courses) = (Sum::new(0.0), [Course::held(0.0); D]);
+        let (mean_force, impulse) = ([0.0; D], [none; D]);
+        Ok(Rough { normal, springs, courses, ends: courses, mean_force, impulse, work: none, lost: 0.0 })
+    }
+
+    /// Always false: the springs follow each step.
+    #[inline(always)]
+    fn short_step(&mut self, _increment: f64) -> bool {
+        false
+    }
+
+    fn mean_force_of_short_step(&self, from: f64) -> f64 {
+        Contact::<Model<L, U>>::mean_force_of_short_step(&self.normal, from)
+    }
+
+    /// A course with a changing rate is divided where springs may begin to stick or to slip. Each part counts as
+    /// straight. Slip is then exact at the end of a part; stick is of second order in the length of the part.
+    fn step<B: Borrow<RoughModel<L, U>>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        model: impl Fn() -> B,
+    ) -> Result<f64, TooDeep> {
+        let model = model();
+        let model = model.borrow();
+        let tangential = self.courses;
+        let is_held = course.is_held() && tangential.iter().all(Course::is_held);
+        let ends = match is_held {
+            true => [step; MOST_PARTS],
+            false => ends_of_parts(course, &tangential, model.friction.scale(), step),
+        };
+        let (mut moved, mut deepest, mut start) = (*self, 0.0, 0.0);
+        if MEAN && !(is_held && self.springs.is_exact_to(self.normal.indentation() + course.rate * step)) {
+            moved.lost = self.friction_work(model);
+        }
+        let (mut impulse, mut work) = ([0.0; D], 0.0);
+        for _ in 0..MOST_PARTS {
+            let Some(end) = next_of(&ends, start) else { break };
+            let way = |course: &Course| course.way(end) - course.way(start);
+            let (increment, slip) = (way(course), tangential.map(|course| way(&course)));
+            // within a divided step the ratio of the held rates is the same to the last bit
+            let rates = if is_held { (course.rate, tangential.map(|course| course.rate)) } else { (increment, slip) };
+            let mean = moved.springs.advance_along(&mut moved.normal, model, (increment, slip), rates, MEAN)?;
+            for ((impulse, mean), slip) in impulse.iter_mut().zip(mean).zip(slip) {
+                *impulse += mean * (end - start);
+                work += mean * slip;
+            }
+            deepest = largest(moved.normal.max_indentation(), deepest);
+            start = end;
+        }
+        if MEAN {
+            moved.mean_force = impulse.map(|impulse| impulse / step);
+            for (sum, impulse) in moved.impulse.iter_mut().zip(impulse) {
+                *sum = sum.plus(impulse);
+            }
+            moved.work = moved.work.plus(work);
+        }
+        moved.courses = tangential.map(|course| Course::held(course.rate));
+        moved.ends = tangential.map(|course| Course { bend: 0.0, ..course.after(step) });
+        *self = moved;
+        Ok(deepest)
+    }
+
+    fn step_with_mean_force<B: Borrow<RoughModel<L, U>>>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        model: impl Fn() -> B,
+    ) -> Result<(f64, f64), TooDeep> {
+        let of_normal = model();
+        let mean = { self.normal }.step_with_mean_force(course, step, || &of_normal.borrow().normal)?.1;
+        Ok((self.step(course, step, model)?, mean))
+    }
+
+    fn mean_force_of_short_course(&self, from: f64, course: &Course, step: f64) -> f64 {
+        Contact::<Model<L, U>>::mean_force_of_short_course(&self.normal, from, course, step)
+    }
+
+    fn step_held(
+        &mut self,
+        rate: f64,
+        step: f64,
+        _kept: &YieldPoint,
+        model: impl Fn() -> RoughModel<L, U>,
+    ) -> Result<(), TooDeep> {
+        self.step(&Course::held(rate), step, model).map(|_| ())
+    }
+
+    fn mean_force(&self, model: &RoughModel<L, U>, rate: f64, step: f64) -> Result<f64, TooDeep> {
+        self.normal.mean_force(&model.normal, rate, step)
+    }
+
+    fn stays_within(&mut self, depth: f64) -> bool {
+        Contact::<Model<L, U>>::stays_within(&mut self.normal, depth)
+    }
+
+    fn indentation(&self) -> f64 {
+        self.normal.indentation()
+    }
+
+    fn max_indentation(&self) -> f64 {
+        self.normal.max_indentation()
+    }
+
+    fn residual_indentation(&self, model: &RoughModel<L, U>) -> f64 {
+        self.normal.residual_indentation(&model.normal)
+    }
+
+    fn regime(&self) -> Regime {
+        self.normal.regime()
+    }
+
+    fn force(&self, _rate: f64) -> f64 {
+        self.normal.force()
+    }
+
+    fn damping(&self, _rate: f64) -> f64 {
+        0.0
+    }
+
+    fn stiffness(&self, _rate: f64) -> f64 {
+        self.normal.stiffness()
+    }
+
+    fn curvature(&self, model: &RoughModel<L, U>, _rate: f64) -> f64 {
+        self.normal.curvature(&model.normal)
+    }
+
+    fn contact_radius(&self, model: &RoughModel<L, U>) -> f64 {
+        self.normal.contact_radius(&model.normal)
+    }
+
+    fn elastic_energy(&self, model: &RoughModel<L, U>) -> f64 {
+        self.normal.elastic_energy(&model.normal)
+    }
+
+    fn dissipated_energy(&self, model: &RoughModel<L, U>) -> f64 {
+        self.normal.dissipated_energy(&model.normal)
+    }
+
+    fn smooth_piece(&self, model: &RoughModel<L, U>) -> (f64, f64) {
+        self.normal.smooth_piece(&model.normal)
+    }
+
+    /// The springs stay as they are.
+    fn moved_to(&self, model: &RoughModel<L, U>, indentation: f64) -> Self {
+        Rough { normal: self.normal.moved_to(&model.normal, indentation), ..*self }
+    }
+
+    fn tangential_course(&self, direction: usize) -> Course {
+        self.courses.get(direction).copied().unwrap_or_default()
+    }
+
+    fn set_tangential_course(&mut self, direction: usize, course: &Course) {
+        if let Some(slot) = self.courses.get_mut(direction) {
+            *slot = *course;
+        }
+    }
+
+    fn tangential_end(&self, direction: usize) -> Course {
+        self.ends.get(direction).copied().unwrap_or_default()
+    }
+
+    fn tangential(&self, model: &RoughModel<L, U>, quantity: Quantity) -> f64 {
+        let of = |values: [f64; D], direction: usize| values.get(direction).copied().unwrap_or(f64::NAN);
+        match quantity {
+            Quantity::Force(direction) => of(self.tangential_forces(model), direction),
+            Quantity::MeanForce(direction) => of(self.mean_force, direction),
+            Quantity::Impulse(direction) => of(self.tangential_impulses(), direction),
+            Quantity::Energy => self.tangential_energy(model),
+            Quantity::FrictionWork => self.friction_work(model),
+            Quantity::StickRadius => self.stick_radius(model),
+        }
+    }
+
+    fn tangential_derivatives(
+        &self,
+        model: &RoughModel<L, U>,
+        quantity: Quantity,
+        normal: &Course,
+        tangential: &[Course; 2],
+    ) -> (f64, f64) {
+        let of = |direction: usize| tangential.get(direction).copied().unwrap_or_default();
+        self.derivatives_of(model, quantity, normal, &core::array::from_fn(of))
+    }
+
+    fn sliding(&self) -> Sliding {
+        Rough::sliding(self)
+    }
+
+    fn valid_depth(model: &RoughModel<L, U>) -> f64 {
+        model.normal.valid_depth()
+    }
+
+    fn may_refuse(model: &RoughModel<L, U>) -> bool {
+        <History as Contact<Model<L, U>>>::may_refuse(&model.normal)
+    }
+
+    fn save(&self, store: &mut impl FnMut(u64)) {
+        Contact::<Model<L, U>>::save(&self.normal, store);
+        self.springs.save(store);
+        let Rough { courses, ends, mean_force, impulse, work, lost, .. } = self;
+        for (course, end) in courses.iter().zip(ends) {
+            // the bend of the end is that of the course, which is over
+            store_numbers(&[course.rate, course.slope, course.bend, end.rate, end.slope], store);
+        }
+        if MEAN {
+            store_numbers(mean_force, store);
+            for sum in impulse.iter().chain([work]) {
+                store_numbers(&[sum.value, sum.rest], store);
+            }
+            store_numbers(&[*lost], store);
+        }
+    }
+
+    fn load(words: &mut impl Iterator<Item = u64>, model: &RoughModel<L, U>) -> Option<Self> {
+        let normal = History::load(words, &model.normal)?;
+        let springs = SpringsOf::load(words, model, &normal)?;
+        let mut courses = [Course::default(); D];
+        let mut ends = courses;
+        for (course, end) in courses.iter_mut().zip(&mut ends) {
+            let [rate, slope, bend, end_rate, end_slope] = load_numbers(words)?;
+            *course = Course { rate, slope, bend };
+            *end = Course { rate: end_rate, slope: end_slope, bend: 0.0 };
+        }
+        let none = Sum::new(0.0);
+        let mut loaded =
+            Rough { normal, springs, courses, ends, mean_force: [0.0; D], impulse: [none; D], work: none, lost: 0.0 };
+        if MEAN {
+            loaded.mean_force = load_numbers(words)?;
+            for sum in loaded.impulse.iter_mut().chain([&mut loaded.work]) {
+                let [value, rest] = load_numbers(words)?;
+                *sum = Sum { value, rest };
+            }
+            [loaded.lost] = load_numbers(words)?;
+        }
+        Some(loaded)
+    }
+}

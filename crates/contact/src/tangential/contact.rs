@@ -1,0 +1,155 @@
+//! A contact with friction: a normal contact, its springs, and the tangential rates.
+
+use super::{RoughModel, Shear, Sliding, SpringsOf, Stuck, plane};
+use crate::behaviour::Contact;
+use crate::history::History;
+use crate::loading::Loading;
+use crate::numbers::largest;
+use crate::path::{Course, Sum};
+use crate::regime::TooDeep;
+use crate::unloading::Unloading;
+
+/// An elastoplastic contact with friction in `D` tangential directions.
+///
+/// The tangential rates are inputs that hold until they are set again; derivatives apply to one step. Every step follows all
+/// rates. There is no [short step](Contact::short_step). Without `MEAN`, the mean force, the impulse and the work of friction
+/// are not computed and stay zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rough<K, const D: usize, const MEAN: bool> {
+    pub(super) normal: History,
+    pub(super) springs: SpringsOf<K, D, true>,
+    /// Tangential rates over the next step \[m/s\].
+    pub(super) courses: [Course; D],
+    /// Tangential rates at the end of the last step \[m/s\].
+    pub(super) ends: [Course; D],
+    /// Mean tangential force of the last step \[N\].
+    pub(super) mean_force: [f64; D],
+    /// \[N.s\]
+    pub(super) impulse: [Sum; D],
+    /// Work of the tangential force \[J\].
+    pub(super) work: Sum,
+    /// Energy lost by slip before the last step that is not [exact](Shear::is_exact) \[J\].
+    pub(super) lost: f64,
+}
+
+/// A contact with friction in one direction, whose springs form a list of `N` segments.
+pub type RoughContact<const N: usize, const MEAN: bool = true> = Rough<Stuck<N>, 1, MEAN>;
+
+/// A contact with friction in two directions, whose springs form a list of `N` segments; sixteen are recommended.
+pub type PlaneContact<const N: usize, const MEAN: bool = true> = Rough<plane::Stuck<N>, 2, MEAN>;
+
+impl<K: Shear<D>, const D: usize, const MEAN: bool> Rough<K, D, MEAN> {
+    /// The normal contact.
+    pub fn normal(&self) -> &History {
+        &self.normal
+    }
+
+    /// Relative tangential speeds of the two contact points \[m/s\].
+    pub fn tangential_rates(&self) -> [f64; D] {
+        self.courses.map(|course| course.rate)
+    }
+
+    /// Sets the tangential rates \[m/s\] for the next steps; finite numbers.
+    pub fn set_tangential_rates(&mut self, rates: [f64; D]) {
+        self.courses = rates.map(Course::held);
+    }
+
+    /// Tangential forces \[N\]; positive against positive rates.
+    pub fn tangential_forces<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> [f64; D] {
+        self.springs.forces(&model.friction, self.normal.indentation())
+    }
+
+    /// Mean tangential forces of the last step \[N\].
+    pub fn mean_tangential_forces(&self) -> [f64; D] {
+        self.mean_force
+    }
+
+    /// Integrals of the tangential forces since the start \[N.s\].
+    pub fn tangential_impulses(&self) -> [f64; D] {
+        self.impulse.map(Sum::total)
+    }
+
+    /// Tangential forces \[N\] at the end of a step that is yet to come, with this `rate` of the indentation \[m/s\]
+    /// and the current tangential rates.
+    ///
+    /// # Errors
+    /// As for [`Contact::step`].
+    pub fn predicted_tangential_forces<L: Loading, U: Unloading>(
+        &self,
+        model: &RoughModel<L, U>,
+        rate: f64,
+        step: f64,
+    ) -> Result<[f64; D], TooDeep> {
+        let mut moved = *self;
+        moved.step(&Course::held(rate), step, || model)?;
+        Ok(moved.tangential_forces(model))
+    }
+
+    /// Elastic energy of the tangential strain \[J\].
+    pub fn tangential_energy<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
+        self.springs.energy(&model.friction, self.normal.indentation())
+    }
+
+    /// Energy lost by slip since the start \[J\]: the work of the tangential force that is not stored.
+    ///
+    /// It never falls. Where the springs of a growing dent or of a full list move approximately, they may store more than the
+    /// work; the energy lost then stays until slip has lost as much as was stored too much.
+    pub fn friction_work<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
+        largest(self.lost, self.work.total() - self.tangential_energy(model))
+    }
+
+    /// Radius of the stick area \[m\].
+    pub fn stick_radius<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
+        self.springs.stick_radius(self.normal.contact_radius(&model.normal), self.normal.indentation())
+    }
+
+    /// How much of the contact slips.
+    pub fn sliding(&self) -> Sliding {
+        self.springs.sliding()
+    }
+}
+
+impl<const N: usize, const MEAN: bool> RoughContact<N, MEAN> {
+    /// Relative tangential speed of the two contact points \[m/s\], for a ball `v + omega R`.
+    pub fn tangential_rate(&self) -> f64 {
+        let [rate] = self.tangential_rates();
+        rate
+    }
+
+    /// Sets the tangential rate \[m/s\] for the next steps; a finite number.
+    pub fn set_tangential_rate(&mut self, rate: f64) {
+        self.set_tangential_rates([rate]);
+    }
+
+    /// Tangential force \[N\]; positive against a positive rate.
+    pub fn tangential_force<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>) -> f64 {
+        let [force] = self.tangential_forces(model);
+        force
+    }
+
+    /// Mean tangential force of the last step \[N\].
+    pub fn mean_tangential_force(&self) -> f64 {
+        let [force] = self.mean_force;
+        force
+    }
+
+    /// Integral of the tangential force since the start \[N.s\].
+    pub fn tangential_impulse(&self) -> f64 {
+        let [impulse] = self.tangential_impulses();
+        impulse
+    }
+
+    /// [`Rough::predicted_tangential_forces`] in one direction \[N\].
+    ///
+    /// # Errors
+    /// As for [`Contact::step`].
+    pub fn predicted_tangential_force<L: Loading, U: Unloading>(
+        &self,
+        model: &RoughModel<L, U>,
+        rate: f64,
+        step: f64,
+    ) -> Result<f64, TooDeep> {
+        let [force] = self.predicted_tangential_forces(model, rate, step)?;
+        Ok(force)
+    }
+}

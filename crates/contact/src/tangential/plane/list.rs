@@ -1,0 +1,135 @@
+//! The stuck offsets of a contact as a polyline of vectors.
+
+use super::merge::merge;
+use super::vector::{Vector, ZERO, add, difference, length};
+use super::vertex::Vertex;
+use crate::segment::Segment;
+use crate::tangential::SAME;
+
+/// The current point: indentation and scaled tangential displacement \[m\]. It is the apex of the cone of all springs
+/// that can stick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Apex {
+    pub indentation: f64,
+    pub displacement: Vector,
+}
+
+impl Apex {
+    /// How much a spring at `height` with this `offset` \[m\] is inside its limit \[m\]; negative outside.
+    pub(super) fn distance(&self, height: f64, offset: Vector) -> f64 {
+        self.indentation - height - length(difference(self.displacement, offset))
+    }
+}
+
+/// A polyline of at most `N` segments, from the lowest height to the highest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct List<const N: usize> {
+    count: usize,
+    vertices: [Vertex; N],
+}
+
+impl<const N: usize> List<N> {
+    /// No contact.
+    pub const EMPTY: List<N> = {
+        // a draft then has room for all parts of all segments
+        assert!(N >= 8);
+        List { count: 0, vertices: [Vertex::NONE; N] }
+    };
+
+    /// The vertices in ascending order of height.
+    #[inline(always)]
+    pub fn vertices(&self) -> &[Vertex] {
+        self.vertices.get(..self.count).unwrap_or(&[])
+    }
+
+    /// The highest segment.
+    pub fn last(&self) -> Option<&Vertex> {
+        self.vertices().last()
+    }
+
+    /// Replaces the slope of the highest segment.
+    pub(super) fn set_slope(&mut self, slope: Vector) {
+        if let Some(last) = self.vertices.get_mut(..self.count).and_then(<[Vertex]>::last_mut) {
+            last.slope = slope;
+        }
+    }
+
+    /// Adds a segment on top. A full list first merges two of its segments.
+    pub(super) fn push(&mut self, curve: &Segment, vertex: Vertex) {
+        if self.count >= N {
+            self.count = merge(&mut self.vertices, &vertex, curve);
+        }
+        self.add(vertex);
+    }
+
+    /// Adds a segment on top of a list that is not full.
+    pub(super) fn add(&mut self, vertex: Vertex) {
+        if let Some(slot) = self.vertices.get_mut(self.count) {
+            *slot = vertex;
+            self.count += 1;
+        }
+    }
+
+    /// Moves the origin of all offsets to that of the highest springs, at `indentation` \[m\]. The offsets follow from the slopes:
+    /// after a long slide, they would be small differences of large numbers.
+    pub(super) fn rebase(&mut self, indentation: f64) {
+        let mut end = (indentation, ZERO);
+        for vertex in self.vertices.iter_mut().take(self.count).rev() {
+            vertex.offset = add(end.1, vertex.height - end.0, vertex.slope);
+            end = (vertex.height, vertex.offset);
+        }
+    }
+}
+
+/// A polyline under construction, with room for all parts of the segments of a [`List`].
+pub(super) struct Draft<const N: usize> {
+    count: usize,
+    vertices: [[Vertex; N]; 8],
+}
+
+impl<const N: usize> Draft<N> {
+    /// An empty polyline.
+    pub(super) const EMPTY: Draft<N> = Draft { count: 0, vertices: [[Vertex::NONE; N]; 8] };
+
+    /// Whether segments may be divided further. The rest of the room is for those that follow.
+    pub(super) fn has_room(&self) -> bool {
+        self.count < 2 * N
+    }
+
+    /// Height of the lowest springs \[m\].
+    pub(super) fn lowest(&self) -> f64 {
+        self.vertices.as_flattened().first().map_or(0.0, |vertex| vertex.height)
+    }
+
+    /// Adds a segment, unless it continues the last one in a straight line.
+    pub(super) fn extend(&mut self, vertex: Vertex) {
+        let room = self.vertices.as_flattened_mut();
+        let last = self.count.checked_sub(1).and_then(|last| room.get(last));
+        if last.is_none_or(|last| length(difference(last.slope, vertex.slope)) > SAME)
+            && let Some(slot) = room.get_mut(self.count)
+        {
+            *slot = vertex;
+            self.count += 1;
+        }
+    }
+
+    /// The list of these segments; excess segments are merged.
+    pub(super) fn into_list(mut self, curve: &Segment) -> List<N> {
+        let room = self.vertices.as_flattened_mut();
+        while self.count > N
+            && let Some(([rest @ .., last], _)) = room.split_at_mut_checked(self.count)
+        {
+            let last = *last;
+            let left = merge(rest, &last, curve);
+            if let Some(slot) = room.get_mut(left) {
+                *slot = last;
+            }
+            self.count = left + 1;
+        }
+        let mut list = List::EMPTY;
+        for vertex in room.iter().take(self.count) {
+            list.add(*vertex);
+        }
+        list
+    }
+}

@@ -1,0 +1,274 @@
+//! An elastoplastic contact with friction.
+
+use super::growth_steps::next_of_lattice;
+use super::shear::{Rates, Shear, TOLERANCE, mean_over};
+use super::{Friction, Motion, Sliding, Stuck, growth, plane};
+use crate::history::History;
+use crate::loading::Loading;
+use crate::numbers::{largest, quotient, smallest};
+use crate::regime::TooDeep;
+use crate::segment::Segment;
+use crate::unloading::Unloading;
+use crate::{Model, Surface};
+
+/// More pieces than a step can have. A law has a dozen corners. The [lattice](next_of_lattice) has fewer points than
+/// this between the smallest and the largest indentation.
+const MOST_PIECES: u32 = 10_000;
+
+/// The parameters of a contact with friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoughModel<L, U> {
+    /// The bodies and the laws of the normal force.
+    pub normal: Model<L, U>,
+    /// Friction between the bodies.
+    pub friction: Friction,
+}
+
+/// The tangential part of a contact with friction: its springs in `D` directions, and their force-indentation curve. The
+/// normal contact is a separate value that does not know about friction.
+///
+/// With `LATTICE`, a growing dent is divided at fixed depths. The result then hardly depends on the time steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringsOf<K, const D: usize, const LATTICE: bool> {
+    stuck: K,
+    /// The unloading path of the current dent, up to its largest indentation. Before yield: Hertz's curve up to the
+    /// yield point.
+    curve: Segment,
+}
+
+/// The springs of a contact in one direction, in a list of `N` segments; see [`Stuck`] for the `PARTS`.
+pub type Springs<const N: usize, const LATTICE: bool = true, const PARTS: u32 = { growth::PARTS }> =
+    SpringsOf<Stuck<N, PARTS>, 1, LATTICE>;
+
+/// The springs of a contact in two directions, in a list of `N` segments.
+pub type PlaneSprings<const N: usize, const LATTICE: bool = true> = SpringsOf<plane::Stuck<N>, 2, LATTICE>;
+
+impl<L: Loading, U: Unloading> RoughModel<L, U> {
+    /// The unloading curve of a contact whose largest indentation was `largest` \[m\].
+    fn curve_below(&self, largest: f64) -> Segment {
+        let yields_at = self.normal.yield_point().indentation;
+        if !self.normal.loading.can_yield() || largest <= yields_at {
+            return Segment { upper: yields_at, ..self.normal.loading.segment(&self.normal.pair, 0.0) };
+        }
+        self.normal.unloading_path(largest)
+    }
+}
+
+impl<const N: usize, const LATTICE: bool, const PARTS: u32> Springs<N, LATTICE, PARTS> {
+    /// [`SpringsOf::advance_along`] in one direction. Returns the mean tangential force \[N\] if it `is_asked` for,
+    /// otherwise 0.
+    ///
+    /// # Errors
+    /// [`TooDeep`] as for [`History::advance`]; the contact and the springs are then unchanged.
+    #[inline]
+    pub fn advance<L: Loading, U: Unloading>(
+        &mut self,
+        contact: &mut History,
+        model: &RoughModel<L, U>,
+        (increment, slip): (f64, f64),
+        rates: (f64, f64),
+        is_asked: bool,
+    ) -> Result<f64, TooDeep> {
+        let [mean] = self.advance_along(contact, model, (increment, [slip]), (rates.0, [rates.1]), is_asked)?;
+        Ok(mean)
+    }
+
+    /// Tangential force \[N\] at the current `indentation` \[m\].
+    pub fn force(&self, friction: &Friction, indentation: f64) -> f64 {
+        let [force] = self.forces(friction, indentation);
+        force
+    }
+}
+
+impl<K: Shear<D>, const D: usize, const LATTICE: bool> SpringsOf<K, D, LATTICE> {
+    /// The springs of a `contact` that has just started: no tangential displacement.
+    pub fn start<L: Loading, U: Unloading>(model: &RoughModel<L, U>, contact: &History) -> Self {
+        let curve = model.curve_below(contact.max_indentation());
+        SpringsOf { stuck: K::pressed(&curve, contact.indentation()), curve }
+    }
+
+    /// Moves a `contact` and its springs by `increment` along the normal and by `slip` in the tangential directions
+    /// \[m\]; `rates` are these rates \[m/s\]. Returns the mean tangential force \[N\] if it `is_asked` for,
+    /// otherwise 0.
+    ///
+    /// # Errors
+    /// [`TooDeep`] as for [`History::advance`]; the contact and the springs are then unchanged.
+    #[inline]
+    pub fn advance_along<L: Loading, U: Unloading>(
+        &mut self,
+        contact: &mut History,
+        model: &RoughModel<L, U>,
+        (increment, slip): (f64, [f64; D]),
+        rates: (f64, [f64; D]),
+        is_asked: bool,
+    ) -> Result<[f64; D], TooDeep> {
+        let from = contact.indentation();
+        contact.advance(&model.normal, increment)?;
+        let to = contact.indentation();
+        let scale = model.friction.scale();
+        let scaled = |lengths: [f64; D]| lengths.map(|length| scale * length);
+        let way = Motion { from, to, shift: scaled(slip), normal: rates.0, tangential: scaled(rates.1) };
+        let pull = self.follow(model, &way, is_asked);
+        // a fresh surface forgets the dent once the bodies separate beyond the original surface
+        if model.normal.surface == Surface::Fresh && from >= 0.0 && to < 0.0 {
+            self.curve = model.curve_below(0.0);
+        }
+        Ok(pull.map(|pull| model.friction.coefficient * pull))
+    }
+
+    /// Moves the springs along a `way` that the contact has completed: up to the growth of its dent, then over the
+    /// pieces of the growth. Returns their mean force \[N\].
+    fn follow<L: Loading, U: Unloading>(
+        &mut self,
+        model: &RoughModel<L, U>,
+        way: &Motion<D>,
+        is_asked: bool,
+    ) -> [f64; D] {
+        if way.to <= self.curve.upper {
+            return self.move_on_curve(way, is_asked);
+        }
+        let (mut here, mut sum) = (way.from, [0.0; D]);
+        let rise = way.rise();
+        for _ in 0..MOST_PIECES {
+            if here >= way.to {
+                break;
+            }
+            let grows = here >= self.curve.upper;
+            let end = if grows { smallest(self.next_border(model, here), way.to) } else { self.curve.upper };
+            let part = (end - here) / rise;
+            let piece = Motion { from: here, to: end, shift: way.shift.map(|shift| part * shift), ..*way };
+            let mean = if grows { self.grow(model, &piece, is_asked) } else { self.move_on_curve(&piece, is_asked) };
+            for (sum, mean) in sum.iter_mut().zip(mean) {
+                *sum += part * mean;
+            }
+            here = end;
+        }
+        sum
+    }
+
+    /// The next corner of the loading law or lattice point above `indentation` \[m\].
+    fn next_border<L: Loading, U: Unloading>(&self, model: &RoughModel<L, U>, indentation: f64) -> f64 {
+        let corner = model.normal.loading.next_corner(&model.normal.pair, indentation);
+        if LATTICE {
+            smallest(next_of_lattice(indentation, model.normal.yield_point().indentation), corner)
+        } else {
+            corner
+        }
+    }
+
+    /// Moves the springs on a `way` along the current curve. Returns their mean force \[N\].
+    #[inline]
+    fn move_on_curve(&mut self, way: &Motion<D>, is_asked: bool) -> [f64; D] {
+        let curve = self.curve;
+        let mean = if is_asked { self.stuck.mean_pull(&curve, way) } else { [0.0; D] };
+        self.stuck.settle(&curve, way);
+        mean
+    }
+
+    /// Moves the springs on a `way` with a growing dent. Returns their mean force \[N\].
+    fn grow<L: Loading, U: Unloading>(
+        &mut self,
+        model: &RoughModel<L, U>,
+        way: &Motion<D>,
+        is_asked: bool,
+    ) -> [f64; D] {
+        let before = *self;
+        let after = |way: &Motion<D>| {
+            let mut springs = before;
+            springs.curve = model.curve_below(way.to);
+            springs.stuck.grow(&before.curve, &springs.curve, way);
+            springs
+        };
+        *self = after(way);
+        if !is_asked {
+            return [0.0; D];
+        }
+        let tolerance = TOLERANCE * largest(before.curve.force(way.from), self.curve.force(way.to));
+        mean_over(before.pull(way.from), self.pull(way.to), tolerance, |part| {
+            let begun = way.first_part(part);
+            after(&begun).pull(begun.to)
+        })
+    }
+
+    /// Whether a step with held rates to this `indentation` \[m\] has an exact result.
+    pub(super) fn is_exact_to(&self, indentation: f64) -> bool {
+        indentation <= self.curve.upper && self.stuck.is_exact()
+    }
+
+    /// Tangential force divided by the coefficient of friction \[N\].
+    fn pull(&self, indentation: f64) -> [f64; D] {
+        self.stuck.pull(&self.curve, indentation)
+    }
+
+    /// Tangential force \[N\] at the current `indentation` \[m\].
+    pub fn forces(&self, friction: &Friction, indentation: f64) -> [f64; D] {
+        self.pull(indentation).map(|pull| friction.coefficient * pull)
+    }
+
+    /// First and second time derivative of the tangential force \[N/s, N/s^2\] for these `rates` \[m/s\] and
+    /// `accelerations` \[m/s^2\] along the normal and in the tangential directions, on the current curve. `None` if the
+    /// dent grows.
+    pub fn force_rates(
+        &self,
+        friction: &Friction,
+        indentation: f64,
+        rates: (f64, [f64; D]),
+        accelerations: (f64, [f64; D]),
+    ) -> Option<Rates<D>> {
+        if rates.0 > 0.0 && indentation >= self.curve.upper {
+            return None;
+        }
+        let scale = friction.scale();
+        let scaled = |lengths: [f64; D]| lengths.map(|length| scale * length);
+        let tangential = scaled(rates.1);
+        let way = Motion { from: indentation, to: indentation, shift: [0.0; D], normal: rates.0, tangential };
+        let accelerations = (accelerations.0, scaled(accelerations.1));
+        let (first, second) = self.stuck.pull_rates(&self.curve, &way, accelerations);
+        let force = |rates: [f64; D]| rates.map(|rate| friction.coefficient * rate);
+        Some((force(first), force(second)))
+    }
+
+    /// Stored tangential energy \[J\] at `indentation` \[m\].
+    pub fn energy(&self, friction: &Friction, indentation: f64) -> f64 {
+        let scale = friction.scale();
+        quotient(friction.coefficient, scale, scale > 0.0, 0.0) * self.stuck.energy(&self.curve, indentation)
+    }
+
+    /// Radius of the stick area \[m\] at `indentation` \[m\], where the law has the radius `contact_radius` \[m\]. The radius of a
+    /// spring is proportional to the stiffness at its height.
+    pub fn stick_radius(&self, contact_radius: f64, indentation: f64) -> f64 {
+        let [stick, whole] = [self.stuck.stick_height(indentation), indentation].map(|h| self.curve.stiffness(h));
+        match self.sliding() {
+            Sliding::Apart | Sliding::Sliding => 0.0,
+            _ => contact_radius * quotient(stick, whole, stick < whole, 1.0),
+        }
+    }
+
+    /// Slip state of the contact.
+    pub fn sliding(&self) -> Sliding {
+        self.stuck.sliding()
+    }
+
+    /// Number of segments in the list.
+    pub fn segments(&self) -> usize {
+        self.stuck.segments()
+    }
+
+    /// Number of words in the saved springs.
+    pub const WORDS: usize = K::WORDS;
+
+    /// Passes [`SpringsOf::WORDS`] words to `store`.
+    pub fn save(&self, store: &mut impl FnMut(u64)) {
+        self.stuck.save(store);
+    }
+
+    /// The springs of a `contact` that [`SpringsOf::save`] has stored; `None` if a word is not a finite number.
+    pub fn load<L: Loading, U: Unloading>(
+        words: &mut impl Iterator<Item = u64>,
+        model: &RoughModel<L, U>,
+        contact: &History,
+    ) -> Option<Self> {
+        let curve = model.curve_below(contact.max_indentation());
+        Some(SpringsOf { stuck: K::load(words, &curve)?, curve })
+    }
+}

@@ -1,0 +1,168 @@
+//! The data that a contact of known mass keeps for its importer: how the last step ended, and the momentum in transit.
+//!
+//! A *serial* importer (Gauss-Seidel) steps the contact first and applies its force over the same step. A *parallel* importer
+//! (Jacobi) steps all FMUs at once: over a step, it applies the force that the contact showed before that step. The contact
+//! therefore keeps an account. Its debt is the impulse that the contact has exerted and the importer has not yet applied. The
+//! bodies actually close at the given rate minus debt over mass. A step adds the impulse of the contact to the debt and
+//! subtracts what the importer has applied. The force to apply over the next step is the debt over the length of a step.
+//! Momentum is neither lost nor applied twice, however long the steps are.
+
+use super::*;
+use crate::scene::Real;
+use brinell_contact::words::{load_numbers, store_numbers};
+
+/// The end of the last step, as reported to the importer.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Ending {
+    /// Closing speed of the bodies at the end \[m/s\].
+    pub speed: f64,
+    /// Force to apply \[N\]: over the same step by a serial importer, over the next step by a parallel one.
+    pub force: f64,
+    /// Change of speed that the change of this force causes in a step of the same length \[m/s\]. An importer with the other
+    /// order of execution adds or subtracts it.
+    pub jump: f64,
+}
+
+impl Ending {
+    /// Number of words that hold an ending.
+    pub const WORDS: usize = 3;
+
+    /// A contact before any motion, with this `force` \[N\].
+    pub fn start(force: f64) -> Ending {
+        Ending { speed: 0.0, force, jump: 0.0 }
+    }
+
+    pub fn save(&self, store: &mut impl FnMut(u64)) {
+        store_numbers(&[self.speed, self.force, self.jump], store);
+    }
+
+    /// The ending that [`Ending::save`] has stored; `None` if a word is not a finite number.
+    pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Ending> {
+        let [speed, force, jump] = load_numbers(words)?;
+        Some(Ending { speed, force, jump })
+    }
+}
+
+/// The account of momentum between a contact and a parallel importer.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Account {
+    /// Impulse that the contact has exerted and the importer has not yet applied \[N.s\].
+    pub debt: f64,
+    /// Lower limit of the assumed length of the next step \[s\].
+    span: f64,
+}
+
+/// Factor by which the longest step fades from step to step. A debt divided by a short step and applied over a long one would
+/// come back larger, and alternating step sizes would let it grow.
+const FADING: f64 = 0.75;
+
+impl Account {
+    /// Number of words that hold an account.
+    pub const WORDS: usize = 2;
+
+    /// Records a step \[s\] in which the contact has exerted `impulse` \[N.s\] and the importer has applied the force `applied`
+    /// \[N\]. Returns the force to apply over the next step \[N\].
+    fn book(&mut self, impulse: f64, applied: f64, step: f64) -> f64 {
+        self.debt += impulse - applied * step;
+        let longest = if step > self.span { step } else { self.span };
+        let faded = FADING * longest;
+        self.span = if step > faded { step } else { faded };
+        let force = self.debt / longest;
+        // the debt remains until steps are long enough for it
+        if force.is_finite() { force } else { 0.0 }
+    }
+
+    pub fn save(&self, store: &mut impl FnMut(u64)) {
+        store_numbers(&[self.debt, self.span], store);
+    }
+
+    /// The account that [`Account::save`] has stored; `None` if a word is not a finite number.
+    pub fn load(words: &mut impl Iterator<Item = u64>) -> Option<Account> {
+        let [debt, span] = load_numbers(words)?;
+        Some(Account { debt, span })
+    }
+}
+
+/// A change of speed below this fraction of the speeds does not reveal the order of execution.
+const TELLING: f64 = 1e-6;
+
+/// Rounding error of the importer's own sums, as a fraction of such a change.
+const ROUNDING: f64 = 1e-8;
+
+impl<S: Scene> Instance<S> {
+    /// Whether the FMU moves the bodies.
+    pub(super) const MOVES: bool = <S::Coupling as Coupling>::Ending::IS_PRESENT;
+
+    /// Effective mass of `contact` \[kg\].
+    pub(super) fn mass(&self, contact: usize) -> f64 {
+        match self.contacts.masses.as_ref().get(contact) {
+            Some(&mass) if S::has_input(Real::EffectiveMass) => mass,
+            _ => S::parameter(Parameter::EffectiveMass, S::group(contact), &self.settings.values),
+        }
+    }
+
+    /// Closing acceleration of `contact` by all forces except the contact force \[m/s^2\]: the input if there is one, otherwise
+    /// the `slope` of the rate.
+    pub(super) fn acceleration(&self, contact: usize, slope: f64) -> f64 {
+        match self.contacts.accelerations.as_ref().get(contact) {
+            Some(&acceleration) if S::has_input(Real::ExternalAcceleration) => acceleration,
+            _ => slope,
+        }
+    }
+
+    /// The part of the given rate of `contact` that the importer has yet to remove \[m/s\].
+    pub(super) fn owed(&self, contact: usize) -> f64 {
+        self.contacts.accounts.as_ref().get(contact).map_or(0.0, |account| account.debt / self.mass(contact))
+    }
+
+    /// Records the end of a `step` \[s\] of `contact`: its `speed` \[m/s\] and its `mean_force` \[N\].
+    pub(super) fn end_step(&mut self, contact: usize, speed: f64, mean_force: f64, step: f64) {
+        let mass = self.mass(contact);
+        let Contacts { endings, accounts, .. } = &mut self.contacts;
+        let Some(ending) = endings.as_mut().get_mut(contact) else { return };
+        let force = match accounts.as_mut().get_mut(contact) {
+            Some(account) => account.book(mean_force * step, ending.force, step),
+            None => mean_force,
+        };
+        *ending = Ending { speed, force, jump: (force - ending.force) * step / mass };
+    }
+
+    /// Checks whether the rate of `contact` for the next step comes from an importer with the other order of execution.
+    pub(super) fn check_wiring(&mut self, contact: usize) {
+        let (Some(ending), Some(&rate)) = (self.contacts.endings.as_ref().get(contact), self.rates().get(contact))
+        else {
+            return;
+        };
+        let expected = ending.speed + self.owed(contact);
+        // a serial importer has already applied the new force, a parallel one still the old force
+        let other = if is_parallel::<S>() { -ending.jump } else { ending.jump };
+        let size = rate.abs() + ending.speed.abs() + expected.abs();
+        if other.abs() > TELLING * size && (rate - expected - other).abs() <= ROUNDING * other.abs() {
+            let wiring = Miswired { contact: contact as u32 + 1, rate, expected };
+            self.contacts.miswired.as_mut().fill(wiring);
+        }
+    }
+
+    /// The warning, once, that the last step began with the rate of an importer with the other order of execution.
+    pub fn take_miswired(&mut self) -> Option<Warning> {
+        let Miswired { contact, rate, expected } = core::mem::take(self.contacts.miswired.as_mut().first_mut()?);
+        let contact = contact.checked_sub(1)? as usize;
+        Some(Warning::Miswired { contact, rate, expected, parallel: is_parallel::<S>() })
+    }
+}
+
+/// Whether the scene is for an importer that steps all FMUs at once.
+fn is_parallel<S: Scene>() -> bool {
+    <S::Coupling as Coupling>::Account::IS_PRESENT
+}
+
+/// A contact whose rate came from an importer with the other order of execution, until the warning is taken.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Miswired {
+    /// The contact, counted from 1; 0 is none.
+    contact: u32,
+    /// The rate that was given \[m/s\].
+    rate: f64,
+    /// The rate that was expected \[m/s\].
+    expected: f64,
+}

@@ -1,0 +1,251 @@
+//! Co-simulation as safe Rust: phase, time, variables, step, reset, save and load. Nothing here is particular to FMI 2.0.
+//!
+//! An [`Instance`] belongs to a [`Scene`], and is an ordinary value.
+
+mod account;
+mod clock;
+mod coupling;
+mod course;
+mod derivatives;
+mod fault;
+mod friction;
+mod saved;
+mod stability;
+mod start;
+mod stepping;
+mod validity;
+mod variables;
+
+pub use clock::{LATEST, Phase, SHORTEST};
+pub use fault::{Fault, Warning};
+pub use stepping::Plain;
+
+use crate::scene::{Coupling, Parameter, Presence, Scene, Settable, Store};
+use account::{Account, Ending, Miswired};
+use brinell_contact::behaviour::is_finite_at;
+use brinell_contact::{Contact, TooDeep};
+use clock::Clock;
+use coupling::{Curve, Momentum};
+use stability::Watched;
+use start::{Bodies, BodiesOf, model_of};
+
+/// The largest absolute value of the rate of an input \[m/s\].
+pub const FASTEST: f64 = 1e40;
+
+/// One value for each contact of a scene, if `P` is present.
+type IfPresent<P, S, T> = <P as Presence>::Of<T, <S as Scene>::Contacts<T>>;
+
+/// The data of the contacts. A plain step and a reading of the force use the first fields only.
+#[repr(C)]
+struct Contacts<S: Scene> {
+    /// Rates \[m/s\].
+    rates: S::Contacts<f64>,
+    histories: S::Contacts<S::Contact>,
+    /// Forces \[N\].
+    forces: IfPresent<S::Forces, S, f64>,
+    momenta: IfPresent<S::Momentum, S, Momentum>,
+    curves: IfPresent<S::Course, S, Curve>,
+    /// Length of the last step \[s\], if a force is predicted from it.
+    last_step: <S::Prediction as Presence>::Of<f64, [f64; 1]>,
+    endings: IfPresent<<S::Coupling as Coupling>::Ending, S, Ending>,
+    accounts: IfPresent<<S::Coupling as Coupling>::Account, S, Account>,
+    /// Accelerations by all forces except the contact force \[m/s^2\].
+    accelerations: IfPresent<<S::Coupling as Coupling>::Acceleration, S, f64>,
+    /// Effective masses \[kg\], if they are inputs.
+    masses: IfPresent<<S::Coupling as Coupling>::Mass, S, f64>,
+    /// The last examined steps, if the scene detects steps that are too long.
+    watched: IfPresent<S::Watch, S, Watched>,
+    /// Number of next steps to examine.
+    looks: <S::Watch as Presence>::Of<u32, [u32; 1]>,
+    miswired: <<S::Coupling as Coupling>::Ending as Presence>::Of<Miswired, [Miswired; 1]>,
+}
+
+/// Values that follow from the parameters.
+#[repr(C)]
+struct Settings<S: Scene> {
+    /// The largest absolute value of an input that needs no further check \[m/s\].
+    largest_rate: f64,
+    /// A hash of the scene and of all parameters: a saved state with the same hash is one of the same scene, whose parameters
+    /// need not be copied.
+    stamp: u64,
+    bodies: S::Groups<BodiesOf<S>>,
+    values: S::Values,
+}
+
+/// A contact whose indentation was beyond the validity of its law at some time in a step, kept until the warning is
+/// logged; or a step that was too long to be [stable](stability).
+#[derive(Clone, Copy)]
+struct Deep {
+    /// The contact, counted from 1; 0 for none.
+    contact: u32,
+    /// Its largest indentation \[m\], or the step \[s\].
+    indentation: f64,
+}
+
+/// One instance of a scene: everything that a saved state contains.
+///
+/// Memory full of zeros is a valid instance, but must be [reset](Instance::reset) before use. An instance of many contacts is
+/// too large to be moved.
+#[repr(C)]
+pub struct Instance<S: Scene> {
+    clock: Clock,
+    contacts: Contacts<S>,
+    settings: Settings<S>,
+    deep: Deep,
+}
+
+fn too_deep(contact: usize, TooDeep { indentation }: TooDeep) -> Fault {
+    Fault::TooDeep { contact, indentation }
+}
+
+impl<S: Scene> Settings<S> {
+    /// The bodies and laws of `group`. It is not inlined, to keep the code small where speed does not matter.
+    #[inline(never)]
+    fn model(&self, group: usize) -> S::Model {
+        self.model_at_once(group)
+    }
+
+    /// The same, inlined, for the steps of many contacts.
+    #[inline(always)]
+    fn model_at_once(&self, group: usize) -> S::Model {
+        let none = Bodies::default();
+        model_of::<S>(group, self.bodies.as_ref().get(group).unwrap_or(&none), &self.values)
+    }
+
+    /// The indentation up to which the law of `group` is valid \[m\].
+    fn valid_depth(&mut self, group: usize) -> f64 {
+        let known = self.bodies.as_ref().get(group).map_or(f64::NAN, |bodies| bodies.depth);
+        if known != 0.0 {
+            return known;
+        }
+        let depth = S::Contact::valid_depth(&self.model(group));
+        self.bodies.as_mut().get_mut(group).into_iter().for_each(|bodies| bodies.depth = depth);
+        depth
+    }
+}
+
+impl<S: Scene> Instance<S> {
+    /// Whether a step is plain if it takes only a few comparisons for each contact.
+    const PLAIN: bool = S::FOLLOW.is_none();
+
+    /// All steps are longer than this \[s\].
+    const SHORTEST: f64 = {
+        let divides = S::Momentum::IS_PRESENT || S::FOLLOW.is_some() || S::Contact::HAS_FRICTION;
+        if divides { SHORTEST } else { 0.0 }
+    };
+
+    fn histories(&self) -> &[S::Contact] {
+        self.contacts.histories.as_ref()
+    }
+
+    fn rates(&self) -> &[f64] {
+        self.contacts.rates.as_ref()
+    }
+
+    /// Discards the derivatives of the inputs.
+    fn straighten(&mut self) {
+        self.clock.curved = false;
+        self.contacts.curves.as_mut().fill(Curve::default());
+        self.clock.release();
+    }
+
+    /// Stores the forces, if the scene keeps them.
+    fn note_forces(&mut self) {
+        let Contacts { histories, rates, forces, .. } = &mut self.contacts;
+        let contacts = histories.as_ref().iter().zip(rates.as_ref());
+        for (force, (history, &rate)) in forces.as_mut().iter_mut().zip(contacts) {
+            *force = history.force(rate);
+        }
+    }
+
+    /// The present phase.
+    #[inline]
+    pub fn phase(&self) -> Phase {
+        self.clock.phase
+    }
+
+    fn set_phase(&mut self, phase: Phase) {
+        self.clock.set_phase(phase, self.settings.largest_rate);
+        if self.clock.curved {
+            self.clock.hold();
+        }
+    }
+
+    /// Enters the phase after a failed call, in which only reading, resetting and restoring are possible.
+    pub fn fail(&mut self) {
+        self.set_phase(Phase::Error);
+    }
+
+    /// End of the last step, or the start time \[s\].
+    pub fn time(&self) -> f64 {
+        self.clock.time
+    }
+
+    /// Sets start and stop time \[s\]. The last call before initialization counts.
+    ///
+    /// # Errors
+    /// [`Fault::Experiment`] for a time that is not finite, a start beyond [`LATEST`], or a stop before the start.
+    pub fn set_experiment(&mut self, start: f64, stop: Option<f64>) -> Result<(), Fault> {
+        self.clock.set_experiment(start, stop)
+    }
+
+    /// # Errors
+    /// [`Fault::NoExperiment`] without a start time.
+    pub fn enter_initialization(&mut self) -> Result<(), Fault> {
+        if !self.clock.experiment_defined {
+            return Err(Fault::NoExperiment);
+        }
+        self.set_phase(Phase::Initialization);
+        Ok(())
+    }
+
+    /// # Errors
+    /// [`Fault::NoPointContact`] if the bodies do not fit together, [`Fault::TooFast`] if the input is too fast for the
+    /// parameters.
+    pub fn exit_initialization(&mut self) -> Result<(), Fault> {
+        self.start()?;
+        for (history, &rate) in self.histories().iter().zip(self.rates()) {
+            check_rate(history, rate)?;
+        }
+        // moved bodies have their speed from the start
+        for (ending, &rate) in self.contacts.endings.as_mut().iter_mut().zip(self.contacts.rates.as_ref()) {
+            ending.speed = rate;
+        }
+        self.set_phase(Phase::StepComplete);
+        // a contact may begin at any indentation
+        self.look();
+        Ok(())
+    }
+
+    /// Ends the simulation. An instance that was never initialized or has already ended does not change.
+    pub fn terminate(&mut self) {
+        if self.phase() == Phase::StepComplete {
+            self.set_phase(Phase::Terminated);
+        }
+    }
+
+    /// The bodies and laws of a contact.
+    fn model(&self, contact: usize) -> S::Model {
+        let group = S::group(contact);
+        self.settings.model(group)
+    }
+}
+
+/// Whether a parameter may have this `value`.
+fn allows(settable: &Settable, value: f64) -> bool {
+    // written positively to reject NaN
+    value >= settable.minimum && value <= settable.maximum
+}
+
+/// Range of effective masses \[kg\].
+pub const MASSES: core::ops::RangeInclusive<f64> = 1e-30..=1e30;
+
+/// Whether an effective mass \[kg\] is in this range.
+fn is_mass(mass: f64) -> bool {
+    // a NaN is in no range
+    MASSES.contains(&mass)
+}
+
+fn check_rate<M, C: Contact<M>>(history: &C, rate: f64) -> Result<(), Fault> {
+    if is_finite_at(history, rate) { Ok(()) } else { Err(Fault::TooFast { rate }) }
+}

@@ -1,0 +1,186 @@
+//! The scene: its contacts, their laws, its settable values and the outputs that it requests.
+//!
+//! A scene is a type. An [`Instance`](crate::instance::Instance) is compiled for one, so that features that the scene does not
+//! request take neither memory nor time. The exporter writes one for the scene of each FMU; a program may write its own. The scene of a prebuilt library, [`prebuilt::Prebuilt`], is read from memory.
+
+pub mod coupling;
+pub mod described;
+pub mod prebuilt;
+pub mod storage;
+pub mod variable;
+
+pub use coupling::{Coupled, Coupling};
+pub use described::{kind, scene};
+pub use storage::{Absent, Presence, Present, Store};
+pub use variable::{Integer, Parameter, Real, Settable};
+
+use brinell_contact::motion::Follow;
+use brinell_contact::tangential::{Friction, RoughModel};
+use brinell_contact::{Body, Contact, Model, Pair};
+
+/// A scene: `CONTACTS` contacts in groups of equal contacts, with their parameters and variables.
+///
+/// Contacts and groups are counted from 0. The contacts of a group are consecutive. Functions that depend on parameters get
+/// their present values, in the order of [`Scene::Values`].
+pub trait Scene: Sized {
+    /// The type of the bodies and their laws.
+    type Model: Copy;
+    /// The type of the state of a contact.
+    type Contact: Contact<Self::Model>;
+
+    /// One value for each contact: an array whose length is the number of contacts.
+    type Contacts<T: Copy>: Store<T>;
+    /// One value for each group of contacts.
+    type Groups<T: Copy>: Store<T>;
+    /// The values of the parameters that can be set, and possibly of others.
+    type Values: Store<f64> + Copy;
+
+    /// Whether forces are stored. With many contacts, the step stores the forces because it has them at hand. A single contact,
+    /// or one whose force depends on the rate, computes its force on request.
+    type Forces: Presence;
+    /// Whether an output needs the momentum of a step.
+    type Momentum: Presence;
+    /// Whether the input may have derivatives. Contacts whose force depends on the rate have none; others may do without.
+    type Course: Presence;
+    /// Whether an output predicts the force at the end of the next step.
+    type Prediction: Presence;
+
+    /// The coupling of a scene that knows the mass with its importer; [`Absent`] in all others.
+    type Coupling: Coupling;
+
+    /// Whether the scene detects steps that are too long for a mass like that of its impact.
+    type Watch: Presence;
+
+    /// The function that moves the bodies through a step, if the scene knows their mass.
+    const FOLLOW: Option<Follow<Self::Contact, Self::Model>> = None;
+    /// The passivity guard, if there is one.
+    const GUARD: Option<Guard<Self>> = None;
+
+    /// The number of contacts.
+    const CONTACTS: usize = <Self::Contacts<u8> as Store<u8>>::LENGTH;
+    /// The number of groups.
+    const GROUPS: usize = <Self::Groups<u8> as Store<u8>>::LENGTH;
+
+    /// The GUID of the model description of the scene, in UTF-8.
+    fn guid() -> &'static [u8];
+
+    /// A number that identifies the scene in saved states; no other scene has it.
+    fn identity() -> u64;
+
+    /// The group of a contact.
+    fn group(contact: usize) -> usize;
+
+    /// The contact after the last one of a group.
+    fn end(group: usize) -> usize;
+
+    /// The name of a contact, with its number counted from 1 if contacts of that name are counted, otherwise 0.
+    fn contact_name(contact: usize) -> (&'static str, usize);
+
+    /// The parameter with this `index` among [`Scene::Values`] and its limits, if it can be set; also the contact, if each
+    /// contact has its own value.
+    fn settable(index: usize) -> Option<(Settable, Option<usize>)>;
+
+    /// Whether the value with this `index` may also be set between steps.
+    fn is_tunable(_index: usize) -> bool {
+        false
+    }
+
+    /// The initial values of the parameters.
+    fn start_values() -> Self::Values;
+
+    /// The value of any parameter for the contacts of a group: a set value, or a constant of the scene. For a parameter that
+    /// the scene does not have, it is the value without effect.
+    fn parameter(parameter: Parameter, group: usize, values: &Self::Values) -> f64;
+
+    /// Whether the impactor of a group is the softer body, which yields. Of equally strong bodies the target counts as the one
+    /// that does: force over indentation is the same.
+    #[inline(always)]
+    fn impactor_yields(group: usize, values: &Self::Values) -> bool {
+        let strength = |body| Self::parameter(body, group, values);
+        strength(Parameter::ImpactorYieldStrength) < strength(Parameter::TargetYieldStrength)
+    }
+
+    /// Hardening modulus of the body of a group that yields \[Pa\].
+    #[inline(always)]
+    fn hardening_modulus(group: usize, values: &Self::Values) -> f64 {
+        let modulus = match Self::impactor_yields(group, values) {
+            true => Parameter::ImpactorHardeningModulus,
+            false => Parameter::TargetHardeningModulus,
+        };
+        Self::parameter(modulus, group, values)
+    }
+
+    /// The bodies of a group with the laws of the scene.
+    fn model(pair: Pair, group: usize, values: &Self::Values) -> Self::Model;
+
+    /// Density of the target of a group \[kg/m^3\], if it is known.
+    fn density(group: usize) -> Option<f64>;
+
+    /// Effective mass of the scene's impact \[kg\]; NaN if it names none.
+    #[inline(always)]
+    fn impact_mass() -> f64 {
+        f64::NAN
+    }
+
+    /// Whether `variable`, which is not the rate, is an input of the scene.
+    #[inline(always)]
+    fn has_input(variable: Real) -> bool {
+        match variable {
+            Real::ExternalAcceleration => <Self::Coupling as Coupling>::Acceleration::IS_PRESENT,
+            Real::EffectiveMass => <Self::Coupling as Coupling>::Mass::IS_PRESENT,
+            _ => variable.tangential_rate().is_some_and(|direction| direction < Self::Contact::DIRECTIONS),
+        }
+    }
+
+    /// Whether the scene can be used.
+    ///
+    /// # Errors
+    /// The reason why it cannot be used. Only a scene that is read from memory can be unusable.
+    #[inline(always)]
+    fn verify() -> Result<(), &'static str> {
+        Ok(())
+    }
+
+    /// The Real variable with this value reference, and its contact.
+    fn real(value_reference: u32) -> Option<(Real, usize)>;
+
+    /// The Integer variable with this value reference, and its contact.
+    fn integer(value_reference: u32) -> Option<(Integer, usize)>;
+}
+
+/// The model `normal` with friction between its bodies; `value` gives the parameters of the scene.
+pub fn with_friction<L, U>(normal: Model<L, U>, value: impl Fn(Parameter) -> f64) -> RoughModel<L, U> {
+    let body = |youngs_modulus, poissons_ratio| Body {
+        radius: f64::INFINITY,
+        youngs_modulus: value(youngs_modulus),
+        poissons_ratio: value(poissons_ratio),
+    };
+    let impactor = body(Parameter::ImpactorYoungsModulus, Parameter::ImpactorPoissonsRatio);
+    let target = body(Parameter::TargetYoungsModulus, Parameter::TargetPoissonsRatio);
+    let coefficient = value(Parameter::FrictionCoefficient);
+    let friction = Friction::between(&impactor, &target, normal.pair.modulus, coefficient);
+    RoughModel { normal, friction }
+}
+
+/// The passivity guard of a scene.
+#[derive(Clone, Copy)]
+pub struct Guard<S: Scene> {
+    /// Description of where it acts, for the log.
+    pub words: &'static str,
+    /// Whether it shortens the unloading path of a contact.
+    pub acts: fn(&S::Contact, &S::Model) -> bool,
+}
+
+/// The identity of a scene with this GUID: its 64-bit FNV-1a hash.
+///
+/// Reference: G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm".
+pub const fn identity_of(guid: &str) -> u64 {
+    let bytes = guid.as_bytes();
+    let mut hash = 0xcbf2_9ce4_8422_2325;
+    let mut index = 0;
+    while index < bytes.len() {
+        hash = (hash ^ bytes[index] as u64).wrapping_mul(0x100_0000_01b3);
+        index += 1;
+    }
+    hash
+}

@@ -1,0 +1,311 @@
+//! The variables that a scene can have; `modelDescription/variables.toml` is their table.
+
+use brinell_contact::tangential::Quantity;
+
+/// Makes an enum of variables, each with its name in FMUs: the table of variables has an entry of this name. `or` adds a variant
+/// that is not in the table.
+macro_rules! variables {
+    (
+        $(#[$says:meta])*
+        pub enum $kind:ident { $($(#[$means:meta])* $variant:ident = $name:literal),+ $(,)? }
+        $(or { $(#[$other_means:meta])* $other:ident($held:ty) })?
+    ) => {
+        $(#[$says])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $kind {
+            $($(#[$means])* $variant,)+
+            $($(#[$other_means])* $other($held),)?
+        }
+
+        impl $kind {
+            /// All that the table has, with their names.
+            pub const ALL: [(&'static str, $kind); [$($name),+].len()] = [$(($name, $kind::$variant)),+];
+        }
+    };
+}
+
+variables! {
+    /// A parameter of contacts. Each scene has either a constant or a variable for it.
+    pub enum Parameter {
+        /// `impactor.radius` \[m\].
+        ImpactorRadius = "impactor.radius",
+        /// `impactor.youngs_modulus` \[Pa\]; infinite for a rigid impactor.
+        ImpactorYoungsModulus = "impactor.youngs_modulus",
+        /// `impactor.poissons_ratio` \[-\].
+        ImpactorPoissonsRatio = "impactor.poissons_ratio",
+        /// `impactor.yield_strength` \[Pa\]; infinite for an impactor that doesn't yield.
+        ImpactorYieldStrength = "impactor.yield_strength",
+        /// `impactor.hardening_modulus` \[Pa\]; zero for an impactor that doesn't harden.
+        ImpactorHardeningModulus = "impactor.hardening_modulus",
+        /// `target.radius` \[m\]; infinite for a flat target.
+        TargetRadius = "target.radius",
+        /// `target.youngs_modulus` \[Pa\].
+        TargetYoungsModulus = "target.youngs_modulus",
+        /// `target.poissons_ratio` \[-\].
+        TargetPoissonsRatio = "target.poissons_ratio",
+        /// `target.yield_strength` \[Pa\]; infinite for a target that doesn't yield.
+        TargetYieldStrength = "target.yield_strength",
+        /// `target.hardening_modulus` \[Pa\]; zero for a target that doesn't harden.
+        TargetHardeningModulus = "target.hardening_modulus",
+        /// `restitution`, which the damping of a rate-dependent law is made for.
+        Restitution = "restitution",
+        /// `effective_mass` \[kg\].
+        EffectiveMass = "effective_mass",
+        /// `initial_gap` \[m\].
+        InitialGap = "initial_gap",
+        /// `elastic_restitution`, of a loss below yield; 1 without a loss.
+        ElasticRestitution = "elastic_restitution",
+        /// `target.plate_thickness` \[m\]; infinite for a thick target.
+        TargetPlateThickness = "target.plate_thickness",
+        /// `friction.coefficient`; zero without friction.
+        FrictionCoefficient = "friction.coefficient",
+    }
+}
+
+impl Parameter {
+    /// The number of those that prebuilt libraries have, which come first.
+    pub const PREBUILT: usize = Parameter::InitialGap as usize + 1;
+
+    /// The value in a scene that does not have the parameter: a rigid impactor, a flat and thick target, bodies that never yield
+    /// or do not harden, no damping, no loss below yield, no friction. NaN for a parameter that every scene has.
+    #[inline(always)]
+    pub const fn without_effect(self) -> f64 {
+        match self {
+            Parameter::ImpactorYoungsModulus
+            | Parameter::ImpactorYieldStrength
+            | Parameter::TargetRadius
+            | Parameter::TargetYieldStrength
+            | Parameter::EffectiveMass
+            | Parameter::TargetPlateThickness => f64::INFINITY,
+            Parameter::ImpactorPoissonsRatio
+            | Parameter::ImpactorHardeningModulus
+            | Parameter::TargetHardeningModulus
+            | Parameter::FrictionCoefficient => 0.0,
+            Parameter::Restitution | Parameter::ElasticRestitution => 1.0,
+            Parameter::ImpactorRadius
+            | Parameter::TargetYoungsModulus
+            | Parameter::TargetPoissonsRatio
+            | Parameter::InitialGap => f64::NAN,
+        }
+    }
+}
+
+/// A parameter of the scene that can be set, with its limits.
+#[derive(Clone, Copy, Debug)]
+pub struct Settable {
+    /// Name of the variable, in UTF-8.
+    pub name: &'static [u8],
+    /// Unit, in UTF-8; empty if there is none.
+    pub unit: &'static [u8],
+    /// Smallest value allowed.
+    pub minimum: f64,
+    /// Largest value allowed.
+    pub maximum: f64,
+}
+
+/// Consecutive values of one settable parameter.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// The index after the last one.
+    pub end: usize,
+    /// The contact of the first value, if each contact has its own. Otherwise there is one value.
+    pub first_contact: Option<usize>,
+}
+
+/// The index of the run to which the value with this `index` belongs, and its contact if each contact has its own value.
+pub fn run_of(runs: &[Run], index: usize) -> Option<(usize, Option<usize>)> {
+    let place = runs.partition_point(|run| run.end <= index);
+    let begin = place.checked_sub(1).and_then(|before| runs.get(before)).map_or(0, |run| run.end);
+    let first = runs.get(place)?.first_contact;
+    Some((place, first.map(|first| first + (index - begin))))
+}
+
+/// The values of all `runs`. All values of a run are equal to its element of `starts`.
+pub fn spread<const VALUES: usize>(runs: &[Run], starts: &[f64]) -> [f64; VALUES] {
+    let mut values = [0.0; VALUES];
+    let mut slots = values.iter_mut();
+    let mut begin = 0;
+    for (run, &start) in runs.iter().zip(starts) {
+        slots.by_ref().take(run.end - begin).for_each(|value| *value = start);
+        begin = run.end;
+    }
+    values
+}
+
+/// The name of a contact and its number, as for [`Scene::contact_name`](super::Scene::contact_name). `names` and `ends` have
+/// one element for each group; the flag in `names` is true if contacts are counted.
+pub fn name_in(names: &[(&'static str, bool)], ends: &[usize], group: usize, contact: usize) -> (&'static str, usize) {
+    let (name, counted) = names.get(group).copied().unwrap_or(("", false));
+    let first = group.checked_sub(1).and_then(|before| ends.get(before)).copied().unwrap_or(0);
+    (name, if counted { contact + 1 - first } else { 0 })
+}
+
+/// The origin of the value of a parameter, if groups of contacts differ.
+#[derive(Clone, Copy, Debug)]
+pub enum Source {
+    /// The parameter with this index among [`Scene::Values`](super::Scene::Values).
+    Settable(usize),
+    /// A settable parameter with one value for each contact: contact 0 would have this index, which may be below zero.
+    PerContact(isize),
+    /// A constant of the scene.
+    Constant(f64),
+}
+
+impl Source {
+    /// The value of a parameter of `contact` with this `source`; NaN without a source.
+    pub fn value(source: Option<&Source>, contact: usize, settable: &[f64]) -> f64 {
+        let index = match source {
+            Some(Source::Constant(value)) => return *value,
+            Some(Source::Settable(index)) => *index,
+            // the first contact of a group with such values may come after the contact of the first value
+            Some(Source::PerContact(index)) => contact.wrapping_add_signed(*index),
+            None => return f64::NAN,
+        };
+        settable.get(index).copied().unwrap_or(f64::NAN)
+    }
+}
+
+variables! {
+    /// A variable of type Real.
+    pub enum Real {
+        /// Indentation rate, the input \[m/s\].
+        IndentationRate = "indentation_rate",
+        /// Force \[N\].
+        Force = "force",
+        /// Indentation \[m\].
+        Indentation = "indentation",
+        /// Largest indentation \[m\].
+        MaxIndentation = "max_indentation",
+        /// Residual indentation \[m\].
+        ResidualIndentation = "residual_indentation",
+        /// Contact radius \[m\].
+        ContactRadius = "contact_radius",
+        /// Mean pressure \[Pa\].
+        MeanPressure = "mean_pressure",
+        /// Stiffness \[N/m\].
+        Stiffness = "stiffness",
+        /// Work done on the contact \[J\].
+        Work = "work",
+        /// Elastic energy \[J\].
+        ElasticEnergy = "elastic_energy",
+        /// Dissipated energy \[J\].
+        DissipatedEnergy = "dissipated_energy",
+        /// Impulse since the start \[N.s\].
+        Impulse = "impulse",
+        /// Mean force of the last step \[N\].
+        MeanForce = "mean_force",
+        /// Predicted force at the end of the next step \[N\].
+        PredictedForce = "predicted_force",
+        /// Closing speed at the end of a step \[m/s\].
+        ClosingSpeed = "closing_speed",
+        /// Acceleration by all forces except the contact force, an input \[m/s^2\].
+        ExternalAcceleration = "external_acceleration",
+        /// Number of the regime.
+        RegimeNumber = "regime_number",
+        /// Tangential rate, an input \[m/s\].
+        TangentialRate = "tangential_rate",
+        /// Tangential rate in the second direction, an input \[m/s\].
+        SecondTangentialRate = "tangential_rate[2]",
+        /// Tangential force \[N\].
+        TangentialForce = "tangential_force",
+        /// Tangential force in the second direction \[N\].
+        SecondTangentialForce = "tangential_force[2]",
+        /// Mean tangential force of the last step \[N\].
+        MeanTangentialForce = "mean_tangential_force",
+        /// Mean tangential force of the last step in the second direction \[N\].
+        SecondMeanTangentialForce = "mean_tangential_force[2]",
+        /// Integral of the tangential force since the start \[N.s\].
+        TangentialImpulse = "tangential_impulse",
+        /// Integral of the tangential force in the second direction since the start \[N.s\].
+        SecondTangentialImpulse = "tangential_impulse[2]",
+        /// Predicted tangential force at the end of the next step \[N\].
+        PredictedTangentialForce = "predicted_tangential_force",
+        /// Predicted tangential force in the second direction at the end of the next step \[N\].
+        SecondPredictedTangentialForce = "predicted_tangential_force[2]",
+        /// Elastic energy of the tangential strain \[J\].
+        TangentialEnergy = "tangential_energy",
+        /// Energy lost by slip \[J\].
+        FrictionWork = "friction_work",
+        /// Radius of the stick area \[m\].
+        StickRadius = "stick_radius",
+        /// Number of the state of sliding.
+        SlidingNumber = "sliding_number",
+        /// Effective mass, as an input \[kg\].
+        EffectiveMass = "effective_mass",
+    } or {
+        /// The settable parameter with this index among [`Scene::Values`](super::Scene::Values).
+        Parameter(usize)
+    }
+}
+
+impl Real {
+    /// Whether it is an output.
+    pub fn is_output(self) -> bool {
+        !matches!(self, Real::Parameter(_)) && !self.is_input()
+    }
+
+    /// Whether it is an input.
+    pub fn is_input(self) -> bool {
+        matches!(self, Real::IndentationRate | Real::ExternalAcceleration | Real::EffectiveMass)
+            || self.tangential_rate().is_some()
+    }
+
+    /// Whether it is the number of a state, and jumps.
+    pub fn is_number(self) -> bool {
+        matches!(self, Real::RegimeNumber | Real::SlidingNumber)
+    }
+
+    /// The direction of which it is the tangential rate, counted from 0.
+    #[inline(always)]
+    pub fn tangential_rate(self) -> Option<usize> {
+        match self {
+            Real::TangentialRate => Some(0),
+            Real::SecondTangentialRate => Some(1),
+            _ => None,
+        }
+    }
+
+    /// The direction of which it is the predicted tangential force, counted from 0.
+    #[inline(always)]
+    pub fn predicted_direction(self) -> Option<usize> {
+        match self {
+            Real::PredictedTangentialForce => Some(0),
+            Real::SecondPredictedTangentialForce => Some(1),
+            _ => None,
+        }
+    }
+
+    /// The quantity of the friction that it is, if its present value is one.
+    pub fn quantity(self) -> Option<Quantity> {
+        Some(match self {
+            Real::TangentialForce => Quantity::Force(0),
+            Real::SecondTangentialForce => Quantity::Force(1),
+            Real::MeanTangentialForce => Quantity::MeanForce(0),
+            Real::SecondMeanTangentialForce => Quantity::MeanForce(1),
+            Real::TangentialImpulse => Quantity::Impulse(0),
+            Real::SecondTangentialImpulse => Quantity::Impulse(1),
+            Real::TangentialEnergy => Quantity::Energy,
+            Real::FrictionWork => Quantity::FrictionWork,
+            Real::StickRadius => Quantity::StickRadius,
+            _ => return None,
+        })
+    }
+}
+
+variables! {
+    /// A variable of type Integer.
+    pub enum Integer {
+        /// Number of the [`Regime`](brinell_contact::Regime).
+        Regime = "regime",
+        /// Number of the state of [`Sliding`](brinell_contact::tangential::Sliding).
+        Sliding = "sliding",
+    }
+}
+
+/// The kind of variable that a value reference denotes, and its contact. The variables of a kind are consecutive.
+#[inline(always)]
+pub fn kind_and_contact(value_reference: u32, contacts: usize) -> (u32, usize) {
+    let contacts = contacts as u32;
+    let kind = value_reference.checked_div(contacts).unwrap_or(0);
+    (kind, (value_reference - kind * contacts) as usize)
+}

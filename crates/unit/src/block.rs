@@ -1,0 +1,38 @@
+//! The block of a prebuilt library: a section of its own, which the exporter overwrites in the finished file.
+
+use crate::kind::Library;
+use brinell_fmu::scene::prebuilt::block::Block;
+use brinell_fmu::scene::prebuilt::{Kind, Prebuilt, Source};
+
+/// The scene of this library.
+pub type Exported = Prebuilt<Library, Section>;
+
+/// The section that holds the block.
+pub struct Section;
+
+#[used]
+#[cfg_attr(target_vendor = "apple", unsafe(link_section = "__TEXT,__brinell"))]
+#[cfg_attr(not(target_vendor = "apple"), unsafe(link_section = ".brinell"))]
+static BLOCK: Block = Block::unfilled(Library::LIBRARY);
+
+// the numbers in the block have the byte order in which the exporter writes them
+const _: () = assert!(cfg!(target_endian = "little"));
+
+impl Source for Section {
+    #[inline(always)]
+    #[expect(clippy::pointers_in_nomem_asm_block, reason = "there is nothing that could read what it points to")]
+    fn block() -> &'static Block {
+        let mut block = &raw const BLOCK;
+        // SAFETY: it does nothing. The compiler must assume that the pointer may have changed, so it makes no use of the
+        // contents of the block at compile time.
+        unsafe { core::arch::asm!("/* {} */", inout(reg) block, options(pure, nomem, nostack, preserves_flags)) };
+        // SAFETY: it is still the pointer to the block. The block never changes while the library is loaded, and any bits are
+        // valid numbers.
+        unsafe { &*block }
+    }
+
+    fn words() -> &'static [u64; Block::WORDS] {
+        // SAFETY: a block consists of words without padding, as its size proves.
+        unsafe { &*core::ptr::from_ref(Section::block()).cast() }
+    }
+}
