@@ -19,7 +19,7 @@ mod face;
 mod functions;
 #[path = "../fuzz/judge.rs"]
 mod judge;
-#[path = "../../src/bin/brinell/parallel.rs"]
+#[path = "../../src/parallel.rs"]
 mod parallel;
 #[path = "../support/targets.rs"]
 mod targets;

@@ -8,7 +8,7 @@ mod code;
 mod comparisons;
 mod links;
 mod markdown;
-#[path = "../../src/bin/brinell/parallel.rs"]
+#[path = "../../src/parallel.rs"]
 mod parallel;
 #[path = "../support/physics.rs"]
 mod physics;

@@ -3,7 +3,7 @@
 /// The truth's unit of indentation is the yield point for this mean pressure over the yield strength.
 pub const YIELD_PRESSURE_FACTOR: f64 = 1.1;
 
-const LOADING: &str = include_str!("../../../data/truth/loading.csv");
+const LOADING: &str = include_str!("../data/truth/loading.csv");
 
 /// A point of the loading curve.
 pub struct Point {
@@ -27,11 +27,11 @@ fn number(text: &str) -> f64 {
 }
 
 const UNLOADING: [(f64, &str); 5] = [
-    (3.0, include_str!("../../../data/truth/unloading_from_3.csv")),
-    (10.0, include_str!("../../../data/truth/unloading_from_10.csv")),
-    (30.0, include_str!("../../../data/truth/unloading_from_30.csv")),
-    (82.5, include_str!("../../../data/truth/unloading_from_82.5.csv")),
-    (200.0, include_str!("../../../data/truth/unloading_from_200.csv")),
+    (3.0, include_str!("../data/truth/unloading_from_3.csv")),
+    (10.0, include_str!("../data/truth/unloading_from_10.csv")),
+    (30.0, include_str!("../data/truth/unloading_from_30.csv")),
+    (82.5, include_str!("../data/truth/unloading_from_82.5.csv")),
+    (200.0, include_str!("../data/truth/unloading_from_200.csv")),
 ];
 
 /// An impact, quasi-static, in yield indentations and yield forces.

@@ -34,9 +34,9 @@ use way::{Libraries, make};
 
 include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
-const LICENSE: &str = include_str!("../../../../LICENSE");
-const THIRD_PARTY: &str = include_str!("../../../../modelDescription/licenses.txt");
-const ICON: &[u8] = include_bytes!("../../../../modelDescription/model.png");
+const LICENSE: &str = include_str!("../../LICENSE");
+const THIRD_PARTY: &str = include_str!("../../modelDescription/licenses.txt");
+const ICON: &[u8] = include_bytes!("../../modelDescription/model.png");
 
 /// The result of an export.
 #[derive(Default)]

@@ -54,7 +54,7 @@ fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-const DEFAULT_SCENE: &str = include_str!("../../../../scenes/steel_ball.toml");
+const DEFAULT_SCENE: &str = include_str!("../../scenes/steel_ball.toml");
 
 /// A checked scene.
 #[derive(Debug)]

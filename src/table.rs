@@ -232,7 +232,7 @@ struct Laws {
 /// The tables are part of the program. A mistake in one is a defect of the program, which every test would show.
 const PART_OF_THE_PROGRAM: &str = "the program's own tables are well-formed";
 
-const VARIABLES_TEXT: &str = include_str!("../../../modelDescription/variables.toml");
+const VARIABLES_TEXT: &str = include_str!("../modelDescription/variables.toml");
 
 // the table describes exactly the variables of the library, those of each type in their order
 const _: () = assert!(lists(
@@ -247,17 +247,17 @@ pub static VARIABLES: LazyLock<Vec<Variable>> =
 
 /// All units.
 pub static UNITS: LazyLock<Vec<Unit>> = LazyLock::new(|| {
-    let text = include_str!("../../../modelDescription/units.toml");
+    let text = include_str!("../modelDescription/units.toml");
     toml::from_str::<Units>(text).expect(PART_OF_THE_PROGRAM).unit
 });
 
 /// All built-in materials.
 pub static MATERIALS: LazyLock<Vec<Material>> = LazyLock::new(|| {
-    let text = include_str!("../../../modelDescription/materials.toml");
+    let text = include_str!("../modelDescription/materials.toml");
     toml::from_str::<Materials>(text).expect(PART_OF_THE_PROGRAM).material
 });
 
-const LAWS_TEXT: &str = include_str!("../../../modelDescription/laws.toml");
+const LAWS_TEXT: &str = include_str!("../modelDescription/laws.toml");
 
 // the table describes exactly the laws of the library, in their order
 const _: () = {
