@@ -71,10 +71,10 @@ const BYTES: [&str; 6] =
 /// The root of the crate of [`BYTES`]. Without `no_builtins` the compiler would replace the functions with calls of
 /// themselves.
 const BYTES_ROOT: (&str, &str) =
-    ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"fmu/src/fmi2/bytes.rs\"]\nmod bytes;\n");
+    ("bytes.rs", "#![no_std]\n#![no_builtins]\n#[path = \"fmu/src/c/bytes.rs\"]\nmod bytes;\n");
 
 /// The module of that crate.
-const BYTES_SOURCE: &str = "fmu/src/fmi2/bytes.rs";
+const BYTES_SOURCE: &str = "fmu/src/c/bytes.rs";
 
 /// The parts of one library for one target.
 pub struct Parts<'a> {

@@ -4,9 +4,10 @@
 //! |---|---|
 //! | [`scene`] | the contacts, laws and variables: a trait, and the scene of a prebuilt library |
 //! | [`instance`] | co-simulation as safe Rust: phase, time, variables, step, reset |
-//! | [`fmi2`] | the C interface, and the only `unsafe` of an FMU |
+//! | [`c`] | what every C interface needs: pointers, memory, text, states |
+//! | [`fmi2`] | the C interface of FMI 2.0 |
 //!
-//! Each uses only the ones above it, and the physics, [`brinell_contact`]. The crate needs neither `std` nor `alloc`, and cannot
+//! Each uses only the ones above it, and the physics, [`brinell_contact`]. Only [`c`] and [`fmi2`] have `unsafe` code. The crate needs neither `std` nor `alloc`, and cannot
 //! panic.
 //!
 //! # Reference
@@ -20,6 +21,7 @@
 #[doc(hidden)]
 pub use brinell_contact as contact;
 
+pub mod c;
 pub mod fmi2;
 pub mod instance;
 pub mod scene;

@@ -1,8 +1,8 @@
 //! The categories of log messages, and the bits for the categories that are logged.
 
 use super::abi::{fmi2Discard, fmi2Error, fmi2OK, fmi2Status, fmi2String, fmi2Warning};
-use super::complaint::Complaint;
-use super::text::is_same;
+use crate::c::complaint::Complaint;
+use crate::c::text::is_same;
 use core::ffi::CStr;
 
 /// A category of log messages, as declared in the model description.

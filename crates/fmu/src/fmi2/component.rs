@@ -3,12 +3,12 @@
 use super::abi::fmi2ComponentEnvironment;
 use super::abi::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2Component, fmi2Error, fmi2OK, fmi2Status, fmi2String};
 use super::category::{Category, DEEP, FAST, GUARD, MISWIRED, UNSTABLE};
-use super::complaint::Complaint;
-use super::handle::Handle;
-use super::memory::Memory;
 use super::order::{Function, PREFIX};
 use super::report::{describe, describe_warning};
-use super::text::Text;
+use crate::c::complaint::Complaint;
+use crate::c::handle::Handle;
+use crate::c::memory::Memory;
+use crate::c::text::Text;
 use crate::instance::{Instance, Phase, Warning};
 use crate::scene::{Presence, Scene};
 use core::ffi::c_char;
@@ -183,59 +183,4 @@ unsafe fn opened<'a, S: Scene>(c: fmi2Component, function: Function) -> Option<&
     }
     component.refuse(function, &Complaint::OutOfOrder { phase });
     None
-}
-
-/// The array of `length` elements at `pointer`.
-///
-/// # Errors
-/// [`Complaint::NullPointer`] if it is null and the array is not empty.
-///
-/// # Safety
-/// A pointer that is not null points to `length` initialized elements, which nothing modifies meanwhile.
-#[inline]
-pub unsafe fn array<'a, T>(pointer: *const T, length: usize, argument: &'static str) -> Result<&'a [T], Complaint> {
-    if length == 0 {
-        Ok(&[])
-    } else if pointer.is_null() {
-        Err(Complaint::NullPointer { argument })
-    } else {
-        // SAFETY: guaranteed by the caller.
-        Ok(unsafe { core::slice::from_raw_parts(pointer, length) })
-    }
-}
-
-/// The array of `length` elements at `pointer`, for writing.
-///
-/// # Errors
-/// As for [`fn@array`].
-///
-/// # Safety
-/// As for [`fn@array`], and nothing else uses the elements meanwhile.
-#[inline]
-pub unsafe fn array_mut<'a, T>(
-    pointer: *mut T,
-    length: usize,
-    argument: &'static str,
-) -> Result<&'a mut [T], Complaint> {
-    if length == 0 {
-        Ok(&mut [])
-    } else if pointer.is_null() {
-        Err(Complaint::NullPointer { argument })
-    } else {
-        // SAFETY: guaranteed by the caller.
-        Ok(unsafe { core::slice::from_raw_parts_mut(pointer, length) })
-    }
-}
-
-/// The object at `pointer`, for writing.
-///
-/// # Errors
-/// [`Complaint::NullPointer`] if it is null.
-///
-/// # Safety
-/// A pointer that is not null points to an object that nothing else uses meanwhile.
-#[inline]
-pub unsafe fn object<'a, T>(pointer: *mut T, argument: &'static str) -> Result<&'a mut T, Complaint> {
-    // SAFETY: guaranteed by the caller.
-    unsafe { pointer.as_mut() }.ok_or(Complaint::NullPointer { argument })
 }

@@ -2,12 +2,12 @@
 
 use super::abi::*;
 use super::category::{ALL_CATEGORIES, Category, DISCARD, WARNING, WARNINGS};
-use super::complaint::Complaint;
-use super::component::{Component, Logger, array, call};
-use super::handle::Handle;
-use super::memory::Memory;
+use super::component::{Component, Logger, call};
 use super::order::{self, Function};
-use super::text::{extent, is_same};
+use crate::c::complaint::Complaint;
+use crate::c::handle::{Handle, array};
+use crate::c::memory::Memory;
+use crate::c::text::{extent, is_same};
 use crate::scene::Scene;
 use core::ffi::c_char;
 
@@ -48,7 +48,7 @@ pub unsafe fn instantiate<S: Scene>(
     let Some(callbacks) = (unsafe { functions.as_ref() }) else { return core::ptr::null_mut() };
     let logger = Logger::of(callbacks);
     // SAFETY: the caller's strings are null or null-terminated.
-    let made = Memory::of(callbacks).and_then(|memory| unsafe {
+    let made = Memory::of(callbacks.allocateMemory, callbacks.freeMemory).and_then(|memory| unsafe {
         make::<S>(instanceName, fmuType, fmuGUID, logger, memory, loggingOn != fmi2False)
     });
     match made {

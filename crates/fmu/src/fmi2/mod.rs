@@ -1,5 +1,4 @@
-//! The C interface of FMI 2.0 for co-simulation: 34 functions, the ten of Model Exchange as refusals, and the only `unsafe` of
-//! the library.
+//! The C interface of FMI 2.0 for co-simulation: 34 functions, and the ten of Model Exchange as refusals.
 //!
 //! The functions are written once for any [`Scene`](crate::scene::Scene). The crate of an FMU instantiates
 //! them as C symbols for the scene that the exporter has written, or for the one in the block of a prebuilt library.
@@ -9,14 +8,8 @@
 //! | [`abi`] | the types of the standard's headers |
 //! | [`component`] | the object behind an `fmi2Component`; the guard that every call passes |
 //! | [`order`] | which function may be called in which phase: the standard's state table |
-//! | [`complaint`] | the reason why a call is rejected |
 //! | [`category`] | the categories of the log, and the status of a rejected call |
 //! | [`report`] | the text of a rejected call or a warning |
-//! | [`text`] | text without allocation or panic |
-//! | [`memory`] | memory from the process, or from the importer |
-//! | `bytes` | copying and comparing bytes, compiled separately, for systems without a C library to rely on |
-//! | [`handle`] | the pointers that importers get, each with its type |
-//! | [`state`] | FMU states and their bytes |
 //! | [`lifecycle`], [`variables`], [`stepping`], [`status`], [`states`] | the functions, for any scene |
 //!
 //! # Safety
@@ -27,19 +20,12 @@
 #![allow(non_camel_case_types, non_snake_case, non_upper_case_globals, clippy::missing_safety_doc)]
 
 pub mod abi;
-#[cfg(test)]
-mod bytes;
 pub mod category;
-pub mod complaint;
 pub mod component;
-pub mod handle;
 pub mod lifecycle;
-pub mod memory;
 pub mod order;
 pub mod report;
-pub mod state;
 pub mod states;
 pub mod status;
 pub mod stepping;
-pub mod text;
 pub mod variables;

@@ -1,7 +1,7 @@
 //! The texts of rejected calls and warnings; all of them are here.
 
-use super::complaint::Complaint;
-use super::text::Text;
+use crate::c::complaint::Complaint;
+use crate::c::text::Text;
 use crate::instance::{FASTEST, Fault, LATEST, MASSES, Phase, Warning};
 use crate::scene::{Coupling, Presence, Real, Scene, Settable};
 use brinell_contact::Contact;

@@ -1,10 +1,10 @@
 //! Saving, restoring and serializing the state of an instance.
 
 use super::abi::*;
-use super::component::{Component, array, array_mut, call, object};
-use super::handle::{Handle, are_given};
+use super::component::{Component, call};
 use super::order;
-use super::state::Snapshot;
+use crate::c::handle::{Handle, are_given, array, array_mut, object};
+use crate::c::state::Snapshot;
 use crate::scene::Scene;
 
 /// Copies the instance to a state. Memory is allocated only if `FMUstate` points to null.

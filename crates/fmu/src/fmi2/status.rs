@@ -1,10 +1,10 @@
 //! The status of a step: every step is complete when its call returns.
 
 use super::abi::*;
-use super::complaint::Complaint;
 use super::component::{Component, call};
-use super::handle::Handle;
 use super::order::{self, Function};
+use crate::c::complaint::Complaint;
+use crate::c::handle::Handle;
 use crate::scene::Scene;
 use core::ffi::c_void;
 

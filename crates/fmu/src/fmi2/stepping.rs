@@ -1,11 +1,11 @@
 //! The step, and derivatives of inputs and outputs.
 
 use super::abi::*;
-use super::complaint::Complaint;
-use super::component::{Component, array, array_mut, call};
-use super::handle::Handle;
+use super::component::{Component, call};
 use super::order;
 use super::variables::{any_real, get_any_real, real};
+use crate::c::complaint::Complaint;
+use crate::c::handle::{Handle, array, array_mut};
 use crate::instance::{Fault, Plain};
 use crate::scene::{Presence, Real, Scene};
 use brinell_contact::Contact;

@@ -1,10 +1,10 @@
 //! Getting and setting variables.
 
 use super::abi::*;
-use super::complaint::Complaint;
-use super::component::{Component, array, array_mut, call};
-use super::handle::{Handle, are_given};
+use super::component::{Component, call};
 use super::order::{self, Function};
+use crate::c::complaint::Complaint;
+use crate::c::handle::{Handle, are_given, array, array_mut};
 use crate::instance::Fault;
 use crate::scene::{Real, Scene};
 

@@ -42,7 +42,7 @@ pub struct Text {
 
 impl Text {
     /// An empty text.
-    pub(super) fn new() -> Text {
+    pub(crate) fn new() -> Text {
         Text { bytes: [0; CAPACITY], length: 0 }
     }
 
@@ -71,7 +71,7 @@ impl Text {
 
     /// Appends `byte`, if it fits.
     #[inline(never)]
-    pub(super) fn byte(&mut self, byte: u8) -> &mut Text {
+    pub(crate) fn byte(&mut self, byte: u8) -> &mut Text {
         // the last byte remains 0
         if self.length < CAPACITY - 1
             && let Some(slot) = self.bytes.get_mut(self.length)

@@ -6,9 +6,14 @@
 //! A standalone FMU (feature `standalone`) needs nothing from the process. Its memory comes from `allocateMemory` and
 //! `freeMemory` of its importer, as its model description declares.
 
-use super::abi::fmi2CallbackFunctions;
 use super::complaint::Complaint;
 use core::ffi::c_void;
+
+/// The importer's function to allocate memory: the number of objects, and the size of each \[bytes\]. The memory is zeroed.
+pub type Allocate = unsafe extern "C" fn(usize, usize) -> *mut c_void;
+
+/// The importer's function to free memory.
+pub type Free = unsafe extern "C" fn(*mut c_void);
 
 #[cfg(feature = "standalone")]
 pub use importer::Memory;
@@ -53,11 +58,11 @@ mod process {
     pub struct Memory;
 
     impl Memory {
-        /// The memory for an instance; the callbacks are not used.
+        /// The memory for an instance; the functions are not used.
         ///
         /// # Errors
         /// None.
-        pub fn of(_: &fmi2CallbackFunctions) -> Result<Memory, Complaint> {
+        pub fn of(_: Option<Allocate>, _: Option<Free>) -> Result<Memory, Complaint> {
             Ok(Memory)
         }
 
@@ -81,22 +86,20 @@ mod process {
 #[cfg(feature = "standalone")]
 mod importer {
     use super::*;
-    use crate::fmi2::abi::{fmi2CallbackAllocateMemory, fmi2CallbackFreeMemory};
 
     /// The memory of the importer.
     #[derive(Clone, Copy)]
     pub struct Memory {
-        allocate: Option<fmi2CallbackAllocateMemory>,
-        free: Option<fmi2CallbackFreeMemory>,
+        allocate: Option<Allocate>,
+        free: Option<Free>,
     }
 
     impl Memory {
-        /// The memory for an instance with these callbacks.
+        /// The memory for an instance with these functions.
         ///
         /// # Errors
         /// [`Complaint::NullPointer`] if one of the two functions is missing.
-        pub fn of(callbacks: &fmi2CallbackFunctions) -> Result<Memory, Complaint> {
-            let &fmi2CallbackFunctions { allocateMemory: allocate, freeMemory: free, .. } = callbacks;
+        pub fn of(allocate: Option<Allocate>, free: Option<Free>) -> Result<Memory, Complaint> {
             if allocate.is_none() || free.is_none() {
                 let argument = if allocate.is_none() { "allocateMemory" } else { "freeMemory" };
                 return Err(Complaint::NullPointer { argument });

@@ -1,13 +1,13 @@
 //! FMU states: as a copy in memory, and as bytes that another process can read.
 
-use super::abi::fmi2FMUstate;
 use super::complaint::Complaint;
 use super::handle::Handle;
 use super::memory::Memory;
 use crate::instance::Instance;
 use crate::scene::Scene;
+use core::ffi::c_void;
 
-/// The object behind an `fmi2FMUstate`.
+/// The object behind the pointer to a state.
 ///
 /// The instance comes first, as in a component. Both then have the same alignment, and the processor can forward the stores of
 /// a save to the loads of a restore.
@@ -49,7 +49,7 @@ impl<S: Scene> Snapshot<S> {
     ///
     /// # Safety
     /// `state` is null or points to at least the size of a snapshot, and nothing else uses that memory meanwhile.
-    pub unsafe fn at<'a>(state: fmi2FMUstate) -> Result<&'a mut Snapshot<S>, Complaint> {
+    pub unsafe fn at<'a>(state: *mut c_void) -> Result<&'a mut Snapshot<S>, Complaint> {
         // SAFETY: guaranteed by the caller.
         let snapshot = unsafe { Self::behind(state) }.ok_or(Complaint::NullPointer { argument: "FMUstate" })?;
         if snapshot.mark == Self::mark() {
@@ -63,7 +63,7 @@ impl<S: Scene> Snapshot<S> {
     ///
     /// # Safety
     /// As for [`Snapshot::at`].
-    pub unsafe fn store(state: &mut fmi2FMUstate, instance: &Instance<S>, memory: Memory) -> Result<(), Complaint> {
+    pub unsafe fn store(state: &mut *mut c_void, instance: &Instance<S>, memory: Memory) -> Result<(), Complaint> {
         // SAFETY: guaranteed by the caller.
         unsafe {
             if state.is_null() {
@@ -75,7 +75,7 @@ impl<S: Scene> Snapshot<S> {
     }
 
     /// A snapshot of zeros.
-    fn allocate(memory: Memory) -> Result<fmi2FMUstate, Complaint> {
+    fn allocate(memory: Memory) -> Result<*mut c_void, Complaint> {
         let made = memory.allocate(size_of::<Snapshot<S>>());
         // SAFETY: the memory is large enough and aligned for any object; zeros are a valid snapshot, as they are a valid
         // component.
@@ -87,7 +87,7 @@ impl<S: Scene> Snapshot<S> {
     ///
     /// # Safety
     /// As for [`Snapshot::at`], and the snapshot is not used afterwards.
-    pub unsafe fn free(state: &mut fmi2FMUstate, memory: Memory) -> Result<(), Complaint> {
+    pub unsafe fn free(state: &mut *mut c_void, memory: Memory) -> Result<(), Complaint> {
         if !state.is_null() {
             // SAFETY: guaranteed by the caller; a snapshot comes from `allocate`.
             unsafe {
@@ -122,7 +122,7 @@ impl<S: Scene> Snapshot<S> {
     ///
     /// # Errors
     /// [`Complaint::BadState`] for another length, another FMU or version, or damaged bytes.
-    pub fn deserialize(bytes: &[u8], memory: Memory) -> Result<fmi2FMUstate, Complaint> {
+    pub fn deserialize(bytes: &[u8], memory: Memory) -> Result<*mut c_void, Complaint> {
         let bad = |reason| Err(Complaint::BadState { reason });
         let (words, rest) = bytes.as_chunks();
         if words.len() != Self::CHECKSUM_AT + 1 || !rest.is_empty() {
