@@ -44,17 +44,16 @@ def _name(crate: dict[str, Any]) -> str:
 
 
 def _linked(metadata: dict[str, Any]) -> list[dict[str, Any]]:
-    """The crates that the program depends on, but for itself and those that only build or test it."""
+    """The crates of others that the program depends on, but for those that only build or test it."""
     nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
-    root = metadata["resolve"]["root"]
-    found, waiting = set(), [root]
+    found, waiting = set(), [metadata["resolve"]["root"]]
     while waiting:
         crate = waiting.pop()
         if crate not in found:
             found.add(crate)
             needed = nodes[crate]["deps"]
             waiting += [it["pkg"] for it in needed if any(kind["kind"] is None for kind in it["dep_kinds"])]
-    crates = [crate for crate in metadata["packages"] if crate["id"] in found - {root}]
+    crates = [crate for crate in metadata["packages"] if crate["id"] in found and crate["source"]]
     return sorted(crates, key=_name)
 
 

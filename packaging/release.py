@@ -24,7 +24,7 @@ from bill import bill_of_materials
 from licenses import third_party
 from platforms import PLATFORMS, ROOT, Tools, environment, has_standard_library, here
 
-VERSION = tomllib.loads((ROOT / "Cargo.toml").read_text())["package"]["version"]
+VERSION = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]["package"]["version"]
 INFO = f"brinell-{VERSION}.dist-info"
 DATA = f"brinell-{VERSION}.data"
 

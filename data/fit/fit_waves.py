@@ -1,4 +1,4 @@
-"""The elastic waves that a force on a small area of a half-space radiates: the coefficients of `Waves` in src/contact/losses.
+"""The elastic waves that a force on a small area of a half-space radiates: the coefficients of `Waves` in crates/contact/src/losses.
 
 A harmonic force on the surface moves it, besides in phase, by `Q w F/(rho c_s^3)` in quadrature. Q is the imaginary part of
 Lamb's integral at the point of the force: body waves below the wave number of shear waves, and the residue of the Rayleigh

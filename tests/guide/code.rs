@@ -5,7 +5,7 @@
 //! - A `text` block after the comment `<!-- output -->` is the complete output of the block before it; after `<!-- check -->`,
 //!   it is a part of it.
 //! - `<!-- not run: why -->` before a block excludes it.
-//! - `rust` blocks are tests of the documentation; see the end of src/lib.rs.
+//! - `rust` blocks are tests of the documentation; see the end of crates/contact/src/lib.rs.
 
 use crate::markdown::{Block, Page};
 use crate::{is_writing, pages, parallel, python, read, root, skips};
