@@ -1,8 +1,8 @@
 //! The constants of a law: their list, and the law with the constants of a scene.
 
+use crate::mistake::Mistake;
 use crate::nearest::unknown;
 use crate::numbers::out_of_range;
-use crate::scene::Mistake;
 use crate::table;
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -2,11 +2,13 @@
 
 use super::PredictError;
 use crate::law_check;
-use crate::laws::{Choice, published};
+use crate::laws::Choice;
+use crate::mistake::Mistake;
 use crate::model::AnyModel;
 use crate::pairing::check_ties;
+use crate::pairing::published;
 use crate::parameters::{Given, apply};
-use crate::scene::{Mistake, Scene};
+use crate::scene::Scene;
 use crate::table;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;

@@ -1,22 +1,20 @@
 //! Checks a scene: from the contents of the file to a scene that can be built.
 
+use super::Scene;
+use super::bodies::{self, Body, Both};
 use super::chosen::{check_input_derivatives, check_outputs, choose_settable};
-use super::contacts::Contacts;
+use super::contacts::{Contacts, Parameter};
 use super::coupling;
-use super::error::Mistake;
 use super::file::{File, ImpactTable, NamesName};
 use super::friction;
-use super::group::Parameter;
 use super::laws;
-use super::limits::{check_limits, positive};
 use super::losses::{self, Loss};
 use super::names::{check_description, check_name};
-use super::numbers::IMPACTOR_DENSITY;
-use super::softer::{self, Body, Both};
-use super::{QuasiStatic, Scene};
-use crate::predict;
+use crate::mistake::{Mistake, check_limits, positive};
+use crate::model::check_energy;
 use crate::table::VARIABLES;
 use brinell::contact::damped::Damped;
+use brinell::contact::hardening::Hardening;
 use brinell::contact::impact::Impact;
 use brinell::contact::loading::{AnyLoading, Hertz};
 use std::f64::consts::PI;
@@ -66,7 +64,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         check_input_derivatives(file.fmu.input_derivatives.as_ref(), coupling.is_some(), follows_rate)?;
     let impact = check_impact(file.impact.as_ref(), known_mass.as_ref(), &contacts)?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
-    predict::check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
+    check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let (mut parameters, mut groups) = contacts.parameters();
     let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
     let span = file.impact.as_ref().and_then(|table| Some(table.get_ref().mass.as_ref()?.span()));
@@ -107,7 +105,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         passivity_guard,
         yield_strength,
         power_laws: contacts.power_laws,
-        rates: contacts.rates,
+        rates: contacts.rates(),
         quasi_static: Vec::new(),
         factors,
         coupling,
@@ -139,18 +137,18 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
 /// The scene with the strengths that its impact gives the bodies, and with the predictions of each contact's impact. `place` is
 /// where the scene has its impact.
 fn settle(mut scene: Scene, contacts: &Contacts, place: &Range<usize>) -> Result<Scene, Mistake> {
-    let of = |group, body: Body| QuasiStatic {
+    let of = |group, body: Body| Hardening {
         yield_strength: scene.group_value(group, body.yield_strength()).unwrap_or(f64::INFINITY),
         hardening_modulus: scene.group_value(group, body.hardening_modulus()).unwrap_or(0.0),
     };
-    let quasi_static = |group| Both { impactor: of(group, Body::Impactor), target: of(group, Body::Target) };
+    let quasi_static = |group| Both::each(|body| of(group, body));
     scene.quasi_static = (0..scene.contacts.len()).map(quasi_static).collect();
     let message = too_hard(&scene, 0);
     let softer = |scene: &Scene| (0..scene.contacts.len()).map(|group| scene.softer(group)).collect::<Vec<_>>();
     let slow = softer(&scene);
     scene = scene.with_strengths_for(None).ok_or_else(|| Mistake(place.clone(), message))?;
     if let Some(group) = softer(&scene).iter().zip(&slow).position(|(now, before)| now != before) {
-        return Err(Mistake(place.clone(), contacts.said(group, &softer::exchanged(slow[group]))));
+        return Err(Mistake(place.clone(), contacts.said(group, &bodies::exchanged(slow[group]))));
     }
     let no_prediction = |group| Mistake(place.clone(), contacts.said(group, &too_hard(&scene, group)));
     let predict = |group| scene.any_model_of(group).predict(&scene.impact_of(group));
@@ -173,13 +171,13 @@ fn check_impact(
     let ball = |density: f64| density * 4.0 / 3.0 * PI * radius * radius * radius;
     let Some(table) = given else {
         let mass = known.map(|mass| *mass.get_ref());
-        let mass = mass.unwrap_or_else(|| ball(number(IMPACTOR_DENSITY).unwrap_or(STEEL)));
+        let mass = mass.unwrap_or_else(|| ball(number(Body::Impactor.density()).unwrap_or(STEEL)));
         return Ok(Impact { mass, speed: 1.0 });
     };
     let ImpactTable { mass, speed, .. } = table.get_ref();
     let speed = positive("impact.speed", speed)?;
     let Some(given) = mass else {
-        let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(IMPACTOR_DENSITY).map(ball)).ok_or_else(|| {
+        let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(Body::Impactor.density()).map(ball)).ok_or_else(|| {
             let message = "missing field `mass` in [impact]: give it, or the density or material of [impactor], which is then \
                            taken for a solid ball";
             Mistake(table.span(), message.into())

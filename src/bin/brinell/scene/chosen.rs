@@ -1,8 +1,8 @@
 //! What the table `[fmu]` asks for: parameters, outputs, and derivatives of the inputs.
 
 use super::Scene;
-use super::error::Mistake;
-use super::group::Parameter;
+use super::contacts::Parameter;
+use crate::mistake::Mistake;
 use crate::nearest::unknown;
 use crate::table::{self, Causality, VARIABLES};
 use std::collections::HashSet;

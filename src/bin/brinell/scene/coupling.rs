@@ -1,9 +1,8 @@
 //! The table `[coupling]`: the mass that the FMU moves, and the co-simulation algorithm of its importer.
 
 use super::Coupling;
-use super::error::Mistake;
 use super::file::{CouplingTable, MasterName};
-use super::limits::positive;
+use crate::mistake::{Mistake, positive};
 use crate::nearest::unknown;
 use toml::Spanned;
 

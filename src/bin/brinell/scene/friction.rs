@@ -1,8 +1,8 @@
 //! The table `[friction]`: whether the law of a scene supports it.
 
 use super::Scene;
-use super::error::Mistake;
 use super::file::FrictionTable;
+use crate::mistake::Mistake;
 use crate::table;
 use toml::Spanned;
 

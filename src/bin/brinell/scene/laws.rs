@@ -2,10 +2,9 @@
 
 use super::Scene;
 use super::contacts::Contacts;
-use super::error::Mistake;
 use super::file::Law;
 use crate::law_check;
-use crate::laws;
+use crate::mistake::Mistake;
 use crate::model::Dampings;
 use crate::nearest::unknown;
 use crate::pairing;
@@ -148,7 +147,7 @@ pub fn check_curves(given: &Law, scene: &Scene, group: usize) -> Result<(), Mist
     let Some(span) = parameters_span(given).filter(|_| scene.unloading.is_some()) else { return Ok(()) };
     let model = scene.model_of(group);
     let unloading = given.unloading_parameters.as_ref().map_or(span.clone(), Spanned::span);
-    law_check::check_loading(&model, laws::published(scene.loading.0))
+    law_check::check_loading(&model, pairing::published(scene.loading.0))
         .map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
     law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
 }

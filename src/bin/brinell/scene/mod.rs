@@ -1,44 +1,37 @@
 //! The scene file: the contacts, their laws, and the variables that the FMU has.
 
-mod bodies;
+pub mod bodies;
 mod checks;
 mod chosen;
 mod contacts;
 mod coupling;
-mod error;
 mod file;
 mod friction;
-mod given;
-mod group;
-mod hardening;
 #[cfg(test)]
 mod hostile_tests;
 mod laws;
-mod limits;
 mod losses;
-mod mistakes;
 mod names;
-mod numbers;
+mod parser_words;
 pub mod plausible;
-mod power_law;
-mod rate;
-pub mod softer;
+mod strength;
 
+use crate::mistake::{self, SceneError};
 use crate::model::{AnyModel, strengthened};
+use brinell::contact::Model;
 use brinell::contact::damped::{self, AnyDamped};
+use brinell::contact::hardening::Hardening;
 use brinell::contact::impact::{Impact, Prediction};
 use brinell::contact::loading::AnyLoading;
+use brinell::contact::strength::POISSONS_RATIO;
 use brinell::contact::unloading::AnyUnloading;
-use brinell::contact::{Model, strength};
 use std::io::{self, Read};
 use std::path::Path;
 
-pub use error::{Mistake, SceneError};
-pub use group::{Group, Parameter};
+pub use bodies::{Body, Both};
+pub use contacts::{Group, Parameter};
 pub use losses::Loss;
-pub use power_law::PowerLaw;
-pub use rate::{InImpact, QuasiStatic, Rate};
-pub use softer::{Body, Both};
+pub use strength::{InImpact, PowerLaw, Rate};
 
 /// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.
 const LARGEST: u64 = 256 << 20;
@@ -83,7 +76,7 @@ pub struct Scene {
     /// How the strengths grow with the strain rate.
     pub rates: Both<Option<Rate>>,
     /// The hardening that the scene gives for the bodies of each group; a power law or a rate puts another in its place.
-    pub quasi_static: Vec<Both<QuasiStatic>>,
+    pub quasi_static: Vec<Both<Hardening>>,
     /// Factor on the strength of the softer body of each group in the scene's impact, if the unit
     /// [finds it](Scene::finds_strength); then it isn't part of the parameters.
     pub factors: Vec<f64>,
@@ -134,7 +127,7 @@ impl Scene {
     /// [`SceneError`] with line and column of the first error, and what is allowed there.
     pub fn read(path: &Path) -> Result<Scene, SceneError> {
         let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
-        Scene::parse(error::text(bytes(path).map_err(unreadable)?, path)?, path)
+        Scene::parse(mistake::text(bytes(path).map_err(unreadable)?, path)?, path)
     }
 
     /// The same, with plausibility warnings on standard error.
@@ -252,7 +245,7 @@ impl Scene {
         let form = self.damped.is_none() && self.loading.1.strengthened(0.0).is_some();
         let mut all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
         let impactor_may_yield = self.has_two_strengths();
-        let is_other = |parameter: &Parameter| parameter.settable || parameter.value != strength::POISSONS_RATIO;
+        let is_other = |parameter: &Parameter| parameter.settable || parameter.value != POISSONS_RATIO;
         let needs = |parameter: &Parameter| match parameter.name {
             "target.hardening_modulus" | "impactor.hardening_modulus" => true,
             "target.poissons_ratio" => is_other(parameter),

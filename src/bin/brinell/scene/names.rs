@@ -1,7 +1,7 @@
 //! Names and texts of the FMU.
 
-use super::error::Mistake;
 use crate::layout::shortened;
+use crate::mistake::Mistake;
 use crate::xml;
 use toml::Spanned;
 
