@@ -2,7 +2,7 @@
 
 use super::parser_words;
 use crate::mistake::Mistake;
-use crate::parameters::Given;
+use crate::parameters::ConstantTable;
 use brinell::contact::Surface;
 use serde::Deserialize;
 use toml::Spanned;
@@ -105,12 +105,12 @@ impl From<SurfaceName> for Surface {
 #[serde(deny_unknown_fields)]
 pub struct Law {
     pub loading: Option<Spanned<String>>,
-    pub loading_parameters: Option<Given>,
+    pub loading_parameters: Option<ConstantTable>,
     pub unloading: Option<Spanned<String>>,
     pub restitution: Option<Spanned<f64>>,
     pub elastic_restitution: Option<Spanned<toml::Value>>,
     pub damping: Option<Spanned<String>>,
-    pub unloading_parameters: Option<Given>,
+    pub unloading_parameters: Option<ConstantTable>,
     pub passivity_guard: Option<Spanned<bool>>,
 }
 

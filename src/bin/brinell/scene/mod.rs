@@ -2,21 +2,19 @@
 
 pub mod bodies;
 mod checks;
-mod chosen;
 mod contacts;
-mod coupling;
 mod file;
+mod fmu;
 mod friction;
 #[cfg(test)]
 mod hostile_tests;
 mod laws;
 mod losses;
-mod names;
 mod parser_words;
 pub mod plausible;
 mod strength;
 
-use crate::mistake::{self, SceneError};
+use crate::mistake::{self, Mistake, SceneError};
 use crate::model::{AnyModel, strengthened};
 use brinell::contact::Model;
 use brinell::contact::damped::{self, AnyDamped};
@@ -126,8 +124,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] with line and column of the first error, and what is allowed there.
     pub fn read(path: &Path) -> Result<Scene, SceneError> {
-        let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
-        Scene::parse(mistake::text(bytes(path).map_err(unreadable)?, path)?, path)
+        Ok(Scene::read_with_doubts(path)?.0)
     }
 
     /// The same, with plausibility warnings on standard error.
@@ -135,9 +132,8 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::read`].
     pub fn read_aloud(path: &Path) -> Result<Scene, SceneError> {
-        let scene = Scene::read(path)?;
-        let file = file::File::read(&scene.text).map_err(|mistake| mistake.in_file(&scene.text, path))?;
-        for doubt in plausible::doubts(&file) {
+        let (scene, doubts) = Scene::read_with_doubts(path)?;
+        for doubt in doubts {
             crate::layout::warn(&doubt.in_file(&scene.text, path).to_string());
         }
         Ok(scene)
@@ -148,9 +144,22 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::read`].
     pub fn parse(text: String, path: &Path) -> Result<Scene, SceneError> {
-        let checked = file::File::read(&text).and_then(checks::check);
+        Ok(Scene::parse_with_doubts(text, path)?.0)
+    }
+
+    fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
+        let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
+        Scene::parse_with_doubts(mistake::text(bytes(path).map_err(unreadable)?, path)?, path)
+    }
+
+    /// The scene, and the numbers in it that are implausible.
+    fn parse_with_doubts(text: String, path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
+        let checked = file::File::read(&text).and_then(|file| {
+            let doubts = plausible::doubts(&file);
+            Ok((checks::check(file)?, doubts))
+        });
         match checked {
-            Ok(scene) => Ok(Scene { text, ..scene }),
+            Ok((scene, doubts)) => Ok((Scene { text, ..scene }, doubts)),
             Err(mistake) => Err(mistake.in_file(&text, path)),
         }
     }
