@@ -26,7 +26,7 @@ pub struct File {
 
 /// One of the two bodies: `[target]`, and with fewer keys [`Impactor`].
 #[derive(Default, Deserialize)]
-#[serde(rename = "Target", deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub struct BodyTable {
     pub material: Option<Spanned<String>>,
     pub youngs_modulus: Option<Spanned<f64>>,
@@ -44,7 +44,7 @@ pub struct BodyTable {
 
 /// The keys of `[impactor]`, which is no plate and has no surface that remembers, in the order of messages.
 #[derive(Deserialize)]
-#[serde(remote = "BodyTable", rename = "Impactor", deny_unknown_fields)]
+#[serde(remote = "BodyTable", deny_unknown_fields, expecting = "a table")]
 struct ImpactorKeys {
     pub material: Option<Spanned<String>>,
     pub radius: Option<Spanned<f64>>,
@@ -181,7 +181,7 @@ pub struct ImpactTable {
 
 /// One contact, or `count` equal contacts, with the values that differ from the tables above.
 #[derive(Deserialize)]
-#[serde(rename = "Contact", deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub struct ContactTable {
     pub name: Spanned<String>,
     pub count: Option<Spanned<i64>>,
