@@ -161,13 +161,16 @@ impl Numbers {
     }
 }
 
+/// The name of a property, and its number if there is one.
+type NamedNumber = (&'static str, Option<Spanned<f64>>);
+
 /// The numbers of a `body`. An explicit number overrides that of the material.
 fn numbers_of(
     body: Body,
     table: &BodyTable,
     material: Option<&(&table::Material, Range<usize>)>,
     shared: Option<&Numbers>,
-) -> Result<[(&'static str, Option<Spanned<f64>>); 6], Mistake> {
+) -> Result<[NamedNumber; 6], Mistake> {
     let or = |given: Option<Spanned<f64>>, of_material: fn(&table::Material) -> f64| {
         given.or_else(|| material.map(|(material, span)| Spanned::new(span.clone(), of_material(material))))
     };
