@@ -5,7 +5,7 @@
 //! published constants and all bodies, and tests verify it. For other constants, the program evaluates the law.
 
 use crate::scene::Scene;
-use crate::{laws, table};
+use crate::{pairing, table};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::regime::LARGEST_INDENTATION;
 use brinell_contact::unloading::AnyUnloading;
@@ -93,7 +93,8 @@ fn published_words(scene: &Scene) -> String {
 /// Whether both laws of `scene` have their published constants.
 fn is_published(scene: &Scene) -> bool {
     let (loading, unloading) = (scene.loading, scene.unloading);
-    laws::published(loading.0) == loading.1 && unloading.is_none_or(|unloading| AnyUnloading::ALL.contains(&unloading))
+    pairing::published(loading.0) == loading.1
+        && unloading.is_none_or(|unloading| AnyUnloading::ALL.contains(&unloading))
 }
 
 /// The Poisson's ratio below which laws may return too much energy.

@@ -1,7 +1,7 @@
 //! The texts about a law from the table. `{name}` in them is replaced by a number of the law.
 
-use crate::laws;
 use crate::numbers::significant;
+use crate::pairing;
 use crate::parameters::numbers_of;
 use crate::table::{self, Law};
 use brinell_contact::Loading;
@@ -25,7 +25,7 @@ pub struct LawText {
 
 /// The texts about the loading law `name` with the constants of `law`.
 pub fn loading(name: &str, law: &AnyLoading) -> LawText {
-    let published = laws::published(name);
+    let published = pairing::published(name);
     text(table::loading_law(name), law, &published, |law, name| law.derived(name))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::model::{AnyModel, Dampings, strengthened};
 use crate::nearest::unknown;
-use crate::pairing;
+use crate::pairing::{self, unloading_of};
 use crate::scene::Scene;
 use brinell_contact::damped::{self, AnyDamped};
 use brinell_contact::loading::AnyLoading;
@@ -50,18 +50,6 @@ pub enum UnknownLaw {
     Pairing(String),
     #[error("the law {0} needs target.yield_strength (or a material), which the scene doesn't give")]
     NoYieldStrength(String),
-}
-
-/// The existing loading law `name` with its reference constants.
-pub fn published(name: &str) -> AnyLoading {
-    let found = AnyLoading::ALL.into_iter().find(|(known, _)| *known == name);
-    found.expect("a law that was found by its name").1
-}
-
-/// The unloading law for a loading law that is named alone, as for a scene that names no unloading law.
-pub fn unloading_of(loading: &str) -> (&'static str, AnyUnloading) {
-    let own = pairing::default_unloading(loading);
-    AnyUnloading::ALL.into_iter().find(|(name, _)| *name == own).expect("the table names laws that exist")
 }
 
 /// The loading law of this name: with the scene's constants if it is the scene's own, otherwise with the reference constants.

@@ -26,6 +26,7 @@ mod laws;
 mod layout;
 mod materials;
 mod merge;
+mod mistake;
 mod model;
 mod model_description;
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The physical model of the contact of a scene.
 
+use crate::numbers::significant;
 use brinell_contact::damped::hunt_crossley::DampingFactor;
 use brinell_contact::damped::tsuji::TsujiDamping;
 use brinell_contact::damped::{self, AnyDamped, HuntCrossley, Tsuji};
@@ -12,6 +13,22 @@ use brinell_contact::{Loading, Model, Pair};
 // number of predictions that this thread has made
 #[cfg(test)]
 thread_local!(pub static PREDICTIONS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) });
+
+/// A kinetic energy that is too small for its full precision.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "the kinetic energy of mass = {} kg at speed = {} m/s is {} J: below {} J it can't be computed with",
+    significant(.0.mass, 6), significant(.0.speed, 6), significant(.0.energy(), 6), significant(f64::MIN_POSITIVE, 6)
+)]
+pub struct NoEnergy(Impact);
+
+/// Rejects an impact that fails with every law: its energy is too small a number.
+///
+/// # Errors
+/// [`NoEnergy`]
+pub fn check_energy(impact: &Impact) -> Result<(), NoEnergy> {
+    if impact.energy() < f64::MIN_POSITIVE { Err(NoEnergy(*impact)) } else { Ok(()) }
+}
 
 /// Bodies and laws of either kind.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,8 @@
 
 use crate::files::{self, FileError};
 use crate::layout::{json_line, shown};
-use crate::scene::{Mistake, check_name};
+use crate::mistake::Mistake;
+use crate::scene::check_name;
 use crate::wrong_call::WrongCall;
 use serde_json::json;
 use std::error::Error;

@@ -1,6 +1,5 @@
 //! Compatible loading and unloading laws and constants, according to the table of laws.
 
-use crate::laws::published;
 use crate::numbers::in_message;
 use crate::parameters::value_of;
 use crate::table;
@@ -13,6 +12,18 @@ pub const DEFAULT_LOADING: &str = "brinell";
 /// The unloading law for a loading law that is named alone: the one with which it was published, otherwise "contact-radius".
 pub fn default_unloading(loading: &str) -> &'static str {
     table::loading_law(loading).unloading.as_deref().unwrap_or("contact-radius")
+}
+
+/// The existing loading law `name` with its reference constants.
+pub fn published(name: &str) -> AnyLoading {
+    let found = AnyLoading::ALL.into_iter().find(|(known, _)| *known == name);
+    found.expect("a law that was found by its name").1
+}
+
+/// The unloading law for a loading law that is named alone, as for a scene that names no unloading law.
+pub fn unloading_of(loading: &str) -> (&'static str, AnyUnloading) {
+    let own = default_unloading(loading);
+    AnyUnloading::ALL.into_iter().find(|(name, _)| *name == own).expect("the table names laws that exist")
 }
 
 /// Rejects two incompatible laws.

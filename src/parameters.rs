@@ -1,8 +1,8 @@
 //! The constants of a law: their list, and the law with the constants of a scene.
 
+use crate::mistake::Mistake;
 use crate::nearest::unknown;
 use crate::numbers::{in_message, out_of_range};
-use crate::scene::Mistake;
 use crate::table;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 
 /// A table of constants in a scene.
-pub type Given = Spanned<BTreeMap<Spanned<String>, Spanned<toml::Value>>>;
+pub type ConstantTable = Spanned<BTreeMap<Spanned<String>, Spanned<toml::Value>>>;
 
 /// A constant of a law with its value, for output.
 #[derive(Clone, Debug, Serialize)]
@@ -78,7 +78,7 @@ pub fn constants(law: &impl Serialize, table: &'static table::Law) -> Vec<Consta
 pub fn apply<T: Serialize + DeserializeOwned>(
     law: T,
     key: &str,
-    given: Option<&Given>,
+    given: Option<&ConstantTable>,
     table: &'static table::Law,
 ) -> Result<T, Mistake> {
     let Some(given) = given else { return Ok(law) };

@@ -4,10 +4,11 @@ mod text;
 
 use crate::energy;
 use crate::law_text::{self, LawText};
-use crate::laws::{loading_names, unloading_of};
+use crate::laws::loading_names;
 use crate::layout::json_line;
 use crate::model::Dampings;
 use crate::nearest::unknown;
+use crate::pairing::unloading_of;
 use crate::parameters::{self, Constant};
 use crate::scene::Scene;
 use crate::wrong_call::WrongCall;

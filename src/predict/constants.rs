@@ -2,12 +2,14 @@
 
 use super::PredictError;
 use crate::law_check;
-use crate::laws::{Choice, published};
+use crate::laws::Choice;
+use crate::mistake::Mistake;
 use crate::model::AnyModel;
 use crate::numbers::in_message;
 use crate::pairing::check_ties;
-use crate::parameters::{Given, apply};
-use crate::scene::{Mistake, Scene};
+use crate::pairing::published;
+use crate::parameters::{ConstantTable, apply};
+use crate::scene::Scene;
 use crate::table;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -73,7 +75,7 @@ pub fn set(scene: &Scene, choice: &mut Choice, name: &str, value: f64) -> Result
     };
     let constant = name.rsplit('.').next().unwrap_or_default();
     let number = Spanned::new(0..0, toml::Value::Float(value));
-    let given: Given = Spanned::new(0..0, BTreeMap::from([(Spanned::new(0..0, constant.to_string()), number)]));
+    let given: ConstantTable = Spanned::new(0..0, BTreeMap::from([(Spanned::new(0..0, constant.to_string()), number)]));
     let names = choice.clone();
     let ((loading, unloading), guarded) = (names.names(), names.is_guarded());
     let mut model = match choice.model {

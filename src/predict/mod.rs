@@ -12,6 +12,7 @@ pub mod time_history;
 
 use crate::laws::{self, Choice};
 use crate::layout;
+use crate::model::{NoEnergy, check_energy};
 use crate::numbers::{in_message, out_of_range, quantity, significant};
 use crate::pairing;
 use crate::scene::Scene;
@@ -72,27 +73,6 @@ pub enum PredictError {
 /// Rejects numbers that are not positive and finite.
 pub fn positive(name: &'static str, value: f64) -> Result<f64, PredictError> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(PredictError::NotPositive { name, value }) }
-}
-
-/// A kinetic energy that is too small for its full precision.
-#[derive(Debug, thiserror::Error)]
-#[error(
-    "the kinetic energy of mass = {} kg at speed = {} m/s is {} J: below {} J it can't be computed with",
-    significant(.0.mass, 6), significant(.0.speed, 6), significant(energy(.0), 6), significant(f64::MIN_POSITIVE, 6)
-)]
-pub struct NoEnergy(Impact);
-
-/// Kinetic energy [J].
-fn energy(impact: &Impact) -> f64 {
-    0.5 * impact.mass * impact.speed * impact.speed
-}
-
-/// Rejects an impact that fails with every law: its energy is too small a number.
-///
-/// # Errors
-/// [`NoEnergy`]
-pub fn check_energy(impact: &Impact) -> Result<(), NoEnergy> {
-    if energy(impact) < f64::MIN_POSITIVE { Err(NoEnergy(*impact)) } else { Ok(()) }
 }
 
 /// The speed [m/s] of a `mass` [kg] with this kinetic energy [J].

@@ -3,7 +3,7 @@
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::numbers::{cell, quantity};
-use crate::scene::{Loss, Scene, softer};
+use crate::scene::{Loss, Scene, bodies};
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::{AnyLoading, Hertz};
 use brinell_contact::losses::Loss as _;
@@ -22,7 +22,7 @@ pub fn of(scene: &Scene, impact: &Impact, choices: &[Choice], predictions: &[Pre
         .any(|(choice, prediction)| choice.model.elastoplastic().is_some() && prediction.residual_indentation > 0.0);
     let keeps = scene.contacts[0].surface == Surface::Dented;
     let endless = (dents && keeps && scene.loss.is_none()).then(|| ENDLESS.to_string());
-    let softer = predictions.first().map(|prediction| softer::notes(scene, prediction)).unwrap_or_default();
+    let softer = predictions.first().map(|prediction| bodies::notes(scene, prediction)).unwrap_or_default();
     endless.into_iter().chain(loss(scene, impact)).chain(softer).chain(strength(scene, impact)).collect()
 }
 

@@ -34,10 +34,7 @@ pub fn first_contact(scene: &Scene, needs: Needs) -> Scene {
     }
     // a body with its own strength has no power law
     let own = |body: Body| scene.contacts[0].own.iter().any(|own| own.name == body.yield_strength());
-    let power_laws = Both {
-        impactor: scene.power_laws.impactor.filter(|_| !own(Body::Impactor)),
-        target: scene.power_laws.target.filter(|_| !own(Body::Target)),
-    };
+    let power_laws = Both::each(|body| scene.power_laws.of(body).filter(|_| !own(body)));
     let unit = Scene {
         name: scene.name.clone(),
         description: scene.description.clone(),

@@ -1,9 +1,114 @@
-//! The bodies of each contact, and values that follow from them alone.
+//! The bodies of each contact, which of the two yields, and values that follow from them alone.
 
-use super::{Scene, softer};
+use super::Scene;
+use crate::numbers::{cell, quantity};
+use brinell_contact::Pair;
+use brinell_contact::impact::Prediction;
 use brinell_contact::losses::Loss;
-use brinell_contact::{Body, Pair};
 use std::collections::HashMap;
+use std::f64::consts::PI;
+
+/// One of the two bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    Impactor,
+    Target,
+}
+
+/// The properties that a contact may override.
+const IMPACTOR: [&str; 6] = [
+    "impactor.radius",
+    "impactor.youngs_modulus",
+    "impactor.poissons_ratio",
+    "impactor.yield_strength",
+    "impactor.hardening_modulus",
+    "impactor.density",
+];
+const TARGET: [&str; 6] = [
+    "target.radius",
+    "target.youngs_modulus",
+    "target.poissons_ratio",
+    "target.yield_strength",
+    "target.hardening_modulus",
+    "target.density",
+];
+
+impl Body {
+    pub const ALL: [Body; 2] = [Body::Impactor, Body::Target];
+
+    /// The name of its table in a scene.
+    pub fn name(self) -> &'static str {
+        match self {
+            Body::Impactor => "impactor",
+            Body::Target => "target",
+        }
+    }
+
+    /// The names of its properties. Its density, the last one, is not a variable of the FMU.
+    pub const fn properties(self) -> [&'static str; 6] {
+        match self {
+            Body::Impactor => IMPACTOR,
+            Body::Target => TARGET,
+        }
+    }
+
+    pub const fn radius(self) -> &'static str {
+        self.properties()[0]
+    }
+
+    pub const fn youngs_modulus(self) -> &'static str {
+        self.properties()[1]
+    }
+
+    pub const fn poissons_ratio(self) -> &'static str {
+        self.properties()[2]
+    }
+
+    pub const fn yield_strength(self) -> &'static str {
+        self.properties()[3]
+    }
+
+    pub const fn hardening_modulus(self) -> &'static str {
+        self.properties()[4]
+    }
+
+    pub const fn density(self) -> &'static str {
+        self.properties()[5]
+    }
+
+    pub fn other(self) -> Body {
+        match self {
+            Body::Impactor => Body::Target,
+            Body::Target => Body::Impactor,
+        }
+    }
+}
+
+/// A value for each of the two bodies.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Both<T> {
+    pub impactor: T,
+    pub target: T,
+}
+
+impl<T> Both<T> {
+    /// What `value` gives for each body.
+    pub fn each(mut value: impl FnMut(Body) -> T) -> Both<T> {
+        Both { impactor: value(Body::Impactor), target: value(Body::Target) }
+    }
+
+    /// The same where `value` may fail: the impactor's failure first.
+    pub fn try_each<E>(mut value: impl FnMut(Body) -> Result<T, E>) -> Result<Both<T>, E> {
+        Ok(Both { impactor: value(Body::Impactor)?, target: value(Body::Target)? })
+    }
+
+    pub fn of(&self, body: Body) -> &T {
+        match body {
+            Body::Impactor => &self.impactor,
+            Body::Target => &self.target,
+        }
+    }
+}
 
 impl Scene {
     /// The bodies of the contacts of `group`; `None` if they do not fit.
@@ -19,26 +124,25 @@ impl Scene {
         let own = || self.group_value(group, softer.yield_strength()).map(|strength| strength * self.factors[group]);
         let strength = other.or_else(own).unwrap_or(f64::INFINITY);
         let pair = Pair::new(&impactor, &target, strength)?;
-        Some(if softer == softer::Body::Impactor { pair.yielding_in(&impactor, strength) } else { pair })
+        Some(if softer == Body::Impactor { pair.yielding_in(&impactor, strength) } else { pair })
     }
 
-    /// Impactor and target of `group`, with other values for some of their parameters.
-    pub fn bodies_with(&self, group: usize, values: &[(&str, f64)]) -> [Body; 2] {
-        let value = |name| {
-            let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
-            other.or_else(|| self.group_value(group, name))
+    /// Impactor and target of `group`, with other values for some of their parameters. An impactor without moduli is rigid, a target
+    /// without a radius is flat.
+    pub fn bodies_with(&self, group: usize, values: &[(&str, f64)]) -> [brinell_contact::Body; 2] {
+        let value = |name, without| self.value_with(group, name, values).unwrap_or(without);
+        let of = |body: Body, [radius, youngs_modulus, poissons_ratio]: [f64; 3]| brinell_contact::Body {
+            radius: value(body.radius(), radius),
+            youngs_modulus: value(body.youngs_modulus(), youngs_modulus),
+            poissons_ratio: value(body.poissons_ratio(), poissons_ratio),
         };
-        let impactor = Body {
-            radius: value("impactor.radius").unwrap_or(f64::NAN),
-            youngs_modulus: value("impactor.youngs_modulus").unwrap_or(f64::INFINITY),
-            poissons_ratio: value("impactor.poissons_ratio").unwrap_or(0.0),
-        };
-        let target = Body {
-            radius: value("target.radius").unwrap_or(f64::INFINITY),
-            youngs_modulus: value("target.youngs_modulus").unwrap_or(f64::NAN),
-            poissons_ratio: value("target.poissons_ratio").unwrap_or(f64::NAN),
-        };
-        [impactor, target]
+        [of(Body::Impactor, [f64::NAN, f64::INFINITY, 0.0]), of(Body::Target, [f64::INFINITY, f64::NAN, f64::NAN])]
+    }
+
+    /// The number `name` of `group`: the one in `values`, otherwise that of the scene.
+    pub(super) fn value_with(&self, group: usize, name: &str, values: &[(&str, f64)]) -> Option<f64> {
+        let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
+        other.or_else(|| self.group_value(group, name))
     }
 
     /// The result of `of` for each group. Ten thousand groups may have the same bodies. A result that follows only from the
@@ -61,4 +165,69 @@ impl Scene {
             })
             .collect()
     }
+
+    /// The body of `group` that yields.
+    pub fn softer(&self, group: usize) -> Body {
+        self.softer_with(group, &[])
+    }
+
+    /// The same with other values for some of the parameters.
+    pub fn softer_with(&self, group: usize, values: &[(&str, f64)]) -> Body {
+        let strength = |body: Body| self.value_with(group, body.yield_strength(), values).unwrap_or(f64::INFINITY);
+        if strength(Body::Impactor) < strength(Body::Target) { Body::Impactor } else { Body::Target }
+    }
+
+    /// The strength of the harder body of `group` [Pa], if it is known.
+    fn harder_strength(&self, group: usize) -> Option<f64> {
+        match self.softer(group) {
+            Body::Impactor => self.group_value(group, Body::Target.yield_strength()),
+            Body::Target => self.contacts[group].impactor_strength,
+        }
+    }
+}
+
+/// The message about bodies of which `softer` is the softer one under a slow load, and not in the scene's impact.
+pub fn exchanged(softer: Body) -> String {
+    let (name, other) = (softer.name(), softer.other().name());
+    format!(
+        "under a slow load the {name} is the softer body, and in the scene's impact the {other}: give the strengths of the impact \
+         (yield_strength) instead of a rate or a power law"
+    )
+}
+
+/// Mean pressure over yield strength at first yield of the law `brinell`, rounded down: the harder body is elastic below.
+const FIRST_YIELD: f64 = 1.07;
+
+/// Strengths this close to each other count as equal.
+const EQUAL: f64 = 0.01;
+
+/// Notes on the bodies of the first contact in an impact with this `prediction`.
+pub fn notes(scene: &Scene, prediction: &Prediction) -> Vec<String> {
+    let Some(soft) = scene.yield_strength.filter(|_| prediction.residual_indentation > 0.0) else { return Vec::new() };
+    let softer = scene.softer(0);
+    let (name, other) = (softer.name(), softer.other().name());
+    let mut notes = Vec::new();
+    if softer == Body::Impactor {
+        notes.push("The impactor is the softer body: it yields, and the dent is in the impactor.".into());
+    }
+    let Some(hard) = scene.harder_strength(0) else { return notes };
+    if (hard / soft - 1.0).abs() <= EQUAL {
+        return vec![
+            "Both bodies are equally strong and yield alike: force over indentation is the same, and each of them has half of \
+             the dent."
+                .into(),
+        ];
+    }
+    let radius = prediction.max_contact_radius;
+    let pressure = prediction.max_force / (PI * radius * radius);
+    if pressure > FIRST_YIELD * hard {
+        notes.push(format!(
+            "The mean pressure reaches {} times the yield strength of the {other}, {}. From {FIRST_YIELD} on it yields, too. The \
+             prediction is that of two bodies of the strength of the {name}. With a stronger {other} the contact is harder: by \
+             finite elements with equal moduli, up to 5 % in force at the same depth if it is 1.2 times as strong, 9 % if twice.",
+            cell(pressure / hard, 1.0),
+            quantity(hard, "Pa")
+        ));
+    }
+    notes
 }

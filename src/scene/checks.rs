@@ -1,25 +1,20 @@
 //! Checks a scene: from the contents of the file to a scene that can be built.
 
-use super::chosen::{check_input_derivatives, check_outputs, choose_settable};
-use super::contacts::Contacts;
-use super::coupling;
-use super::error::Mistake;
+use super::Scene;
+use super::bodies::{self, Body, Both};
+use super::contacts::{Contacts, Group, Parameter};
 use super::file::{File, ImpactTable, NamesName};
+use super::fmu::{self, check_description, check_input_derivatives, check_name, check_outputs, choose_settable};
 use super::friction;
-use super::group::Parameter;
-use super::laws;
-use super::limits::{check_limits, positive};
+use super::laws::{self, Laws};
 use super::losses::{self, Loss};
-use super::names::{check_description, check_name};
-use super::numbers::IMPACTOR_DENSITY;
-use super::softer::{self, Body, Both};
-use super::{QuasiStatic, Scene};
+use crate::mistake::{Mistake, check_limits, positive};
+use crate::model::check_energy;
 use crate::numbers::in_message;
-use crate::predict;
 use crate::table::VARIABLES;
 use brinell_contact::damped::Damped;
+use brinell_contact::hardening::Hardening;
 use brinell_contact::impact::Impact;
-use brinell_contact::loading::{AnyLoading, Hertz};
 use std::f64::consts::PI;
 use std::ops::Range;
 use toml::Spanned;
@@ -32,34 +27,24 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     let name = check_name(&file.name)?;
     let description = check_description(file.description.as_ref())?;
     let mut contacts = Contacts::of(&file)?;
-    let damped = laws::find_damped(&file.law)?;
-    let loading = match damped {
-        Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
-        None => laws::check_loading(&file.law, &contacts)?,
-    };
-    let elastic = matches!(loading.1, AnyLoading::Hertz(_));
-    let hardens = damped.is_none() && loading.1.strengthened(0.0).is_some();
-    contacts.check_rate(damped.is_some() || elastic)?;
-    contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
-    let unloading = laws::check_unloading(&file.law, loading.0, elastic)?;
-    laws::check_parameters(&file.law, &loading, unloading.as_ref())?;
-    let passivity_guard = laws::check_guard(file.law.passivity_guard.as_ref(), unloading)?;
+    let laws = Laws::of(&file.law, &contacts)?;
+    let Laws { damped, loading, unloading, passivity_guard } = laws;
     let yield_strength = contacts.yield_strength(0);
-    if elastic {
+    if laws.has_no_strength() {
         contacts.forget_strength();
     }
-    let loss = losses::check(&file, &contacts, damped.map(|(name, _)| name))?;
+    let loss = losses::check(&file, &contacts, laws.damped_name())?;
     let damps_by_mass = damped.filter(|(_, law)| law.needs_mass()).map(|(name, _)| name);
-    let coupling = coupling::check(file.coupling.as_ref(), damps_by_mass)?;
+    let coupling = fmu::check_coupling(file.coupling.as_ref(), damps_by_mass)?;
     let (coupling, known_mass) = coupling.unzip();
-    let with_friction = friction::Given {
-        damped: damped.map(|(name, _)| name),
+    let beside = friction::BesideFriction {
+        damped: laws.damped_name(),
         unloading: unloading.map(|(name, _)| name),
         passivity_guard,
         has_loss: loss.is_some(),
         knows_mass: coupling.is_some(),
     };
-    let directions = friction::check(file.friction.as_ref(), &with_friction)?;
+    let directions = friction::check(file.friction.as_ref(), &beside)?;
     let friction = directions > 0;
     contacts.check_friction()?;
     let follows_rate = damped.is_some() || loss.is_some();
@@ -67,26 +52,13 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         check_input_derivatives(file.fmu.input_derivatives.as_ref(), coupling.is_some(), follows_rate)?;
     let impact = check_impact(file.impact.as_ref(), known_mass.as_ref(), &contacts)?;
     let impact_span = file.impact.as_ref().map_or(0..0, Spanned::span);
-    predict::check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
-    let (mut parameters, mut groups) = contacts.parameters();
-    let mass = damped.is_some_and(|(_, law)| law.needs_mass()).then_some(impact.mass);
+    check_energy(&impact).map_err(|error| Mistake(impact_span.clone(), error.to_string()))?;
     let span = file.impact.as_ref().and_then(|table| Some(table.get_ref().mass.as_ref()?.span()));
-    let mass = known_mass.or(mass.map(|mass| Spanned::new(span.unwrap_or(0..0), mass)));
+    let mass = known_mass.or(damps_by_mass.map(|_| Spanned::new(span.unwrap_or(0..0), impact.mass)));
     contacts.check_masses(mass.is_some())?;
-    let is_input = |name: &str| name == "effective_mass" && coupling.is_some_and(|coupling| coupling.mass_input);
-    if let Some((name, value)) = loss.and_then(Loss::parameter) {
-        parameters.push(Parameter::shared(name, value, true));
-    }
-    for (name, value) in [("restitution", file.law.restitution.clone()), ("effective_mass", mass)] {
-        let Some(value) = value else { continue };
-        check_limits(name, "", &value)?;
-        parameters.push(Parameter::shared(name, *value.get_ref(), !is_input(name)));
-    }
-    groups.iter_mut().flat_map(|group| &mut group.own).for_each(|own| own.settable = !is_input(own.name));
-    contacts.divide(&parameters, &mut groups, is_input)?;
-    // a value that every contact has for itself is not shared
-    parameters.retain(|shared| !groups.iter().all(|group| group.own.iter().any(|own| own.name == shared.name)));
-    parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
+    let mass_is_input = coupling.is_some_and(|coupling| coupling.mass_input);
+    let numbers = [("restitution", file.law.restitution.clone()), ("effective_mass", mass)];
+    let (parameters, groups) = check_parameters(&contacts, loss, numbers, mass_is_input)?;
     let mut outputs = check_outputs(&file.fmu.outputs, coupling.is_some(), friction)?;
     // without them such an FMU is useless
     for (needed, name) in [(coupling.is_some(), "mean_force"), (friction, "tangential_force")] {
@@ -108,7 +80,7 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
         passivity_guard,
         yield_strength,
         power_laws: contacts.power_laws,
-        rates: contacts.rates,
+        rates: contacts.rates(),
         quasi_static: Vec::new(),
         factors,
         coupling,
@@ -137,21 +109,47 @@ pub fn check(file: File) -> Result<Scene, Mistake> {
     settle(scene, &contacts, &impact_span)
 }
 
+/// The parameters of all contacts, also those of the loss and the `numbers` that the scene gives for all, and the groups with their
+/// own parameters.
+fn check_parameters(
+    contacts: &Contacts,
+    loss: Option<Loss>,
+    numbers: [(&'static str, Option<Spanned<f64>>); 2],
+    mass_is_input: bool,
+) -> Result<(Vec<Parameter>, Vec<Group>), Mistake> {
+    let (mut parameters, mut groups) = contacts.parameters();
+    let is_input = |name: &str| name == "effective_mass" && mass_is_input;
+    if let Some((name, value)) = loss.and_then(Loss::parameter) {
+        parameters.push(Parameter::shared(name, value, true));
+    }
+    for (name, value) in numbers {
+        let Some(value) = value else { continue };
+        check_limits(name, "", &value)?;
+        parameters.push(Parameter::shared(name, *value.get_ref(), !is_input(name)));
+    }
+    groups.iter_mut().flat_map(|group| &mut group.own).for_each(|own| own.settable = !is_input(own.name));
+    contacts.divide(&parameters, &mut groups, is_input)?;
+    // a value that every contact has for itself is not shared
+    parameters.retain(|shared| !groups.iter().all(|group| group.own.iter().any(|own| own.name == shared.name)));
+    parameters.sort_by_key(|parameter| VARIABLES.iter().position(|variable| variable.name == parameter.name));
+    Ok((parameters, groups))
+}
+
 /// The scene with the strengths that its impact gives the bodies, and with the predictions of each contact's impact. `place` is
 /// where the scene has its impact.
 fn settle(mut scene: Scene, contacts: &Contacts, place: &Range<usize>) -> Result<Scene, Mistake> {
-    let of = |group, body: Body| QuasiStatic {
+    let of = |group, body: Body| Hardening {
         yield_strength: scene.group_value(group, body.yield_strength()).unwrap_or(f64::INFINITY),
         hardening_modulus: scene.group_value(group, body.hardening_modulus()).unwrap_or(0.0),
     };
-    let quasi_static = |group| Both { impactor: of(group, Body::Impactor), target: of(group, Body::Target) };
+    let quasi_static = |group| Both::each(|body| of(group, body));
     scene.quasi_static = (0..scene.contacts.len()).map(quasi_static).collect();
     let message = too_hard(&scene, 0);
     let softer = |scene: &Scene| (0..scene.contacts.len()).map(|group| scene.softer(group)).collect::<Vec<_>>();
     let slow = softer(&scene);
     scene = scene.with_strengths_for(None).ok_or_else(|| Mistake(place.clone(), message))?;
     if let Some(group) = softer(&scene).iter().zip(&slow).position(|(now, before)| now != before) {
-        return Err(Mistake(place.clone(), contacts.said(group, &softer::exchanged(slow[group]))));
+        return Err(Mistake(place.clone(), contacts.said(group, &bodies::exchanged(slow[group]))));
     }
     let no_prediction = |group| Mistake(place.clone(), contacts.said(group, &too_hard(&scene, group)));
     let predict = |group| scene.any_model_of(group).predict(&scene.impact_of(group));
@@ -174,13 +172,13 @@ fn check_impact(
     let ball = |density: f64| density * 4.0 / 3.0 * PI * radius * radius * radius;
     let Some(table) = given else {
         let mass = known.map(|mass| *mass.get_ref());
-        let mass = mass.unwrap_or_else(|| ball(number(IMPACTOR_DENSITY).unwrap_or(STEEL)));
+        let mass = mass.unwrap_or_else(|| ball(number(Body::Impactor.density()).unwrap_or(STEEL)));
         return Ok(Impact { mass, speed: 1.0 });
     };
     let ImpactTable { mass, speed, .. } = table.get_ref();
     let speed = positive("impact.speed", speed)?;
     let Some(given) = mass else {
-        let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(IMPACTOR_DENSITY).map(ball)).ok_or_else(|| {
+        let mass = known.map(|mass| *mass.get_ref()).or_else(|| number(Body::Impactor.density()).map(ball)).ok_or_else(|| {
             let message = "missing field `mass` in [impact]: give it, or the density or material of [impactor], which is then \
                            taken for a solid ball";
             Mistake(table.span(), message.into())

@@ -1,24 +1,296 @@
-//! The contacts: the numbers that a scene gives for all contacts, and those that a contact overrides.
+//! The contacts: the numbers that a scene gives for all of them, and those that one gives for itself, directly or by a material.
 
-use super::error::Mistake;
-use super::file::{File, Impactor, PowerLawTable, RateTable, Target};
-use super::given::{Given, given};
-use super::group::{Group, Parameter};
-use super::numbers::{
-    DENSITY, FRICTION, HARDENING, IMPACTOR_HARDENING, IMPACTOR_STRENGTH, MASS, Numbers, check_numbers,
-};
-use super::power_law::{self, PowerLaw};
-use super::rate::{self, Rate};
-use super::softer::{self, Body, Both};
+use super::bodies::{Body, Both};
+use super::file::{BodyTable, ContactTable, File, Impactor};
+use super::fmu::check_identifier;
+use super::strength::{self, PowerLaw, Rate};
+use crate::layout::shortened;
+use crate::mistake::{Mistake, check_limits, check_range};
 use crate::nearest::unknown;
-use crate::table::{MATERIALS, VARIABLES};
+use crate::numbers::in_message;
+use crate::table::{self, MATERIALS, VARIABLES};
+use brinell_contact::Surface;
 use brinell_contact::loading::AnyLoading;
-use std::ops::Range;
+use std::collections::HashSet;
+use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
+
+/// Largest number of contacts of an FMU. The model description then has a few hundred megabytes.
+const MOST_CONTACTS: i64 = 100_000;
 
 /// Largest number of values of parameters that each contact has for itself. Restoring a state from bytes puts them on the
 /// stack.
 const MOST_VALUES: usize = 10_000;
+
+/// Allowed densities [kg/m^3]: from thin gases to beyond any solid.
+const DENSITIES: RangeInclusive<f64> = 1e-3..=1e9;
+
+/// A property that the scene gives elsewhere for all contacts.
+const MASS: &str = "effective_mass";
+
+/// A property that every contact has as soon as the scene gives it for all.
+const FRICTION: &str = "friction.coefficient";
+
+/// A parameter of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    pub name: &'static str,
+    pub value: f64,
+    /// Whether it can be set; otherwise it is a constant of the FMU.
+    pub settable: bool,
+    /// Whether each contact of a group has its own value.
+    pub per_contact: bool,
+}
+
+impl Parameter {
+    /// A parameter that contacts share.
+    pub fn shared(name: &'static str, value: f64, settable: bool) -> Parameter {
+        Parameter { name, value, settable, per_contact: false }
+    }
+}
+
+/// One contact or several equal ones: a table `[[contact]]`, or the contact of a scene without such tables.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// `None` for the single contact of a scene without `[[contact]]`, whose variables have plain names.
+    pub name: Option<String>,
+    /// The number of contacts in the group, if their names are counted.
+    pub count: Option<usize>,
+    /// The parameters of this group that override those of all contacts, in the order of the table.
+    pub own: Vec<Parameter>,
+    pub surface: Surface,
+    /// Density of the target [kg/m^3], if known. It is not a variable; it limits the speeds for which the law is valid.
+    pub density: Option<f64>,
+    /// Yield strength of the impactor [Pa], if known. It is a variable only where the impactor may be the softer body.
+    pub impactor_strength: Option<f64>,
+}
+
+impl Group {
+    /// The number of contacts in the group.
+    pub fn len(&self) -> usize {
+        self.count.unwrap_or(1)
+    }
+
+    /// The prefix of the variables of a contact, counted from 0: "", "left." or "contact\[7].".
+    pub fn prefix(&self, index: usize) -> String {
+        match (&self.name, self.count) {
+            (None, _) => String::new(),
+            (Some(name), None) => format!("{name}."),
+            (Some(name), Some(_)) => format!("{name}[{}].", index + 1),
+        }
+    }
+
+    /// One name for all contacts of the group: "left", or "bead\[1..1000]".
+    pub fn label(&self) -> String {
+        match (&self.name, self.count) {
+            (Some(name), Some(count @ 2..)) => format!("{name}[1..{count}]"),
+            _ => self.prefix(0).trim_end_matches('.').into(),
+        }
+    }
+
+    /// The name in the FMU of the parameter `name` that all contacts of the group share.
+    pub fn variable(&self, name: &str) -> String {
+        self.name.as_ref().map_or(name.into(), |own| format!("{own}.{name}"))
+    }
+
+    /// The name in the FMU of the group's own `parameter`, for the contact with this `index`.
+    pub fn own_variable(&self, parameter: &Parameter, index: usize) -> String {
+        match parameter.per_contact {
+            true => self.prefix(index) + parameter.name,
+            false => self.variable(parameter.name),
+        }
+    }
+
+    /// The number of variables for the group's own `parameter`.
+    pub fn variables_of(&self, parameter: &Parameter) -> usize {
+        if parameter.per_contact { self.len() } else { 1 }
+    }
+}
+
+/// The numbers at one level, the whole scene or one contact, with their places in the file.
+#[derive(Default)]
+struct Numbers {
+    values: Vec<(&'static str, Spanned<f64>)>,
+    /// Whether the scene gives the strength of the impactor at this level, rather than by a material.
+    gives_impactor_strength: bool,
+    /// Whether the impactor may be the softer body, so that its strength is a parameter.
+    impactor_may_yield: bool,
+}
+
+impl Numbers {
+    /// The numbers of the two bodies, and `others` with their names. Those that a contact doesn't give are in `shared`.
+    fn of(
+        bodies: &Both<&BodyTable>,
+        others: [(&'static str, Option<&Spanned<f64>>); 3],
+        shared: Option<&Numbers>,
+    ) -> Result<Numbers, Mistake> {
+        let material = |body| bodies.of(body).material.as_ref().map(|name| Ok((find_material(name)?, name.span())));
+        let materials = Both::try_each(|body| material(body).transpose())?;
+        let of = |body| numbers_of(body, bodies.of(body), materials.of(body).as_ref(), shared);
+        let (target, impactor) = (of(Body::Target)?, of(Body::Impactor)?);
+        let others = others.into_iter().map(|(name, value)| (name, value.cloned()));
+        let numbers = impactor.into_iter().chain(target).chain(others);
+        Ok(Numbers {
+            values: numbers.filter_map(|(name, value)| Some((name, value?))).collect(),
+            gives_impactor_strength: bodies.impactor.gives_strength(),
+            impactor_may_yield: false,
+        })
+    }
+
+    fn get(&self, name: &str) -> Option<&Spanned<f64>> {
+        self.values.iter().find(|(known, _)| *known == name).map(|(_, value)| value)
+    }
+
+    /// Rejects a number outside its range. `owner` precedes its name in the message.
+    fn check(&self, owner: &str) -> Result<(), Mistake> {
+        let is_density = |name| Body::ALL.iter().any(|body| body.density() == name);
+        self.values.iter().try_for_each(|(name, value)| match is_density(*name) {
+            true => check_range((name, "kg/m^3"), owner, value, DENSITIES),
+            false => check_limits(name, owner, value),
+        })
+    }
+
+    /// The numbers that are parameters. The strength of an impactor that never yields is none.
+    fn parameters(&self) -> Vec<Parameter> {
+        let [.., strength, hardening, density] = Body::Impactor.properties();
+        let is_parameter = |name| {
+            let never = name == density || name == Body::Target.density();
+            !never && (self.impactor_may_yield || (name != strength && name != hardening))
+        };
+        let parameters = self.values.iter().filter(|(name, _)| is_parameter(*name));
+        parameters.map(|(name, value)| Parameter::shared(name, *value.get_ref(), true)).collect()
+    }
+}
+
+/// The name of a property, and its number if there is one.
+type NamedNumber = (&'static str, Option<Spanned<f64>>);
+
+/// The numbers of a `body`. An explicit number overrides that of the material.
+fn numbers_of(
+    body: Body,
+    table: &BodyTable,
+    material: Option<&(&table::Material, Range<usize>)>,
+    shared: Option<&Numbers>,
+) -> Result<[NamedNumber; 6], Mistake> {
+    let or = |given: Option<Spanned<f64>>, of_material: fn(&table::Material) -> f64| {
+        given.or_else(|| material.map(|(material, span)| Spanned::new(span.clone(), of_material(material))))
+    };
+    let youngs_modulus = or(table.youngs_modulus.clone(), |material| material.youngs_modulus);
+    let modulus = youngs_modulus.as_ref().or_else(|| shared?.get(body.youngs_modulus()));
+    let [yield_strength, hardening_modulus] = table.flow(body, modulus)?;
+    let values = [
+        table.radius.clone(),
+        youngs_modulus,
+        or(table.poissons_ratio.clone(), |material| material.poissons_ratio),
+        or(yield_strength, |material| material.yield_strength),
+        hardening_modulus,
+        or(table.density.clone(), |material| material.density),
+    ];
+    let mut values = values.into_iter();
+    Ok(body.properties().map(|name| (name, values.next().flatten())))
+}
+
+fn find_material(name: &Spanned<String>) -> Result<&'static table::Material, Mistake> {
+    MATERIALS.iter().find(|material| &material.name == name.get_ref()).ok_or_else(|| {
+        let asked = name.get_ref();
+        let has_number =
+            |material: &&table::Material| material.number.as_ref().is_some_and(|number| asked.contains(number));
+        if let Some(material) = MATERIALS.iter().find(has_number) {
+            let message = format!("unknown material `{}`; its name here is `{}`", shortened(asked), material.name);
+            return Mistake(name.span(), message);
+        }
+        let names = MATERIALS.iter().map(|material| material.name.as_str());
+        Mistake(name.span(), unknown("material", asked, names))
+    })
+}
+
+/// One `[[contact]]`, or the one contact of a scene without any.
+struct Contact {
+    name: Option<String>,
+    count: Option<usize>,
+    surface: Surface,
+    own: Numbers,
+    /// The properties with separate values for each contact of the group.
+    per_contact: Vec<Spanned<String>>,
+    /// The place for an error message, if no more precise place is known.
+    span: Range<usize>,
+}
+
+/// The contacts of `file`; those without their own surface have `surface`.
+fn contacts_of(file: &File, surface: Surface, shared: &Numbers) -> Result<Vec<Contact>, Mistake> {
+    let Some(contacts) = &file.contact else {
+        let own = Numbers::default();
+        return Ok(vec![Contact { name: None, count: None, surface, own, per_contact: Vec::new(), span: 0..0 }]);
+    };
+    if contacts.get_ref().is_empty() {
+        let message = "the list of contacts is empty; leave it out for one contact with plain variable names";
+        return Err(Mistake(contacts.span(), message.into()));
+    }
+    let (mut names, mut total) = (HashSet::new(), 0);
+    let mut all = Vec::new();
+    for contact in contacts.get_ref() {
+        let span = contact.span();
+        let ContactTable { name, count, impactor: Impactor(impactor), target, .. } = contact.get_ref();
+        let ContactTable { initial_gap, effective_mass, friction, parameters_per_contact, .. } = contact.get_ref();
+        let text = check_contact_name(name)?;
+        if !names.insert(text.clone()) {
+            return Err(Mistake(name.span(), format!("name = {text:?} is taken by another contact")));
+        }
+        let count = count.as_ref().map(check_count).transpose()?;
+        total += count.unwrap_or(1);
+        if total > MOST_CONTACTS {
+            let message =
+                format!("with contact `{text}` there are {total} contacts in all: allowed are {MOST_CONTACTS}");
+            return Err(Mistake(span, message));
+        }
+        let bodies = Both { impactor, target };
+        Body::ALL.iter().try_for_each(|body| check_own(&text, *body, bodies.of(*body)))?;
+        let others = [
+            (MASS, effective_mass.as_ref()),
+            ("initial_gap", initial_gap.as_ref()),
+            (FRICTION, friction.coefficient.as_ref()),
+        ];
+        let own = Numbers::of(&bodies, others, Some(shared))?;
+        own.check(&format!("{text}."))?;
+        let surface = target.surface.map_or(surface, Surface::from);
+        let (count, per_contact) = (count.map(|count| count as usize), parameters_per_contact.clone());
+        all.push(Contact { name: Some(text), count, surface, own, per_contact, span });
+    }
+    Ok(all)
+}
+
+/// Rejects keys in a `body` of the contact `name` that apply to all contacts.
+fn check_own(name: &str, body: Body, table: &BodyTable) -> Result<(), Mistake> {
+    let keys = [
+        ("power_law", table.power_law.as_ref().map(Spanned::span)),
+        ("rate", table.rate.as_ref().map(Spanned::span)),
+        ("plate_thickness", table.plate_thickness.as_ref().map(Spanned::span)),
+    ];
+    let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) else { return Ok(()) };
+    let body = body.name();
+    Err(Mistake(span, format!("contact `{name}`: {body}.{key} belongs to [{body}], for all contacts")))
+}
+
+/// The name of a contact, which must not be the beginning of the name of another variable.
+fn check_contact_name(name: &Spanned<String>) -> Result<String, Mistake> {
+    let text = check_identifier(name)?;
+    let mut taken: Vec<_> = VARIABLES.iter().filter_map(|variable| variable.name.split('.').next()).collect();
+    taken.dedup();
+    if taken.contains(&text.as_str()) {
+        let message = format!("name = {text:?} belongs to a variable of the FMU, as do `{}`", taken.join("`, `"));
+        return Err(Mistake(name.span(), message));
+    }
+    Ok(text)
+}
+
+fn check_count(count: &Spanned<i64>) -> Result<i64, Mistake> {
+    let number = *count.get_ref();
+    if (1..=MOST_CONTACTS).contains(&number) {
+        return Ok(number);
+    }
+    let message = format!("count = {number} is out of range: allowed is 1 to {MOST_CONTACTS}");
+    Err(Mistake(count.span(), message))
+}
 
 /// The contacts of a scene.
 pub struct Contacts {
@@ -26,124 +298,104 @@ pub struct Contacts {
     /// The hardening of all bodies by a power law.
     pub power_laws: Both<Option<PowerLaw>>,
     /// The strain-rate dependence of the strength of all bodies.
-    pub rates: Both<Option<Rate>>,
-    rate_spans: Both<Range<usize>>,
-    given: Vec<Given>,
+    rates: Both<Option<Spanned<Rate>>>,
+    all: Vec<Contact>,
 }
 
 impl Contacts {
     /// The contacts of the scene `file`, all of them complete.
     pub fn of(file: &File) -> Result<Contacts, Mistake> {
-        let impactor = file.impactor.as_ref().map(Spanned::get_ref);
-        let target = file.target.as_ref().map(Spanned::get_ref);
-        let standard = (Impactor::default(), Target::default());
+        let none = BodyTable::default();
+        let bodies = Both {
+            impactor: file.impactor.as_ref().map_or(&none, |impactor| &impactor.get_ref().0),
+            target: file.target.as_ref().map_or(&none, Spanned::get_ref),
+        };
         let no_gap = Spanned::new(0..0, 0.0);
         let gap = file.fmu.initial_gap.as_ref().unwrap_or(&no_gap);
         let friction = file.friction.as_ref().map(|friction| &friction.get_ref().coefficient);
-        let (impactor, of_target) = (impactor.unwrap_or(&standard.0), target.unwrap_or(&standard.1));
-        let shared = Numbers::of(impactor, of_target, None, Some(gap), friction, None)?;
-        check_numbers(&shared, "")?;
-        let surface = target.and_then(|target| target.surface);
-        let given = given(file, surface, &shared)?;
-        let power_law = |body, table: &Option<Spanned<PowerLawTable>>| {
-            table.as_ref().map(|table| power_law::check(body, table)).transpose()
-        };
-        let power_laws = Both {
-            impactor: power_law(Body::Impactor, &impactor.power_law)?,
-            target: power_law(Body::Target, &of_target.power_law)?,
-        };
-        let rate =
-            |body, table: &Option<Spanned<RateTable>>| table.as_ref().map(|table| rate::check(body, table)).transpose();
-        let rates =
-            Both { impactor: rate(Body::Impactor, &impactor.rate)?, target: rate(Body::Target, &of_target.rate)? };
-        let span = |table: &Option<Spanned<RateTable>>| table.as_ref().map_or(0..0, Spanned::span);
-        let rate_spans = Both { impactor: span(&impactor.rate), target: span(&of_target.rate) };
-        let mut contacts = Contacts { shared, power_laws, rates, rate_spans, given };
-        for index in 0..contacts.given.len() {
-            match contacts.given[index].name {
+        let shared = Numbers::of(&bodies, [(MASS, None), ("initial_gap", Some(gap)), (FRICTION, friction)], None)?;
+        shared.check("")?;
+        let surface = bodies.target.surface.map_or(Surface::Dented, Surface::from);
+        let all = contacts_of(file, surface, &shared)?;
+        let power_law = |body| bodies.of(body).power_law.as_ref().map(|table| strength::check_power_law(body, table));
+        let power_laws = Both::try_each(|body| power_law(body).transpose())?;
+        let rate = |body| bodies.of(body).rate.as_ref().map(|table| strength::check_rate(body, table));
+        let rates = Both::try_each(|body| rate(body).transpose())?;
+        let mut contacts = Contacts { shared, power_laws, rates, all };
+        for index in 0..contacts.all.len() {
+            match contacts.all[index].name {
                 Some(_) => contacts.check_complete(index)?,
                 None => check_tables(file, &contacts)?,
             }
             contacts.check_impactor(index)?;
-            contacts.check_strengths(index)?;
         }
         Ok(contacts)
     }
 
     /// The number `name` of a contact: its own, otherwise that of all contacts.
     pub fn number(&self, index: usize, name: &str) -> Option<&Spanned<f64>> {
-        self.given[index].own.get(name).or_else(|| self.shared.get(name))
+        self.all[index].own.get(name).or_else(|| self.shared.get(name))
     }
 
     /// `text` after the name of the contact, if it has one.
     pub fn said(&self, index: usize, text: &str) -> String {
-        self.given[index].name.as_ref().map_or(text.into(), |name| format!("contact `{name}`: {text}"))
+        self.all[index].name.as_ref().map_or(text.into(), |name| format!("contact `{name}`: {text}"))
+    }
+
+    /// A mistake in a contact.
+    fn wrong(&self, index: usize, span: Range<usize>, message: &str) -> Mistake {
+        Mistake(span, self.said(index, message))
+    }
+
+    /// The strain-rate dependence of both bodies.
+    pub fn rates(&self) -> Both<Option<Rate>> {
+        Both::each(|body| self.rates.of(body).as_ref().map(|rate| *rate.get_ref()))
     }
 
     /// Yield strength of the softer body of a contact [Pa], if it has one.
     pub fn yield_strength(&self, index: usize) -> Option<f64> {
-        let strength = |name| self.number(index, name).map(|strength| *strength.get_ref());
-        let impactor = strength(IMPACTOR_STRENGTH).filter(|_| self.level_of_impactor(index).impactor_may_yield);
-        [impactor, strength("target.yield_strength")].into_iter().flatten().reduce(f64::min)
+        let may_yield = |body| body == Body::Target || self.level_of_impactor(index).impactor_may_yield;
+        let strength = |body: Body| self.number(index, body.yield_strength()).map(|strength| *strength.get_ref());
+        Body::ALL.into_iter().filter(|body| may_yield(*body)).filter_map(strength).reduce(f64::min)
     }
 
     /// Whether a contact has a yield strength.
     pub fn any_yields(&self) -> bool {
-        (0..self.given.len()).any(|index| self.yield_strength(index).is_some())
+        (0..self.all.len()).any(|index| self.yield_strength(index).is_some())
     }
 
     /// The numbers that have the strength of the impactor of a contact: its own, or those of all contacts.
     fn level_of_impactor(&self, index: usize) -> &Numbers {
-        let own = &self.given[index].own;
-        if own.get(IMPACTOR_STRENGTH).is_some() { own } else { &self.shared }
-    }
-
-    /// Rejects a strength of the impactor without effect. Otherwise, where the scene gives it, or it is below that of the
-    /// target, it becomes a parameter. That of a harder material is only known.
-    fn check_strengths(&mut self, index: usize) -> Result<(), Mistake> {
-        let given = self.level_of_impactor(index).gives_impactor_strength;
-        softer::check(self, index, given)?;
-        let Some(strength) = self.number(index, IMPACTOR_STRENGTH).map(|strength| *strength.get_ref()) else {
-            return Ok(());
-        };
-        let target = self.number(index, "target.yield_strength");
-        let is_softer = target.is_some_and(|target| strength < *target.get_ref());
-        let deforms = self.number(index, "impactor.youngs_modulus").is_some();
-        if deforms && (given || is_softer) {
-            let own = self.given[index].own.get(IMPACTOR_STRENGTH).is_some();
-            let level = if own { &mut self.given[index].own } else { &mut self.shared };
-            level.impactor_may_yield = true;
-        }
-        Ok(())
+        let own = &self.all[index].own;
+        if own.get(Body::Impactor.yield_strength()).is_some() { own } else { &self.shared }
     }
 
     /// A contact whose target has no density.
     pub fn without_density(&self) -> Option<usize> {
-        (0..self.given.len()).find(|index| self.number(*index, DENSITY).is_none())
+        (0..self.all.len()).find(|index| self.number(*index, Body::Target.density()).is_none())
     }
 
     /// Rejects a contact without yield strength for a `law` that needs it.
     pub fn check_strength(&self, law: &str) -> Result<(), Mistake> {
         let elastic = |index: &usize| self.yield_strength(*index).is_none();
-        let Some(index) = (0..self.given.len()).find(elastic) else { return Ok(()) };
+        let Some(index) = (0..self.all.len()).find(elastic) else { return Ok(()) };
         let message = format!("law.loading = \"{law}\" needs target.yield_strength (or a material) for every contact");
-        Err(Mistake(self.given[index].span.clone(), self.said(index, &message)))
+        Err(self.wrong(index, self.all[index].span.clone(), &message))
     }
 
     /// Rejects a strain rate for a law without strength.
     pub fn check_rate(&self, has_no_strength: bool) -> Result<(), Mistake> {
-        let given = [Body::Impactor, Body::Target].into_iter().find(|body| self.rates.of(*body).is_some());
-        let Some(body) = given.filter(|_| has_no_strength) else { return Ok(()) };
-        let message = format!("{}.rate has no effect: the law has no yield strength", body.name());
-        Err(Mistake(self.rate_spans.of(body).clone(), message))
+        let given = Body::ALL.into_iter().find_map(|body| Some((body, self.rates.of(body).as_ref()?)));
+        let Some((body, rate)) = given.filter(|_| has_no_strength) else { return Ok(()) };
+        Err(Mistake(rate.span(), format!("{}.rate has no effect: the law has no yield strength", body.name())))
     }
 
     /// Rejects a hardening body for the law `name`, if the law has no form for it.
     pub fn check_hardening(&self, name: &str, hardens: bool) -> Result<(), Mistake> {
-        let of = |(body, name): (Body, &str)| {
-            (0..self.given.len()).find_map(|index| Some((body, index, self.number(index, name)?)))
+        let of = |body: Body| {
+            (0..self.all.len()).find_map(|index| Some((body, index, self.number(index, body.hardening_modulus())?)))
         };
-        let given = [(Body::Target, HARDENING), (Body::Impactor, IMPACTOR_HARDENING)].into_iter().find_map(of);
+        let given = [Body::Target, Body::Impactor].into_iter().find_map(of);
         let Some((body, index, modulus)) = given.filter(|_| !hardens) else { return Ok(()) };
         let laws = AnyLoading::ALL.iter().filter(|(_, law)| law.strengthened(0.0).is_some());
         let laws = laws.map(|(name, _)| *name).collect::<Vec<_>>().join("\", \"");
@@ -151,41 +403,36 @@ impl Contacts {
             "the hardening of the {} has no effect on law.loading = \"{name}\": it belongs to \"{laws}\"",
             body.name()
         );
-        Err(Mistake(modulus.span(), self.said(index, &message)))
+        Err(self.wrong(index, modulus.span(), &message))
     }
 
     /// For a law that has no yield strength.
     pub fn forget_strength(&mut self) {
-        let own = self.given.iter_mut().map(|given| &mut given.own);
-        for numbers in own.chain([&mut self.shared]) {
-            [IMPACTOR_STRENGTH, "target.yield_strength"].iter().for_each(|name| numbers.remove(name));
+        for numbers in self.all.iter_mut().map(|contact| &mut contact.own).chain([&mut self.shared]) {
+            numbers.values.retain(|(name, _)| Body::ALL.iter().all(|body| body.yield_strength() != *name));
         }
+    }
+
+    /// The first contact with its own number `name`.
+    fn first_own(&self, name: &str) -> Option<(usize, &Spanned<f64>)> {
+        self.all.iter().enumerate().find_map(|(index, contact)| Some((index, contact.own.get(name)?)))
     }
 
     /// Rejects the mass of a single contact if the FMU does not know the mass.
     pub fn check_masses(&self, known: bool) -> Result<(), Mistake> {
-        let given = self.given.iter().enumerate().find_map(|(index, given)| Some((index, given.own.get(MASS)?)));
-        match given {
-            Some((index, mass)) if !known => {
-                let message =
-                    "effective_mass is that of bodies which the unit moves: it needs [coupling] effective_mass for all";
-                Err(Mistake(mass.span(), self.said(index, message)))
-            }
-            _ => Ok(()),
-        }
+        let Some((index, mass)) = self.first_own(MASS).filter(|_| !known) else { return Ok(()) };
+        let message =
+            "effective_mass is that of bodies which the unit moves: it needs [coupling] effective_mass for all";
+        Err(self.wrong(index, mass.span(), message))
     }
 
     /// Rejects the friction of a single contact if the scene gives none for all.
     pub fn check_friction(&self) -> Result<(), Mistake> {
-        let given = self.given.iter().enumerate().find_map(|(index, given)| Some((index, given.own.get(FRICTION)?)));
-        match given {
-            Some((index, coefficient)) if self.shared.get(FRICTION).is_none() => {
-                let message = "friction.coefficient of one contact needs [friction] coefficient for all: every contact has the \
-                               same variables; 0 is a contact without friction";
-                Err(Mistake(coefficient.span(), self.said(index, message)))
-            }
-            _ => Ok(()),
-        }
+        let own = self.first_own(FRICTION).filter(|_| self.shared.get(FRICTION).is_none());
+        let Some((index, coefficient)) = own else { return Ok(()) };
+        let message = "friction.coefficient of one contact needs [friction] coefficient for all: every contact has the \
+                       same variables; 0 is a contact without friction";
+        Err(self.wrong(index, coefficient.span(), message))
     }
 
     /// Gives each contact its own value of the properties that its group names. They may be parameters of the group or of all
@@ -197,10 +444,10 @@ impl Contacts {
         is_input: impl Fn(&str) -> bool,
     ) -> Result<(), Mistake> {
         let mut total = 0;
-        for (index, (given, group)) in self.given.iter().zip(groups).enumerate() {
-            for name in &given.per_contact {
+        for (index, (contact, group)) in self.all.iter().zip(groups).enumerate() {
+            for name in &contact.per_contact {
                 let text = name.get_ref().as_str();
-                let wrong = |message: &str| Mistake(name.span(), self.said(index, message));
+                let wrong = |message: &str| self.wrong(index, name.span(), message);
                 if is_input(text) {
                     return Err(wrong(&format!("{text} is an input of each contact already")));
                 }
@@ -225,36 +472,63 @@ impl Contacts {
 
     /// The parameters of all contacts, and the groups with their own parameters.
     pub fn parameters(&self) -> (Vec<Parameter>, Vec<Group>) {
-        let group = |(index, given): (usize, &Given)| {
-            let own = given.own.parameters(|_| true);
-            let density = self.number(index, DENSITY).map(|density| *density.get_ref());
-            let impactor_strength = self.number(index, IMPACTOR_STRENGTH).map(|strength| *strength.get_ref());
-            let (name, count, surface) = (given.name.clone(), given.count, given.surface);
-            Group { name, count, own, surface, density, impactor_strength }
+        let group = |(index, contact): (usize, &Contact)| {
+            let number = |name| self.number(index, name).map(|number| *number.get_ref());
+            Group {
+                name: contact.name.clone(),
+                count: contact.count,
+                own: contact.own.parameters(),
+                surface: contact.surface,
+                density: number(Body::Target.density()),
+                impactor_strength: number(Body::Impactor.yield_strength()),
+            }
         };
-        (self.shared.parameters(|_| true), self.given.iter().enumerate().map(group).collect())
+        (self.shared.parameters(), self.all.iter().enumerate().map(group).collect())
     }
 
     /// Rejects an incomplete contact.
     fn check_complete(&self, index: usize) -> Result<(), Mistake> {
         let missing = |name| self.number(index, name).is_none();
-        let span = self.given[index].span.clone();
+        let span = self.all[index].span.clone();
         if missing("impactor.radius") {
             let message = "impactor.radius is missing: neither the contact nor [impactor] gives one";
-            return Err(Mistake(span, self.said(index, message)));
+            return Err(self.wrong(index, span, message));
         }
         if missing("target.youngs_modulus") || missing("target.poissons_ratio") {
-            return Err(Mistake(span, self.said(index, &target_needs())));
+            return Err(self.wrong(index, span, &target_needs()));
         }
         Ok(())
     }
 
-    fn check_impactor(&self, index: usize) -> Result<(), Mistake> {
-        let modulus = self.number(index, "impactor.youngs_modulus");
-        let ratio = self.number(index, "impactor.poissons_ratio");
-        if let (Some(given), None) | (None, Some(given)) = (modulus, ratio) {
+    /// Rejects an impactor with one of its two moduli, and a strength or hardening of it without effect. Otherwise, where the scene
+    /// gives its strength, or it is below that of the target, it becomes a parameter. That of a harder material is only known.
+    fn check_impactor(&mut self, index: usize) -> Result<(), Mistake> {
+        let number = |name| self.number(index, name);
+        let modulus = number("impactor.youngs_modulus");
+        if let (Some(given), None) | (None, Some(given)) = (modulus, number("impactor.poissons_ratio")) {
             let message = "an elastic impactor needs both `youngs_modulus` and `poissons_ratio`, or a `material`; a rigid one needs neither";
-            return Err(Mistake(given.span(), self.said(index, message)));
+            return Err(self.wrong(index, given.span(), message));
+        }
+        let Some(strength) = number(Body::Impactor.yield_strength()) else {
+            let Some(hardening) = number(Body::Impactor.hardening_modulus()) else { return Ok(()) };
+            let message = "the hardening of the impactor needs impactor.yield_strength, or a material";
+            return Err(self.wrong(index, hardening.span(), message));
+        };
+        let given = self.level_of_impactor(index).gives_impactor_strength;
+        if given && modulus.is_none() {
+            let message = format!(
+                "impactor.yield_strength = {}: a rigid impactor cannot yield; give impactor.youngs_modulus and poissons_ratio, or \
+                 a material, or leave the strength out",
+                in_message(*strength.get_ref())
+            );
+            return Err(self.wrong(index, strength.span(), &message));
+        }
+        let target = number(Body::Target.yield_strength());
+        let is_softer = target.is_some_and(|target| strength.get_ref() < target.get_ref());
+        if modulus.is_some() && (given || is_softer) {
+            let own = self.all[index].own.get(Body::Impactor.yield_strength()).is_some();
+            let level = if own { &mut self.all[index].own } else { &mut self.shared };
+            level.impactor_may_yield = true;
         }
         Ok(())
     }

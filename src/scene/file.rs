@@ -1,8 +1,8 @@
 //! The contents of a scene file: tables and keys, without interpretation.
 
-use super::error::Mistake;
-use super::mistakes;
-use crate::parameters::Given;
+use super::parser_words;
+use crate::mistake::Mistake;
+use crate::parameters::ConstantTable;
 use brinell_contact::Surface;
 use serde::Deserialize;
 use toml::Spanned;
@@ -13,7 +13,7 @@ pub struct File {
     pub name: Spanned<String>,
     pub description: Option<Spanned<String>>,
     pub impactor: Option<Spanned<Impactor>>,
-    pub target: Option<Spanned<Target>>,
+    pub target: Option<Spanned<BodyTable>>,
     #[serde(default)]
     pub law: Law,
     #[serde(default)]
@@ -21,27 +21,13 @@ pub struct File {
     pub impact: Option<Spanned<ImpactTable>>,
     pub friction: Option<Spanned<FrictionTable>>,
     pub coupling: Option<Spanned<CouplingTable>>,
-    pub contact: Option<Spanned<Vec<Spanned<Contact>>>>,
+    pub contact: Option<Spanned<Vec<Spanned<ContactTable>>>>,
 }
 
+/// One of the two bodies: `[target]`, and with fewer keys [`Impactor`].
 #[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Impactor {
-    pub material: Option<Spanned<String>>,
-    pub radius: Option<Spanned<f64>>,
-    pub youngs_modulus: Option<Spanned<f64>>,
-    pub poissons_ratio: Option<Spanned<f64>>,
-    pub yield_strength: Option<Spanned<f64>>,
-    pub hardening_modulus: Option<Spanned<f64>>,
-    pub tangent_modulus: Option<Spanned<f64>>,
-    pub power_law: Option<Spanned<PowerLawTable>>,
-    pub rate: Option<Spanned<RateTable>>,
-    pub density: Option<Spanned<f64>>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Target {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct BodyTable {
     pub material: Option<Spanned<String>>,
     pub youngs_modulus: Option<Spanned<f64>>,
     pub poissons_ratio: Option<Spanned<f64>>,
@@ -55,6 +41,30 @@ pub struct Target {
     pub plate_thickness: Option<Spanned<f64>>,
     pub surface: Option<SurfaceName>,
 }
+
+/// The keys of `[impactor]`, which is no plate and has no surface that remembers, in the order of messages.
+#[derive(Deserialize)]
+#[serde(remote = "BodyTable", deny_unknown_fields, expecting = "a table")]
+struct ImpactorKeys {
+    pub material: Option<Spanned<String>>,
+    pub radius: Option<Spanned<f64>>,
+    pub youngs_modulus: Option<Spanned<f64>>,
+    pub poissons_ratio: Option<Spanned<f64>>,
+    pub yield_strength: Option<Spanned<f64>>,
+    pub hardening_modulus: Option<Spanned<f64>>,
+    pub tangent_modulus: Option<Spanned<f64>>,
+    pub power_law: Option<Spanned<PowerLawTable>>,
+    pub rate: Option<Spanned<RateTable>>,
+    pub density: Option<Spanned<f64>>,
+    #[serde(skip)]
+    plate_thickness: Option<Spanned<f64>>,
+    #[serde(skip)]
+    surface: Option<SurfaceName>,
+}
+
+/// `[impactor]`.
+#[derive(Default, Deserialize)]
+pub struct Impactor(#[serde(with = "ImpactorKeys")] pub BodyTable);
 
 /// How the flow stress grows with the strain rate.
 #[derive(Clone, Deserialize)]
@@ -95,12 +105,12 @@ impl From<SurfaceName> for Surface {
 #[serde(deny_unknown_fields)]
 pub struct Law {
     pub loading: Option<Spanned<String>>,
-    pub loading_parameters: Option<Given>,
+    pub loading_parameters: Option<ConstantTable>,
     pub unloading: Option<Spanned<String>>,
     pub restitution: Option<Spanned<f64>>,
     pub elastic_restitution: Option<Spanned<toml::Value>>,
     pub damping: Option<Spanned<String>>,
-    pub unloading_parameters: Option<Given>,
+    pub unloading_parameters: Option<ConstantTable>,
     pub passivity_guard: Option<Spanned<bool>>,
 }
 
@@ -171,14 +181,14 @@ pub struct ImpactTable {
 
 /// One contact, or `count` equal contacts, with the values that differ from the tables above.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Contact {
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct ContactTable {
     pub name: Spanned<String>,
     pub count: Option<Spanned<i64>>,
     #[serde(default)]
     pub impactor: Impactor,
     #[serde(default)]
-    pub target: Target,
+    pub target: BodyTable,
     pub initial_gap: Option<Spanned<f64>>,
     pub effective_mass: Option<Spanned<f64>>,
     #[serde(default)]
@@ -197,7 +207,7 @@ impl File {
             let span = error.span().unwrap_or(0..0);
             let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
             let line = text[line..].lines().next().unwrap_or_default().trim();
-            Mistake(span.clone(), mistakes::words(error.message(), line, &text[span]))
+            Mistake(span.clone(), parser_words::words(error.message(), line, &text[span]))
         })
     }
 }

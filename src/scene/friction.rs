@@ -1,13 +1,13 @@
 //! The table `[friction]`: whether the law of a scene supports it.
 
 use super::Scene;
-use super::error::Mistake;
 use super::file::FrictionTable;
+use crate::mistake::Mistake;
 use crate::table;
 use toml::Spanned;
 
-/// What of a scene has a part in its friction.
-pub struct Given<'a> {
+/// What a scene has beside its friction.
+pub struct BesideFriction<'a> {
     /// The name of a law whose force depends on the rate.
     pub damped: Option<&'a str>,
     /// The name of the unloading law.
@@ -27,7 +27,7 @@ impl Scene {
 }
 
 /// The number of tangential directions of the scene, zero without friction.
-pub fn check(table: Option<&Spanned<FrictionTable>>, given: &Given) -> Result<usize, Mistake> {
+pub fn check(table: Option<&Spanned<FrictionTable>>, beside: &BesideFriction) -> Result<usize, Mistake> {
     let Some(table) = table else { return Ok(0) };
     let no = |message: String| Err(Mistake(table.span(), message));
     let directions = match &table.get_ref().directions {
@@ -44,27 +44,27 @@ pub fn check(table: Option<&Spanned<FrictionTable>>, given: &Given) -> Result<us
             }
         },
     };
-    if let Some(name) = given.damped {
+    if let Some(name) = beside.damped {
         return no(format!("[friction] needs a law whose force doesn't depend on the rate; that of {name} does"));
     }
-    if let Some(name) = given.unloading
+    if let Some(name) = beside.unloading
         && let Some(reason) = &table::unloading_law(name).no_friction
     {
         let others = table::unloading_laws().into_iter().filter(|law| law.no_friction.is_none());
         let others = others.map(|law| law.name.as_str()).collect::<Vec<_>>().join("`, `");
         return no(format!("[friction] doesn't go with law.unloading = \"{name}\": {reason}; it goes with `{others}`"));
     }
-    if given.passivity_guard {
+    if beside.passivity_guard {
         return no(
             "[friction] doesn't go with law.passivity_guard: how exact it is on guarded paths wasn't measured".into()
         );
     }
-    if given.has_loss {
+    if beside.has_loss {
         return no("[friction] doesn't go with law.elastic_restitution or target.plate_thickness: the springs of the contact follow \
                    a force without such losses; leave one of them out"
             .into());
     }
-    if given.knows_mass {
+    if beside.knows_mass {
         return no("[friction] doesn't go with [coupling] effective_mass: the tangential motion within a step would have to be \
                    moved, too; leave one of them out"
             .into());

@@ -2,7 +2,7 @@
 //! can be planned and written.
 
 use super::Scene;
-use super::error::SceneError;
+use crate::mistake::SceneError;
 use crate::mutations::{assert_message, cases, text};
 use crate::plan::Plan;
 use crate::table::VARIABLES;

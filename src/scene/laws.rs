@@ -2,22 +2,60 @@
 
 use super::Scene;
 use super::contacts::Contacts;
-use super::error::Mistake;
 use super::file::Law;
 use crate::law_check;
-use crate::laws;
+use crate::mistake::Mistake;
 use crate::model::Dampings;
 use crate::nearest::unknown;
 use crate::pairing;
 use crate::parameters;
 use crate::table;
 use brinell_contact::damped::{AnyDamped, Damped};
-use brinell_contact::loading::AnyLoading;
+use brinell_contact::loading::{AnyLoading, Hertz};
 use brinell_contact::unloading::AnyUnloading;
 use toml::Spanned;
 
+/// The laws of a scene.
+pub struct Laws {
+    /// The law of a contact whose force depends on the rate; `loading` is then without effect.
+    pub damped: Option<(&'static str, AnyDamped)>,
+    pub loading: (&'static str, AnyLoading),
+    /// `None` for an elastic contact.
+    pub unloading: Option<(&'static str, AnyUnloading)>,
+    pub passivity_guard: bool,
+}
+
+impl Laws {
+    /// The laws of the table `law`, which suit the `contacts`, and each other.
+    pub fn of(law: &Law, contacts: &Contacts) -> Result<Laws, Mistake> {
+        let damped = find_damped(law)?;
+        let loading = match damped {
+            Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
+            None => check_loading(law, contacts)?,
+        };
+        let elastic = matches!(loading.1, AnyLoading::Hertz(_));
+        let hardens = damped.is_none() && loading.1.strengthened(0.0).is_some();
+        contacts.check_rate(elastic)?;
+        contacts.check_hardening(damped.map_or(loading.0, |(name, _)| name), hardens)?;
+        let unloading = check_unloading(law, loading.0, elastic)?;
+        check_parameters(law, &loading, unloading.as_ref())?;
+        let passivity_guard = check_guard(law.passivity_guard.as_ref(), unloading)?;
+        Ok(Laws { damped, loading, unloading, passivity_guard })
+    }
+
+    /// Whether nothing yields, or the force depends on the rate.
+    pub fn has_no_strength(&self) -> bool {
+        matches!(self.loading.1, AnyLoading::Hertz(_))
+    }
+
+    /// The name of the law whose force depends on the rate.
+    pub fn damped_name(&self) -> Option<&'static str> {
+        self.damped.map(|(name, _)| name)
+    }
+}
+
 /// The rate-dependent law of the scene, with its damping variant and constants.
-pub fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mistake> {
+fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mistake> {
     let asked = law.loading.as_ref();
     let found = asked.and_then(|asked| AnyDamped::ALL.into_iter().find(|(name, _)| name == asked.get_ref()));
     let needs_restitution = found.is_some_and(|(_, law)| law.needs_restitution());
@@ -76,7 +114,7 @@ fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<A
 }
 
 /// The loading law of a scene without a rate-dependent law.
-pub fn check_loading(given: &Law, contacts: &Contacts) -> Result<(&'static str, AnyLoading), Mistake> {
+fn check_loading(given: &Law, contacts: &Contacts) -> Result<(&'static str, AnyLoading), Mistake> {
     let name = given.loading.as_ref();
     let yields = contacts.any_yields();
     let default = if yields { pairing::DEFAULT_LOADING } else { "hertz" };
@@ -100,11 +138,7 @@ pub fn check_loading(given: &Law, contacts: &Contacts) -> Result<(&'static str, 
 }
 
 /// The unloading law; `None` if the contact is `elastic`.
-pub fn check_unloading(
-    given: &Law,
-    loading: &str,
-    elastic: bool,
-) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
+fn check_unloading(given: &Law, loading: &str, elastic: bool) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
     let name = given.unloading.as_ref();
     let parameters = given.unloading_parameters.as_ref();
     let span = name.map_or(0..0, Spanned::span);
@@ -134,7 +168,7 @@ fn parameters_span(given: &Law) -> Option<std::ops::Range<usize>> {
 }
 
 /// Rejects constants of the two laws that contradict each other.
-pub fn check_parameters(
+fn check_parameters(
     given: &Law,
     loading: &(&'static str, AnyLoading),
     unloading: Option<&(&'static str, AnyUnloading)>,
@@ -148,13 +182,13 @@ pub fn check_curves(given: &Law, scene: &Scene, group: usize) -> Result<(), Mist
     let Some(span) = parameters_span(given).filter(|_| scene.unloading.is_some()) else { return Ok(()) };
     let model = scene.model_of(group);
     let unloading = given.unloading_parameters.as_ref().map_or(span.clone(), Spanned::span);
-    law_check::check_loading(&model, laws::published(scene.loading.0))
+    law_check::check_loading(&model, pairing::published(scene.loading.0))
         .map_err(|message| Mistake(span, format!("with these parameters {message}")))?;
     law_check::check_unloading(&model).map_err(|message| Mistake(unloading, format!("with these parameters {message}")))
 }
 
 /// Whether the scene requests the guard. The unloading law must have a guarded form.
-pub fn check_guard(asked: Option<&Spanned<bool>>, unloading: Option<(&str, AnyUnloading)>) -> Result<bool, Mistake> {
+fn check_guard(asked: Option<&Spanned<bool>>, unloading: Option<(&str, AnyUnloading)>) -> Result<bool, Mistake> {
     let Some(asked) = asked.filter(|asked| *asked.get_ref()) else { return Ok(false) };
     let Some((name, law)) = unloading else {
         let message = "law.passivity_guard has no effect: hertz gives back exactly what was put in";

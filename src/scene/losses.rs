@@ -2,8 +2,8 @@
 
 use super::Scene;
 use super::contacts::Contacts;
-use super::error::Mistake;
-use super::file::{File, Target};
+use super::file::{BodyTable, File};
+use crate::mistake::Mistake;
 use crate::model::AnyModel;
 use crate::numbers::{in_message, out_of_range, quantity};
 use brinell_contact::damped::Damped;
@@ -82,8 +82,8 @@ fn of_restitution(given: &Spanned<Value>) -> Result<Loss, Mistake> {
     Err(Mistake(given.span(), message))
 }
 
-fn of_thickness(given: &Spanned<f64>, target: Option<&Target>) -> Result<Loss, Mistake> {
-    super::limits::check_range(("target.plate_thickness", "m"), "", given, THICKNESSES)?;
+fn of_thickness(given: &Spanned<f64>, target: Option<&BodyTable>) -> Result<Loss, Mistake> {
+    crate::mistake::check_range(("target.plate_thickness", "m"), "", given, THICKNESSES)?;
     if let Some(radius) = target.and_then(|target| target.radius.as_ref()) {
         let message =
             format!("target.radius = {} and target.plate_thickness: a plate is flat", in_message(*radius.get_ref()));
@@ -167,10 +167,7 @@ impl Scene {
 
     /// The loss of the contacts of `group`, with other values for some of the parameters.
     pub fn loss_with(&self, group: usize, values: &[(&str, f64)]) -> Option<AnyLoss> {
-        let value = |name: &str| {
-            let other = values.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
-            other.or_else(|| self.group_value(group, name)).unwrap_or(f64::NAN)
-        };
+        let value = |name| self.value_with(group, name, values).unwrap_or(f64::NAN);
         let [_, Body { youngs_modulus, poissons_ratio, .. }] = self.bodies_with(group, values);
         let density = self.contacts[group].density.unwrap_or(f64::NAN);
         let target = Solid { density, youngs_modulus, poissons_ratio };

@@ -1,45 +1,36 @@
 //! The scene file: the contacts, their laws, and the variables that the FMU has.
 
-mod bodies;
+pub mod bodies;
 mod checks;
-mod chosen;
 mod contacts;
-mod coupling;
-mod error;
 mod file;
+mod fmu;
 mod friction;
-mod given;
-mod group;
-mod hardening;
 #[cfg(test)]
 mod hostile_tests;
 mod laws;
-mod limits;
 mod losses;
-mod mistakes;
-mod names;
-mod numbers;
+mod parser_words;
 pub mod plausible;
-mod power_law;
-mod rate;
-pub mod softer;
+mod strength;
 
+use crate::mistake::{self, Mistake, SceneError};
 use crate::model::{AnyModel, strengthened};
+use brinell_contact::Model;
 use brinell_contact::damped::{self, AnyDamped};
+use brinell_contact::hardening::Hardening;
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
+use brinell_contact::strength::POISSONS_RATIO;
 use brinell_contact::unloading::AnyUnloading;
-use brinell_contact::{Model, strength};
 use std::io::{self, Read};
 use std::path::Path;
 
-pub use error::{Mistake, SceneError};
-pub use group::{Group, Parameter};
+pub use bodies::{Body, Both};
+pub use contacts::{Group, Parameter};
+pub use fmu::check_name;
 pub use losses::Loss;
-pub use names::check_name;
-pub use power_law::PowerLaw;
-pub use rate::{InImpact, QuasiStatic, Rate};
-pub use softer::{Body, Both};
+pub use strength::{InImpact, PowerLaw, Rate};
 
 /// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.
 const LARGEST: u64 = 256 << 20;
@@ -84,7 +75,7 @@ pub struct Scene {
     /// How the strengths grow with the strain rate.
     pub rates: Both<Option<Rate>>,
     /// The hardening that the scene gives for the bodies of each group; a power law or a rate puts another in its place.
-    pub quasi_static: Vec<Both<QuasiStatic>>,
+    pub quasi_static: Vec<Both<Hardening>>,
     /// Factor on the strength of the softer body of each group in the scene's impact, if the unit
     /// [finds it](Scene::finds_strength); then it isn't part of the parameters.
     pub factors: Vec<f64>,
@@ -134,8 +125,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] with line and column of the first error, and what is allowed there.
     pub fn read(path: &Path) -> Result<Scene, SceneError> {
-        let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
-        Scene::parse(error::text(bytes(path).map_err(unreadable)?, path)?, path)
+        Ok(Scene::read_with_doubts(path)?.0)
     }
 
     /// The same, with plausibility warnings on standard error.
@@ -143,9 +133,8 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::read`].
     pub fn read_aloud(path: &Path) -> Result<Scene, SceneError> {
-        let scene = Scene::read(path)?;
-        let file = file::File::read(&scene.text).map_err(|mistake| mistake.in_file(&scene.text, path))?;
-        for doubt in plausible::doubts(&file) {
+        let (scene, doubts) = Scene::read_with_doubts(path)?;
+        for doubt in doubts {
             crate::layout::warn(&doubt.in_file(&scene.text, path).to_string());
         }
         Ok(scene)
@@ -156,9 +145,22 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::read`].
     pub fn parse(text: String, path: &Path) -> Result<Scene, SceneError> {
-        let checked = file::File::read(&text).and_then(checks::check);
+        Ok(Scene::parse_with_doubts(text, path)?.0)
+    }
+
+    fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
+        let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
+        Scene::parse_with_doubts(mistake::text(bytes(path).map_err(unreadable)?, path)?, path)
+    }
+
+    /// The scene, and the numbers in it that are implausible.
+    fn parse_with_doubts(text: String, path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
+        let checked = file::File::read(&text).and_then(|file| {
+            let doubts = plausible::doubts(&file);
+            Ok((checks::check(file)?, doubts))
+        });
         match checked {
-            Ok(scene) => Ok(Scene { text, ..scene }),
+            Ok((scene, doubts)) => Ok((Scene { text, ..scene }, doubts)),
             Err(mistake) => Err(mistake.in_file(&text, path)),
         }
     }
@@ -253,7 +255,7 @@ impl Scene {
         let form = self.damped.is_none() && self.loading.1.strengthened(0.0).is_some();
         let mut all = self.contacts.iter().flat_map(|group| &group.own).chain(&self.parameters);
         let impactor_may_yield = self.has_two_strengths();
-        let is_other = |parameter: &Parameter| parameter.settable || parameter.value != strength::POISSONS_RATIO;
+        let is_other = |parameter: &Parameter| parameter.settable || parameter.value != POISSONS_RATIO;
         let needs = |parameter: &Parameter| match parameter.name {
             "target.hardening_modulus" | "impactor.hardening_modulus" => true,
             "target.poissons_ratio" => is_other(parameter),

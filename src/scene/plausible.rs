@@ -1,7 +1,8 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
-use super::error::Mistake;
-use super::file::{File, Impactor, PowerLawTable, Target};
+use super::bodies::Body;
+use super::file::{BodyTable, File, PowerLawTable};
+use crate::mistake::Mistake;
 use crate::numbers::{plain, quantity};
 use std::ops::RangeInclusive;
 use toml::Spanned;
@@ -55,20 +56,6 @@ const DENSITY: Expected<'static> = Expected {
 /// A yield strength above this fraction of Young's modulus is implausible: no solid with defects has more.
 const STRENGTH_OVER_MODULUS: f64 = 0.2;
 
-/// The numbers of a body, which both tables have, with their names and what is expected of them.
-macro_rules! numbers {
-    ($body:expr) => {
-        [
-            ("radius", &$body.radius, &RADIUS),
-            ("youngs_modulus", &$body.youngs_modulus, &MODULUS),
-            ("yield_strength", &$body.yield_strength, &STRENGTH),
-            ("hardening_modulus", &$body.hardening_modulus, &HARDENING),
-            ("tangent_modulus", &$body.tangent_modulus, &HARDENING),
-            ("density", &$body.density, &DENSITY),
-        ]
-    };
-}
-
 /// From a ball of the smallest plausible radius and density to one of the largest.
 const MASS: Expected<'static> = Expected {
     range: 1e-16..=1e6,
@@ -84,41 +71,55 @@ const DROP_HEIGHT: Expected<'static> =
 /// The doubts about `file`, each with its place.
 pub fn doubts(file: &File) -> Vec<Mistake> {
     let mut doubts = Vec::new();
-    let mut bodies = |owner: &str, impactor: Option<&Impactor>, target: Option<&Target>| {
-        if let Some(body) = impactor {
-            doubts.extend(numbers!(body).into_iter().filter_map(|(key, value, expected)| {
-                expected.doubt(&format!("{owner}impactor.{key}"), value.as_ref()?)
-            }));
-            doubts.extend(of_power_law(&format!("{owner}impactor"), body.power_law.as_ref()));
-        }
-        let Some(body) = target else { return };
-        let before = doubts.len();
-        doubts.extend(numbers!(body).into_iter().filter_map(|(key, value, expected)| {
-            // a wide target is nearly flat
-            let is_flat = |value: &Spanned<f64>| key == "radius" && value.get_ref().abs() > *RADIUS.range.end();
-            expected.doubt(&format!("{owner}target.{key}"), value.as_ref().filter(|value| !is_flat(value))?)
-        }));
-        doubts.extend(of_power_law(&format!("{owner}target"), body.power_law.as_ref()));
-        let (strength, modulus) = (body.yield_strength.as_ref(), body.youngs_modulus.as_ref());
-        if let (true, Some(strength), Some(modulus)) = (before == doubts.len(), strength, modulus) {
-            doubts.extend(too_strong(owner, strength, modulus));
-        }
-    };
-    bodies("", file.impactor.as_ref().map(Spanned::get_ref), file.target.as_ref().map(Spanned::get_ref));
-    let mut own_masses = Vec::new();
+    if let Some(impactor) = &file.impactor {
+        doubts.extend(of_body("", Body::Impactor, &impactor.get_ref().0));
+    }
+    if let Some(target) = &file.target {
+        doubts.extend(of_body("", Body::Target, target.get_ref()));
+    }
     for contact in file.contact.iter().flat_map(|contacts| contacts.get_ref()) {
         let contact = contact.get_ref();
         let owner = format!("{}.", contact.name.get_ref());
-        bodies(&owner, Some(&contact.impactor), Some(&contact.target));
-        let mass = contact.effective_mass.as_ref();
-        own_masses.extend(mass.and_then(|mass| MASS.doubt(&format!("{owner}effective_mass"), mass)));
+        doubts.extend(of_body(&owner, Body::Impactor, &contact.impactor.0));
+        doubts.extend(of_body(&owner, Body::Target, &contact.target));
     }
-    doubts.extend(own_masses);
+    for contact in file.contact.iter().flat_map(|contacts| contacts.get_ref()) {
+        let contact = contact.get_ref();
+        let key = format!("{}.effective_mass", contact.name.get_ref());
+        doubts.extend(contact.effective_mass.as_ref().and_then(|mass| MASS.doubt(&key, mass)));
+    }
     let impact = file.impact.as_ref().map(Spanned::get_ref);
     doubts.extend(impact.and_then(|impact| SPEED.doubt("impact.speed", &impact.speed)));
     doubts.extend(impact.and_then(|impact| MASS.doubt("impact.mass", impact.mass.as_ref()?)));
     let coupling = file.coupling.as_ref().map(Spanned::get_ref);
     doubts.extend(coupling.and_then(|coupling| MASS.doubt("coupling.effective_mass", &coupling.effective_mass)));
+    doubts
+}
+
+/// The doubts about a `body`. `owner` precedes its name.
+fn of_body(owner: &str, body: Body, table: &BodyTable) -> Vec<Mistake> {
+    let numbers = [
+        ("radius", &table.radius, &RADIUS),
+        ("youngs_modulus", &table.youngs_modulus, &MODULUS),
+        ("yield_strength", &table.yield_strength, &STRENGTH),
+        ("hardening_modulus", &table.hardening_modulus, &HARDENING),
+        ("tangent_modulus", &table.tangent_modulus, &HARDENING),
+        ("density", &table.density, &DENSITY),
+    ];
+    let name = format!("{owner}{}", body.name());
+    // a wide target is nearly flat
+    let is_flat = |key: &str, value: f64| key == "radius" && body == Body::Target && value.abs() > *RADIUS.range.end();
+    let doubt = |(key, value, expected): (&str, &Option<Spanned<f64>>, &Expected)| {
+        let value = value.as_ref().filter(|value| !is_flat(key, *value.get_ref()))?;
+        expected.doubt(&format!("{name}.{key}"), value)
+    };
+    let mut doubts: Vec<Mistake> = numbers.into_iter().filter_map(doubt).collect();
+    doubts.extend(of_power_law(&name, table.power_law.as_ref()));
+    if let (Body::Target, true, Some(strength), Some(modulus)) =
+        (body, doubts.is_empty(), &table.yield_strength, &table.youngs_modulus)
+    {
+        doubts.extend(too_strong(owner, strength, modulus));
+    }
     doubts
 }
 

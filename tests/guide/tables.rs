@@ -184,8 +184,7 @@ fn tables_are_those_of_the_model_description() {
 /// The keys of a table in a scene file: the public fields of this struct of the exporter.
 fn fields(structure: &str) -> Vec<String> {
     let source = read(Path::new("src/scene/file.rs"));
-    let (_, rest) =
-        source.split_once(&format!("pub struct {structure} {{")).unwrap_or_else(|| panic!("no {structure}"));
+    let (_, rest) = source.split_once(&format!("struct {structure} {{")).unwrap_or_else(|| panic!("no {structure}"));
     let fields = rest.split("\n}").next().unwrap().lines().filter_map(|line| line.trim().strip_prefix("pub "));
     fields.map(|field| field.split(':').next().unwrap().to_string()).collect()
 }
@@ -194,14 +193,14 @@ fn fields(structure: &str) -> Vec<String> {
 fn every_key_of_a_scene_is_explained_and_no_other() {
     let page = read(Path::new("docs/guide/scenes.md"));
     let tables = [
-        ("### `[impactor]`", "Impactor"),
-        ("### `[target]`", "Target"),
+        ("### `[impactor]`", "ImpactorKeys"),
+        ("### `[target]`", "BodyTable"),
         ("### `[law]`", "Law"),
         ("### `[fmu]`", "Fmu"),
         ("### `[impact]`", "ImpactTable"),
         ("### `[friction]`", "FrictionTable"),
         ("### `[coupling]`", "CouplingTable"),
-        ("### `[[contact]]`", "Contact"),
+        ("### `[[contact]]`", "ContactTable"),
     ];
     for (heading, structure) in tables {
         let (_, section) = page.split_once(heading).unwrap_or_else(|| panic!("scenes.md has no {heading}"));

@@ -31,6 +31,7 @@ mod friction_two;
 mod friction_two_growth;
 mod friction_two_steps;
 mod guard;
+mod hardening;
 mod input_courses;
 mod law_big_alabo;
 mod law_both;

@@ -17,6 +17,13 @@ pub struct Impact {
     pub speed: f64,
 }
 
+impl Impact {
+    /// Kinetic energy `m v^2/2` \[J\], in the frame of the common centre of mass.
+    pub fn energy(&self) -> f64 {
+        0.5 * self.mass * self.speed * self.speed
+    }
+}
+
 /// Result of an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
@@ -113,7 +120,7 @@ fn turning_point<L: Loading, U: Unloading>(model: &Model<L, U>, impact: &Impact)
     if !positive(impact.mass) || !positive(impact.speed) {
         return None;
     }
-    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+    let energy = impact.energy();
     // a subnormal energy has already lost digits
     if energy < f64::MIN_POSITIVE {
         return None;

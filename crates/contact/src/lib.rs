@@ -80,6 +80,7 @@
 pub mod behaviour;
 pub mod damped;
 pub mod dual;
+pub mod hardening;
 pub mod history;
 pub mod impact;
 mod laws;

@@ -43,7 +43,7 @@ pub fn follow<D: Damped + Copy>(
     mut watch: impl FnMut(&State, f64),
 ) -> Option<Prediction> {
     let positive = |value: f64| value > 0.0 && value < f64::INFINITY;
-    let energy = 0.5 * impact.mass * impact.speed * impact.speed;
+    let energy = impact.energy();
     // a subnormal energy has already lost digits
     if !positive(impact.mass) || !positive(impact.speed) || !positive(energy) || energy < f64::MIN_POSITIVE {
         return None;

@@ -97,7 +97,7 @@ fn prediction<L: Loading, U: Unloading, K: Loss>(
         max_contact_radius: plastic.loading.contact_radius(&plastic.pair, max_indentation),
         regime: plastic.loading.regime(&plastic.pair, max_indentation),
         residual_indentation: contact.residual_indentation(plastic),
-        energy: 0.5 * impact.mass * impact.speed * impact.speed,
+        energy: impact.energy(),
         rebound_energy: 0.5 * impact.mass * end * end,
         restitution: -end / impact.speed,
         loading_time: turning,

@@ -1,24 +1,107 @@
-//! Strain rate: the strength of the softer body in the scene's impact.
+//! Yield strength and hardening of the bodies: the ways to give them, and what they are in the scene's impact.
 
-use super::error::Mistake;
-use super::file::RateTable;
-use super::power_law::{Linear, PowerLaw};
-use super::softer::{Body, Both};
-use super::{Scene, limits};
+use super::Scene;
+use super::bodies::{Body, Both};
+use super::file::{BodyTable, PowerLawTable, RateTable};
+use crate::mistake::{Mistake, check_range};
 use crate::model::{AnyModel, strengthened};
 use crate::nearest::unknown;
+use crate::numbers::in_message;
+use brinell_contact::hardening::{Hardening, StraightLine, modulus_of_tangent};
 use brinell_contact::impact::{Impact, Prediction};
-use brinell_contact::rate;
-pub use brinell_contact::rate::Rate;
+use brinell_contact::rate::{self, FIRST_STRAIN};
 use brinell_contact::{Model, Pair};
 use serde::Serialize;
 use toml::Spanned;
+
+pub use brinell_contact::hardening::PowerLaw;
+pub use brinell_contact::rate::Rate;
+
+impl BodyTable {
+    fn strengths(&self) -> [(&'static str, Option<&Spanned<f64>>); 3] {
+        [
+            ("yield_strength", self.yield_strength.as_ref()),
+            ("hardening_modulus", self.hardening_modulus.as_ref()),
+            ("tangent_modulus", self.tangent_modulus.as_ref()),
+        ]
+    }
+
+    /// Whether it says anything about the strength, beside a material.
+    pub fn gives_strength(&self) -> bool {
+        self.strengths().iter().any(|(_, value)| value.is_some()) || self.power_law.is_some() || self.rate.is_some()
+    }
+
+    /// Yield strength and hardening modulus [Pa] of this `body` with this Young's modulus. They are given by two numbers, by a
+    /// tangent modulus, or by a power law; the line to the first strain represents the power law until the impact is known.
+    pub fn flow(
+        &self,
+        body: Body,
+        youngs_modulus: Option<&Spanned<f64>>,
+    ) -> Result<[Option<Spanned<f64>>; 2], Mistake> {
+        if let Some(table) = &self.power_law {
+            if let Some((key, value)) = self.strengths().iter().find_map(|(key, value)| Some((key, (*value)?))) {
+                let body = body.name();
+                let message = format!(
+                    "{body}.{key} and {body}.power_law say the same: yield strength and hardening follow from the power law"
+                );
+                return Err(Mistake(value.span(), message));
+            }
+            let line = check_power_law(body, table)?.up_to(FIRST_STRAIN);
+            return Ok(
+                [line.yield_strength, line.hardening_modulus].map(|value| Some(Spanned::new(table.span(), value)))
+            );
+        }
+        let hardening_modulus = match &self.tangent_modulus {
+            Some(tangent) => Some(self.of_tangent(body, tangent, youngs_modulus)?),
+            None => self.hardening_modulus.clone(),
+        };
+        Ok([self.yield_strength.clone(), hardening_modulus])
+    }
+
+    /// The hardening modulus for a `tangent` modulus.
+    fn of_tangent(
+        &self,
+        body: Body,
+        tangent: &Spanned<f64>,
+        youngs_modulus: Option<&Spanned<f64>>,
+    ) -> Result<Spanned<f64>, Mistake> {
+        let body = body.name();
+        let wrong = |message: String| Err(Mistake(tangent.span(), message));
+        if self.hardening_modulus.is_some() {
+            return wrong(format!(
+                "{body}.tangent_modulus and {body}.hardening_modulus say the same: give one of them"
+            ));
+        }
+        let Some(modulus) = youngs_modulus.map(|modulus| *modulus.get_ref()) else {
+            return wrong(format!("{body}.tangent_modulus needs {body}.youngs_modulus, or a material"));
+        };
+        let given = *tangent.get_ref();
+        // NaN is outside every range
+        if !(0.0..modulus).contains(&given) {
+            return wrong(format!(
+                "{body}.tangent_modulus = {} is out of range: allowed is 0 to below youngs_modulus = {} Pa",
+                in_message(given),
+                in_message(modulus)
+            ));
+        }
+        Ok(Spanned::new(tangent.span(), modulus_of_tangent(given, modulus)))
+    }
+}
+
+/// The power law of a `body` of the scene.
+pub fn check_power_law(body: Body, table: &Spanned<PowerLawTable>) -> Result<PowerLaw, Mistake> {
+    let PowerLawTable { coefficient, exponent } = table.get_ref();
+    let owner = format!("{}.power_law.", body.name());
+    check_range(("coefficient", "Pa"), &owner, coefficient, 1e-6..=1e18)?;
+    check_range(("exponent", ""), &owner, exponent, 0.0..=0.9)?;
+    Ok(PowerLaw { coefficient: *coefficient.get_ref(), exponent: *exponent.get_ref() })
+}
 
 /// The names of the models in scenes.
 const MODELS: [&str; 2] = ["johnson-cook", "cowper-symonds"];
 
 /// The rate model of a `body` of the scene.
-pub fn check(body: Body, table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
+pub fn check_rate(body: Body, table: &Spanned<RateTable>) -> Result<Spanned<Rate>, Mistake> {
     let RateTable { model, c, reference_rate, d, q } = table.get_ref();
     let owner = format!("{}.rate", body.name());
     let keys = [("c", c), ("reference_rate", reference_rate), ("d", d), ("q", q)];
@@ -41,16 +124,17 @@ pub fn check(body: Body, table: &Spanned<RateTable>) -> Result<Rate, Mistake> {
         let value = keys.iter().find(|(known, _)| *known == name).and_then(|(_, value)| value.as_ref());
         let missing = || Mistake(table.span(), format!("{owner} with model = \"{}\" needs {name}", model.get_ref()));
         let value = value.ok_or_else(missing)?;
-        limits::check_range((name, unit), &format!("{owner}."), value, allowed)?;
+        check_range((name, unit), &format!("{owner}."), value, allowed)?;
         Ok(*value.get_ref())
     };
-    match own[0] {
-        "c" => Ok(Rate::JohnsonCook {
+    let rate = match own[0] {
+        "c" => Rate::JohnsonCook {
             c: number("c", "", 0.0..=1.0)?,
             reference_rate: number("reference_rate", "1/s", 1e-9..=1e9)?,
-        }),
-        _ => Ok(Rate::CowperSymonds { d: number("d", "1/s", 1e-9..=1e15)?, q: number("q", "", 0.5..=100.0)? }),
-    }
+        },
+        _ => Rate::CowperSymonds { d: number("d", "1/s", 1e-9..=1e15)?, q: number("q", "", 0.5..=100.0)? },
+    };
+    Ok(Spanned::new(table.span(), rate))
 }
 
 /// The strength of the softer body of a group in an impact.
@@ -60,7 +144,7 @@ pub struct InImpact {
     pub yield_strength: f64,
     pub hardening_modulus: f64,
     /// The straight line that approximates a power law, without the factor.
-    pub line: Option<Linear>,
+    pub line: Option<StraightLine>,
     /// Tabor's strain.
     #[serde(skip)]
     pub strain: f64,
@@ -68,23 +152,6 @@ pub struct InImpact {
     pub strain_rate: f64,
     /// Flow stress relative to the quasi-static one.
     pub factor: f64,
-}
-
-/// The quasi-static hardening of a group.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct QuasiStatic {
-    /// [Pa]
-    pub yield_strength: f64,
-    /// [Pa]
-    pub hardening_modulus: f64,
-}
-
-/// The quasi-static hardening `given` by the scene, or that of a `line`.
-fn hardening_of(given: QuasiStatic, line: Option<Linear>) -> QuasiStatic {
-    line.map_or(given, |Linear { yield_strength, hardening_modulus, .. }| QuasiStatic {
-        yield_strength,
-        hardening_modulus,
-    })
 }
 
 impl Scene {
@@ -105,15 +172,13 @@ impl Scene {
     }
 
     /// The hardening that the scene gives for the softer body of `group`.
-    pub fn quasi_static(&self, group: usize) -> QuasiStatic {
+    pub fn quasi_static(&self, group: usize) -> Hardening {
         *self.quasi_static[group].of(self.softer(group))
     }
 
     /// Whether the strength of a body depends on the impact.
     pub fn depends_on_impact(&self) -> bool {
-        let Scene { rates, power_laws, .. } = self;
-        let one = rates.impactor.is_some() || power_laws.impactor.is_some();
-        one || rates.target.is_some() || power_laws.target.is_some()
+        Body::ALL.iter().any(|body| self.rates.of(*body).is_some() || self.power_laws.of(*body).is_some())
     }
 
     /// The strength of the softer body of `group` in an `impact`. It is a fixed point, since depth and duration of the
@@ -122,35 +187,27 @@ impl Scene {
     pub fn in_impact(&self, group: usize, impact: &Impact) -> Option<InImpact> {
         let (given, rate) = (self.quasi_static(group), self.rate(group));
         let line = |strain: f64| self.power_law(group).map(|law| law.up_to(strain));
-        let predict = |strain: f64, factor: f64| {
-            self.with_strength(group, hardening_of(given, line(strain)), factor).predict(impact)
-        };
+        let hardening = |strain| line(strain).map_or(given, |line| line.hardening());
+        let predict = |strain, factor| self.with_strength(group, hardening(strain), factor).predict(impact);
         let radius = self.pair_of(group)?.indenter_radius();
         let found = rate::in_impact(rate.as_ref(), radius, predict)?;
         let rate::InImpact { strain, strain_rate, factor, .. } = found;
-        let QuasiStatic { yield_strength, hardening_modulus } = hardening_of(given, line(strain));
-        Some(InImpact {
-            yield_strength: factor * yield_strength,
-            hardening_modulus: factor * hardening_modulus,
-            line: line(strain),
-            strain,
-            strain_rate,
-            factor,
-        })
+        let Hardening { yield_strength, hardening_modulus } = hardening(strain).times(factor);
+        Some(InImpact { yield_strength, hardening_modulus, line: line(strain), strain, strain_rate, factor })
     }
 
     /// The contacts of `group` with `factor` times a quasi-static hardening.
-    fn with_strength(&self, group: usize, hardening: QuasiStatic, factor: f64) -> AnyModel {
-        let QuasiStatic { yield_strength, hardening_modulus } = hardening;
+    fn with_strength(&self, group: usize, hardening: Hardening, factor: f64) -> AnyModel {
+        let Hardening { yield_strength, hardening_modulus } = hardening.times(factor);
         let model = self.model_of(group);
-        let pair = Pair { yield_strength: factor * yield_strength, ..model.pair };
-        self.with_loss(group, strengthened(&Model { pair, ..model }, factor * hardening_modulus))
+        let pair = Pair { yield_strength, ..model.pair };
+        self.with_loss(group, strengthened(&Model { pair, ..model }, hardening_modulus))
     }
 
     /// The prediction of `impact` on the first contact with the straight line for another `strain`.
     pub fn predict_with_strain(&self, impact: &Impact, strain: f64, factor: f64) -> Option<Prediction> {
-        let line = self.power_law(0).map(|law| law.up_to(strain));
-        self.with_strength(0, hardening_of(self.quasi_static(0), line), factor).predict(impact)
+        let line = self.power_law(0).map(|law| law.up_to(strain).hardening());
+        self.with_strength(0, line.unwrap_or(self.quasi_static(0)), factor).predict(impact)
     }
 
     /// The scene with the strengths that its softer bodies have in its own impact, or all of them in the given one. `None`
@@ -173,7 +230,8 @@ impl Scene {
         }
         let slow = |group: usize| {
             let found = self.in_impact(group, &self.impact_of(group))?;
-            let QuasiStatic { yield_strength, hardening_modulus } = hardening_of(self.quasi_static(group), found.line);
+            let hardening = found.line.map_or(self.quasi_static(group), |line| line.hardening());
+            let Hardening { yield_strength, hardening_modulus } = hardening;
             Some(InImpact { yield_strength, hardening_modulus, factor: 1.0, strain_rate: 0.0, ..found })
         };
         let found: Vec<InImpact> = self.by_bodies(slow).into_iter().collect::<Option<_>>()?;
@@ -183,15 +241,11 @@ impl Scene {
     /// The scene with the strengths `found` for the softer body of each group.
     fn with_strengths(mut self, found: &[InImpact]) -> Scene {
         let finds = self.finds_strength();
-        let flows = (0..self.contacts.len()).map(|group| Both {
-            impactor: self.flow_in(group, Body::Impactor, &found[group]),
-            target: self.flow_in(group, Body::Target, &found[group]),
-        });
-        let flows: Vec<_> = flows.collect();
-        let set = |parameters: &mut [super::Parameter], flow: &Both<QuasiStatic>| {
-            let all = [Body::Impactor, Body::Target].map(|body| (body, *flow.of(body)));
+        let flows = |group| Both::each(|body| self.flow_in(group, body, &found[group]));
+        let flows: Vec<_> = (0..self.contacts.len()).map(flows).collect();
+        let set = |parameters: &mut [super::Parameter], flow: &Both<Hardening>| {
             for parameter in parameters {
-                for (body, flow) in all {
+                for (body, flow) in Body::ALL.map(|body| (body, flow.of(body))) {
                     match parameter.name {
                         name if name == body.yield_strength() => parameter.value = flow.yield_strength,
                         name if name == body.hardening_modulus() => parameter.value = flow.hardening_modulus,
@@ -213,16 +267,15 @@ impl Scene {
 
     /// Yield strength and hardening modulus of a `body` of `group` as parameters of the unit, for the strain and the strain rate
     /// `found` in the impact.
-    fn flow_in(&self, group: usize, body: Body, found: &InImpact) -> QuasiStatic {
-        let line = self.power_law_of(group, body).map(|law| law.up_to(found.strain));
-        let QuasiStatic { yield_strength, hardening_modulus } = hardening_of(*self.quasi_static[group].of(body), line);
+    fn flow_in(&self, group: usize, body: Body, found: &InImpact) -> Hardening {
+        let line = self.power_law_of(group, body).map(|law| law.up_to(found.strain).hardening());
         let factor = match self.rates.of(body) {
             Some(_) if self.finds_strength() => 1.0,
             Some(_) if body == self.softer(group) => found.factor,
             Some(rate) => rate.factor(found.strain_rate),
             None => 1.0,
         };
-        QuasiStatic { yield_strength: factor * yield_strength, hardening_modulus: factor * hardening_modulus }
+        line.unwrap_or(*self.quasi_static[group].of(body)).times(factor)
     }
 
     /// Whether the unit finds the strength of its bodies by itself, at the first touch of each impact: it knows the mass and

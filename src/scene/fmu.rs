@@ -1,0 +1,201 @@
+//! The FMU: its name and description, the mass that it moves, and what the table `[fmu]` asks for.
+
+use super::contacts::Parameter;
+use super::file::{CouplingTable, MasterName};
+use super::{Coupling, Scene};
+use crate::layout::shortened;
+use crate::mistake::{Mistake, positive};
+use crate::nearest::unknown;
+use crate::table::{self, Causality, VARIABLES};
+use crate::xml;
+use std::collections::HashSet;
+use toml::Spanned;
+
+/// The name of an FMU: a C identifier that every operating system accepts as a file name.
+///
+/// Reference: "Naming Files, Paths, and Namespaces" in the documentation of Windows.
+pub fn check_name(name: &Spanned<String>) -> Result<String, Mistake> {
+    let text = check_identifier(name)?;
+    let lower = text.to_ascii_lowercase();
+    let port = lower.strip_prefix("com").or(lower.strip_prefix("lpt"));
+    let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|digit| digit.is_ascii_digit()));
+    if is_port || ["con", "prn", "aux", "nul"].contains(&lower.as_str()) {
+        let message =
+            format!("name = {text:?} is that of a device on Windows, where no library can have it: call it otherwise");
+        return Err(Mistake(name.span(), message));
+    }
+    Ok(text)
+}
+
+/// The keywords of C, which are no identifiers. FMI asks that a modelIdentifier is one.
+///
+/// Reference: C11, section 6.4.1, without those that begin with `_`.
+const C_KEYWORDS: [&str; 34] = [
+    "auto", "break", "case", "char", "const", "continue", "default", "do", "double", "else", "enum", "extern", "float",
+    "for", "goto", "if", "inline", "int", "long", "register", "restrict", "return", "short", "signed", "sizeof",
+    "static", "struct", "switch", "typedef", "union", "unsigned", "void", "volatile", "while",
+];
+
+/// Text that is a C identifier.
+pub fn check_identifier(name: &Spanned<String>) -> Result<String, Mistake> {
+    let text = name.get_ref();
+    let mut characters = text.chars();
+    let begins = characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
+    // the name is also used for a file
+    let short = text.len() <= 100;
+    if C_KEYWORDS.contains(&text.as_str()) {
+        let message =
+            format!("name = {text:?} is a word of the language C, where no variable can have it: call it otherwise");
+        return Err(Mistake(name.span(), message));
+    }
+    if short && begins && characters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        return Ok(text.clone());
+    }
+    let message = format!(
+        "name = {:?} is not a C identifier: at most 100 letters, digits and `_`, and no digit at the beginning",
+        shortened(text)
+    );
+    Err(Mistake(name.span(), message))
+}
+
+/// A text that the model description can contain.
+pub fn check_description(given: Option<&Spanned<String>>) -> Result<String, Mistake> {
+    let Some(text) = given else { return Ok(String::new()) };
+    match xml::forbidden(text.get_ref()) {
+        None => Ok(text.get_ref().clone()),
+        Some((place, character)) => {
+            let number = text.get_ref()[..place].chars().count() + 1;
+            let character = xml::name(character);
+            let message = format!("description has {character} as character {number}, which XML doesn't allow");
+            Err(Mistake(text.span(), message))
+        }
+    }
+}
+
+/// Inputs that an FMU can have in addition to the rate.
+const INPUTS: [&str; 2] = ["external_acceleration", "effective_mass"];
+
+/// The coupling in this table, and the mass. `damps_by_mass` is the name of the law if its damping follows from the mass.
+pub fn check_coupling(
+    given: Option<&Spanned<CouplingTable>>,
+    damps_by_mass: Option<&str>,
+) -> Result<Option<(Coupling, Spanned<f64>)>, Mistake> {
+    let Some(table) = given else { return Ok(None) };
+    let CouplingTable { effective_mass, master, inputs } = table.get_ref();
+    positive("coupling.effective_mass", effective_mass)?;
+    for input in inputs {
+        if !INPUTS.contains(&input.get_ref().as_str()) {
+            return Err(Mistake(input.span(), unknown("input", input.get_ref(), INPUTS.into_iter())));
+        }
+    }
+    let mass = inputs.iter().find(|input| input.get_ref() == "effective_mass");
+    if let (Some(name), Some(mass)) = (damps_by_mass, mass) {
+        let message = format!(
+            "coupling.inputs = [\"effective_mass\"]: the damping of {name} is computed from the mass before the first step, so \
+             the mass can't change; leave it a parameter"
+        );
+        return Err(Mistake(mass.span(), message));
+    }
+    let [acceleration_input, mass_input] = INPUTS.map(|name| inputs.iter().any(|input| input.get_ref() == name));
+    let parallel = *master == Some(MasterName::Parallel);
+    Ok(Some((Coupling { parallel, acceleration_input, mass_input }, effective_mass.clone())))
+}
+
+/// Makes settable only the parameters in `chosen`, or all: those of all contacts and those of one contact.
+pub fn choose_settable(scene: &mut Scene, chosen: Option<&[Spanned<String>]>) -> Result<(), Mistake> {
+    let Some(chosen) = chosen else { return Ok(()) };
+    let names: HashSet<&str> = chosen.iter().map(|name| name.get_ref().as_str()).collect();
+    let mut known = Vec::new();
+    let mass_is_input = scene.coupling.is_some_and(|coupling| coupling.mass_input);
+    let mut choose = |parameter: &mut Parameter, name: String| {
+        if mass_is_input && parameter.name == "effective_mass" {
+            return;
+        }
+        // a parameter that each contact has for itself is meant to be set
+        parameter.settable = parameter.per_contact || names.contains(name.as_str());
+        known.push(name);
+    };
+    for parameter in &mut scene.parameters {
+        choose(parameter, parameter.name.to_string());
+    }
+    for group in &mut scene.contacts {
+        let mut own = std::mem::take(&mut group.own);
+        own.iter_mut().for_each(|parameter| choose(parameter, group.variable(parameter.name)));
+        group.own = own;
+    }
+    let known_names: HashSet<&str> = known.iter().map(String::as_str).collect();
+    match chosen.iter().find(|name| !known_names.contains(name.get_ref().as_str())) {
+        Some(name) => {
+            let message = unknown("parameter", name.get_ref(), known.iter().map(String::as_str));
+            Err(Mistake(name.span(), message))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The outputs beside the force, each once.
+pub fn check_outputs(chosen: &[Spanned<String>], knows_mass: bool, friction: bool) -> Result<Vec<String>, Mistake> {
+    let is_listed =
+        |variable: &&table::Variable| variable.causality == Causality::Output && variable.second_of.is_none();
+    let available = || VARIABLES.iter().filter(is_listed).map(|variable| variable.name.as_str());
+    let mut outputs: Vec<String> = Vec::new();
+    for name in chosen {
+        let text = name.get_ref();
+        if let Some(both) = text.strip_suffix("[1]").or(text.strip_suffix("[2]"))
+            && available().any(|output| output == both)
+        {
+            let message = format!(
+                "the output {text} has no index here: `{both}` is enough, and gives both components if \
+                 friction.directions = 2"
+            );
+            return Err(Mistake(name.span(), message));
+        }
+        if !available().any(|output| output == text) {
+            return Err(Mistake(name.span(), unknown("output", text, available())));
+        }
+        if text == "closing_speed" && !knows_mass {
+            let message =
+                "the output closing_speed needs [coupling] effective_mass: the FMU must move the bodies itself";
+            return Err(Mistake(name.span(), message.into()));
+        }
+        if table::variable(text).friction && !friction {
+            let message = format!("the output {text} needs friction: give [friction] coefficient");
+            return Err(Mistake(name.span(), message));
+        }
+        if text != "force" && !outputs.contains(text) {
+            outputs.push(text.clone());
+        }
+    }
+    Ok(outputs)
+}
+
+/// Whether the inputs may have derivatives, as far as the law allows.
+pub fn check_input_derivatives(
+    asked: Option<&Spanned<bool>>,
+    knows_mass: bool,
+    follows_rate: bool,
+) -> Result<bool, Mistake> {
+    let Some(asked) = asked else { return Ok(true) };
+    let reason = match *asked.get_ref() {
+        false if knows_mass => "an FMU with [coupling] needs them to move the bodies; leave this key out",
+        true if follows_rate && !knows_mass => "a law that depends on the rate allows none; leave this key out",
+        wanted => return Ok(wanted),
+    };
+    Err(Mistake(asked.span(), format!("fmu.input_derivatives = {}: {reason}", asked.get_ref())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{C_KEYWORDS, check_identifier};
+    use toml::Spanned;
+
+    #[test]
+    fn a_keyword_of_c_is_no_name_and_what_resembles_one_is() {
+        for keyword in C_KEYWORDS {
+            let refused = check_identifier(&Spanned::new(0..1, keyword.into())).map_err(|mistake| mistake.1);
+            assert!(refused.is_err_and(|said| said.contains("a word of the language C")), "{keyword}");
+            let near = format!("{keyword}_1");
+            assert!(check_identifier(&Spanned::new(0..1, near.clone())).is_ok_and(|name| name == near));
+        }
+    }
+}
