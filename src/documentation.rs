@@ -288,7 +288,7 @@ fn constants(page: &mut String, constants: &[plan::Constant]) -> std::fmt::Resul
 
 /// Force against indentation over the scene's impact.
 fn curve(plan: &Plan) -> String {
-    force_over_indentation(plan.scene, plan.prediction()).small_svg(640, 400)
+    force_over_indentation(plan.scene, plan.prediction()).svg(640, 400)
 }
 
 /// Force over indentation in the impact of `scene`, with this `prediction`.

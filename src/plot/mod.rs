@@ -1,18 +1,7 @@
-//! Pictures: lines and dots over two axes, and maps, as SVG.
+//! Pictures of lines and dots over two axes, as SVG, drawn by plotters.
 
-mod clip;
-mod colours;
-mod drawing;
-mod lines;
-mod map;
-mod thin;
-
-pub use colours::css_lines;
-pub use map::{Class, Map, Row};
-
-use colours::strokes;
-use drawing::Drawing;
-
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -35,104 +24,146 @@ pub struct Picture {
     pub series: Vec<Series>,
 }
 
-/// Style of the pictures in a report: the names at the ends of the lines, and strong colours for what matters.
+/// What a picture shows of its series.
 #[derive(Default)]
-pub struct View {
-    /// The range of the values. A line that leaves it ends at its edge. A line entirely below it runs along its lower
-    /// edge.
+pub struct View<'a> {
+    /// The range of the values. A line is interrupted above it, and runs along its lower edge below it.
     pub values: Option<Range<f64>>,
-    /// Values marked by a line across the picture, with their names.
-    pub marks: Vec<(f64, &'static str)>,
-    /// The names of the series that stand out; the others are grey. `None`: all stand out.
-    pub strong: Option<Vec<String>>,
-    pub name_at: NameAt,
-    /// Lines alone, without places that show their values.
-    pub bare: bool,
-}
-
-/// Where the name of a line is placed.
-#[derive(Clone, Copy, Default, PartialEq, Eq)]
-pub enum NameAt {
-    #[default]
-    End,
-    /// At the highest point.
-    Top,
-    Nowhere,
-}
-
-impl View {
-    /// All lines, without names.
-    fn unnamed() -> View {
-        View { name_at: NameAt::Nowhere, ..View::default() }
-    }
-
-    /// Whether the series with this name stands out.
-    fn shows(&self, name: &str) -> bool {
-        self.strong.as_ref().is_none_or(|strong| strong.iter().any(|other| other == name))
-    }
+    /// A value marked by a dashed line across the picture.
+    pub mark: Option<f64>,
+    /// The names of the series that stand out; the others are grey and have no name. `None`: all stand out.
+    pub strong: Option<&'a [String]>,
 }
 
 /// plotters rounds everything to whole pixels. Pictures are therefore drawn large and scaled down; curves are then
 /// smooth.
-const SCALE: u32 = 8;
+const SCALE: i32 = 8;
+
+/// Colours that most colour-blind readers can also distinguish (P. Green-Armytage; M. Okabe, K. Ito). The second dozen
+/// is dashed.
+const COLOURS: [RGBColor; 12] = [
+    RGBColor(0, 90, 160),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 140, 100),
+    RGBColor(180, 80, 140),
+    RGBColor(150, 110, 0),
+    RGBColor(86, 160, 220),
+    RGBColor(120, 60, 20),
+    RGBColor(110, 110, 110),
+    RGBColor(220, 50, 60),
+    RGBColor(90, 60, 170),
+    RGBColor(60, 150, 30),
+    RGBColor(230, 150, 0),
+];
+
+/// The drawing area. Drawing to a String cannot fail.
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+const IN_MEMORY: &str = "a drawing in memory";
 
 impl Picture {
-    /// The picture as SVG of `width` by `height` pixels, with a legend.
+    /// The picture as SVG of `width` by `height` pixels.
     pub fn svg(&self, width: u32, height: u32) -> String {
-        self.with_legend(width, height, &View::unnamed())
+        self.seen(width, height, &View::default())
     }
 
-    /// The same for a page whose size counts: no places of the lines show their values.
-    pub fn small_svg(self, width: u32, height: u32) -> String {
-        self.thinned().with_legend(width, height, &View { bare: true, ..View::unnamed() })
+    /// What a `view` shows of the picture, with a legend to the right of several series.
+    pub fn seen(&self, width: u32, height: u32, view: &View) -> String {
+        let mut svg = String::new();
+        let (wide, high) = (SCALE * width as i32, SCALE * height as i32);
+        let names = self.styles(view).into_iter().zip(&self.series);
+        let names: Vec<_> = names.filter(|(style, _)| style.strong && self.series.len() > 1).collect();
+        // a letter is less than eight pixels wide; add the sample of the line
+        let longest = names.iter().map(|(_, series)| series.label.chars().count() as i32).max();
+        let legend = longest.map_or(0, |letters| SCALE * (8 * letters + 30));
+        {
+            let root = SVGBackend::with_string(&mut svg, (wide as u32, high as u32)).into_drawing_area();
+            let (chart, beside) = root.split_horizontally(wide - legend);
+            self.draw(&chart, view);
+            let font = ("sans-serif", 13 * SCALE).into_font();
+            for (index, (style, series)) in names.iter().enumerate() {
+                let middle = SCALE * (24 + 19 * index as i32);
+                let text = TextStyle::from(font.clone()).pos(Pos::new(HPos::Left, VPos::Center));
+                beside.draw(&Text::new(series.label.clone(), (24 * SCALE, middle), text)).expect(IN_MEMORY);
+                let pieces: &[(i32, i32)] = if style.dashed { &[(0, 7), (11, 18)] } else { &[(0, 18)] };
+                for (from, to) in pieces.iter().filter(|_| !series.dots) {
+                    let ends = [*from, *to].map(|x| (x * SCALE, middle));
+                    beside.draw(&PathElement::new(ends, style.line)).expect(IN_MEMORY);
+                }
+                if series.dots {
+                    beside.draw(&Circle::new((9 * SCALE, middle), 22, style.line.filled())).expect(IN_MEMORY);
+                }
+            }
+            root.present().expect(IN_MEMORY);
+        }
+        let size = |width, height| format!("width=\"{width}\" height=\"{height}\"");
+        let svg = svg.replacen(&size(wide as u32, high as u32), &size(width, height), 1);
+        // attributes with their defaults
+        svg.replace(" opacity=\"1\"", "").replace(" fill=\"#000000\"", "")
     }
 
-    fn with_legend(&self, width: u32, height: u32, view: &View) -> String {
-        // beside the curves, where the legend hides none of them
-        let beside = self.series.len() > 2;
-        svg(width, height, |root| {
-            let curves = self.draw_into(root, SCALE * if beside { LEGEND } else { 0 }, view);
-            self.draw_legend(root, if beside { width - LEGEND } else { 100 });
-            curves
-        })
-    }
-
-    /// The picture with the name of each line at its end.
-    pub fn labelled(&self, width: u32, height: u32, view: &View) -> String {
-        let names = self.series.iter().map(|series| series.label.as_str()).filter(|name| view.shows(name));
-        let room = if view.name_at == NameAt::Nowhere { 0 } else { lines::room(names) };
-        svg(width, height, |root| self.draw_into(root, room, view))
-    }
-
-    /// Axes, with `room` [1/8 pixel] to the right; returns the lines.
-    fn draw_into(&self, root: &Area, room: u32, view: &View) -> String {
-        let mut builder = ChartBuilder::on(root);
-        builder
-            .margin(12 * SCALE)
-            .margin_right(12 * SCALE + room)
-            .x_label_area_size(44 * SCALE)
-            .y_label_area_size(68 * SCALE);
+    /// Axes and series.
+    fn draw(&self, area: &Area, view: &View) {
+        let mut builder = ChartBuilder::on(area);
+        builder.margin(12 * SCALE).x_label_area_size(44 * SCALE).y_label_area_size(68 * SCALE);
         let x = self.range(|point| point.0, self.logarithmic.0);
         let y = view.values.clone().unwrap_or_else(|| self.range(|point| point.1, self.logarithmic.1));
-        let width = root.get_pixel_range().0.end;
-        let drawing = Drawing { picture: self, view, range: y.clone(), width };
+        let linear = RangedCoordf64::from;
         match self.logarithmic {
-            (false, false) => drawing.draw(builder.build_cartesian_2d(linear(x), linear(y))),
-            (true, false) => drawing.draw(builder.build_cartesian_2d(x.log_scale(), linear(y))),
-            (false, true) => drawing.draw(builder.build_cartesian_2d(linear(x), y.log_scale())),
-            (true, true) => drawing.draw(builder.build_cartesian_2d(x.log_scale(), y.log_scale())),
+            (false, false) => self.fill(builder.build_cartesian_2d(linear(x), linear(y.clone())), y, view),
+            (true, false) => self.fill(builder.build_cartesian_2d(x.log_scale(), linear(y.clone())), y, view),
+            (false, true) => self.fill(builder.build_cartesian_2d(linear(x), y.clone().log_scale()), y, view),
+            (true, true) => self.fill(builder.build_cartesian_2d(x.log_scale(), y.clone().log_scale()), y, view),
         }
     }
 
-    /// Whether the picture can show a point.
-    fn fits(&self, &(x, y): &(f64, f64)) -> bool {
+    fn fill<'a, X, Y, E: std::fmt::Debug>(
+        &self,
+        chart: Result<ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>, E>,
+        range: Range<f64>,
+        view: &View,
+    ) where
+        X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+        Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    {
+        let mut chart = chart.expect(IN_MEMORY);
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(RGBColor(221, 221, 221).stroke_width(SCALE as u32))
+            .axis_style(BLACK.stroke_width(SCALE as u32))
+            .set_all_tick_mark_size(5 * SCALE)
+            .x_label_formatter(&label)
+            .y_label_formatter(&label)
+            .x_desc(&self.x_title)
+            .y_desc(&self.y_title)
+            .axis_desc_style(("sans-serif", 15 * SCALE))
+            .label_style(("sans-serif", 13 * SCALE))
+            .draw()
+            .expect(IN_MEMORY);
+        if let Some(mark) = view.mark {
+            let ends = [chart.x_range().start, chart.x_range().end].map(|x| (x, mark));
+            let style = RGBColor(85, 85, 85).stroke_width(SCALE as u32);
+            chart.draw_series(DashedLineSeries::new(ends, 6 * SCALE as u32, 4 * SCALE as u32, style)).expect(IN_MEMORY);
+        }
         let (x_log, y_log) = self.logarithmic;
-        (x > 0.0 || !x_log) && (y > 0.0 || !y_log) && x.is_finite() && y.is_finite()
-    }
-
-    /// The pieces of a series between points that the picture can't show.
-    fn pieces<'a>(&'a self, series: &'a Series) -> impl Iterator<Item = &'a [(f64, f64)]> {
-        series.points.split(|point| !self.fits(point)).filter(|piece| !piece.is_empty())
+        let fits = |&(x, y): &(f64, f64)| (x > 0.0 || !x_log) && (y > 0.0 || !y_log) && x.is_finite() && y <= range.end;
+        let styles = self.styles(view);
+        // the grey ones first
+        let order = |strong: bool| self.series.iter().zip(&styles).filter(move |(_, style)| style.strong == strong);
+        for (series, style) in order(false).chain(order(true)) {
+            let pieces = series.points.split(|point| !fits(point)).filter(|piece| !piece.is_empty());
+            for piece in pieces.map(|piece| piece.iter().map(|(x, y)| (*x, y.max(range.start)))) {
+                let drawn = match series.dots {
+                    true => chart.draw_series(piece.map(|point| Circle::new(point, 22, style.line.filled()))).map(drop),
+                    false if style.dashed => {
+                        let (size, gap) = (7 * SCALE as u32, 4 * SCALE as u32);
+                        chart.draw_series(DashedLineSeries::new(piece, size, gap, style.line)).map(drop)
+                    }
+                    false => chart.draw_series(LineSeries::new(piece, style.line)).map(drop),
+                };
+                drawn.expect(IN_MEMORY);
+            }
+        }
     }
 
     /// The range of one coordinate of the points, with a margin; from zero if nothing is below it. Pictures over the
@@ -151,93 +182,39 @@ impl Picture {
         }
     }
 
-    /// The strokes of the lines.
-    fn strokes(&self) -> Vec<colours::Stroke> {
-        let mut strokes = strokes(self.series.iter().map(|series| series.label.as_str()));
-        for (index, stroke) in strokes.iter_mut().enumerate() {
-            stroke.width *= self.width(index);
-        }
-        strokes
-    }
-
-    /// Width factor of the line at `index`: two if another line covers it, so both are visible.
-    fn width(&self, index: usize) -> u32 {
-        let points = &self.series[index].points;
-        let covers =
-            |other: &Series| !other.dots && other.points.len() == points.len() && coincide(&other.points, points);
-        if self.series[index + 1..].iter().any(covers) { 2 } else { 1 }
-    }
-
-    /// The names of the series, each after a sample of its line: beside the curves, or above them if there are few.
-    fn draw_legend(&self, root: &Area, left: u32) {
-        for index in 0..self.series.len() {
-            self.draw_name(root, index, (left, 24 + LINE * index as u32));
-        }
-    }
-
-    /// The name of the series at `index` after a sample of its line, from the point `left`, `middle` [pixels].
-    fn draw_name(&self, root: &Area, index: usize, (left, middle): (u32, u32)) {
-        let style = TextStyle::from(("sans-serif", SCALE * 13).into_font()).pos(Pos::new(HPos::Left, VPos::Center));
-        let (x, y) = ((SCALE * left) as i32, (SCALE * middle) as i32);
-        let length = 18 * SCALE as i32;
-        let series = &self.series[index];
-        let stroke = &self.strokes()[index];
-        let line = RGBColor(stroke.rgb.0, stroke.rgb.1, stroke.rgb.2).stroke_width(stroke.width);
-        let pieces: &[(i32, i32)] = if stroke.dashed { &[(0, 7), (11, 18)] } else { &[(0, 18)] };
-        let drawn = match series.dots {
-            true => {
-                let (red, green, blue) = colours::data(&series.label).rgb;
-                root.draw(&Circle::new((x + length / 2, y), 5 * SCALE / 2, RGBColor(red, green, blue).filled()))
-            }
-            false => pieces.iter().try_for_each(|(from, to)| {
-                let ends = [from, to].map(|pixels| (x + pixels * SCALE as i32, y));
-                root.draw(&PathElement::new(ends, line))
-            }),
+    /// How the series are drawn, each in a colour of its own. A line that a later one covers is wider, so that both are visible.
+    fn styles(&self, view: &View) -> Vec<Style> {
+        let style = |(index, series): (usize, &Series)| {
+            let strong = view.strong.is_none_or(|strong| strong.contains(&series.label));
+            let covers = |other: &Series| !other.dots && coincide(&other.points, &series.points);
+            let width = match strong {
+                true if self.series[index + 1..].iter().any(covers) => 4 * SCALE,
+                true => 2 * SCALE,
+                false => SCALE,
+            };
+            let colour = match (strong, series.dots) {
+                (_, true) => BLACK,
+                (true, _) => COLOURS[index % COLOURS.len()],
+                (false, _) => RGBColor(181, 181, 181),
+            };
+            let dashed = strong && index >= COLOURS.len() && !series.dots;
+            Style { line: colour.stroke_width(width as u32), dashed, strong }
         };
-        drawn.expect(IN_MEMORY);
-        root.draw(&Text::new(series.label.clone(), (x + length + 6 * SCALE as i32, y), style)).expect(IN_MEMORY);
+        self.series.iter().enumerate().map(style).collect()
     }
 }
 
-/// An argument and a value.
-type Point = (f64, f64);
+/// How a series is drawn.
+struct Style {
+    line: ShapeStyle,
+    dashed: bool,
+    strong: bool,
+}
 
 /// Whether two lines look the same.
 fn coincide(one: &[(f64, f64)], other: &[(f64, f64)]) -> bool {
     let near = |one: f64, other: f64| (one - other).abs() <= 0.01 * one.abs().max(other.abs());
-    one.iter().zip(other).all(|(one, other)| near(one.0, other.0) && near(one.1, other.1))
-}
-
-/// The drawing of `draw` with the returned elements on top, as SVG of `width` by `height` pixels.
-fn svg(width: u32, height: u32, draw: impl FnOnce(&Area) -> String) -> String {
-    let mut svg = String::new();
-    let lines = {
-        let root = SVGBackend::with_string(&mut svg, (SCALE * width, SCALE * height)).into_drawing_area();
-        let lines = draw(&root);
-        root.present().expect(IN_MEMORY);
-        lines
-    };
-    let drawn = format!("width=\"{}\" height=\"{}\"", SCALE * width, SCALE * height);
-    let svg = svg.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1);
-    // attributes with their defaults
-    let svg = svg.replace(" opacity=\"1\"", "").replace(" fill=\"#000000\"", "");
-    svg.replacen("</svg>", &format!("{lines}</svg>"), 1)
-}
-
-/// Width of a legend beside the curves.
-const LEGEND: u32 = 170;
-
-/// Height of a line of a legend.
-const LINE: u32 = 19;
-
-/// The drawing area.
-type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-
-/// Drawing to a String cannot fail.
-const IN_MEMORY: &str = "a drawing in memory";
-
-fn linear(range: Range<f64>) -> RangedCoordf64 {
-    range.into()
+    one.len() == other.len() && one.iter().zip(other).all(|(one, other)| near(one.0, other.0) && near(one.1, other.1))
 }
 
 /// A tick label; without an exponent if that is short.

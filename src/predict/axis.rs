@@ -73,11 +73,6 @@ impl Axis {
         Ok(Axis { name, unit, from, to, count: count.transpose()? })
     }
 
-    /// A range of closing speeds [m/s].
-    pub fn speeds((from, to): (f64, f64)) -> Axis {
-        Axis { name: "speed", unit: "m/s", from, to, count: None }
-    }
-
     /// Whether the values are spaced logarithmically: the range has a decade or more, and is not one of angles.
     pub fn is_logarithmic(&self) -> bool {
         self.name != "angle" && self.from > 0.0 && self.to >= 10.0 * self.from

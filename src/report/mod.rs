@@ -1,37 +1,41 @@
-//! `brinell report`: the step and the coupling for a scene, measured by stepping its FMU through the C interface.
+//! `brinell report`: the step and the coupling for a scene, measured by stepping its FMU through the C interface. All
+//! findings are one [`Report`], which is written as JSON and fills one template, `report.html`.
 
 mod card;
 mod choice;
 mod contact;
-mod data;
 mod extremes;
+mod laws;
 mod oblique;
-mod page;
 mod peer;
 mod precision;
-mod progress;
-mod spread;
 mod stability;
-mod unit;
 mod units;
 mod ways;
 
 use crate::files::{self, FileError, write_whole};
 use crate::importer::ImportError;
-use crate::layout::{json_line, paragraph, shown};
+use crate::layout::{json_line, paragraph, shown, tell};
+use crate::model::AnyModel;
+use crate::numbers::{digits, quantity, significant};
 use crate::package::ExportError;
+use crate::plot::{Picture, View};
 use crate::scene::Scene;
-use card::Card;
-use choice::Choice;
-use data::Table;
-use oblique::Oblique;
+use crate::validity;
+use brinell_contact::validity::LARGEST_RADIUS_RATIO;
+use card::Fact;
+use indicatif::ProgressBar;
+use laws::Laws;
+use minijinja::value::{Serde, Value};
+use minijinja::{Environment, context};
 use peer::Peer;
 use precision::Plan;
-use progress::{Progress, Work};
-use serde_json::{Value, json};
-use spread::Laws;
+use serde::Serialize;
+use stability::Setting;
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 use units::Units;
 use ways::Needs;
 
@@ -74,63 +78,88 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<bool, Box<dyn Error>>
     let scene = Scene::read_aloud(scene)?;
     let folder = output.clone().unwrap_or_else(|| format!("{}_report", scene.name).into());
     files::check_folder(&folder)?;
-    let report = Report::of(&scene, peer, *quick)?;
-    let page = report.write_into(&folder)?;
+    let (report, figures) = Report::of(&scene, peer, *quick)?;
+    let page = report.write_into(&folder, &figures)?;
     if as_json {
-        print!("{}", json_line(&report.json()));
+        print!("{}", json_line(&report));
     } else {
         report.lines().iter().for_each(|line| print!("{}", paragraph("", line)));
         println!("{}", shown(&page));
     }
-    Ok(report.all_right)
+    Ok(!report.extremes.iter().any(|case| case.outcome == extremes::Outcome::Failed))
 }
 
-/// All measurements.
-pub struct Report {
-    /// The name of the scene.
-    pub name: String,
-    pub card: Card,
-    /// The recommended coupling, in sentences.
-    pub advice: Vec<String>,
-    /// The recommended coupling, as a table.
-    pub choice: String,
-    recommendations: Value,
-    parts: Vec<Part>,
-    /// Whether all cases passed.
-    all_right: bool,
+/// All findings. Numbers have SI units; one that doesn't exist is null.
+#[derive(Serialize)]
+struct Report {
+    scene: String,
+    version: &'static str,
+    summary: Summary,
+    r#use: Use,
+    precision: Vec<precision::Point>,
+    orders: Vec<precision::Order>,
+    #[serde(rename = "largest_stiffness_N_per_m")]
+    stiffness: f64,
+    limits: Vec<stability::Limit>,
+    stability: Vec<stability::Energy>,
+    extremes: Vec<extremes::Case>,
+    laws: Vec<laws::Row>,
+    spread: Vec<laws::Spread>,
+    restitution: Vec<laws::Restitution>,
+    #[serde(flatten)]
+    oblique: Option<oblique::Oblique>,
 }
 
-/// A section with a heading.
-pub struct Part {
-    pub title: &'static str,
-    /// Its findings.
-    pub words: String,
-    pub figures: Vec<Figure>,
-    /// Series of the figures that can be switched on, with their strokes for CSS.
-    pub switches: Vec<(String, String)>,
-    /// The method of measurement.
-    pub method: String,
-    pub tables: Vec<Table>,
+/// The findings in words.
+#[derive(Serialize)]
+struct Summary {
+    bodies: Vec<Fact>,
+    outcome: Vec<Fact>,
+    /// The reliability of the law, and the exceeded limits of its validity.
+    law: Vec<String>,
+    warnings: Vec<String>,
+    /// The recommended coupling.
+    coupling: Vec<String>,
+    extremes: String,
 }
 
-/// A picture.
-pub struct Figure {
+/// What a program needs to choose a coupling.
+#[derive(Serialize)]
+struct Use {
+    ways: Vec<choice::Choice>,
+    impact: serde_json::Value,
+}
+
+/// A picture of the page; each section has some.
+#[derive(Serialize)]
+struct Figure {
     /// Name of its file.
-    pub name: &'static str,
-    pub caption: String,
-    pub svg: String,
+    name: &'static str,
+    caption: String,
+    svg: String,
     /// Whether it is initially hidden.
-    pub folded: bool,
+    folded: bool,
 }
 
 impl Figure {
-    /// The figure as HTML.
-    fn html(&self) -> String {
-        let Figure { name, caption, svg, .. } = self;
-        format!(
-            "<figure>\n{svg}<figcaption>{caption} <a class=\"csv\" href=\"{name}.svg\">{name}.svg</a></figcaption></figure>\n"
-        )
+    fn new(name: &'static str, caption: &str, picture: &Picture, view: &View, folded: bool) -> Figure {
+        Figure { name, caption: caption.into(), svg: picture.seen(560, 350, view), folded }
     }
+}
+
+/// The sections of the page with their figures, and with words that depend on the scene.
+#[derive(Default, Serialize)]
+struct Page {
+    figures: BTreeMap<&'static str, Vec<Figure>>,
+    stiffness: String,
+    laws: String,
+    /// How far finite elements reach.
+    reach: Option<String>,
+    left_out: Vec<String>,
+    /// Finding and impacts.
+    oblique: Option<(String, String)>,
+    has_peers: bool,
+    follows_rate: bool,
 }
 
 impl Report {
@@ -138,21 +167,20 @@ impl Report {
     ///
     /// # Errors
     /// [`ReportError`] if an FMU can't be built or loaded, or rejects an ordinary impact.
-    fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<Report, ReportError> {
+    fn of(scene: &Scene, peers: &[PathBuf], quick: bool) -> Result<(Report, Page), ReportError> {
         let peers = peers.iter().map(|path| Peer::open(path)).collect::<Result<Vec<_>, _>>()?;
-        let alone = unit::first_contact(scene, Needs::Force);
-        let (model, impact) = (alone.any_model(), alone.impact);
-        let prediction = alone.predictions[0];
+        let alone = units::first_contact(scene, Needs::Force);
+        let (model, impact, prediction) = (alone.any_model(), alone.impact, alone.predictions[0]);
         let (most, phases) = if quick { (256, 8) } else { (4096, 16) };
         let progress = &Progress::new();
         let follows_rate = scene.is_rate_dependent();
-        let plan = Plan { impact: &impact, prediction: &prediction, most, phases, follows_rate, progress };
-        progress.expect(work(&alone, &plan, &peers, quick));
+        let plan =
+            Plan { name: &scene.name, impact: &impact, prediction: &prediction, most, phases, follows_rate, progress };
         let units = Units::build(scene, progress)?;
         let mut contacts = units.contacts()?;
         let mut lines = Vec::new();
         for way in contacts.ways() {
-            lines.push(plan.measure(contacts.of(way), way)?);
+            lines.push(plan.measure(contacts.of(way), way, None)?);
         }
         if !follows_rate {
             lines.push(plan.alone(contacts.plain())?);
@@ -161,93 +189,154 @@ impl Report {
             lines.extend(peer.measure(&alone, &plan)?);
         }
         let stiffness = model.stiffness(prediction.max_indentation);
-        let stability = stability::measure(&mut contacts, (&impact, &prediction), stiffness, phases, progress)?;
-        progress.say("stiff and extreme cases");
-        let cases = extremes::measure(contacts.plain(), &alone, quick, progress);
-        progress.say("oblique impacts");
+        let setting = Setting { impact: &impact, prediction: &prediction, stiffness, phases };
+        let stability = setting.measure(&mut contacts, progress)?;
+        let extremes = extremes::measure(contacts.plain(), &alone, quick, progress);
         // the FMU with friction has no other mass or law
-        let oblique = oblique::measure(scene, contacts.rough(), most)?;
+        let oblique = oblique::measure(scene, contacts.find(Needs::Friction), most, progress)?;
         progress.say("laws side by side");
         let laws = Laws::of(&alone);
-        let card = card::of(&alone, contacts.plain(), &laws)?;
-        let choice = Choice::of(&lines, &stability);
-        let mut advice = choice.sentences();
-        advice.extend(stability.sentence());
-        advice.extend(oblique.as_ref().and_then(Oblique::sentence));
-        advice.extend(not_for_several(scene));
-        let mut recommendations = json!({ "ways": choice.json(), "impact": card.json });
-        if let (Value::Object(all), Value::Object(stable)) = (&mut recommendations, stability.json()) {
-            all.extend(stable);
+        let figures = BTreeMap::from([
+            ("card", card::figures(&alone, contacts.plain())?),
+            ("precision", precision::figures(&lines)),
+            ("stability", vec![stability.figure()]),
+            ("laws", laws.figures()),
+            ("oblique", oblique.as_ref().map(oblique::Oblique::figures).into_iter().flatten().collect()),
+        ]);
+        let page = Page {
+            figures,
+            stiffness: quantity(stiffness, "N/m"),
+            laws: laws.words(),
+            reach: laws.reach(),
+            left_out: laws.left_out.clone(),
+            oblique: oblique.as_ref().map(|oblique| (oblique.words.clone(), oblique.impacts.clone())),
+            has_peers: !peers.is_empty(),
+            follows_rate,
+        };
+        let ways = choice::of(&lines, &stability.limits);
+        let warnings = validity::warnings(&model.pair(), alone.contacts[0].density, &prediction, impact.speed);
+        let ratio = prediction.max_contact_radius / model.pair().radius;
+        let mut law = laws.verdict();
+        if matches!(model, AnyModel::Elastoplastic(_)) {
+            let relation = if ratio > LARGEST_RADIUS_RATIO { "above" } else { "within" };
+            law.push(format!(
+                "Contact radius over effective radius: {}, {relation} the limit of {LARGEST_RADIUS_RATIO}.",
+                significant(ratio, 2)
+            ));
         }
-        let mut parts =
-            vec![precision::part(&scene.name, &lines), stability.part(), laws.part(), extremes::part(&cases)];
-        parts.extend(oblique.map(|oblique| oblique.part()));
-        Ok(Report {
-            name: scene.name.clone(),
-            card,
-            advice,
-            choice: choice.html(),
-            recommendations,
-            parts,
-            all_right: !cases.iter().any(extremes::Case::has_failed),
-        })
+        let mut coupling = choice::sentences(&ways);
+        coupling.extend(stability.sentence());
+        coupling.extend(oblique.as_ref().and_then(|oblique| oblique.advice.clone()));
+        coupling.extend((scene.contact_count() > 1).then(|| NOT_FOR_SEVERAL.to_string()));
+        let impact = serde_json::json!({
+            "largest_force_N": prediction.max_force,
+            "largest_indentation_m": prediction.max_indentation,
+            "dent_m": prediction.residual_indentation,
+            "restitution": prediction.restitution,
+            "contact_time_s": prediction.contact_time(),
+            "contact_radius_over_effective_radius": ratio,
+        });
+        let report = Report {
+            scene: scene.name.clone(),
+            version: env!("CARGO_PKG_VERSION"),
+            summary: Summary {
+                bodies: card::facts(&alone),
+                outcome: card::outcome(&alone, &prediction),
+                law,
+                warnings: warnings.iter().map(|words| format!("Outside the law's validity: {words}.")).collect(),
+                coupling,
+                extremes: extremes::words(&extremes),
+            },
+            r#use: Use { ways, impact },
+            orders: lines.iter().filter_map(precision::Line::order).collect(),
+            precision: lines.into_iter().flat_map(|line| line.points).collect(),
+            stiffness,
+            limits: stability.limits,
+            stability: stability.energies,
+            extremes,
+            laws: laws.rows,
+            spread: laws.spread,
+            restitution: laws.restitutions,
+            oblique,
+        };
+        Ok((report, page))
     }
 
     /// The outcome and the recommendation, for a terminal.
     fn lines(&self) -> Vec<String> {
-        let outcome = self.card.outcome.iter().map(|(name, value)| format!("{name:<26} {value}"));
-        let warnings = self.card.warnings.iter().map(|warning| format!("Outside the law's validity: {warning}."));
-        let sentences = self.card.trust.iter().chain(&self.advice).cloned();
-        let cases = self.parts.iter().find(|part| part.title == extremes::TITLE).map(|part| part.words.clone());
-        outcome.chain([String::new()]).chain(sentences).chain(warnings).chain(cases).collect()
+        let Summary { outcome, law, warnings, coupling, extremes, .. } = &self.summary;
+        let outcome = outcome.iter().map(|(name, value)| format!("{name:<26} {value}"));
+        let sentences = law.iter().chain(coupling).chain(warnings).chain([extremes]).cloned();
+        outcome.chain([String::new()]).chain(sentences).collect()
     }
 
-    /// All tables as one document.
-    pub fn json(&self) -> Value {
-        let sentences: Vec<_> = self.card.trust.iter().chain(&self.card.warnings).chain(&self.advice).collect();
-        let mut document = json!({ "scene": self.name, "summary": sentences, "use": self.recommendations });
-        for table in self.parts.iter().flat_map(|part| &part.tables) {
-            document[table.name] = table.json();
-        }
-        document
-    }
-
-    /// Writes the page and its data to `folder`; returns the path of the page.
+    /// Writes the page, its data and its figures to `folder`; returns the path of the page.
     ///
     /// # Errors
     /// [`ReportError`] if the folder can't be written to.
-    pub fn write_into(&self, folder: &Path) -> Result<PathBuf, ReportError> {
+    fn write_into(&self, folder: &Path, page: &Page) -> Result<PathBuf, ReportError> {
         std::fs::create_dir_all(folder).map_err(FileError::at(folder))?;
-        for table in self.parts.iter().flat_map(|part| &part.tables) {
-            write_whole(&folder.join(table.name).with_extension("csv"), table.csv().as_bytes())?;
-        }
-        for Figure { name, svg, .. } in self.card.figures.iter().chain(self.parts.iter().flat_map(|part| &part.figures))
-        {
+        for Figure { name, svg, .. } in page.figures.values().flatten() {
             write_whole(&folder.join(name).with_extension("svg"), svg.as_bytes())?;
         }
-        write_whole(&folder.join("report.json"), format!("{:#}\n", self.json()).as_bytes())?;
-        let page = folder.join("index.html");
-        write_whole(&page, page::write(self).as_bytes())?;
-        Ok(page)
+        let data = serde_json::to_string_pretty(self).expect("its keys are strings");
+        write_whole(&folder.join("report.json"), format!("{data}\n").as_bytes())?;
+        let path = folder.join("index.html");
+        write_whole(&path, self.html(page).as_bytes())?;
+        Ok(path)
+    }
+
+    /// The page.
+    fn html(&self, page: &Page) -> String {
+        let mut environment = Environment::new();
+        environment.add_filter("cell", cell);
+        environment.add_filter("seconds", |value: f64| quantity(value, "s"));
+        let template = environment.template_from_named_str("report.html", include_str!("report.html"));
+        let context = context! { report => Serde(self), page => Serde(page) };
+        let filled = template.and_then(|template| template.render(context));
+        let filled = filled.expect("the template is part of the program, and every test of a report fills it");
+        // the template engine leaves out the last newline
+        format!("{filled}\n")
+    }
+}
+
+/// A cell of a table: a dash for what doesn't exist.
+fn cell(value: &Value) -> String {
+    match f64::try_from(value.clone()) {
+        Ok(number) if number.is_finite() => digits(number),
+        Err(_) if value.as_str().is_some() => value.to_string(),
+        _ => "-".into(),
     }
 }
 
 /// Limitations for a scene with several contacts.
-fn not_for_several(scene: &Scene) -> Option<String> {
-    (scene.contact_count() > 1).then(|| {
-        "The scene has several contacts: this page measures the first contact. If contacts share a body, an FMU that knows the \
-         mass moves each contact's bodies alone, and is exact only while one of them is closed."
-            .into()
-    })
+const NOT_FOR_SEVERAL: &str = "The scene has several contacts: this page measures the first contact. If contacts share a body, \
+     an FMU that knows the mass moves each contact's bodies alone, and is exact only while one of them is closed.";
+
+/// The current activity: a message that turns on a terminal, lines elsewhere.
+pub struct Progress {
+    bar: ProgressBar,
+    began: Instant,
 }
 
-/// The total work of a report.
-fn work(scene: &Scene, plan: &Plan, peers: &[Peer], quick: bool) -> Vec<Work> {
-    let (building, ways) = Units::work(scene);
-    let lines = ways + usize::from(!plan.follows_rate) + peers.iter().map(|peer| peer.ways().len()).sum::<usize>();
-    let mut all: Vec<Work> = building.collect();
-    all.extend((0..lines).flat_map(|_| plan.work()));
-    all.extend((0..ways).map(|_| Work::Way));
-    all.extend((0..extremes::count(scene, quick)).map(|_| Work::Case));
-    all
+impl Progress {
+    fn new() -> Progress {
+        let bar = ProgressBar::new_spinner();
+        bar.enable_steady_tick(Duration::from_millis(200));
+        Progress { bar, began: Instant::now() }
+    }
+
+    /// Shows the current activity.
+    pub fn say(&self, what: &str) {
+        self.bar.set_message(what.to_string());
+        if self.bar.is_hidden() {
+            tell(&format!("{:5.1} s  {what} ...", self.began.elapsed().as_secs_f64()));
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
 }

@@ -54,10 +54,7 @@ impl Peer {
     /// [`ReportError::Peer`] if it rejects a call.
     pub fn measure(&self, scene: &Scene, plan: &Plan) -> Result<Vec<Line>, ReportError> {
         let mut contact = self.contact(scene)?;
-        let line = |way: &'static Way| {
-            let line = plan.measure(&mut contact, way).map_err(|error| self.fault(&error))?;
-            Ok(Line { peer: Some(self.name.clone()), ..line })
-        };
+        let line = |way| plan.measure(&mut contact, way, Some(&self.name)).map_err(|error| self.fault(&error));
         self.ways().into_iter().map(line).collect()
     }
 
@@ -78,7 +75,7 @@ impl Peer {
     }
 
     /// The ways to couple that it supports.
-    pub fn ways(&self) -> Vec<&'static Way> {
+    fn ways(&self) -> Vec<&'static Way> {
         let description = &self.archive.description;
         let has = |name| description.real(name).is_ok();
         let derivatives = description.interpolates_inputs && description.output_derivatives > 0;

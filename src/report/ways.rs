@@ -57,6 +57,13 @@ pub enum Master {
     Parallel,
 }
 
+impl Needs {
+    /// Whether the FMU moves the mass itself.
+    pub fn knows_mass(self) -> bool {
+        matches!(self, Needs::Mass | Needs::LateMass)
+    }
+}
+
 impl Master {
     /// The name of the algorithm.
     pub fn name(self) -> &'static str {
@@ -80,29 +87,7 @@ pub struct Way {
     pub stable: f64,
 }
 
-/// `x' = x + u`, `u' = u - z x`: both eigenvalues have the modulus `sqrt(1 + z)`.
-pub const LATE: Way = Way {
-    name: "late force",
-    what: "apply the force of the previous step",
-    advance: late,
-    needs: Needs::Force,
-    master: Master::Parallel,
-    stable: 0.0,
-};
-
-/// The same as leap-frog for a spring.
-pub const PREDICTED: Way = Way {
-    name: "predicted_force",
-    what: "apply predicted_force, read before the step",
-    advance: predicted,
-    needs: Needs::PredictedForce,
-    master: Master::Parallel,
-    stable: 2.0,
-};
-
-/// `x' = x + u`, `u' = u - z x'`: stable up to `z = 4`.
-///
-/// Reference: E. Hairer, C. Lubich, G. Wanner, *Acta Numerica* 12 (2003) 399-450, section 1.
+/// The user's own loop.
 pub const LEAP_FROG: Way = Way {
     name: "leap-frog",
     what: "step the contact, then the bodies with its new force",
@@ -112,42 +97,61 @@ pub const LEAP_FROG: Way = Way {
     stable: 2.0,
 };
 
-/// The step also uses the jerk `j` [times `h^3`]. The FMU returns the slope of the force at the end of a step, which
-/// includes its own rate. With `a = -z x`: `x' = x + u + a/2 + j/6`, `u' = u - z (x + u/2 + a/6 + j/24)` with the
-/// mean force, and `j' = -z (u + a + j/2)`. The first eigenvalue to leave the unit circle does so at -1, where the
-/// determinant of the step's matrix plus one is zero. The determinant is `(576 - 432 z + 48 z^2 - z^3) / 144`: the
-/// limit is the square root of the smallest root of `z^3 - 48 z^2 + 432 z - 576`.
-pub const DERIVATIVES: Way = Way {
-    name: "input derivatives",
-    what: "set acceleration and jerk with the rate, apply mean_force",
-    advance: derivatives,
-    needs: Needs::MeanForce,
-    master: Master::Serial,
-    stable: 1.269_862_885_454_414,
-};
-
-/// Exact.
-pub const MASS_KNOWN: Way = Way {
-    name: "mass known",
-    what: "the FMU moves the mass within the step; apply mean_force",
-    advance: mass_known,
-    needs: Needs::Mass,
-    master: Master::Serial,
-    stable: f64::INFINITY,
-};
-
-/// Exact: the FMU tracks the momentum that has not reached the mass yet.
-pub const MASS_KNOWN_PARALLEL: Way = Way {
-    name: "mass known, parallel",
-    what: "the FMU moves the mass; apply the mean_force of the previous step",
-    advance: late_mass,
-    needs: Needs::LateMass,
-    master: Master::Parallel,
-    stable: f64::INFINITY,
-};
-
 /// All ways in a report.
-pub static WAYS: [Way; 6] = [LATE, PREDICTED, LEAP_FROG, DERIVATIVES, MASS_KNOWN, MASS_KNOWN_PARALLEL];
+pub static WAYS: [Way; 6] = [
+    // `x' = x + u`, `u' = u - z x`: both eigenvalues have the modulus `sqrt(1 + z)`
+    Way {
+        name: "late force",
+        what: "apply the force of the previous step",
+        advance: late,
+        needs: Needs::Force,
+        master: Master::Parallel,
+        stable: 0.0,
+    },
+    // the same as leap-frog for a spring
+    Way {
+        name: "predicted_force",
+        what: "apply predicted_force, read before the step",
+        advance: predicted,
+        needs: Needs::PredictedForce,
+        master: Master::Parallel,
+        stable: 2.0,
+    },
+    // `x' = x + u`, `u' = u - z x'`: stable up to `z = 4`
+    // (E. Hairer, C. Lubich, G. Wanner, Acta Numerica 12 (2003) 399-450, section 1)
+    LEAP_FROG,
+    // The step also uses the jerk `j` [times `h^3`]. The FMU returns the slope of the force at the end of a step, which
+    // includes its own rate. With `a = -z x`: `x' = x + u + a/2 + j/6`, `u' = u - z (x + u/2 + a/6 + j/24)` with the
+    // mean force, and `j' = -z (u + a + j/2)`. The first eigenvalue to leave the unit circle does so at -1, where the
+    // determinant of the step's matrix plus one is zero. The determinant is `(576 - 432 z + 48 z^2 - z^3) / 144`: the
+    // limit is the square root of the smallest root of `z^3 - 48 z^2 + 432 z - 576`.
+    Way {
+        name: "input derivatives",
+        what: "set acceleration and jerk with the rate, apply mean_force",
+        advance: derivatives,
+        needs: Needs::MeanForce,
+        master: Master::Serial,
+        stable: 1.269_862_885_454_414,
+    },
+    // exact
+    Way {
+        name: "mass known",
+        what: "the FMU moves the mass within the step; apply mean_force",
+        advance: mass_known,
+        needs: Needs::Mass,
+        master: Master::Serial,
+        stable: f64::INFINITY,
+    },
+    // exact: the FMU tracks the momentum that has not reached the mass yet
+    Way {
+        name: "mass known, parallel",
+        what: "the FMU moves the mass; apply the mean_force of the previous step",
+        advance: late_mass,
+        needs: Needs::LateMass,
+        master: Master::Parallel,
+        stable: f64::INFINITY,
+    },
+];
 
 /// Number of steps after which an impact is given up. The longest impact of a report has sixteen million.
 const LONGEST: u64 = 20_000_000;
@@ -236,11 +240,7 @@ fn derivatives(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), 
 
 /// The FMU moves the mass itself within the step: exact to rounding.
 fn mass_known(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
-    contact.set_rate(body.speed)?;
-    if body.load != 0.0 {
-        contact.set_derivatives(&[body.load / body.mass])?;
-    }
-    contact.step(step)?;
+    step_with_mass(contact, body, step)?;
     body.feel(contact.mean_force()?, step);
     body.force = contact.force()?;
     Ok(())
@@ -248,12 +248,17 @@ fn mass_known(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), I
 
 /// The same, with the mean force of each step applied over the next one.
 fn late_mass(contact: &mut Contact, body: &mut Body, step: f64) -> Result<(), ImportError> {
+    step_with_mass(contact, body, step)?;
+    body.feel(body.owed, step);
+    (body.owed, body.force) = (contact.mean_force()?, contact.force()?);
+    Ok(())
+}
+
+/// A step of an FMU that moves the mass; a load is an acceleration for it.
+fn step_with_mass(contact: &mut Contact, body: &Body, step: f64) -> Result<(), ImportError> {
     contact.set_rate(body.speed)?;
     if body.load != 0.0 {
         contact.set_derivatives(&[body.load / body.mass])?;
     }
-    contact.step(step)?;
-    body.feel(body.owed, step);
-    (body.owed, body.force) = (contact.mean_force()?, contact.force()?);
-    Ok(())
+    contact.step(step)
 }

@@ -1,15 +1,13 @@
 //! Error against run time: every way to couple, for different numbers of steps per contact.
 
-mod page;
-
 use super::contact::Contact;
-use super::progress::{Progress, Work};
 use super::ways::{Way, gaps};
+use super::{Figure, Progress};
 use crate::importer::ImportError;
+use crate::plot::{Picture, Series, View};
 use brinell_contact::impact::{Impact, Prediction};
+use serde::Serialize;
 use std::time::Instant;
-
-pub use page::part;
 
 /// The range of steps per contact for the fit of the order: large steps and rounding do not affect it.
 const FITTED: std::ops::RangeInclusive<u32> = 16..=512;
@@ -23,19 +21,28 @@ const ROUNDING: f64 = 1e-11;
 
 /// One way with one number of steps per contact. Errors are relative to the energy balance, and root mean squares
 /// over the phases.
+#[derive(Clone, Serialize)]
 pub struct Point {
+    unit: String,
+    way: &'static str,
+    #[serde(rename = "steps_per_contact")]
     pub steps: u32,
-    /// [s]
+    #[serde(rename = "step_s")]
     pub step: f64,
+    #[serde(rename = "error_of_restitution")]
     pub restitution: f64,
-    pub max_force: f64,
+    #[serde(rename = "error_of_largest_force")]
+    max_force: f64,
     /// NaN for an elastic contact, and for an FMU without this output.
-    pub dent: f64,
+    #[serde(rename = "error_of_dent")]
+    dent: f64,
     /// NaN if there is no value.
-    pub contact_time: f64,
-    /// For one impact.
+    #[serde(rename = "error_of_contact_time")]
+    contact_time: f64,
+    #[serde(rename = "calls_per_impact")]
     pub calls: f64,
-    /// The shortest of the phases [s].
+    /// The shortest of the phases.
+    #[serde(rename = "time_per_impact_s")]
     pub run_time: f64,
 }
 
@@ -43,16 +50,24 @@ pub struct Point {
 pub struct Line {
     /// `None` for the FMU alone.
     pub way: Option<&'static Way>,
-    /// The other FMU; `None` for that of the scene.
-    pub peer: Option<String>,
+    pub is_peer: bool,
     pub points: Vec<Point>,
-    /// Order of the error of restitution in the step; `None` if the error is rounding.
-    pub order: Option<f64>,
+}
+
+/// The order of the error of restitution in the step.
+#[derive(Serialize)]
+pub struct Order {
+    unit: String,
+    way: &'static str,
+    /// `None` if the error is rounding, or doesn't fall.
+    order: Option<f64>,
 }
 
 /// The common settings of all lines of a report.
 #[derive(Clone, Copy)]
 pub struct Plan<'a> {
+    /// Name of the scene.
+    pub name: &'a str,
     pub impact: &'a Impact,
     pub prediction: &'a Prediction,
     /// Largest number of steps per contact.
@@ -64,35 +79,24 @@ pub struct Plan<'a> {
     pub progress: &'a Progress,
 }
 
+/// 2, 4, 8 and so on, from `fewest` up to `most`.
+pub fn doubled(fewest: u32, most: u32) -> impl Iterator<Item = u32> {
+    std::iter::successors(Some(fewest), |steps| Some(2 * steps)).take_while(move |steps| *steps <= most)
+}
+
 impl Plan<'_> {
-    /// The numbers of steps per contact, starting with `fewest`.
-    fn steps(self, fewest: u32) -> impl Iterator<Item = u32> {
-        std::iter::successors(Some(fewest), |steps| Some(2 * steps)).take_while(move |steps| *steps <= self.most)
-    }
-
-    /// The work for a line.
-    pub fn work(self) -> impl Iterator<Item = Work> {
-        self.steps(2).map(move |steps| self.work_of(steps))
-    }
-
-    /// The work for a point.
-    fn work_of(self, steps: u32) -> Work {
-        Work::Steps(u64::from(self.phases * steps))
-    }
-
-    /// Runs `way` with 2 steps per contact and more.
+    /// Runs `way` with 2 steps per contact and more; `peer` is the name of another FMU.
     ///
     /// # Errors
     /// [`ImportError`] if the FMU rejects a call.
-    pub fn measure(self, contact: &mut Contact, way: &'static Way) -> Result<Line, ImportError> {
+    pub fn measure(self, contact: &mut Contact, way: &'static Way, peer: Option<&str>) -> Result<Line, ImportError> {
         self.progress.say(&format!("error against run time: {}", way.name));
-        let points = self.steps(2).map(|steps| self.point(contact, way, steps));
-        let points = points.collect::<Result<Vec<_>, _>>()?;
-        let order = order(&points);
-        Ok(Line { way: Some(way), peer: None, points, order })
+        let unit = peer.unwrap_or(self.name);
+        let points = doubled(2, self.most).map(|steps| self.point(contact, unit, way, steps));
+        Ok(Line { way: Some(way), is_peer: peer.is_some(), points: points.collect::<Result<_, _>>()? })
     }
 
-    fn point(self, contact: &mut Contact, way: &Way, steps: u32) -> Result<Point, ImportError> {
+    fn point(self, contact: &mut Contact, unit: &str, way: &Way, steps: u32) -> Result<Point, ImportError> {
         let Plan { impact, prediction, .. } = self;
         let step = prediction.contact_time() / f64::from(steps);
         let mut sums = Sums::default();
@@ -100,7 +104,7 @@ impl Plan<'_> {
             contact.start_apart(gap, step)?;
             let began = Instant::now();
             let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
-            sums.run_time(began);
+            sums.run_times.push(began.elapsed().as_secs_f64());
             let dent = contact.output("residual_indentation").unwrap_or(f64::NAN);
             // the bodies have separated within the last step and fly on
             let past = dent - contact.output("indentation").unwrap_or(f64::NAN);
@@ -114,8 +118,7 @@ impl Plan<'_> {
             ]);
             sums.calls += contact.calls;
         }
-        self.progress.done(self.work_of(steps));
-        Ok(sums.point(steps, step))
+        Ok(sums.point((unit, way.name), steps, step))
     }
 
     /// The contribution of the FMU itself to any error: loading and unloading, each divided into steps of unequal
@@ -127,21 +130,21 @@ impl Plan<'_> {
         self.progress.say("error against run time: the unit alone");
         let whole = self.there_and_back(contact, 2, 0.0)?;
         let mut points = Vec::new();
-        for steps in self.steps(4) {
+        for steps in doubled(4, self.most) {
             let mut sums = Sums::default();
             for phase in 0..self.phases {
                 let uneven = f64::from(phase) / f64::from(self.phases);
                 let began = Instant::now();
                 let split = self.there_and_back(contact, steps, uneven)?;
-                sums.run_time(began);
-                let error = |index: usize| split[index] / whole[index] - 1.0;
-                sums.add([error(0), error(1), error(2), f64::NAN]);
+                sums.run_times.push(began.elapsed().as_secs_f64());
+                let [restitution, force, dent] = [0, 1, 2].map(|index| split[index] / whole[index] - 1.0);
+                sums.add([restitution, force, dent, f64::NAN]);
                 sums.calls += contact.calls;
             }
-            self.progress.done(self.work_of(steps));
-            points.push(sums.point(steps, self.prediction.contact_time() / f64::from(steps)));
+            let step = self.prediction.contact_time() / f64::from(steps);
+            points.push(sums.point((self.name, "unit alone"), steps, step));
         }
-        Ok(Line { way: None, peer: None, points, order: None })
+        Ok(Line { way: None, is_peer: false, points })
     }
 
     /// Restitution, largest force [N] and dent [m] of a contact with a prescribed motion to the largest indentation
@@ -169,39 +172,44 @@ impl Plan<'_> {
 }
 
 /// Errors and costs of all phases.
+#[derive(Default)]
 struct Sums {
     /// Sums of squared errors of restitution, force, dent and contact time.
     squares: [f64; 4],
     calls: u64,
-    shortest: f64,
-    count: u32,
-}
-
-impl Default for Sums {
-    fn default() -> Sums {
-        Sums { squares: [0.0; 4], calls: 0, shortest: f64::INFINITY, count: 0 }
-    }
+    /// \[s\]
+    run_times: Vec<f64>,
 }
 
 impl Sums {
     fn add(&mut self, errors: [f64; 4]) {
-        self.count += 1;
         self.squares.iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * error);
     }
 
-    fn run_time(&mut self, began: Instant) {
-        self.shortest = self.shortest.min(began.elapsed().as_secs_f64());
-    }
-
-    fn point(self, steps: u32, step: f64) -> Point {
-        let [restitution, max_force, dent, contact_time] = self.squares.map(|sum| (sum / f64::from(self.count)).sqrt());
-        let calls = self.calls as f64 / f64::from(self.count);
-        Point { steps, step, restitution, max_force, dent, contact_time, calls, run_time: self.shortest }
+    fn point(self, (unit, way): (&str, &'static str), steps: u32, step: f64) -> Point {
+        let count = self.run_times.len() as f64;
+        let [restitution, max_force, dent, contact_time] = self.squares.map(|sum| (sum / count).sqrt());
+        let (unit, calls) = (unit.into(), self.calls as f64 / count);
+        let run_time = self.run_times.into_iter().fold(f64::INFINITY, f64::min);
+        Point { unit, way, steps, step, restitution, max_force, dent, contact_time, calls, run_time }
     }
 }
 
-/// The slope of log(error) over log(step), by least squares; `None` if the error does not fall with the step.
-fn order(points: &[Point]) -> Option<f64> {
+impl Line {
+    /// The slope of log(error) over log(step), by least squares; `None` for the unit alone.
+    pub fn order(&self) -> Option<Order> {
+        let first = self.points.first().filter(|_| self.way.is_some())?;
+        Some(Order { unit: first.unit.clone(), way: first.way, order: slope(&self.points) })
+    }
+
+    /// The largest step from which on the error of restitution stays below `error`.
+    pub fn step_for(&self, error: f64) -> Option<&Point> {
+        self.points.iter().rev().take_while(|point| point.restitution < error).last()
+    }
+}
+
+/// The slope of log(error) over log(step); `None` if the error does not fall with the step.
+fn slope(points: &[Point]) -> Option<f64> {
     let fitted = points.iter().filter(|point| FITTED.contains(&point.steps) && point.restitution > ROUNDING);
     let logs: Vec<_> = fitted.map(|point| (point.step.ln(), point.restitution.ln())).collect();
     if logs.len() < 3 || logs.windows(2).any(|pair| pair[1].1 > pair[0].1 + LEAST_FALL.ln()) {
@@ -214,15 +222,43 @@ fn order(points: &[Point]) -> Option<f64> {
     Some(covariance / variance)
 }
 
-impl Line {
-    /// The name of the way.
-    pub fn name(&self) -> &'static str {
-        self.way.map_or("unit alone", |way| way.name)
-    }
+/// An axis of a figure: its title, and the value of a point.
+type Axis = (&'static str, fn(&Point) -> f64);
 
-    /// The largest step from which on the error of restitution stays below `error`.
-    pub fn step_for(&self, error: f64) -> Option<&Point> {
-        let good = |point: &&Point| point.restitution < error;
-        self.points.iter().rev().take_while(good).last()
-    }
+/// Error of restitution against steps, run time and calls; errors of the other quantities against steps. The first two
+/// are shown initially, and those without a line are left out.
+pub fn figures(lines: &[Line]) -> Vec<Figure> {
+    let steps: Axis = ("steps per contact", |point| f64::from(point.steps));
+    let error: Axis = ("error of restitution", |point| point.restitution);
+    let all: [(&str, Axis, Axis); 6] = [
+        ("error-against-steps", steps, error),
+        ("error-against-time", ("time per impact [us]", |point| 1e6 * point.run_time), error),
+        ("error-against-calls", ("calls per impact", |point| point.calls), error),
+        ("force-against-steps", steps, ("error of largest force", |point| point.max_force)),
+        ("dent-against-steps", steps, ("error of dent", |point| point.dent)),
+        ("contact-time-against-steps", steps, ("error of contact time", |point| point.contact_time)),
+    ];
+    let drawn = all.into_iter().enumerate().filter_map(|(index, (name, (x_title, x), (y_title, y)))| {
+        // an error of zero is below all decades too
+        let drawn = |y: f64| if y == 0.0 { f64::MIN_POSITIVE } else { y };
+        let series = lines.iter().filter(|line| line.way.is_some()).map(|line| Series {
+            label: match line.points.first() {
+                Some(point) if line.is_peer => format!("{}: {}", point.unit, point.way),
+                first => first.map_or("", |point| point.way).into(),
+            },
+            points: line.points.iter().map(|point| (x(point), drawn(y(point)))).collect(),
+            dots: false,
+        });
+        let picture = Picture {
+            x_title: x_title.into(),
+            y_title: y_title.into(),
+            logarithmic: (true, true),
+            series: series.collect(),
+        };
+        let known = picture.series.iter().flat_map(|series| &series.points).any(|point| point.1 > 0.0);
+        // the decades that matter, and the error that most users accept
+        let view = View { values: Some(1e-6..2.0), mark: Some(0.01), ..View::default() };
+        known.then(|| Figure::new(name, &format!("{y_title} over {x_title}"), &picture, &view, index > 1))
+    });
+    drawn.collect()
 }
