@@ -55,17 +55,11 @@ fn the_stable_limits_of_an_elastic_scene_are_those_of_theory() {
 
 #[test]
 fn the_json_has_the_stable_limit_of_every_way() {
-    let used = &ELASTIC["use"];
-    let stable = used["stable"].as_array().expect("a list");
-    let limits = rows(&ELASTIC, "limits");
-    assert_eq!(stable.len(), limits.len());
-    for (told, limit) in stable.iter().zip(limits) {
-        assert_eq!((&told["way"], &told["stable"]), (&limit["way"], &limit["stable"]));
-        assert_eq!(told["h_sqrt(K/m)"], limit["largest_stable_h_sqrt(K/m)"]);
-        assert_eq!(told["step_s"], limit["largest_stable_step_s"]);
-    }
-    assert_eq!(used["stable_leap_frog"], row(&ELASTIC, "limits", "leap-frog")["largest_stable_h_sqrt(K/m)"]);
-    assert!(used["stable_late"].is_null(), "a late force is stable at no step: {used}");
+    let names = |rows: &[Value]| rows.iter().map(|row| row["way"].to_string()).collect::<Vec<_>>();
+    let used = ELASTIC["use"]["ways"].as_array().expect("a list");
+    assert_eq!(names(rows(&ELASTIC, "limits")), names(used));
+    assert!(row(&ELASTIC, "limits", "leap-frog")["largest_stable_step_s"].as_f64().expect("a step") > 0.0);
+    assert!(row(&ELASTIC, "limits", "late force")["largest_stable_step_s"].is_null(), "it is stable at no step");
 }
 
 #[test]
