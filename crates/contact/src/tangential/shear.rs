@@ -80,8 +80,10 @@ pub(super) fn mean_over<const D: usize>(
     let mut known = None;
     for turn in 1..=MOST_TRIES {
         let left = 1.0 - from;
-        let part = smallest(width, left);
-        let (middle, next) = known.take().unwrap_or_else(|| {
+        // the last part is all that is left, however rough the force is there
+        let is_last = turn == MOST_TRIES;
+        let part = if is_last { left } else { smallest(width, left) };
+        let (middle, next) = known.take().filter(|_| !is_last).unwrap_or_else(|| {
             let next = if part < left { at(from + part) } else { end };
             (at(from + 0.5 * part), next)
         });
@@ -90,7 +92,7 @@ pub(super) fn mean_over<const D: usize>(
         let error = (size(weighted([-1.0, 3.0, -3.0, 1.0, 0.0], forces))
             + size(weighted([0.0, -1.0, 3.0, -3.0, 1.0], forces)))
             / 12.0;
-        if part * error > tolerance && turn < MOST_TRIES {
+        if part * error > tolerance && !is_last {
             known = Some((first, middle));
             width = 0.5 * part;
             continue;
@@ -254,5 +256,33 @@ impl<const N: usize> Shear<2> for plane::Stuck<N> {
 
     fn load(words: &mut impl Iterator<Item = u64>, curve: &Segment) -> Option<Self> {
         plane::Stuck::load(words, curve)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOST_TRIES, mean_over};
+    use core::cell::Cell;
+
+    /// The mean of a force that jumps at each of `jumps` places between 1 and 3, and the number of trial steps.
+    fn mean_of_jumps(jumps: f64) -> (f64, u32) {
+        let tries = Cell::new(0);
+        let force = |place: f64| [if (jumps * place) as u64 % 2 == 0 { 1.0 } else { 3.0 }];
+        let counted = |place| {
+            tries.set(tries.get() + 1);
+            force(place)
+        };
+        let [mean] = mean_over(force(0.0), force(1.0), 1e-9, counted);
+        (mean, tries.get())
+    }
+
+    #[test]
+    fn a_force_that_is_too_rough_for_all_tries_has_the_mean_of_the_whole_way() {
+        for jumps in [1.5, 7.3, 40.1, 333.7, 1e4, 1e9] {
+            let (mean, tries) = mean_of_jumps(jumps);
+            // within the values of the force, which no mean over a part of the way would be
+            assert!((1.0..=3.0).contains(&mean), "{jumps} jumps: {mean}");
+            assert!(tries <= 4 * MOST_TRIES, "{jumps} jumps: {tries} trial steps");
+        }
     }
 }
