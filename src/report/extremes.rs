@@ -274,7 +274,7 @@ fn by_steps(contact: &mut Contact, name: &str, bodies: &Bodies, prediction: &Pre
 fn without_prediction(contact: &mut Contact, name: &str, bodies: &Bodies, steps: f64) -> Case {
     let Impact { mass, speed } = bodies.impact;
     // as deep as with Hertz's law; a law that yields is softer
-    let depth = (0.5 * mass * speed * speed / (0.4 * bodies.model.pair().hertz_stiffness())).powf(0.4);
+    let depth = (bodies.impact.energy() / (0.4 * bodies.model.pair().hertz_stiffness())).powf(0.4);
     let case = |step| Case::new(name, f64::NAN, step, TOLERANCE);
     match bodies.model {
         AnyModel::Damped(_) => return case(f64::NAN).with(Outcome::NotJudged, "the bodies creep apart without end"),

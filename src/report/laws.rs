@@ -114,7 +114,7 @@ impl Laws<'_> {
         // the yield point as the finite-element results define it, if a body yields
         let pair = scene.yield_strength.map(|yield_strength| Pair { yield_strength, ..scene.any_model().pair() });
         let unit = pair.map(|pair| pair.yield_point(truth::YIELD_PRESSURE_FACTOR));
-        let energy = 0.5 * scene.impact.mass * scene.impact.speed * scene.impact.speed;
+        let energy = scene.impact.energy();
         let truth = unit.and_then(|unit| Some((truth::impact(energy / (unit.force * unit.indentation))?, unit)));
         rows.extend(truth.as_ref().map(|(impact, unit)| Row {
             law: TRUTH.into(),

@@ -82,11 +82,8 @@ pub fn doubts(file: &File) -> Vec<Mistake> {
         let owner = format!("{}.", contact.name.get_ref());
         doubts.extend(of_body(&owner, Body::Impactor, &contact.impactor.0));
         doubts.extend(of_body(&owner, Body::Target, &contact.target));
-    }
-    for contact in file.contact.iter().flat_map(|contacts| contacts.get_ref()) {
-        let contact = contact.get_ref();
-        let key = format!("{}.effective_mass", contact.name.get_ref());
-        doubts.extend(contact.effective_mass.as_ref().and_then(|mass| MASS.doubt(&key, mass)));
+        let mass = contact.effective_mass.as_ref();
+        doubts.extend(mass.and_then(|mass| MASS.doubt(&format!("{owner}effective_mass"), mass)));
     }
     let impact = file.impact.as_ref().map(Spanned::get_ref);
     doubts.extend(impact.and_then(|impact| SPEED.doubt("impact.speed", &impact.speed)));

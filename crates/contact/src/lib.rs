@@ -18,9 +18,9 @@
 //! result does not depend on how the time is divided into steps.
 //!
 //! # Validity
-//! The model is a quasi-static normal contact of a paraboloid, with friction on top: `a/R` up to about 0.3, a contact time that is long
-//! compared with the travel time of elastic waves, no hardening, no strain-rate effects. [`validity`] gives the limits
-//! as numbers.
+//! The model is a quasi-static normal contact of a paraboloid, with friction on top: `a/R` up to about 0.3, and a contact time
+//! that is long compared with the travel time of elastic waves. Hardening ([`strength`]), the strain rate ([`rate`]) and waves
+//! ([`losses`]) are there for those who ask for them. [`validity`] gives the limits as numbers.
 //!
 //! # Units
 //! SI throughout: m, kg, s, N, Pa, J. The documentation of each public item states its unit.

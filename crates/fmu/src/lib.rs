@@ -7,8 +7,8 @@
 //! | [`c`] | what every C interface needs: pointers, memory, text, states |
 //! | [`fmi2`] | the C interface of FMI 2.0 |
 //!
-//! Each uses only the ones above it, and the physics, [`brinell_contact`]. Only [`c`] and [`fmi2`] have `unsafe` code. The crate needs neither `std` nor `alloc`, and cannot
-//! panic.
+//! Each uses only the ones above it, and the physics, [`brinell_contact`]. Only [`c`] and [`fmi2`] have `unsafe` code. The crate
+//! needs neither `std` nor `alloc`, and cannot panic.
 //!
 //! # Reference
 //! *Functional Mock-up Interface for Model Exchange and Co-Simulation*, version 2.0.5.

@@ -65,8 +65,9 @@ impl Brinell {
     /// The constants from `data/fit/fit_brinell.py`, for a Poisson's ratio of 0.3 of the yielding body and no hardening, whatever
     /// the pair has. An FMU has [`Strengthened`](super::Strengthened) for any other ratio.
     ///
-    /// The last slopes correspond to a mean pressure of 3.0 S, the limit of the finite-element results, on an area of `2.86 R d`, that of a rigid, perfectly plastic solid (B. Storåkers,
-    /// S. Biwa, P.-L. Larsson, *Int. J. Solids Struct.* 34 (1997) 3061-3083): `7.8 = 3.0 * 2.86 / 1.1`.
+    /// The last slopes correspond to a mean pressure of 3.0 S, the limit of the finite-element results, on an area of `2.86 R d`,
+    /// that of a rigid, perfectly plastic solid (B. Storåkers, S. Biwa, P.-L. Larsson, *Int. J. Solids Struct.* 34 (1997)
+    /// 3061-3083): `7.8 = 3.0 * 2.86 / 1.1`.
     pub const REFERENCE: Brinell = Brinell {
         yield_pressure_factor: 1.1,
         knots: [1.0, 2.0, 5.0, 12.0, 30.0, 80.0, 250.0, 2000.0],

@@ -4,6 +4,7 @@ mod events;
 
 use super::{Damping, Form};
 use crate::loading::Loading;
+use crate::motion::SMALLEST_MOTION;
 use crate::numbers::{largest, quotient, smallest};
 use crate::piece::Piece;
 use crate::unloading::Unloading;
@@ -54,9 +55,6 @@ const DIGITS: f64 = 16.0;
 
 /// Largest indentation of a stage \[m\].
 const FARTHEST: f64 = 1e20;
-
-/// The smallest size of a motion \[m, m/s\], by which smaller errors are measured: numbers far below it have no digits.
-const SMALLEST: f64 = 1e-300;
 
 /// Smaller errors count as this one.
 const LEAST: f64 = 1e-30;
@@ -181,7 +179,7 @@ impl<L: Loading, U: Unloading> Stretch<'_, L, U> {
         // bodies near rest are slower than the rounding of the forces, which balance
         let noise = self.noise(pull, moved) * step / TOLERANCE;
         let speeds = fabs(from.speed) + fabs(next.speed) + fabs(next.speed - from.speed) + noise;
-        let relative = |error: f64, size: f64| error / largest(size, SMALLEST);
+        let relative = |error: f64, size: f64| error / largest(size, SMALLEST_MOTION);
         // where the force begins, the distance is a fractional power of time: its first steps are never accurate by themselves
         let given = fabs(next.retreat) + fabs(next.retreat - from.retreat) + SMALL * moved + ROUNDED * fabs(self.start);
         (next, largest(largest(relative(way, height), relative(retreat, given)), relative(speed, speeds)))

@@ -88,8 +88,8 @@ pub struct InImpact {
 }
 
 /// The strength in an impact, for a rigid indenter of this `radius` \[m\] on the body that yields. `predict` is the prediction
-/// of the impact for a strain and a factor. Without a `rate` model the factor is 1 and only the strain is found. `None` where a prediction
-/// fails.
+/// of the impact for a strain and a factor. Without a `rate` model the factor is 1 and only the strain is found. `None` where a
+/// prediction fails.
 pub fn in_impact(
     rate: Option<&Rate>,
     radius: f64,

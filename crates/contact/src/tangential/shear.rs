@@ -267,7 +267,7 @@ mod tests {
     /// The mean of a force that jumps at each of `jumps` places between 1 and 3, and the number of trial steps.
     fn mean_of_jumps(jumps: f64) -> (f64, u32) {
         let tries = Cell::new(0);
-        let force = |place: f64| [if (jumps * place) as u64 % 2 == 0 { 1.0 } else { 3.0 }];
+        let force = |place: f64| [if ((jumps * place) as u64).is_multiple_of(2) { 1.0 } else { 3.0 }];
         let counted = |place| {
             tries.set(tries.get() + 1);
             force(place)

@@ -60,7 +60,8 @@ fn target(value: impl Fn(Parameter) -> f64, density: f64) -> Solid {
     Solid { density, youngs_modulus, poissons_ratio }
 }
 
-/// The type of a law in one of its forms, or its value, which is a constant so that it is copied as a whole; `hardening` is the hardening modulus of the body that yields \[Pa\].
+/// The type of a law in one of its forms, or its value, which is a constant so that it is copied as a whole. `hardening` is the
+/// hardening modulus of the body that yields \[Pa\].
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __law {
@@ -404,8 +405,8 @@ macro_rules! __scene {
     };
 }
 
-/// The kind of a prebuilt library, `Library`, from its data; `crates/unit/src/kind.rs` has an example. `library` is a hash of the sources;
-/// the places of variables are those in the table of variables.
+/// The kind of a prebuilt library, `Library`, from its data; `crates/unit/src/kind.rs` has an example. `library` is a hash of the
+/// sources; the places of variables are those in the table of variables.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __kind {

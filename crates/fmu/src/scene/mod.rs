@@ -1,7 +1,8 @@
 //! The scene: its contacts, their laws, its settable values and the outputs that it requests.
 //!
 //! A scene is a type. An [`Instance`](crate::instance::Instance) is compiled for one, so that features that the scene does not
-//! request take neither memory nor time. The exporter writes one for the scene of each FMU; a program may write its own. The scene of a prebuilt library, [`prebuilt::Prebuilt`], is read from memory.
+//! request take neither memory nor time. The exporter writes one for the scene of each FMU, as data of the macro [`scene!`]; a
+//! program may write its own. The scene of a prebuilt library, [`prebuilt::Prebuilt`], is read from memory.
 
 pub mod coupling;
 pub mod described;

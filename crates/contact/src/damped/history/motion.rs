@@ -10,7 +10,7 @@ use super::{Damped, History, Sum, within};
 use crate::damped::Model;
 use crate::damped::impact::STAGES;
 use crate::motion::flight::Flight;
-use crate::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome};
+use crate::motion::{Drive, MOST_EVALUATIONS, NoMotion, Outcome, SMALLEST_MOTION};
 use crate::numbers::largest;
 use crate::regime::TooDeep;
 use libm::{fabs, pow, sqrt};
@@ -20,10 +20,6 @@ const TOLERANCE: f64 = 1e-12;
 
 /// Smaller errors count as this one.
 const LEAST: f64 = 1e-30;
-
-/// The smallest size of a motion \[m, m/s\], by which smaller errors are measured: numbers far below it have no digits. A smaller
-/// indentation counts as a touch.
-const SMALLEST: f64 = 1e-300;
 
 /// Largest number of contacts and flights in a step.
 const MOST_EVENTS: u32 = MOST_EVALUATIONS / 10;
@@ -78,7 +74,7 @@ pub fn follow<D: Damped + Copy>(
         acceleration,
         state,
         scale: State {
-            depth: if state.depth < SMALLEST { 0.0 } else { state.depth },
+            depth: if state.depth < SMALLEST_MOTION { 0.0 } else { state.depth },
             speed: largest(fabs(speed), swing),
         },
         spent: 0.0,
@@ -149,7 +145,7 @@ impl<D: Damped + Copy> Bodies<D> {
             self.rest();
             return Ok(());
         }
-        let mut guess = if depth < SMALLEST { self.first_guess() } else { self.left };
+        let mut guess = if depth < SMALLEST_MOTION { self.first_guess() } else { self.left };
         while self.left > 0.0 {
             let step = self.limited(guess);
             self.evaluations += STAGES.len() as u32;

@@ -1,8 +1,9 @@
 //! The integration of the motion: one step, its error, and the events in it.
 
-use super::{Bodies, SMALLEST, State};
+use super::{Bodies, State};
 use crate::damped::Damped;
 use crate::damped::impact::{ERROR, STAGES};
+use crate::motion::SMALLEST_MOTION;
 use crate::numbers::{largest, quotient};
 use crate::regime::LARGEST_INDENTATION;
 use libm::{fabs, sqrt};
@@ -110,7 +111,7 @@ impl<D: Damped + Copy> Bodies<D> {
             error.depth += step * weight * slope.depth;
             error.speed += step * weight * slope.speed;
         }
-        let relative = |error: f64, size: f64| fabs(error) / largest(size, SMALLEST);
+        let relative = |error: f64, size: f64| fabs(error) / largest(size, SMALLEST_MOTION);
         let depth = relative(error.depth, largest(self.scale.depth, fabs(next.depth)));
         let speed = relative(error.speed, largest(self.scale.speed, fabs(next.speed)));
         (next, largest(depth, speed))
