@@ -2,9 +2,10 @@
 
 use crate::arguments::Arguments;
 use crate::files::FileError;
-use crate::layout::{json_line, shown};
+use crate::package;
 use crate::prebuilt_folder::{self, PrebuiltFolder};
-use crate::{package, platform};
+use brinell_exporter::layout::{json_line, shown};
+use brinell_exporter::platform;
 use clap::CommandFactory;
 use clap_complete::Shell;
 use serde_json::json;

@@ -1,9 +1,9 @@
 //! The command line.
 
 use crate::package::Way;
-use crate::platform::{self, Platform};
 use crate::prebuilt;
 use crate::{check, curve, hardness, law_list, new, predict, report};
+use brinell_exporter::platform::{self, Platform};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -52,9 +52,9 @@ pub enum Command {
     #[command(next_line_help = true)]
     Check(check::Arguments),
     /// Predict an impact: largest force and indentation, dent, restitution, contact time
-    Predict(predict::command::Arguments),
+    Predict(predict::Arguments),
     /// Predict a Brinell test: dent and hardness; or find the yield strength from HBW
-    Hardness(hardness::command::Arguments),
+    Hardness(hardness::Arguments),
     /// Draw or tabulate one cycle of loading, unloading and reloading
     Curve(curve::Arguments),
     /// Measure the FMU of a scene: errors, run times, stability, laws; on one page

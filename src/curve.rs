@@ -1,21 +1,22 @@
 //! `brinell curve`: force, radius, pressure and energies along a path of loading, unloading and reloading.
 
-use crate::columns::{Column, Columns};
 use crate::files::{self, deliver, ending};
-use crate::laws::{self, Choice};
-use crate::layout::json_line;
-use crate::model::AnyModel;
-use crate::numbers::in_message;
-use crate::plot::{Picture, Series};
-use crate::predict::PredictError;
-use crate::predict::oblique;
-use crate::scene::{Scene, plausible};
+use crate::scene_file;
 use crate::tangential_curve::{Loops, Wanted};
+use crate::truth;
 use crate::wrong_call::WrongCall;
-use crate::{layout, predict, truth, units, validity};
 use brinell_contact::damped::{self, AnyDamped, Damped};
 use brinell_contact::impact::Impact;
 use brinell_contact::{History, Loading, TooDeep};
+use brinell_exporter::columns::{Column, Columns};
+use brinell_exporter::laws::{self, Choice};
+use brinell_exporter::layout::json_line;
+use brinell_exporter::model::AnyModel;
+use brinell_exporter::numbers::in_message;
+use brinell_exporter::plot::{Picture, Series};
+use brinell_exporter::predict::{PredictError, oblique};
+use brinell_exporter::scene::{Scene, plausible};
+use brinell_exporter::{predict, units, validity};
 use serde_json::json;
 use std::error::Error;
 use std::f64::consts::PI;
@@ -64,14 +65,14 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     if let Some(path) = output {
         files::check_goal(path)?;
     }
-    let scene = Scene::read_aloud(&arguments.scene)?;
+    let scene = scene_file::read_aloud(&arguments.scene)?;
     let choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
     let largest = arguments.to.unwrap_or(scene.predictions[0].max_indentation);
     let largest = predict::positive("to", largest).map_err(WrongCall::of)?;
     let impact = &scene.impact_of(0);
     let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::INFINITY);
     let doubt = arguments.to.and_then(|to| plausible::of_depth("to", to, radius));
-    doubt.into_iter().chain(too_wide(&choices, largest)).for_each(|warning| layout::warn(&warning));
+    doubt.into_iter().chain(too_wide(&choices, largest)).for_each(|warning| crate::messages::warn(&warning));
     if arguments.tangential {
         return tangential(&scene, &choices, largest, arguments, as_json);
     }

@@ -1,12 +1,13 @@
 //! `brinell export`: builds the FMU of a scene and lists what it contains.
 
 use crate::files;
-use crate::layout::{json_line, shown, tell};
+use crate::messages::tell;
 use crate::package::{self, ExportError, Way};
-use crate::plan::Plan;
-use crate::platform::Platform;
-use crate::scene::Scene;
 use crate::summary::Summary;
+use brinell_exporter::layout::{json_line, shown};
+use brinell_exporter::plan::Plan;
+use brinell_exporter::platform::Platform;
+use brinell_exporter::scene::Scene;
 use std::path::{Path, PathBuf};
 
 /// The command: makes the FMU of `scene`, the file at `source`, in this `way` for `platforms`, and writes it to `output` or to the

@@ -1,6 +1,6 @@
 //! The error of a file.
 
-use crate::layout::shown;
+use brinell_exporter::layout::shown;
 use std::io;
 use std::path::{Path, PathBuf};
 

@@ -2,7 +2,7 @@
 
 pub use crate::file_error::FileError;
 use crate::importer;
-use crate::layout::shown;
+use brinell_exporter::layout::shown;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -3,69 +3,37 @@
 
 mod about;
 mod arguments;
-mod bodies;
 mod check;
-mod columns;
-mod constants;
 mod curve;
-mod documentation;
-mod energy;
 mod export;
 mod file_error;
 mod files;
-mod friction_text;
-mod guard;
 mod hardness;
-mod html;
 mod importer;
-mod interface;
-mod law_check;
 mod law_list;
-mod law_text;
-mod laws;
-mod layout;
 mod materials;
 mod merge;
-mod mistake;
-mod model;
-mod model_description;
-#[cfg(test)]
-mod mutations;
-mod nearest;
+mod messages;
 mod new;
-mod nominal;
-mod numbers;
 mod package;
-mod pairing;
 mod parallel;
-mod parameters;
-mod plan;
-mod platform;
-mod plot;
 mod prebuilt;
 mod prebuilt_folder;
 mod predict;
-mod regime;
 mod report;
-mod scene;
-mod signature;
+mod scene_file;
 mod ssp;
-mod strength_text;
 mod summary;
-mod symbols;
-mod table;
 mod tangential_curve;
 mod truth;
-mod units;
-mod validity;
 mod wrong_call;
-mod xml;
 
 use arguments::{Arguments, Command, PlatformArguments};
+use brinell_exporter::plan::Plan;
+use brinell_exporter::prebuilt::Library;
+use brinell_exporter::{constants, numbers};
 use clap::Parser;
 use package::Way;
-use plan::Plan;
-use scene::Scene;
 use std::error::Error;
 use std::process::ExitCode;
 use wrong_call::WrongCall;
@@ -80,7 +48,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {
-            layout::tell(&format!("brinell: {error}"));
+            messages::tell(&format!("brinell: {error}"));
             if error.is::<WrongCall>() { ExitCode::from(WRONG_CALL) } else { ExitCode::FAILURE }
         }
     }
@@ -95,14 +63,14 @@ fn not_understood(error: &clap::Error) -> ExitCode {
         // it is not an error if the reader has closed the pipe
         return match error.print() {
             Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-                layout::tell(&format!("brinell: {UNWRITABLE}: {error}"));
+                messages::tell(&format!("brinell: {UNWRITABLE}: {error}"));
                 ExitCode::FAILURE
             }
             _ => ExitCode::SUCCESS,
         };
     }
     let text = numbers::in_words(&error.render().to_string());
-    layout::tell(&format!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text).trim_end()));
+    messages::tell(&format!("brinell: {}", text.strip_prefix("error: ").unwrap_or(&text).trim_end()));
     ExitCode::from(WRONG_CALL)
 }
 
@@ -121,7 +89,7 @@ fn leave_when_nothing_can_be_printed() {
         let message = panic.payload().downcast_ref::<String>().map_or("", String::as_str);
         let Some(reason) = message.strip_prefix("failed printing to stdout: ") else { return usual(panic) };
         if !CLOSED_PIPE.iter().any(|code| reason.ends_with(code)) {
-            layout::tell(&format!("brinell: {UNWRITABLE}: {reason}"));
+            messages::tell(&format!("brinell: {UNWRITABLE}: {reason}"));
             std::process::exit(1);
         }
         std::process::exit(0);
@@ -138,11 +106,11 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     match &arguments.command {
         None => {
             let platforms = PlatformArguments::default().chosen(Way::Any)?;
-            let scene = Scene::default_scene()?;
+            let scene = scene_file::default_scene()?;
             let unit = export::run((&scene, None), (Way::Any, &platforms), None, json)?;
             let agrees = check::exported(&unit, json)?;
             if !json {
-                print!("\n{}", predict::by_the_default_law(&scene)?);
+                print!("\n{}", brinell_exporter::predict::by_the_default_law(&scene)?);
             }
             return Ok(agrees);
         }
@@ -150,14 +118,14 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Report(arguments)) => return report::run(arguments, json),
         Some(Command::Export { scene, output, platforms, way }) => {
             let way = way.chosen();
-            let scene = (&Scene::read_aloud(scene)?, Some(scene.as_path()));
+            let scene = (&scene_file::read_aloud(scene)?, Some(scene.as_path()));
             export::run(scene, (way, &platforms.chosen(way)?), output.as_deref(), json)?;
         }
         Some(Command::Prebuild(arguments)) => prebuilt::command::run(arguments, json)?,
         Some(Command::New(arguments)) => new::run(arguments, json)?,
         Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
-        Some(Command::Predict(arguments)) => predict::command::run(arguments, json)?,
-        Some(Command::Hardness(arguments)) => hardness::command::run(arguments, json)?,
+        Some(Command::Predict(arguments)) => predict::run(arguments, json)?,
+        Some(Command::Hardness(arguments)) => hardness::run(arguments, json)?,
         Some(Command::Curve(arguments)) => curve::run(arguments, json)?,
         Some(Command::Laws(arguments)) => law_list::run(arguments, json)?,
         Some(Command::Merge { fmus, output }) => merge::run(fmus, output, json)?,
@@ -165,10 +133,10 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
         Some(Command::Completions { shell }) => about::completions(*shell),
         Some(Command::Man { output }) => about::manual(output)?,
         Some(Command::Constants { scene }) => {
-            print!("{}", constants::write(&Plan::of(&Scene::read(scene)?), "unpacked"));
+            print!("{}", constants::write(&Plan::of(&scene_file::read(scene)?), "unpacked"));
         }
         Some(Command::Kind { scene }) => {
-            let library = prebuilt::Library::of(&Scene::read(scene)?)?;
+            let library = Library::of(&scene_file::read(scene)?)?;
             print!("{}", constants::kind::write(&library.scene, "unpacked"));
         }
     }

@@ -1,8 +1,8 @@
 //! `brinell materials`: the built-in materials.
 
-use crate::layout::{json_line, paragraph, table};
-use crate::numbers::quantity;
-use crate::table::MATERIALS;
+use brinell_exporter::layout::{json_line, paragraph, table};
+use brinell_exporter::numbers::quantity;
+use brinell_exporter::table::MATERIALS;
 
 /// The command: prints the list.
 pub fn run(as_json: bool) {

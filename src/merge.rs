@@ -2,9 +2,9 @@
 
 use crate::files::{FileError, check_goal, write_whole};
 use crate::importer::{self, Bound, Description, ImportError};
-use crate::layout::{json_line, shown};
-use crate::package::{self, ExportError};
-use crate::platform::Platform;
+use brinell_exporter::layout::{json_line, shown};
+use brinell_exporter::package::{ZipError, archive};
+use brinell_exporter::platform::Platform;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -20,8 +20,8 @@ const BINARIES: &str = "binaries/";
 pub enum MergeError {
     #[error("{0}")]
     File(#[from] FileError),
-    #[error("{0}")]
-    Export(#[from] ExportError),
+    #[error("the archive can't be written: {0}")]
+    Zip(#[from] ZipError),
     #[error("{path}: {reason}", path = shown(path))]
     NoFmu { path: PathBuf, reason: ImportError },
     #[error(
@@ -53,7 +53,7 @@ pub fn run(paths: &[PathBuf], output: &Path, as_json: bool) -> Result<(), MergeE
     let fmus = paths.iter().map(|path| Fmu::read(path)).collect::<Result<Vec<_>, _>>()?;
     let files = join(fmus)?;
     let files: Vec<(String, &[u8])> = files.iter().map(|(name, bytes)| (name.clone(), bytes.as_slice())).collect();
-    let archive = package::archive(&files)?;
+    let archive = archive(&files)?;
     write_whole(output, &archive)?;
     let mut platforms: Vec<_> = files.iter().filter_map(|(name, _)| platform(name)).collect();
     platforms.dedup();

@@ -1,15 +1,13 @@
 //! `brinell new`: a commented scene to start from.
 
 use crate::files::{self, FileError};
-use crate::layout::{json_line, shown};
-use crate::mistake::Mistake;
-use crate::scene::check_name;
 use crate::wrong_call::WrongCall;
+use brinell_exporter::layout::{json_line, shown};
+use brinell_exporter::scene::check_name;
 use serde_json::json;
 use std::error::Error;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use toml::Spanned;
 
 /// The scene, with `NAME` in place of its name.
 const TEMPLATE: &str = include_str!("new_scene.toml");
@@ -28,7 +26,7 @@ pub struct Arguments {
 /// Writes the scene, unless the file exists.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let Arguments { name, output } = arguments;
-    check_name(&Spanned::new(0..0, name.clone())).map_err(|Mistake(_, message)| WrongCall(message))?;
+    check_name(name).map_err(WrongCall)?;
     let path = output.clone().unwrap_or_else(|| format!("{name}.toml").into());
     let text = TEMPLATE.replace("NAME", name);
     write_new(&path, &text)?;

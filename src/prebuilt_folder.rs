@@ -1,6 +1,6 @@
 //! The location of the prebuilt FMU libraries.
 
-use crate::platform::{Platform, Target};
+use brinell_exporter::platform::{Platform, Target};
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 

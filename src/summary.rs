@@ -1,15 +1,16 @@
 //! The summary of `brinell export`: the contents of the FMU, and the omitted features.
 
-use crate::interface::Entry;
-use crate::layout::{paragraph, shown};
-use crate::package::{Exported, Origin, Packed};
-use crate::plan::{Constant, Plan};
-use crate::scene::{Group, Parameter, Scene};
-use crate::table::{self, Causality, VARIABLES};
+use crate::package::{Exported, Origin};
 use brinell_contact::Surface;
 use brinell_contact::damped::AnyDamped;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
+use brinell_exporter::interface::Entry;
+use brinell_exporter::layout::{paragraph, shown};
+use brinell_exporter::package::Packed;
+use brinell_exporter::plan::{Constant, Plan};
+use brinell_exporter::scene::{Group, Parameter, Scene};
+use brinell_exporter::table::{self, Causality, VARIABLES};
 use serde_json::{Value, json};
 
 /// Inputs, outputs, parameters and the features that the FMU does not have.
@@ -207,7 +208,7 @@ fn group_line(group: &Group) -> String {
     });
     let own = own.collect::<Vec<_>>().join(", ");
     let own = if own.is_empty() { "as the scene".into() } else { own };
-    paragraph(&format!("    {:<20} {:>6}  ", group.label(), group.len()), &own)
+    paragraph(&format!("    {:<20} {:>6}  ", group.label(), group.count()), &own)
 }
 
 fn law(scene: &Scene) -> String {

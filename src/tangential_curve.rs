@@ -1,16 +1,15 @@
 //! `brinell curve --tangential`: loops of the tangential force at a held normal force.
 
-use crate::columns::{Column, Columns};
-use crate::laws::Choice;
-use crate::numbers::in_message;
-use crate::predict::oblique;
-use crate::predict::{PredictError, positive};
-use crate::scene::Scene;
 use brinell_contact::History;
 use brinell_contact::TooDeep;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::{RoughModel, Springs};
 use brinell_contact::unloading::AnyUnloading;
+use brinell_exporter::columns::{Column, Columns};
+use brinell_exporter::laws::Choice;
+use brinell_exporter::numbers::in_message;
+use brinell_exporter::predict::{PredictError, oblique, positive};
+use brinell_exporter::scene::Scene;
 
 /// Number of points on each branch of a loop.
 const POINTS: u32 = 200;
@@ -129,8 +128,8 @@ impl Loops {
         for (law, force, slides) in &self.held {
             text += &format!(
                 "{law}: normal force held at {}; the whole contact slides from a displacement of {} on\n",
-                crate::numbers::quantity(*force, "N"),
-                crate::numbers::quantity(*slides, "m")
+                brinell_exporter::numbers::quantity(*force, "N"),
+                brinell_exporter::numbers::quantity(*slides, "m")
             );
         }
         let count = self.loops.iter().map(|one| one.points.len()).max().unwrap_or(0);
@@ -138,7 +137,7 @@ impl Loops {
             let columns = self.columns();
             let own = columns.laws.iter().filter(|(law, _)| *law == one.law).flat_map(|(_, rows)| rows);
             let rows = own.filter(|row| row[0] == one.amplitude).cloned().collect();
-            let name = format!("{}, amplitude {}", one.law, crate::numbers::quantity(one.amplitude, "m"));
+            let name = format!("{}, amplitude {}", one.law, brinell_exporter::numbers::quantity(one.amplitude, "m"));
             text += &format!(
                 "\n{}",
                 Columns { columns: columns.columns.clone(), laws: vec![(name, rows)] }.text(&names, ROWS)

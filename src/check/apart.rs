@@ -3,7 +3,7 @@
 use super::CheckError;
 use super::bounded_output::output_within;
 use crate::files::{private_folder, write_whole};
-use crate::layout::without_middle;
+use brinell_exporter::layout::without_middle;
 use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::Path;

@@ -9,11 +9,11 @@ mod trial;
 
 use crate::files::FileError;
 use crate::importer::{Archive, Description, ImportError, Instance};
-use crate::layout::{harmless, json_line, paragraph, shown, without_middle};
-use crate::mistake::SceneError;
-use crate::numbers::quantity;
-use crate::scene::Scene;
 use apart::Found;
+use brinell_exporter::layout::{harmless, json_line, paragraph, shown, without_middle};
+use brinell_exporter::mistake::SceneError;
+use brinell_exporter::numbers::quantity;
+use brinell_exporter::scene::Scene;
 use master::STEPS_PER_CONTACT;
 use serde::Serialize;
 use std::fmt::Formatter;

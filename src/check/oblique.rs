@@ -2,14 +2,14 @@
 
 use super::master::STEPS_PER_CONTACT;
 use super::row::Row;
-use crate::constants::{MEMORY, parameters, start_value};
 use crate::importer::{Description, ImportError, Instance};
-use crate::scene::Scene;
 use brinell_contact::Contact;
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::{RoughContact, RoughModel};
 use brinell_contact::unloading::AnyUnloading;
+use brinell_exporter::constants::{MEMORY, parameters, start_value};
+use brinell_exporter::scene::Scene;
 use brinell_fmu::scene::with_friction;
 
 /// The tangential variables of FMUs with one and with two directions: what is behind their names, and the component of the

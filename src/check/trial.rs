@@ -4,10 +4,10 @@ use super::master::{Master, STEPS_PER_CONTACT, Simulated};
 use super::oblique;
 use super::row::Row;
 use crate::importer::{Description, ImportError, Instance};
-use crate::layout::table;
-use crate::numbers::{percent, quantity};
-use crate::scene::{Parameter, Scene};
 use brinell_contact::impact::Prediction;
+use brinell_exporter::layout::table;
+use brinell_exporter::numbers::{percent, quantity};
+use brinell_exporter::scene::{Parameter, Scene};
 use serde::Serialize;
 
 /// The impact on one contact.
@@ -118,7 +118,7 @@ fn gap(scene: &Scene, group: usize) -> (Option<String>, f64) {
 fn others_at_rest(scene: &Scene, group: usize, description: &Description) -> Result<Vec<(String, u32)>, ImportError> {
     let mut forces = Vec::new();
     for (place, other) in scene.contacts.iter().enumerate() {
-        for index in usize::from(place == group)..other.len() {
+        for index in usize::from(place == group)..other.count() {
             let name = format!("{}force", other.prefix(index));
             let reference = description.real(&name)?;
             forces.push((name, reference));

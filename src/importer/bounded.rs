@@ -1,7 +1,7 @@
 //! Unpacks untrusted archives with a bound on their size.
 
 use super::ImportError;
-use crate::layout::shortened;
+use brinell_exporter::layout::shortened;
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, Write};
 use std::path::Path;

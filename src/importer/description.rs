@@ -1,9 +1,9 @@
 //! The contents of a model description.
 
 use super::ImportError;
-use crate::layout::{shortened, without_middle};
-use crate::numbers::in_words;
-use crate::xml;
+use brinell_exporter::layout::{shortened, without_middle};
+use brinell_exporter::numbers::in_words;
+use brinell_exporter::xml;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::HashMap;
 use std::io::{self, BufRead};

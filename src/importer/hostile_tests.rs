@@ -3,7 +3,7 @@
 
 use super::Description;
 use super::bounded::{open, unpack};
-use crate::mutations::{assert_message, bytes, cases, text};
+use brinell_testing::mutations::{assert_message, bytes, cases, text};
 use std::fs;
 use std::io::{Cursor, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};

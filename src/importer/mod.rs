@@ -9,9 +9,9 @@ mod hostile_tests;
 mod unit;
 
 use crate::files::private_folder;
-use crate::layout::{shortened, without_middle};
-use crate::numbers::in_message;
-use crate::platform::{self, NoPlatform, Platform};
+use brinell_exporter::layout::{shortened, without_middle};
+use brinell_exporter::numbers::in_message;
+use brinell_exporter::platform::{self, NoPlatform, Platform};
 use std::collections::BTreeSet;
 use std::ffi::c_int;
 use std::io::{BufReader, Cursor, Read, Seek};

@@ -2,20 +2,21 @@
 
 mod text;
 
-use crate::energy;
-use crate::law_text::{self, LawText};
-use crate::laws::loading_names;
-use crate::layout::json_line;
-use crate::model::Dampings;
-use crate::nearest::unknown;
-use crate::pairing::unloading_of;
-use crate::parameters::{self, Constant};
-use crate::scene::Scene;
+use crate::scene_file;
 use crate::wrong_call::WrongCall;
 use brinell_contact::damped::{self, AnyDamped};
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
+use brinell_exporter::energy;
+use brinell_exporter::law_text::{self, LawText};
+use brinell_exporter::laws::loading_names;
+use brinell_exporter::layout::json_line;
+use brinell_exporter::model::Dampings;
+use brinell_exporter::nearest::unknown;
+use brinell_exporter::pairing::unloading_of;
+use brinell_exporter::parameters::{self, Constant};
+use brinell_exporter::scene::Scene;
 use serde::Serialize;
 use std::error::Error;
 
@@ -29,7 +30,7 @@ pub struct Arguments {
 
 /// The command: lists the laws, or shows those of one name: a loading law and an unloading law may share it.
 pub fn run(Arguments { name }: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
-    let list = those(&Scene::default_scene()?, |known| name.as_deref().is_none_or(|name| name == known));
+    let list = those(&scene_file::default_scene()?, |known| name.as_deref().is_none_or(|name| name == known));
     if let (Some(name), true) = (name, list.loading.is_empty() && list.unloading.is_empty() && list.damped.is_empty()) {
         let unloading = AnyUnloading::ALL.into_iter().map(|(name, _)| name);
         return Err(WrongCall(unknown("law", name, loading_names().chain(unloading))).into());

@@ -1,10 +1,10 @@
 //! The laws as text: tables, and a paragraph for each law.
 
 use super::{ASKED, List, Loads, Rated, Told};
-use crate::layout::{WIDTH, paragraph, table};
-use crate::numbers::significant;
-use crate::pairing;
-use crate::parameters::Constant;
+use brinell_exporter::layout::{WIDTH, paragraph, table};
+use brinell_exporter::numbers::significant;
+use brinell_exporter::pairing;
+use brinell_exporter::parameters::Constant;
 
 /// Where the errors are compared.
 const TABLES: &str = "tables of all laws: docs/guide/laws.md and docs/guide/validation.md of the project";

@@ -4,7 +4,7 @@ use super::error::ExportError;
 use super::link::Linker;
 use super::rustc::Rustc;
 use super::toolchain::{Toolchain, help};
-use crate::platform::{System, Target};
+use brinell_exporter::platform::{System, Target};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 

@@ -1,10 +1,10 @@
 //! Errors of the export: the reason in one line, and a remedy.
 
 use crate::files::FileError;
-use crate::layout::shown;
-use crate::platform::NoPlatform;
 use crate::prebuilt::PrebuiltError;
-use crate::symbols::SymbolError;
+use brinell_exporter::layout::shown;
+use brinell_exporter::package::PackError;
+use brinell_exporter::platform::NoPlatform;
 use std::io;
 use std::path::PathBuf;
 
@@ -39,10 +39,8 @@ pub enum ExportError {
     NoSpace { folder: PathBuf, said: String },
     #[error("rustc doesn't build the library: {0}")]
     Compiler(String),
-    #[error("the library for {platform} is not packed: {reason}")]
-    Symbols { platform: &'static str, reason: SymbolError },
-    #[error("the archive can't be written: {0}")]
-    Zip(#[from] zip::result::ZipError),
+    #[error("{0}")]
+    Pack(#[from] PackError),
 }
 
 /// A folder that can't serve as a build folder.

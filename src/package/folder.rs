@@ -114,7 +114,7 @@ impl Cache {
 
 /// The hash of a part's contents.
 fn sum_of(bytes: &[u8]) -> String {
-    Hash::new().with_bytes(bytes).digits()
+    Hash::default().with_bytes(bytes).digits()
 }
 
 /// `BRINELL_CACHE`, or the folder of this name in the user's cache on the operating system `os`.

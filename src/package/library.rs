@@ -6,11 +6,12 @@ use super::folder::{Cache, LIBRARY};
 use super::link::{self, Linker};
 use super::parts::Parts;
 use super::rustc::Rustc;
-use super::{Hash, resource, universal};
+use super::sources_hash;
 use crate::files::FileError;
 use crate::parallel;
-use crate::plan::Plan;
-use crate::platform::{self, Platform, System, Target};
+use brinell_exporter::package::{Hash, join, resource};
+use brinell_exporter::plan::Plan;
+use brinell_exporter::platform::{self, Platform, System, Target};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -132,8 +133,8 @@ pub fn build(source: &Source, platforms: &[Platform]) -> Result<Vec<Vec<u8>>, Ex
         let at = targets.iter().position(|other| *other == target).expect("every target was built");
         slices[at].as_slice()
     };
-    let join = |platform: &Platform| universal::join(&platform.targets.iter().map(slice).collect::<Vec<_>>());
-    Ok(platforms.iter().map(join).collect())
+    let joined = |platform: &Platform| join(&platform.targets.iter().map(slice).collect::<Vec<_>>());
+    Ok(platforms.iter().map(joined).collect())
 }
 
 /// One library for one target.
@@ -193,7 +194,7 @@ impl Build<'_> {
         let all = all
             .chain(arguments.iter().map(String::as_str))
             .chain(link::files().into_iter().flat_map(|(name, text)| [name, text]));
-        format!("{LIBRARY}{}", Hash::new().with_all(all.chain(super::sources())).digits())
+        format!("{LIBRARY}{}", Hash::default().with_all(all.chain([sources_hash()])).digits())
     }
 
     /// Compiles the library in the folder.

@@ -1,6 +1,6 @@
 //! Linking a library: with LLVM's linker for every system, or with the installed C compiler for the host on Linux.
 
-use crate::platform::{System, Target};
+use brinell_exporter::platform::{System, Target};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 

@@ -1,42 +1,30 @@
 //! From a plan to an `.fmu`: rustc compiles the library, its symbols are checked, and everything is zipped.
 
-mod archive;
 mod compiler;
 mod diagnostics;
 mod error;
 mod folder;
-mod hash;
 mod library;
 mod link;
 mod parts;
-mod resource;
 mod rustc;
 mod toolchain;
-mod universal;
 mod way;
 
-pub use archive::archive;
 pub use error::ExportError;
-pub use hash::Hash;
 pub use library::{Builder, Source};
-
-pub use universal::join;
 pub use way::{Origin, Way};
 
 use crate::files::write_whole;
-use crate::plan::Plan;
-use crate::platform::Platform;
-use crate::{documentation, model_description, symbols};
-use archive::Archive;
+use brinell_exporter::package::{Hash, Packed, pack};
+use brinell_exporter::plan::Plan;
+use brinell_exporter::platform::Platform;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 use way::{Libraries, make};
 
 include!(concat!(env!("OUT_DIR"), "/sources.rs"));
-
-const LICENSE: &str = include_str!("../../LICENSE");
-const THIRD_PARTY: &str = include_str!("../../modelDescription/licenses.txt");
-const ICON: &[u8] = include_bytes!("../../modelDescription/model.png");
 
 /// The result of an export.
 #[derive(Default)]
@@ -63,16 +51,6 @@ impl Exported {
     }
 }
 
-/// A packed library.
-pub struct Packed {
-    /// Folder of its platform.
-    pub platform: &'static str,
-    /// Size [bytes].
-    pub size: usize,
-    /// The symbols that it imports from the process.
-    pub imports: Vec<String>,
-}
-
 /// Makes the planned FMU in this `way` for `platforms` and writes it to `path`. An existing file is replaced only
 /// after success.
 ///
@@ -90,48 +68,22 @@ pub fn export(plan: &Plan, way: Way, platforms: &[Platform], path: &Path) -> Res
 /// # Errors
 /// [`ExportError`]
 pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, Exported), ExportError> {
-    let scene = plan.scene;
-    let Libraries { guid, libraries: built, origin } = make(plan, way, platforms)?;
-    let mut libraries = Vec::new();
-    for (platform, library) in platforms.iter().zip(&built) {
-        let refused = |reason| ExportError::Symbols { platform: platform.folder, reason };
-        let imports = symbols::check(library, platform, scene.standalone).map_err(refused)?;
-        libraries.push(Packed { platform: platform.folder, size: library.len(), imports });
-    }
-    let license = format!("{LICENSE}\n{THIRD_PARTY}");
-    let page = documentation::write(plan);
-    let mut archive = Archive::new();
-    archive.add_written("modelDescription.xml", |to| model_description::write(plan, &guid, to))?;
-    archive.add("model.png", ICON)?;
-    for (platform, library) in platforms.iter().zip(&built) {
-        archive.add(&format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension), library)?;
-    }
-    archive.add("documentation/index.html", page.as_bytes())?;
-    archive.add("documentation/licenses/license.txt", license.as_bytes())?;
-    archive.add("resources/scene.toml", scene.text.as_bytes())?;
-    let archive = archive.finish()?;
+    let Libraries { guid, libraries, origin } = make(plan, way, platforms)?;
+    let (archive, libraries) = pack(plan, &guid, platforms, &libraries)?;
     let size = archive.len();
     Ok((archive, Exported { path: PathBuf::new(), guid, size, libraries, origin: Some(origin) }))
 }
 
-/// Placeholder of the same length for the GUID. In quotes it can't occur anywhere else: in the texts of a scene,
-/// quotes are written as `&quot;` and `\"`.
-pub const GUID_TO_COME: &str = "GUID of 32 digits that will come";
-
-/// `text` with the GUID instead of the placeholder.
-pub fn identified(text: &str, guid: &str) -> String {
-    let quoted = |text: &str| format!("\"{text}\"");
-    text.replacen(&quoted(GUID_TO_COME), &quoted(guid), 1)
+/// The hash of the common input of all libraries: names and texts of the files.
+pub fn sources_hash() -> &'static str {
+    static HASH: LazyLock<String> = LazyLock::new(|| {
+        let all = [CONTACT_SOURCE, FMU_SOURCE, UNIT_SOURCE, LIBM_SOURCE].into_iter().flatten();
+        Hash::default().with_all(all.flat_map(|&(name, text)| [name, text])).digits()
+    });
+    &HASH
 }
 
-/// The common input of all libraries: names and texts of the files.
-pub fn sources<'a>() -> impl Iterator<Item = &'a str> {
-    [CONTACT_SOURCE, FMU_SOURCE, UNIT_SOURCE, LIBM_SOURCE].into_iter().flatten().flat_map(|&(name, text)| [name, text])
-}
-
-/// Identifier of the library: 16 digits of a hash of its source and that of `libm`.
-pub fn library_identity() -> String {
-    let mut identity = Hash::new().with_all(sources()).digits();
-    identity.truncate(16);
-    identity
+/// Identifier of the library: 16 digits of the hash of its sources and those of `libm`.
+pub fn library_identity() -> &'static str {
+    &sources_hash()[..16]
 }

@@ -4,9 +4,10 @@
 use super::error::ExportError;
 use super::folder::Cache;
 use super::rustc::Rustc;
-use super::{CONTACT_SOURCE, FMU_SOURCE, Hash, LIBM_SOURCE, UNIT_SOURCE};
+use super::{CONTACT_SOURCE, FMU_SOURCE, LIBM_SOURCE, UNIT_SOURCE};
 use crate::files::FileError;
-use crate::platform::Target;
+use brinell_exporter::package::Hash;
+use brinell_exporter::platform::Target;
 use std::path::Path;
 use std::{fs, io};
 
@@ -146,7 +147,7 @@ impl Parts<'_> {
         let made_from = [rustc.identity.as_str()].into_iter().chain(arguments.iter().copied());
         let made_from = made_from.chain(sources.iter().flat_map(|(name, text)| [*name, *text]));
         let (name, ending) = file.split_at(file.find('.').unwrap_or(file.len()));
-        let name = format!("{name}-{}", Hash::new().with_all(made_from).digits());
+        let name = format!("{name}-{}", Hash::default().with_all(made_from).digits());
         let here = folder.join(file);
         if let Some((known, _)) = cache.part(&name, ending) {
             let copied = fs::hard_link(&known, &here).or_else(|_| fs::copy(&known, &here).map(drop));
@@ -208,7 +209,8 @@ mod tests {
         let mut cargo = Command::new(env!("CARGO"));
         cargo.current_dir(env!("CARGO_MANIFEST_DIR")).args(["metadata", "--format-version=1", "--locked", "--offline"]);
         // the dependencies of other systems are not downloaded
-        cargo.args(["--filter-platform", crate::platform::here().expect("a known system").targets[0].triple]);
+        cargo
+            .args(["--filter-platform", brinell_exporter::platform::here().expect("a known system").targets[0].triple]);
         let metadata: Value = serde_json::from_str(&printed(&mut cargo)).expect("JSON");
         let libm = metadata["packages"].as_array().unwrap().iter().find(|package| package["name"] == "libm").unwrap();
         let folder = Path::new(libm["manifest_path"].as_str().unwrap()).parent().unwrap();

@@ -3,7 +3,7 @@
 use super::diagnostics;
 use super::error::ExportError;
 use crate::files::FileError;
-use crate::platform::Target;
+use brinell_exporter::platform::Target;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

@@ -1,6 +1,6 @@
 //! The cross toolchain in the folder that `BRINELL_TOOLCHAIN` names. `packaging/toolchain.py` makes it and has its layout.
 
-use crate::platform::Target;
+use brinell_exporter::platform::Target;
 use std::env;
 use std::path::PathBuf;
 

@@ -3,11 +3,13 @@
 use super::folder::Cache;
 use super::library::{self, Source};
 use super::rustc::Rustc;
-use super::{ExportError, GUID_TO_COME, Hash, identified, sources};
-use crate::plan::Plan;
-use crate::platform::Platform;
+use super::{ExportError, sources_hash};
+use crate::parallel;
 use crate::prebuilt::{PrebuiltError, Unit};
-use crate::{constants, model_description, parallel};
+use brinell_exporter::constants;
+use brinell_exporter::package::{GUID_TO_COME, guid, identified};
+use brinell_exporter::plan::Plan;
+use brinell_exporter::platform::Platform;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
@@ -75,8 +77,7 @@ fn no_compiler() -> Option<ExportError> {
 fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Libraries, ExportError> {
     let begin = Instant::now();
     let constants = constants::write(plan, GUID_TO_COME);
-    let description = Hash::new().with_written(|to| model_description::write(plan, GUID_TO_COME, to));
-    let guid = description.map_err(zip::result::ZipError::from)?.with(&constants).with_all(sources()).digits();
+    let guid = guid(plan, &[&constants], sources_hash());
     let constants = identified(&constants, &guid);
     let libraries = library::build(&Source::Scene { plan, constants: &constants }, platforms)?;
     Ok(Libraries { guid, libraries, origin: Origin { prebuilt: None, time: begin.elapsed() } })
@@ -87,8 +88,8 @@ fn fill_in(plan: &Plan, platforms: &[Platform]) -> Result<Libraries, PrebuiltErr
     let begin = Instant::now();
     let unit = Unit::of(plan)?;
     let libraries = parallel::each(platforms, |platform| unit.library(platform))?;
-    let origin = Origin { prebuilt: Some(unit.library.name()), time: begin.elapsed() };
-    Ok(Libraries { guid: unit.guid, libraries, origin })
+    let (guid, name) = unit.named();
+    Ok(Libraries { guid, libraries, origin: Origin { prebuilt: Some(name), time: begin.elapsed() } })
 }
 
 impl Origin {

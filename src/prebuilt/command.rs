@@ -1,13 +1,15 @@
 //! `brinell prebuild`: compiles the libraries that need no compiler afterwards.
 
-use super::kinds::{KINDS, Laws, Library};
 use super::store::{self, Written};
 use crate::arguments::PrebuildArguments;
 use crate::files::FileError;
-use crate::layout::json_line;
-use crate::package::{Builder, ExportError, Source, Way};
-use crate::platform::{self, Target};
-use crate::{parallel, symbols};
+use crate::package::{self, Builder, ExportError, Source, Way};
+use crate::parallel;
+use brinell_exporter::layout::json_line;
+use brinell_exporter::package::PackError;
+use brinell_exporter::platform::{self, Target};
+use brinell_exporter::prebuilt::{KINDS, Laws, Library};
+use brinell_exporter::symbols;
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::error::Error;
@@ -66,9 +68,9 @@ fn refuse_unknown(what: &str, asked: &[String], known: &[String]) -> Result<(), 
 fn build_all(builder: &Builder, libraries: &[Library], target: &'static Target) -> Result<Vec<Vec<u8>>, ExportError> {
     let progress = ProgressBar::new(libraries.len() as u64);
     let built = parallel::each(libraries, |library| {
-        let (text, _) = library.source();
+        let (text, _) = library.source(package::sources_hash());
         let bytes = builder.build(&Source::Kind { text: &text }, target)?;
-        let refused = |reason| ExportError::Symbols { platform: target.triple, reason };
+        let refused = |reason| PackError::Symbols { platform: target.triple, reason };
         symbols::check(&bytes, &target.alone(), false).map_err(refused)?;
         progress.inc(1);
         Ok(bytes)

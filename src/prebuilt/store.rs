@@ -3,17 +3,16 @@
 //! The libraries of a kind are compressed as one stream, because most of their code is the same. Reading one library
 //! takes unpacking a fraction of the archive.
 
-use super::kinds::Library;
 use crate::files::{FileError, write_whole};
-use crate::layout::shown;
-use crate::package::{self, Hash};
-use crate::platform::{Platform, Target};
+use crate::package::sources_hash;
 use crate::prebuilt_folder::{self, LIST, PrebuiltFolder};
+use brinell_exporter::layout::shown;
+use brinell_exporter::platform::{Platform, Target};
+use brinell_exporter::prebuilt::Library;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
 
 /// An error of reading a prebuilt library.
 #[derive(Debug, thiserror::Error)]
@@ -82,9 +81,6 @@ fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// A hash of the sources that all libraries share.
-static SOURCES: LazyLock<String> = LazyLock::new(|| Hash::new().with_all(package::sources()).digits());
-
 /// Ending of an archive.
 const ARCHIVE: &str = "br";
 
@@ -128,7 +124,7 @@ impl Store {
         let text = fs::read_to_string(&path).map_err(FileError::at(&path))?;
         let list: List = serde_json::from_str(&text)
             .map_err(|error| StoreError::Damaged { path: path.clone(), reason: error.to_string() })?;
-        if list.sources != *SOURCES {
+        if list.sources != sources_hash() {
             return Err(StoreError::OtherVersion { folder: self.folder(), version: list.brinell });
         }
         Ok(list)
@@ -200,7 +196,7 @@ pub fn write(path: &Path, target: &Target, libraries: &[(&Library, Vec<u8>)]) ->
     let name = format!("{}.{ARCHIVE}", target.triple);
     let list = List {
         brinell: env!("CARGO_PKG_VERSION").into(),
-        sources: SOURCES.clone(),
+        sources: sources_hash().into(),
         archive: Listed::new(name, &archive),
         streams,
     };

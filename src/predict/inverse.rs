@@ -3,14 +3,14 @@
 //! A dent grows with the speed and falls with the strength: one of each explains it. Restitution is not monotone: a rebound may
 //! have several explanations or none, and the search finds all of them within a range.
 
-use super::command::Question;
-use super::{PredictError, beyond, one, positive};
-use crate::laws::Choice;
-use crate::layout::{self, json_line, paragraph};
-use crate::numbers::{quantity, significant};
-use crate::validity;
+use super::Question;
 use crate::wrong_call::WrongCall;
 use brinell_contact::impact::Impact;
+use brinell_exporter::laws::Choice;
+use brinell_exporter::layout::{json_line, paragraph};
+use brinell_exporter::numbers::{quantity, significant};
+use brinell_exporter::predict::{PredictError, beyond, one, positive};
+use brinell_exporter::validity;
 use serde_json::{Value, json};
 use std::error::Error;
 
@@ -80,7 +80,7 @@ impl Question<'_> {
         for (choice, impact, answer) in speeds.iter().filter_map(at).chain(strengths.iter().filter_map(with)) {
             let Ok(prediction) = one(&choice, &impact) else { continue };
             for limit in beyond(scene, &choice, &impact, &prediction) {
-                layout::warn(&format!("{}, {answer}: {}", choice.laws, validity::words(limit)));
+                crate::messages::warn(&format!("{}, {answer}: {}", choice.laws, validity::words(limit)));
             }
         }
     }

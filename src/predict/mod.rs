@@ -1,170 +1,230 @@
-//! `brinell predict`: predicts an impact by energy balance, and explains a measured one.
+//! `brinell predict`: predicts an impact, and explains a measured one.
 
-pub mod axis;
-pub mod command;
-mod constants;
 mod inverse;
-mod notes;
-pub mod oblique;
-pub mod sweep;
+mod oblique_text;
+mod sweep;
 mod text;
-pub mod time_history;
 
-use crate::laws::{self, Choice};
-use crate::layout;
-use crate::model::{NoEnergy, check_energy};
-use crate::numbers::{in_message, out_of_range, quantity, significant};
-use crate::pairing;
-use crate::scene::Scene;
-use crate::table;
-use crate::validity::{self, Beyond};
-use brinell_contact::Loading;
-use brinell_contact::Regime;
-use brinell_contact::impact::{Impact, Prediction};
+use self::oblique_text::ObliqueAnswer;
+use crate::files::{self, deliver, ending};
+use crate::scene_file;
+use crate::wrong_call::WrongCall;
+use brinell_contact::impact::Impact;
+use brinell_exporter::laws::{self, Choice};
+use brinell_exporter::layout::{json_line, shown};
+use brinell_exporter::model::check_energy;
+use brinell_exporter::predict::axis::{Axis, varied};
+use brinell_exporter::predict::oblique::{self, Setting};
+use brinell_exporter::predict::{
+    PredictError, beyond, constants, one, positive, quantities, speed_of_energy, speed_of_height, time_history,
+};
+use brinell_exporter::scene::{Scene, plausible};
+use brinell_exporter::units;
+use serde_json::json;
 use std::error::Error;
+use std::path::{Path, PathBuf};
+use sweep::Sweep;
+use text::Answer;
 
-/// Standard gravity [m/s^2].
-const GRAVITY: f64 = 9.80665;
-
-/// An impact without a prediction.
-#[derive(Debug, thiserror::Error)]
-pub enum PredictError {
-    #[error("{name} = {} must be positive and finite", in_message(*.value))]
-    NotPositive { name: &'static str, value: f64 },
-    #[error(
-        "the law {law} can't be evaluated for an impact of {} at {}: it is too hard",
-        quantity(*.mass, "kg"), quantity(*.speed, "m/s")
-    )]
-    Beyond { law: String, mass: f64, speed: f64 },
-    #[error("{0}")]
-    Energy(#[from] NoEnergy),
-    #[error("no {what} from {} to {} explains {name} = {}", quantity(*.low, .unit), quantity(*.high, .unit), quantity(*.value, .of))]
-    NoSolution {
-        what: &'static str,
-        unit: &'static str,
-        low: f64,
-        high: f64,
-        name: &'static str,
-        value: f64,
-        of: &'static str,
-    },
-    #[error("restitution = {} must be above 0 and at most 1", in_message(*.0))]
-    Restitution(f64),
-    #[error("nothing explains restitution = {}: {searched}", in_message(*.goal))]
-    NoRebound { goal: f64, searched: String },
-    #[error("the law {0} is rate-dependent: it leaves no dent and has no yield strength to look for")]
-    NoDent(String),
-    #[error("--sweep {0}")]
-    Sweep(String),
-    #[error("angle = {} must be above -90 and below 90 degrees from the normal", in_message(*.0))]
-    Angle(f64),
-    #[error("spin = {} rad/s must be finite", in_message(*.0))]
-    Spin(f64),
-    #[error("friction {}", out_of_range(*value, allowed, ""))]
-    Coefficient { value: f64, allowed: std::ops::RangeInclusive<f64> },
-    #[error("the law {law} doesn't support friction: {why}")]
-    NoFriction { law: String, why: String },
-    #[error("the scene has no friction: give it [friction] coefficient, or --friction, such as --friction 0.1")]
-    NoCoefficient,
-    #[error("--{0} belongs to an oblique impact: add --angle DEGREES, --spin RAD/S or a sweep over one of them")]
-    NotOblique(&'static str),
+/// The arguments of `brinell predict`.
+#[derive(clap::Args)]
+#[command(next_line_help = true)]
+pub struct Arguments {
+    /// The scene file
+    pub scene: PathBuf,
+    /// Effective mass [kg], instead of the scene's
+    #[arg(long, allow_hyphen_values = true, value_parser = units::masses)]
+    pub mass: Option<f64>,
+    /// Closing speed [m/s], instead of the scene's
+    #[arg(long, allow_hyphen_values = true, value_parser = units::speeds, conflicts_with_all = ["energy", "drop_height"])]
+    pub speed: Option<f64>,
+    /// Kinetic energy [J], instead of a speed
+    #[arg(long, allow_hyphen_values = true, value_parser = units::energies, conflicts_with = "drop_height")]
+    pub energy: Option<f64>,
+    /// Drop height [m], instead of a speed
+    #[arg(long, allow_hyphen_values = true, value_parser = units::lengths)]
+    pub drop_height: Option<f64>,
+    /// Laws to compare: LOADING or LOADING/UNLOADING; "all", "damped" [default: the scene's]
+    #[arg(long, value_delimiter = ',')]
+    pub laws: Vec<String>,
+    /// Vary a quantity, such as speed=0.01:10 or impactor.radius=1e-3:5e-3:8; again: every combination
+    #[arg(long, value_name = "NAME=FROM:TO[:COUNT]")]
+    pub sweep: Vec<String>,
+    /// Write the sweep with all digits [default: print a short table]
+    #[arg(short, long, value_name = "FILE.csv", requires = "sweep")]
+    pub output: Option<PathBuf>,
+    /// Write force, indentation and speed over time
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["sweep", "dent", "restitution"])]
+    pub time_history: Option<PathBuf>,
+    /// Angle of incidence from the normal [degrees], for an oblique impact; the speed is then that along the path
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
+    pub angle: Option<f64>,
+    /// Spin of the ball before an oblique impact [rad/s]; positive like that of its contact point
+    #[arg(long, value_name = "RAD/S", allow_hyphen_values = true, conflicts_with_all = ["time_history", "dent", "restitution"])]
+    pub spin: Option<f64>,
+    /// Coefficient of friction of an oblique impact [default: the scene's]
+    #[arg(long, allow_hyphen_values = true)]
+    pub friction: Option<f64>,
+    /// Moment of inertia of the ball in an oblique impact [kg.m^2] [default: that of a solid sphere]
+    #[arg(long, allow_hyphen_values = true)]
+    pub inertia: Option<f64>,
+    /// A measured dent [m]: print the speed and the yield strength that explain it
+    #[arg(long, allow_hyphen_values = true, value_parser = units::lengths, conflicts_with = "sweep")]
+    pub dent: Option<f64>,
+    /// A measured restitution: print the speeds and yield strengths that explain it
+    #[arg(long, allow_hyphen_values = true, conflicts_with_all = ["sweep", "dent"])]
+    pub restitution: Option<f64>,
 }
 
-/// Rejects numbers that are not positive and finite.
-pub fn positive(name: &'static str, value: f64) -> Result<f64, PredictError> {
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(PredictError::NotPositive { name, value }) }
-}
+/// The quantities of a sweep's table in a terminal.
+const SHOWN: [&str; 5] = ["restitution", "largest force", "largest indentation", "dent", "loading time"];
 
-/// The speed [m/s] of a `mass` [kg] with this kinetic energy [J].
-pub fn speed_of_energy(mass: f64, energy: f64) -> f64 {
-    (2.0 * energy / mass).sqrt()
-}
-
-/// The speed [m/s] after a fall from `height` [m].
-pub fn speed_of_height(height: f64) -> f64 {
-    (2.0 * GRAVITY * height).sqrt()
-}
-
-/// The prediction for `choice`.
-pub fn one(choice: &Choice, impact: &Impact) -> Result<Prediction, PredictError> {
-    let beyond = || PredictError::Beyond { law: choice.laws.clone(), mass: impact.mass, speed: impact.speed };
-    choice.model.predict(impact).ok_or_else(beyond)
-}
-
-/// What the law of `scene` is, and what the law of scenes that name none says of the same impact.
-///
-/// # Errors
-/// As for [`one`] and [`laws::choose`].
-pub fn by_the_default_law(scene: &Scene) -> Result<String, Box<dyn Error>> {
-    let choices = laws::choose(scene, &[pairing::DEFAULT_LOADING.to_string()])?;
-    let said = one(&choices[0], &scene.impact_of(0))?;
-    let title = |name| &table::loading_law(name).title;
-    let text = format!(
-        "{} ({}); without [law] it is {} ({}): {}, dent {}, restitution {}",
-        scene.loading.0,
-        title(scene.loading.0),
-        pairing::DEFAULT_LOADING,
-        title(pairing::DEFAULT_LOADING),
-        quantity(said.max_force, "N"),
-        quantity(said.residual_indentation, "m"),
-        significant(said.restitution, 4)
-    );
-    Ok(layout::paragraph("  law: ", &text))
-}
-
-/// The limits of validity that this impact exceeds on the first contact of `scene`.
-fn beyond(scene: &Scene, choice: &Choice, impact: &Impact, prediction: &Prediction) -> Vec<Beyond> {
-    let density = scene.contacts[0].density;
-    validity::beyond(&choice.model.pair(), density, prediction.max_contact_radius, impact.speed)
-}
-
-/// The quantities of a prediction: name, value, unit.
-fn quantities(prediction: &Prediction) -> [sweep::Quantity; 9] {
-    [
-        ("largest force", prediction.max_force, "N"),
-        ("largest indentation", prediction.max_indentation, "m"),
-        ("largest contact radius", prediction.max_contact_radius, "m"),
-        ("dent", prediction.residual_indentation, "m"),
-        ("restitution", prediction.restitution, ""),
-        ("kinetic energy", prediction.energy, "J"),
-        ("energy lost", energy_lost(prediction), "J"),
-        ("loading time", prediction.loading_time, "s"),
-        ("unloading time", prediction.unloading_time, "s"),
-    ]
-}
-
-/// Dissipated energy [J].
-fn energy_lost(prediction: &Prediction) -> f64 {
-    let lost = prediction.energy - prediction.rebound_energy;
-    // energies that differ only by rounding
-    if lost.abs() <= 8.0 * f64::EPSILON * prediction.energy { 0.0 } else { lost }
-}
-
-/// The speeds [m/s] at which an impact enters each further regime of `choice`.
-fn onsets(choice: &Choice, mass: f64) -> Vec<(Regime, f64)> {
-    let mut onsets = Vec::new();
-    let Some(model) = choice.model.elastoplastic() else { return onsets };
-    let (law, pair) = (model.loading, model.pair);
-    let mut regime = law.regime(&pair, 0.0);
-    let mut corner = law.next_corner(&pair, 0.0);
-    while corner < brinell_contact::regime::LARGEST_INDENTATION {
-        let above = law.regime(&pair, corner);
-        if above != regime {
-            onsets.push((above, (2.0 * law.work(&pair, corner) / mass).sqrt()));
-            regime = above;
-        }
-        corner = law.next_corner(&pair, corner);
+/// Runs the command.
+pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
+    let (output, time_history) = (arguments.output.as_deref(), arguments.time_history.as_deref());
+    for path in [output, time_history].into_iter().flatten() {
+        ending(Some(path), &["csv"]).map_err(WrongCall)?;
+        files::check_goal(path)?;
     }
-    onsets
+    let axes = arguments.sweep.iter().map(|words| Axis::parse(words)).collect::<Result<Vec<_>, _>>();
+    let axes = axes.map_err(WrongCall::of)?;
+    let scene = scene_file::read_aloud(&arguments.scene)?;
+    let impact = impact(&scene, arguments).map_err(WrongCall::of)?;
+    implausible(&scene, arguments, impact.mass, &axes).iter().for_each(|doubt| crate::messages::warn(doubt));
+    let setting = arguments.setting(&scene, &axes)?;
+    // the strength is that of the normal impact
+    let normal = setting.map_or(impact.speed, |setting| impact.speed * setting.angle.to_radians().cos());
+    let scene = scene
+        .with_strengths_for(Some(&Impact { speed: normal, ..impact }))
+        .ok_or("the impact is too hard for the law of the scene")?;
+    let mut choices = laws::choose(&scene, &arguments.laws).map_err(WrongCall::of)?;
+    if setting.is_some() {
+        let takes_some = arguments.laws.iter().any(|name| name == "all");
+        choices = oblique::with_friction(choices, takes_some).map_err(WrongCall::of)?;
+    }
+    let question = Question { scene: &scene, choices: &choices, impact, as_json };
+    if !axes.is_empty() {
+        return question.sweep(setting, &axes, output);
+    }
+    if let Some(setting) = setting {
+        let answer = ObliqueAnswer::of(&scene, &choices, (impact, setting)).map_err(failed)?;
+        match as_json {
+            true => print!("{}", json_line(&answer.json())),
+            false => print!("{}", answer.text()),
+        }
+        return Ok(());
+    }
+    if let Some(dent) = arguments.dent {
+        return question.explain_dent(dent);
+    }
+    if let Some(measured) = arguments.restitution {
+        return question.explain_rebound(measured);
+    }
+    let answer = Answer::of(&scene, &choices, impact, arguments.drop_height)?;
+    if let Some(path) = time_history {
+        deliver(&time_history::columns(&choices, &impact)?.csv(), Some(path))?;
+    }
+    let mut object = answer.json();
+    object["time_history"] = json!(time_history.map(Path::to_string_lossy));
+    match as_json {
+        true => print!("{}", json_line(&object)),
+        false => print!("{}", answer.text()),
+    }
+    if let Some(path) = time_history.filter(|_| !as_json) {
+        println!("\ntime history: {}", shown(path));
+    }
+    Ok(())
 }
 
-/// The method of the predictions for these laws, in words.
-fn methods(choices: &[Choice]) -> &'static str {
-    let mut methods: Vec<_> = choices.iter().map(|choice| choice.model.method()).collect();
-    methods.dedup();
-    match methods.as_slice() {
-        [method] => method,
-        // both kinds of laws
-        _ => "by energy balance, for rate-dependent laws by integrating the motion",
+/// The scene's impact, with the changes from the arguments.
+fn impact(scene: &Scene, arguments: &Arguments) -> Result<Impact, PredictError> {
+    let mass = positive("mass", arguments.mass.unwrap_or(scene.impact_of(0).mass))?;
+    let speed = match (arguments.speed, arguments.energy, arguments.drop_height) {
+        (Some(speed), ..) => positive("speed", speed)?,
+        (_, Some(energy), _) => speed_of_energy(mass, positive("energy", energy)?),
+        (.., Some(height)) => speed_of_height(positive("drop-height", height)?),
+        _ => scene.impact.speed,
+    };
+    let impact = Impact { mass, speed };
+    check_energy(&impact)?;
+    Ok(impact)
+}
+
+/// The doubts about numbers of the command line: an impact of this `mass` [kg], a dent, and the ends of ranges.
+fn implausible(scene: &Scene, arguments: &Arguments, mass: f64, axes: &[Axis]) -> Vec<String> {
+    let given = [("speed", arguments.speed), ("mass", arguments.mass), ("drop-height", arguments.drop_height)];
+    let given = given.into_iter().filter_map(|(name, value)| plausible::of_quantity(name, value?));
+    let energy = arguments.energy.and_then(|energy| plausible::of_energy("energy", energy, mass));
+    let radius = scene.group_value(0, "impactor.radius").unwrap_or(f64::INFINITY);
+    let dent = arguments.dent.and_then(|dent| plausible::of_depth("dent", dent, radius));
+    let end = |axis: &Axis, end: f64| match axis.name {
+        "energy" => plausible::of_energy(axis.name, end, mass),
+        name => plausible::of_quantity(name, end),
+    };
+    let range = |axis: &Axis| [axis.from, axis.to].into_iter().find_map(|value| end(axis, value));
+    given.chain(energy).chain(dent).chain(axes.iter().filter_map(range)).collect()
+}
+
+/// An impossible quantity or range is a wrong call. A law that can't be evaluated is not.
+fn failed(error: PredictError) -> Box<dyn Error> {
+    match error {
+        PredictError::Beyond { .. } => error.into(),
+        error => WrongCall::of(error).into(),
+    }
+}
+
+/// An impact on a scene with several laws, and the format of the output.
+pub struct Question<'a> {
+    pub scene: &'a Scene,
+    pub choices: &'a [Choice],
+    pub impact: Impact,
+    pub as_json: bool,
+}
+
+impl Question<'_> {
+    /// Impacts over ranges of quantities, oblique ones with a `setting`: as a table, CSV or JSON.
+    fn sweep(&self, setting: Option<Setting>, axes: &[Axis], output: Option<&Path>) -> Result<(), Box<dyn Error>> {
+        let Question { scene, impact, .. } = *self;
+        let normal = |choice: &Choice, values: &[(&Axis, f64)]| {
+            let (choice, impact) = varied(scene, choice, impact, values)?;
+            let prediction = one(&choice, &impact)?;
+            let regime = ("regime", f64::from(prediction.regime as i32), "");
+            let quantities = quantities(&prediction).into_iter().chain([regime]).collect();
+            Ok((quantities, beyond(scene, &choice, &impact, &prediction)))
+        };
+        let oblique = |setting| {
+            move |choice: &Choice, values: &[(&Axis, f64)]| {
+                let outcome = oblique::one(scene, choice, (impact, setting), values)?;
+                Ok((outcome.quantities().to_vec(), outcome.beyond))
+            }
+        };
+        let choices = self.depending_on(axes);
+        let sweep = match setting {
+            None => Sweep::of(axes, &choices, sweep::VALUES, normal),
+            Some(setting) => Sweep::of(axes, &choices, oblique::VALUES, oblique(setting)),
+        };
+        let sweep = sweep.map_err(failed)?;
+        sweep.limits.warnings().iter().for_each(|warning| crate::messages::warn(warning));
+        let Impact { mass, speed } = impact;
+        let text = match output {
+            Some(_) => sweep.columns.csv(),
+            None if self.as_json => json_line(&json!({ "mass": mass, "speed": speed, "laws": sweep.columns.json() })),
+            None => sweep.text(setting.map_or(&SHOWN, |_| &oblique::SHOWN)),
+        };
+        Ok(deliver(&text, output)?)
+    }
+
+    /// Of several laws, those that depend on the strength and on the constants that vary.
+    fn depending_on(&self, axes: &[Axis]) -> Vec<Choice> {
+        let mut choices = self.choices.to_vec();
+        if choices.len() > 1 && axes.iter().any(|axis| axis.name == "target.yield_strength") {
+            choices.retain(Choice::yields);
+        }
+        let constants = || axes.iter().filter(|axis| constants::is_one(axis.name));
+        let has_all = |choice: &Choice| constants().all(|axis| constants::has(choice, axis.name));
+        if choices.iter().any(has_all) {
+            choices.retain(has_all);
+        }
+        choices
     }
 }

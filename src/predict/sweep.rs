@@ -1,15 +1,12 @@
 //! `brinell predict --sweep`: impacts over ranges of one or several quantities, as a table.
 
-use super::PredictError;
-use super::axis::Axis;
-use crate::columns::{Column, Columns};
-use crate::laws::Choice;
-use crate::layout;
 use crate::parallel;
-use crate::validity::{Beyond, SweepLimits};
-
-/// A quantity of an impact: name, value, unit.
-pub type Quantity = (&'static str, f64, &'static str);
+use brinell_exporter::columns::{Column, Columns};
+use brinell_exporter::laws::Choice;
+use brinell_exporter::layout;
+use brinell_exporter::predict::axis::Axis;
+use brinell_exporter::predict::{PredictError, Quantity};
+use brinell_exporter::validity::{Beyond, SweepLimits};
 
 /// Number of values of a quantity without a number of its own: alone (with normal impacts), with another one, with several.
 pub const VALUES: usize = 201;

@@ -3,11 +3,11 @@
 use super::contact::Contact;
 use super::ways::{Body, LEAP_FROG};
 use super::{Figure, ReportError};
-use crate::numbers::{percent, quantity, significant};
-use crate::plot::{Picture, Series, View};
-use crate::scene::Scene;
-use crate::{bodies, documentation, table};
 use brinell_contact::impact::Prediction;
+use brinell_exporter::numbers::{percent, quantity, significant};
+use brinell_exporter::plot::{Picture, Series, View};
+use brinell_exporter::scene::Scene;
+use brinell_exporter::{bodies, documentation, table};
 
 /// Number of steps in the time history of the force.
 const STEPS: u32 = 400;

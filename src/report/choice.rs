@@ -3,7 +3,7 @@
 use super::precision::{Line, Point};
 use super::stability::Limit;
 use super::ways::Master;
-use crate::numbers::{quantity, significant};
+use brinell_exporter::numbers::{quantity, significant};
 use serde::Serialize;
 
 /// Largest error of a way that is called exact.

@@ -5,14 +5,14 @@ use super::contact::Contact;
 use super::units::first_contact;
 use super::ways::{LEAP_FROG, Needs};
 use crate::importer::ImportError;
-use crate::model::AnyModel;
-use crate::scene::{Body, Scene};
-use crate::validity::{self, Beyond};
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::validity::{LARGEST_RADIUS_RATIO, LARGEST_SPEED_RATIO};
 use brinell_contact::{Loading, Model, Surface};
+use brinell_exporter::model::AnyModel;
+use brinell_exporter::scene::{Body, Scene};
+use brinell_exporter::validity::{self, Beyond};
 use serde::Serialize;
 
 /// Tolerances of an impact with leap-frog: energy relative to the incoming energy, force relative to itself.

@@ -2,17 +2,17 @@
 
 use super::Figure;
 use crate::curve;
-use crate::laws::{Choice, UnknownLaw, choose};
-use crate::model::AnyModel;
-use crate::numbers::{percent, quantity};
 use crate::parallel;
-use crate::plot::{Picture, Series, View};
-use crate::predict;
-use crate::scene::Scene;
 use crate::truth;
 use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::material::{Pair, YieldPoint};
+use brinell_exporter::laws::{Choice, UnknownLaw, choose};
+use brinell_exporter::model::AnyModel;
+use brinell_exporter::numbers::{percent, quantity};
+use brinell_exporter::plot::{Picture, Series, View};
+use brinell_exporter::predict;
+use brinell_exporter::scene::Scene;
 use serde::Serialize;
 use std::convert::Infallible;
 

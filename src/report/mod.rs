@@ -15,14 +15,16 @@ mod ways;
 
 use crate::files::{self, FileError, write_whole};
 use crate::importer::ImportError;
-use crate::layout::{json_line, paragraph, shown, tell};
-use crate::model::AnyModel;
-use crate::numbers::{digits, quantity, significant};
+use crate::messages::tell;
 use crate::package::ExportError;
-use crate::plot::{Picture, View};
-use crate::scene::Scene;
-use crate::validity;
+use crate::scene_file;
 use brinell_contact::validity::LARGEST_RADIUS_RATIO;
+use brinell_exporter::layout::{json_line, paragraph, shown};
+use brinell_exporter::model::AnyModel;
+use brinell_exporter::numbers::{digits, quantity, significant};
+use brinell_exporter::plot::{Picture, View};
+use brinell_exporter::scene::Scene;
+use brinell_exporter::validity;
 use card::Fact;
 use indicatif::ProgressBar;
 use laws::Laws;
@@ -75,7 +77,7 @@ pub struct Arguments {
 /// [`ReportError`], or an error of the scene or of the arguments.
 pub fn run(arguments: &Arguments, as_json: bool) -> Result<bool, Box<dyn Error>> {
     let Arguments { scene, output, peer, quick } = arguments;
-    let scene = Scene::read_aloud(scene)?;
+    let scene = scene_file::read_aloud(scene)?;
     let folder = output.clone().unwrap_or_else(|| format!("{}_report", scene.name).into());
     files::check_folder(&folder)?;
     let (report, figures) = Report::of(&scene, peer, *quick)?;

@@ -5,16 +5,16 @@ use super::precision::doubled;
 use super::ways::gaps;
 use super::{Figure, Progress, ReportError};
 use crate::importer::ImportError;
-use crate::laws::choose;
-use crate::numbers::{quantity, significant};
-use crate::plot::{Picture, Series, View};
-use crate::predict::oblique::{self, FRICTION, Outcome, Setting};
-use crate::scene::Scene;
 use brinell_contact::History;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::RoughModel;
 use brinell_contact::tangential::impact::Ball;
 use brinell_contact::unloading::AnyUnloading;
+use brinell_exporter::laws::choose;
+use brinell_exporter::numbers::{quantity, significant};
+use brinell_exporter::plot::{Picture, Series, View};
+use brinell_exporter::predict::oblique::{self, FRICTION, Outcome, Setting};
+use brinell_exporter::scene::Scene;
 use serde::Serialize;
 
 /// Angles of incidence as the ratio of the tangential speed to the normal one and the coefficient of friction: from sticking

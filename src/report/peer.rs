@@ -4,7 +4,7 @@ use super::precision::{Line, Plan};
 use super::ways::{Needs, WAYS, Way};
 use super::{ReportError, contact::Contact};
 use crate::importer::{Archive, ImportError, Unit};
-use crate::scene::Scene;
+use brinell_exporter::scene::Scene;
 use std::path::{Path, PathBuf};
 
 /// The variables that an FMU needs for this.

@@ -4,8 +4,8 @@ use super::contact::Contact;
 use super::ways::{Way, gaps};
 use super::{Figure, Progress};
 use crate::importer::ImportError;
-use crate::plot::{Picture, Series, View};
 use brinell_contact::impact::{Impact, Prediction};
+use brinell_exporter::plot::{Picture, Series, View};
 use serde::Serialize;
 use std::time::Instant;
 

@@ -6,9 +6,9 @@ use super::units::Contacts;
 use super::ways::{Body, Needs, Way, gaps};
 use super::{Figure, Progress};
 use crate::importer::ImportError;
-use crate::numbers::quantity;
-use crate::plot::{Picture, Series, View};
 use brinell_contact::impact::{Impact, Prediction};
+use brinell_exporter::numbers::quantity;
+use brinell_exporter::plot::{Picture, Series, View};
 use serde::Serialize;
 
 /// Smallest and largest step.

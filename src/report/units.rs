@@ -5,10 +5,11 @@ use super::ways::{Needs, WAYS, Way};
 use super::{Progress, ReportError};
 use crate::files::private_folder;
 use crate::importer::{Archive, ImportError, Unit};
-use crate::plan::Plan;
-use crate::scene::{Body, Both, Coupling, Group, Parameter, Scene};
-use crate::table::VARIABLES;
-use crate::{package, parallel, platform};
+use crate::{package, parallel};
+use brinell_exporter::plan::Plan;
+use brinell_exporter::platform;
+use brinell_exporter::scene::{Body, Both, Coupling, Group, Parameter, Scene};
+use brinell_exporter::table::VARIABLES;
 
 /// Outputs that a report reads, whatever the scene and the coupling.
 const OUTPUTS: [&str; 3] = ["indentation", "residual_indentation", "dissipated_energy"];

@@ -9,13 +9,14 @@ mod wiring;
 
 use crate::arguments::SspArguments;
 use crate::files::{check_goal, check_kept, check_own, ending, write_whole};
-use crate::interface::Entry;
-use crate::layout::{json_line, paragraph, shown};
 use crate::package::{self, Exported};
-use crate::plan::Plan;
-use crate::scene::Scene;
-use crate::table::Causality;
+use crate::scene_file;
 use crate::wrong_call::WrongCall;
+use brinell_exporter::interface::Entry;
+use brinell_exporter::layout::{json_line, paragraph, shown};
+use brinell_exporter::package::archive;
+use brinell_exporter::plan::Plan;
+use brinell_exporter::table::Causality;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use serde_json::json;
@@ -43,7 +44,7 @@ pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>
     ending(output, &["ssp"]).map_err(WrongCall)?;
     let way = way.chosen();
     let platforms = platforms.chosen(way)?;
-    let scene = Scene::read_aloud(source)?;
+    let scene = scene_file::read_aloud(source)?;
     let plan = Plan::of(&scene);
     let wiring = Wiring::read(&plan, with, connect).map_err(|error| -> Box<dyn Error> {
         if error.is_in_call() { WrongCall::of(error).into() } else { error.into() }
@@ -56,9 +57,9 @@ pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>
         check_own(&path, Some(&files.unit), &scene.text, Some(source))?;
     }
     for warning in &wiring.warnings {
-        crate::layout::tell(&format!("brinell: warning: {warning}"));
+        crate::messages::tell(&format!("brinell: warning: {warning}"));
     }
-    crate::layout::tell(&format!("building {} ...", shown(&path)));
+    crate::messages::tell(&format!("building {} ...", shown(&path)));
     let (unit, exported) = package::build(&plan, way, &platforms)?;
     let structure = document(|xml| structure::write(xml, &plan, &files, &wiring));
     let values = document(|xml| values::write(xml, &plan));
@@ -68,7 +69,7 @@ pub fn run(arguments: &SspArguments, as_json: bool) -> Result<(), Box<dyn Error>
         (files.unit.clone(), unit.as_slice()),
     ];
     parts.extend(wiring.peers.iter().map(|peer| (peer.file(), peer.bytes.as_slice())));
-    let archive = package::archive(&parts)?;
+    let archive = archive(&parts)?;
     write_whole(&path, &archive)?;
     tell(&plan, &files, Exported { path, size: archive.len(), ..exported }, as_json);
     Ok(())

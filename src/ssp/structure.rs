@@ -3,10 +3,10 @@
 use super::wiring::{End, Peer, Wiring};
 use super::{COMMON, COMPONENT, Files, TOOL, Xml, of_kind, values};
 use crate::importer::VariableUnit;
-use crate::interface::Entry;
-use crate::model_description::number;
-use crate::plan::Plan;
-use crate::table::{Causality, Type};
+use brinell_exporter::interface::Entry;
+use brinell_exporter::model_description::number;
+use brinell_exporter::plan::Plan;
+use brinell_exporter::table::{Causality, Type};
 use std::io;
 
 const DESCRIPTION: (&str, &str) = ("xmlns:ssd", "http://ssp-standard.org/SSP1/SystemStructureDescription");

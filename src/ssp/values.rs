@@ -3,10 +3,10 @@
 use super::wiring::base_of;
 use super::{COMMON, COMPONENT, TOOL, Xml, of_kind};
 use crate::importer::Base;
-use crate::interface::Entry;
-use crate::model_description::number;
-use crate::plan::Plan;
-use crate::table::Causality;
+use brinell_exporter::interface::Entry;
+use brinell_exporter::model_description::number;
+use brinell_exporter::plan::Plan;
+use brinell_exporter::table::Causality;
 use std::collections::BTreeMap;
 use std::io;
 

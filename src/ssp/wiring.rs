@@ -3,11 +3,11 @@
 use super::values::units_of;
 use super::{COMPONENT, of_kind};
 use crate::importer::{self, Archive, Base, ImportError, VariableUnit};
-use crate::layout::{shortened, shown};
-use crate::nearest::nearest_first;
-use crate::numbers::in_message;
-use crate::plan::Plan;
-use crate::table::{self, Causality, Type};
+use brinell_exporter::layout::{shortened, shown};
+use brinell_exporter::nearest::nearest_first;
+use brinell_exporter::numbers::in_message;
+use brinell_exporter::plan::Plan;
+use brinell_exporter::table::{self, Causality, Type};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::{fs, io};

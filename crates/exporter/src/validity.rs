@@ -1,6 +1,5 @@
 //! The limits of validity of the laws, in words.
 
-use crate::layout;
 use crate::numbers::{quantity, significant};
 use brinell_contact::Pair;
 use brinell_contact::impact::Prediction;
@@ -56,11 +55,6 @@ impl SweepLimits {
     /// A warning for each limit that some impacts exceed: how many, in which range, and the worst in words.
     pub fn warnings(&self) -> Vec<String> {
         [false, true].into_iter().filter_map(|of_speed| self.warning(of_speed)).collect()
-    }
-
-    /// Prints these warnings on standard error.
-    pub fn tell(&self) {
-        self.warnings().iter().for_each(|warning| layout::warn(warning));
     }
 
     fn warning(&self, of_speed: bool) -> Option<String> {

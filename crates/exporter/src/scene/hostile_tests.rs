@@ -3,26 +3,26 @@
 
 use super::Scene;
 use crate::mistake::SceneError;
-use crate::mutations::{assert_message, cases, text};
 use crate::plan::Plan;
 use crate::table::VARIABLES;
 use crate::{constants, documentation, model_description};
+use brinell_testing::mutations::{assert_message, cases, text};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// Good scenes with everything that the tables know.
 const SEEDS: [&str; 14] = [
-    super::DEFAULT_SCENE,
-    include_str!("../../scenes/coupled.toml"),
-    include_str!("../../scenes/damped.toml"),
-    include_str!("../../scenes/elastic.toml"),
-    include_str!("../../scenes/everything.toml"),
-    include_str!("../../scenes/mass_known.toml"),
-    include_str!("../../scenes/oblique.toml"),
-    include_str!("../../scenes/rough_contacts.toml"),
-    include_str!("../../scenes/two_contacts.toml"),
-    include_str!("../../scenes/two_directions.toml"),
-    include_str!("../../scenes/wired.toml"),
+    include_str!("../../../../scenes/steel_ball.toml"),
+    include_str!("../../../../scenes/coupled.toml"),
+    include_str!("../../../../scenes/damped.toml"),
+    include_str!("../../../../scenes/elastic.toml"),
+    include_str!("../../../../scenes/everything.toml"),
+    include_str!("../../../../scenes/mass_known.toml"),
+    include_str!("../../../../scenes/oblique.toml"),
+    include_str!("../../../../scenes/rough_contacts.toml"),
+    include_str!("../../../../scenes/two_contacts.toml"),
+    include_str!("../../../../scenes/two_directions.toml"),
+    include_str!("../../../../scenes/wired.toml"),
     "name = \"a\"\nimpactor = { radius = 5e-3, material = \"tungsten carbide\" }\n[target]\nmaterial = \"mild steel\"\n\
      surface = \"fresh\"\n[law]\nloading = \"stronge\"\nunloading = \"thornton\"\npassivity_guard = true\n\
      [impact]\nmass = 4e-3\nspeed = 1.0\nwatch = false\n",

@@ -1,15 +1,15 @@
 //! `brinell hardness`: dent and hardness of a test, or the yield strength from a hardness.
 
-use super::{ADMITTED, Dent, load_ratio, run_test, strength_of};
-use crate::laws::{self, Choice};
-use crate::layout::{json_line, paragraph, table};
-use crate::numbers::{quantity, significant};
-use crate::predict::positive;
-use crate::regime;
-use crate::scene::Scene;
-use crate::units;
+use crate::scene_file;
 use crate::wrong_call::WrongCall;
 use brinell_contact::validity::LARGEST_RADIUS_RATIO;
+use brinell_exporter::hardness::{ADMITTED, Dent, load_ratio, run_test, strength_of};
+use brinell_exporter::laws::{self, Choice};
+use brinell_exporter::layout::{json_line, paragraph, table};
+use brinell_exporter::numbers::{quantity, significant};
+use brinell_exporter::predict::positive;
+use brinell_exporter::regime;
+use brinell_exporter::units;
 use serde_json::{Value, json};
 use std::error::Error;
 use std::path::PathBuf;
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let load = positive("load", load).map_err(WrongCall::of)?;
     let hardness = arguments.brinell.map(|value| positive("brinell", value)).transpose().map_err(WrongCall::of)?;
     // the test is slow, whatever the scene's impact is
-    let scene = Scene::read_aloud(&arguments.scene)?.under_slow_load();
+    let scene = scene_file::read_aloud(&arguments.scene)?.under_slow_load();
     let scene =
         scene.ok_or("the law can't be evaluated for the scene's impact, which gives the line of its power law")?;
     if let Some(radius) = scene.group_value(0, "target.radius") {

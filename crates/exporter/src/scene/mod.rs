@@ -23,29 +23,21 @@ use brinell_contact::impact::{Impact, Prediction};
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::strength::POISSONS_RATIO;
 use brinell_contact::unloading::AnyUnloading;
-use std::io::{self, Read};
 use std::path::Path;
+use toml::Spanned;
 
 pub use bodies::{Body, Both};
 pub use contacts::{Group, Parameter};
-pub use fmu::check_name;
 pub use losses::Loss;
 pub use strength::{InImpact, PowerLaw, Rate};
 
-/// The largest scene [bytes]. One with 100,000 contacts, each with its own numbers, takes a tenth of it.
-const LARGEST: u64 = 256 << 20;
-
-/// The contents of the file at `path`, which may be a device that never ends.
-fn bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    std::fs::File::open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(io::Error::other(format!("it is larger than {} MB, which no scene needs", LARGEST >> 20)));
-    }
-    Ok(bytes)
+/// Whether an FMU can have this `name`: a C identifier that every operating system accepts as a file name.
+///
+/// # Errors
+/// The reason in words.
+pub fn check_name(name: &str) -> Result<(), String> {
+    fmu::check_name(&Spanned::new(0..0, name.into())).map(drop).map_err(|Mistake(_, message)| message)
 }
-
-const DEFAULT_SCENE: &str = include_str!("../../scenes/steel_ball.toml");
 
 /// A checked scene.
 #[derive(Debug)]
@@ -112,48 +104,22 @@ pub struct Coupling {
 }
 
 impl Scene {
-    /// The scene for a program without arguments.
-    ///
-    /// # Errors
-    /// As for [`Scene::read`].
-    pub fn default_scene() -> Result<Scene, SceneError> {
-        Scene::parse(DEFAULT_SCENE.into(), Path::new("scenes/steel_ball.toml"))
-    }
-
-    /// Reads and checks the scene at `path`.
-    ///
-    /// # Errors
-    /// [`SceneError`] with line and column of the first error, and what is allowed there.
-    pub fn read(path: &Path) -> Result<Scene, SceneError> {
-        Ok(Scene::read_with_doubts(path)?.0)
-    }
-
-    /// The same, with plausibility warnings on standard error.
-    ///
-    /// # Errors
-    /// As for [`Scene::read`].
-    pub fn read_aloud(path: &Path) -> Result<Scene, SceneError> {
-        let (scene, doubts) = Scene::read_with_doubts(path)?;
-        for doubt in doubts {
-            crate::layout::warn(&doubt.in_file(&scene.text, path).to_string());
-        }
-        Ok(scene)
-    }
-
     /// Checks the scene `text`. `path` is used in messages.
     ///
     /// # Errors
-    /// As for [`Scene::read`].
+    /// [`SceneError`] with line and column of the first error, and what is allowed there.
     pub fn parse(text: String, path: &Path) -> Result<Scene, SceneError> {
         Ok(Scene::parse_with_doubts(text, path)?.0)
     }
 
-    fn read_with_doubts(path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
-        let unreadable = |source| SceneError::Unreadable { path: path.into(), source };
-        Scene::parse_with_doubts(mistake::text(bytes(path).map_err(unreadable)?, path)?, path)
+    /// The scene in the `bytes` of the file at `path`, and the numbers in it that are implausible.
+    ///
+    /// # Errors
+    /// As for [`Scene::parse`].
+    pub fn of_bytes(bytes: Vec<u8>, path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
+        Scene::parse_with_doubts(mistake::text(bytes, path)?, path)
     }
 
-    /// The scene, and the numbers in it that are implausible.
     fn parse_with_doubts(text: String, path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
         let checked = file::File::read(&text).and_then(|file| {
             let doubts = plausible::doubts(&file);
@@ -183,7 +149,7 @@ impl Scene {
 
     /// Whether contacts of a group may differ, so that each is treated as a group of its own.
     pub fn contacts_differ(&self) -> bool {
-        self.contacts.iter().any(|group| group.len() > 1 && group.own.iter().any(|own| own.per_contact))
+        self.contacts.iter().any(|group| group.count() > 1 && group.own.iter().any(|own| own.per_contact))
     }
 
     /// Whether the FMU has the input `name`, which is not the rate.
@@ -205,7 +171,7 @@ impl Scene {
 
     /// The number of contacts of the FMU.
     pub fn contact_count(&self) -> usize {
-        self.contacts.iter().map(Group::len).sum()
+        self.contacts.iter().map(Group::count).sum()
     }
 
     /// The physical model of the first contact.

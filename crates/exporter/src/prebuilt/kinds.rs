@@ -2,7 +2,7 @@
 
 use crate::constants;
 use crate::model::Dampings;
-use crate::package::{self, Hash};
+use crate::package::Hash;
 use crate::pairing;
 use crate::scene::{Coupling, Scene};
 use crate::table::{Causality, VARIABLES, Variable};
@@ -207,10 +207,11 @@ impl Library {
         format!("{} {}", self.laws.name(), self.kind.name)
     }
 
-    /// The library's own source file, and the hash of all its sources.
-    pub fn source(&self) -> (String, String) {
+    /// The library's own source file, and the hash of all its sources: of this file, and of the `sources` of all libraries, which are
+    /// given as a hash.
+    pub fn source(&self, sources: &str) -> (String, String) {
         let file = constants::kind::write(&self.scene, "");
-        let made_from = Hash::new().with(&file).with_all(package::sources()).digits();
+        let made_from = Hash::default().with(&file).with(sources).digits();
         (constants::kind::write(&self.scene, &made_from), made_from)
     }
 }

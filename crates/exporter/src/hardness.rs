@@ -3,8 +3,6 @@
 //! Reference: ISO 6506-1, *Metallic materials - Brinell hardness test - Part 1: Test method*; E. Meyer, *Zeitschrift des
 //! Vereines deutscher Ingenieure* 52 (1908); D. Tabor, *The Hardness of Metals*, Oxford 1951.
 
-pub mod command;
-
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::numbers::in_message;

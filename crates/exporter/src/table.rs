@@ -232,41 +232,33 @@ struct Laws {
 /// The tables are part of the program. A mistake in one is a defect of the program, which every test would show.
 const PART_OF_THE_PROGRAM: &str = "the program's own tables are well-formed";
 
-const VARIABLES_TEXT: &str = include_str!("../modelDescription/variables.toml");
-
 // the table describes exactly the variables of the library, those of each type in their order
 const _: () = assert!(lists(
-    VARIABLES_TEXT,
+    brinell_tables::VARIABLES,
     "[[variable]]",
     [&first(&Parameter::ALL), &first(&Integer::ALL), &first(&Real::ALL)]
 ));
 
 /// All variables.
 pub static VARIABLES: LazyLock<Vec<Variable>> =
-    LazyLock::new(|| toml::from_str::<Variables>(VARIABLES_TEXT).expect(PART_OF_THE_PROGRAM).variable);
+    LazyLock::new(|| toml::from_str::<Variables>(brinell_tables::VARIABLES).expect(PART_OF_THE_PROGRAM).variable);
 
 /// All units.
-pub static UNITS: LazyLock<Vec<Unit>> = LazyLock::new(|| {
-    let text = include_str!("../modelDescription/units.toml");
-    toml::from_str::<Units>(text).expect(PART_OF_THE_PROGRAM).unit
-});
+pub static UNITS: LazyLock<Vec<Unit>> =
+    LazyLock::new(|| toml::from_str::<Units>(brinell_tables::UNITS).expect(PART_OF_THE_PROGRAM).unit);
 
 /// All built-in materials.
-pub static MATERIALS: LazyLock<Vec<Material>> = LazyLock::new(|| {
-    let text = include_str!("../modelDescription/materials.toml");
-    toml::from_str::<Materials>(text).expect(PART_OF_THE_PROGRAM).material
-});
-
-const LAWS_TEXT: &str = include_str!("../modelDescription/laws.toml");
+pub static MATERIALS: LazyLock<Vec<Material>> =
+    LazyLock::new(|| toml::from_str::<Materials>(brinell_tables::MATERIALS).expect(PART_OF_THE_PROGRAM).material);
 
 // the table describes exactly the laws of the library, in their order
 const _: () = {
-    assert!(lists(LAWS_TEXT, "[[loading]]", [&first(&AnyLoading::ALL)]));
-    assert!(lists(LAWS_TEXT, "[[unloading]]", [&first(&AnyUnloading::ALL)]));
-    assert!(lists(LAWS_TEXT, "[[damped]]", [&first(&AnyDamped::ALL)]));
+    assert!(lists(brinell_tables::LAWS, "[[loading]]", [&first(&AnyLoading::ALL)]));
+    assert!(lists(brinell_tables::LAWS, "[[unloading]]", [&first(&AnyUnloading::ALL)]));
+    assert!(lists(brinell_tables::LAWS, "[[damped]]", [&first(&AnyDamped::ALL)]));
 };
 
-static LAWS: LazyLock<Laws> = LazyLock::new(|| toml::from_str(LAWS_TEXT).expect(PART_OF_THE_PROGRAM));
+static LAWS: LazyLock<Laws> = LazyLock::new(|| toml::from_str(brinell_tables::LAWS).expect(PART_OF_THE_PROGRAM));
 
 /// The entries of the laws that a scene names under `law.loading`: elastoplastic and rate-dependent ones.
 pub fn loading_laws() -> Vec<&'static Law> {

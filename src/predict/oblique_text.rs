@@ -1,28 +1,59 @@
-//! An oblique impact as text for people and as JSON for programs.
+//! An oblique impact: its arguments, and its rebound as text for people and as JSON for programs.
 
-use super::{METHOD, Outcome, Setting, one};
-use crate::laws::Choice;
-use crate::layout::{self, paragraph};
-use crate::numbers::{cell, quantity, significant};
-use crate::predict::PredictError;
-use crate::scene::Scene;
-use crate::table;
-use crate::validity;
+use super::Arguments;
+use crate::wrong_call::WrongCall;
 use brinell_contact::impact::Impact;
+use brinell_exporter::laws::Choice;
+use brinell_exporter::layout::{self, paragraph};
+use brinell_exporter::numbers::{cell, quantity, significant};
+use brinell_exporter::predict::PredictError;
+use brinell_exporter::predict::axis::Axis;
+use brinell_exporter::predict::oblique::{FRICTION, METHOD, Outcome, Setting, one};
+use brinell_exporter::scene::Scene;
+use brinell_exporter::table;
+use brinell_exporter::validity;
 use serde_json::{Map, Value, json};
 
 /// The meaning of the signs.
 const SIGNS: &str = "A positive spin moves the contact point of the ball as a positive tangential speed does; a ball that rolls \
                      has the spin -v/R. The target is at rest and does not move.";
 
+impl Arguments {
+    /// The setting of an oblique impact, if one is asked for.
+    ///
+    /// # Errors
+    /// A number that no oblique impact can have, or an argument that belongs to one, where none is asked for.
+    pub fn setting(&self, scene: &Scene, axes: &[Axis]) -> Result<Option<Setting>, WrongCall> {
+        let varied = |name: &str| axes.iter().find(|axis| axis.name == name).map(|axis| axis.from);
+        let is_oblique = [self.angle, self.spin].iter().any(Option::is_some);
+        if !is_oblique && varied("angle").is_none() && varied("spin").is_none() {
+            let idle = [("friction", self.friction.or(varied(FRICTION))), ("inertia", self.inertia)];
+            return match idle.iter().find(|(_, value)| value.is_some()) {
+                Some((name, _)) => Err(WrongCall::of(PredictError::NotOblique(name))),
+                None => Ok(None),
+            };
+        }
+        let coefficient = self.friction.or(varied(FRICTION)).or(scene.group_value(0, FRICTION));
+        let missing = || WrongCall::of(PredictError::NoCoefficient);
+        let setting = Setting {
+            angle: self.angle.or(varied("angle")).unwrap_or(0.0),
+            spin: self.spin.or(varied("spin")).unwrap_or(0.0),
+            coefficient: coefficient.ok_or_else(missing)?,
+            inertia: self.inertia,
+        };
+        setting.check().map_err(WrongCall::of)?;
+        Ok(Some(setting))
+    }
+}
+
 /// One oblique impact with several laws.
-pub struct Answer<'a> {
+pub struct ObliqueAnswer<'a> {
     choices: &'a [Choice],
     impact: Impact,
     outcomes: Vec<Outcome>,
 }
 
-impl Answer<'_> {
+impl ObliqueAnswer<'_> {
     /// The rebounds of `impact` with this `setting`.
     ///
     /// # Errors
@@ -31,10 +62,10 @@ impl Answer<'_> {
         scene: &Scene,
         choices: &'a [Choice],
         (impact, setting): (Impact, Setting),
-    ) -> Result<Answer<'a>, PredictError> {
+    ) -> Result<ObliqueAnswer<'a>, PredictError> {
         let outcome = |choice| one(scene, choice, (impact, setting), &[]);
         let outcomes = choices.iter().map(outcome).collect::<Result<_, _>>()?;
-        Ok(Answer { choices, impact, outcomes })
+        Ok(ObliqueAnswer { choices, impact, outcomes })
     }
 
     /// Text for people.

@@ -112,7 +112,6 @@ fn constants(scene: &Scene) -> Vec<Constant> {
 mod tests {
     use super::*;
     use crate::model::PREDICTIONS;
-    use crate::summary::Summary;
     use crate::{constants, documentation, model_description};
     use std::path::Path;
 
@@ -145,12 +144,7 @@ mod tests {
             PREDICTIONS.set(0);
             let scene = scene(law);
             let plan = Plan::of(&scene);
-            let texts = [
-                text_of(&plan),
-                constants::write(&plan, "guid"),
-                documentation::write(&plan),
-                Summary::of(&plan).json(&Default::default()).to_string(),
-            ];
+            let texts = [text_of(&plan), constants::write(&plan, "guid"), documentation::write(&plan)];
             assert!(texts.iter().all(|text| text.contains("small_7")), "{law}");
             assert_eq!(PREDICTIONS.get(), kinds, "{law}");
         }

@@ -1,6 +1,5 @@
 //! The zip archive of an FMU: the same bytes for the same files.
 
-use super::ExportError;
 use std::io::{self, BufWriter, Cursor, Write};
 use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
@@ -9,28 +8,30 @@ use zip::{CompressionMethod, ZipWriter};
 /// An archive under construction.
 pub struct Archive(ZipWriter<Cursor<Vec<u8>>>);
 
-impl Archive {
-    pub fn new() -> Archive {
+impl Default for Archive {
+    fn default() -> Archive {
         Archive(ZipWriter::new(Cursor::new(Vec::new())))
     }
+}
 
+impl Archive {
     /// Adds a file.
     ///
     /// # Errors
-    /// [`ExportError::Zip`]
-    pub fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), ExportError> {
+    /// [`ZipError`]
+    pub fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), ZipError> {
         self.add_written(name, |to| to.write_all(bytes))
     }
 
     /// Adds a file with contents that `write` writes piece by piece.
     ///
     /// # Errors
-    /// [`ExportError::Zip`]
+    /// [`ZipError`]
     pub fn add_written(
         &mut self,
         name: &str,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), ExportError> {
+    ) -> Result<(), ZipError> {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Deflated)
             .compression_level(Some(9))
@@ -38,15 +39,15 @@ impl Archive {
             .unix_permissions(0o644);
         self.0.start_file(name, options)?;
         let mut buffer = BufWriter::new(&mut self.0);
-        write(&mut buffer).and_then(|()| buffer.flush()).map_err(ZipError::from)?;
+        write(&mut buffer).and_then(|()| buffer.flush())?;
         Ok(())
     }
 
     /// The bytes of the archive.
     ///
     /// # Errors
-    /// [`ExportError::Zip`]
-    pub fn finish(self) -> Result<Vec<u8>, ExportError> {
+    /// [`ZipError`]
+    pub fn finish(self) -> Result<Vec<u8>, ZipError> {
         Ok(self.0.finish()?.into_inner())
     }
 }
@@ -54,9 +55,9 @@ impl Archive {
 /// An archive of `files`.
 ///
 /// # Errors
-/// [`ExportError::Zip`]
-pub fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ExportError> {
-    let mut archive = Archive::new();
+/// [`ZipError`]
+pub fn archive(files: &[(String, &[u8])]) -> Result<Vec<u8>, ZipError> {
+    let mut archive = Archive::default();
     for (name, bytes) in files {
         archive.add(name, bytes)?;
     }

@@ -1,19 +1,12 @@
-//! `brinell predict --angle`: the rebound of a ball that hits a surface obliquely, with friction.
-
-mod text;
-
-pub use text::Answer;
+//! The rebound of a ball that hits a surface obliquely, with friction.
 
 use super::axis::{Axis, OF_OBLIQUE_IMPACT, varied};
-use super::command::Arguments;
-use super::sweep::Quantity;
-use super::{PredictError, positive};
+use super::{PredictError, Quantity, positive};
 use crate::laws::Choice;
 use crate::model::AnyModel;
 use crate::scene::Scene;
 use crate::table;
 use crate::validity::Beyond;
-use crate::wrong_call::WrongCall;
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::impact::{Ball, Rebound, predict};
@@ -86,34 +79,6 @@ impl Setting {
             FRICTION => Setting { coefficient: value, ..self },
             _ => self,
         }
-    }
-}
-
-impl Arguments {
-    /// The setting of an oblique impact, if one is asked for.
-    ///
-    /// # Errors
-    /// A number that no oblique impact can have, or an argument that belongs to one, where none is asked for.
-    pub fn setting(&self, scene: &Scene, axes: &[Axis]) -> Result<Option<Setting>, WrongCall> {
-        let varied = |name: &str| axes.iter().find(|axis| axis.name == name).map(|axis| axis.from);
-        let is_oblique = [self.angle, self.spin].iter().any(Option::is_some);
-        if !is_oblique && varied("angle").is_none() && varied("spin").is_none() {
-            let idle = [("friction", self.friction.or(varied(FRICTION))), ("inertia", self.inertia)];
-            return match idle.iter().find(|(_, value)| value.is_some()) {
-                Some((name, _)) => Err(WrongCall::of(PredictError::NotOblique(name))),
-                None => Ok(None),
-            };
-        }
-        let coefficient = self.friction.or(varied(FRICTION)).or(scene.group_value(0, FRICTION));
-        let missing = || WrongCall::of(PredictError::NoCoefficient);
-        let setting = Setting {
-            angle: self.angle.or(varied("angle")).unwrap_or(0.0),
-            spin: self.spin.or(varied("spin")).unwrap_or(0.0),
-            coefficient: coefficient.ok_or_else(missing)?,
-            inertia: self.inertia,
-        };
-        setting.check().map_err(WrongCall::of)?;
-        Ok(Some(setting))
     }
 }
 

@@ -4,13 +4,10 @@ use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 
 /// The hash of several texts.
+#[derive(Default)]
 pub struct Hash(Sha256);
 
 impl Hash {
-    pub fn new() -> Hash {
-        Hash(Sha256::new())
-    }
-
     /// Adds a text.
     #[must_use]
     pub fn with(mut self, text: &str) -> Hash {

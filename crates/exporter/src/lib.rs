@@ -1,0 +1,54 @@
+//! From the text of a scene to the files of its FMU, and to the predictions of its impacts.
+//!
+//! | module | what it has |
+//! |---|---|
+//! | [`numbers`], [`layout`], [`nearest`], [`mistake`], [`units`], [`xml`], [`html`] | words: numbers and tables for people, mistakes with their place in a file |
+//! | [`table`] | variables, units, materials and laws, from the folder `modelDescription` |
+//! | [`model`], [`laws`], [`pairing`], [`parameters`], [`law_check`], [`energy`], [`guard`], [`validity`] | laws chosen by name: which go together, their constants, where they hold |
+//! | [`scene`] | a checked scene |
+//! | [`predict`], [`hardness`] | what an impact or a hardness test of a scene will do |
+//! | [`plan`] | what all files of an FMU have in common |
+//! | [`interface`], [`model_description`], [`constants`], [`documentation`], [`plot`] | these files |
+//! | [`platform`], [`symbols`], [`signature`], [`prebuilt`], [`package`] | libraries as bytes, and the archive |
+//!
+//! Each uses only those above it. Text and bytes come in; text, bytes and mistakes go out. No file is read here, no process or thread
+//! started, no clock or environment looked at: a command, Python or a page in a browser may all use this crate.
+#![forbid(unsafe_code)]
+
+pub mod bodies;
+pub mod columns;
+pub mod constants;
+pub mod documentation;
+pub mod energy;
+mod friction_text;
+pub mod guard;
+pub mod hardness;
+pub mod html;
+pub mod interface;
+pub mod law_check;
+pub mod law_text;
+pub mod laws;
+pub mod layout;
+pub mod mistake;
+pub mod model;
+pub mod model_description;
+pub mod nearest;
+pub mod nominal;
+pub mod numbers;
+pub mod package;
+pub mod pairing;
+pub mod parameters;
+pub mod plan;
+pub mod platform;
+pub mod plot;
+pub mod prebuilt;
+pub mod predict;
+pub mod regime;
+pub mod scene;
+pub mod signature;
+mod strength_text;
+pub mod symbols;
+pub mod table;
+pub mod units;
+pub mod validity;
+pub mod xml;

@@ -1,0 +1,84 @@
+//! The files of an FMU, and their archive.
+
+mod archive;
+mod hash;
+pub mod resource;
+mod universal;
+
+pub use archive::{Archive, archive};
+pub use hash::Hash;
+pub use universal::join;
+
+use crate::plan::Plan;
+use crate::platform::Platform;
+use crate::symbols::{self, SymbolError};
+use crate::{documentation, model_description};
+use brinell_tables::{ICON, LICENSES};
+pub use zip::result::ZipError;
+
+/// A packed library.
+pub struct Packed {
+    /// Folder of its platform.
+    pub platform: &'static str,
+    /// Size [bytes].
+    pub size: usize,
+    /// The symbols that it imports from the process.
+    pub imports: Vec<String>,
+}
+
+/// An FMU that can't be packed.
+#[derive(Debug, thiserror::Error)]
+pub enum PackError {
+    #[error("the library for {platform} is not packed: {reason}")]
+    Symbols { platform: &'static str, reason: SymbolError },
+    #[error("the archive can't be written: {0}")]
+    Zip(#[from] ZipError),
+}
+
+/// The bytes of the planned FMU with this `guid` and these `libraries`, one for each of the `platforms`. The symbols of each are
+/// checked.
+///
+/// # Errors
+/// [`PackError`]
+pub fn pack(
+    plan: &Plan,
+    guid: &str,
+    platforms: &[Platform],
+    libraries: &[Vec<u8>],
+) -> Result<(Vec<u8>, Vec<Packed>), PackError> {
+    let scene = plan.scene;
+    let mut packed = Vec::new();
+    for (platform, library) in platforms.iter().zip(libraries) {
+        let refused = |reason| PackError::Symbols { platform: platform.folder, reason };
+        let imports = symbols::check(library, platform, scene.standalone).map_err(refused)?;
+        packed.push(Packed { platform: platform.folder, size: library.len(), imports });
+    }
+    let page = documentation::write(plan);
+    let mut archive = Archive::default();
+    archive.add_written("modelDescription.xml", |to| model_description::write(plan, guid, to))?;
+    archive.add("model.png", ICON)?;
+    for (platform, library) in platforms.iter().zip(libraries) {
+        archive.add(&format!("binaries/{}/{}.{}", platform.folder, scene.name, platform.extension), library)?;
+    }
+    archive.add("documentation/index.html", page.as_bytes())?;
+    archive.add("documentation/licenses/license.txt", LICENSES.as_bytes())?;
+    archive.add("resources/scene.toml", scene.text.as_bytes())?;
+    Ok((archive.finish()?, packed))
+}
+
+/// Placeholder of the same length for the GUID. In quotes it can't occur anywhere else: in the texts of a scene,
+/// quotes are written as `&quot;` and `\"`.
+pub const GUID_TO_COME: &str = "GUID of 32 digits that will come";
+
+/// `text` with the GUID instead of the placeholder.
+pub fn identified(text: &str, guid: &str) -> String {
+    let quoted = |text: &str| format!("\"{text}\"");
+    text.replacen(&quoted(GUID_TO_COME), &quoted(guid), 1)
+}
+
+/// The GUID of the planned FMU: a hash of its description, of its `data` and of the sources of its library.
+pub fn guid(plan: &Plan, data: &[&str], sources: &str) -> String {
+    let written = Hash::default().with_written(|to| model_description::write(plan, GUID_TO_COME, to));
+    let written = written.expect("a hash takes everything");
+    written.with_all(data.iter().copied()).with(sources).digits()
+}

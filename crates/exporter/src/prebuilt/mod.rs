@@ -1,0 +1,54 @@
+//! Prebuilt libraries: FMUs without a compiler.
+//!
+//! Scenes with the same laws differ almost only in data. A prebuilt library has a block of memory for these data
+//! (`brinell_fmu::scene::prebuilt`). Such libraries are compiled once; an export copies the one that fits and writes the data of its
+//! scene to the copy.
+
+mod fill;
+mod fit;
+mod kinds;
+#[cfg(test)]
+mod macho_tests;
+
+pub use fill::FillError;
+pub use fit::NeedsCompiler;
+pub use kinds::{KINDS, Laws, Library};
+
+use crate::package::{GUID_TO_COME, guid};
+use crate::plan::Plan;
+use brinell_fmu::scene::identity_of;
+use brinell_fmu::scene::prebuilt::block::{Block, Data};
+
+/// An FMU from a prebuilt library.
+pub struct Unit {
+    pub guid: String,
+    /// Its library.
+    pub library: Library,
+    made_from: String,
+    data: Data,
+}
+
+impl Unit {
+    /// The planned FMU, for libraries of these `sources`: a hash.
+    ///
+    /// # Errors
+    /// [`NeedsCompiler`] if no prebuilt library fits the scene.
+    pub fn of(plan: &Plan, sources: &str) -> Result<Unit, NeedsCompiler> {
+        let library = Library::of(plan.scene)?;
+        let (source, made_from) = library.source(sources);
+        // the size of the data does not depend on the value of the GUID
+        let block = Block::filled(0, fit::data_of(plan, GUID_TO_COME)?);
+        let words: String = block.words().map(|word| format!("{word:016x}")).collect();
+        let guid = guid(plan, &[&words, &source], sources);
+        let data = fit::data_of(plan, &guid)?;
+        Ok(Unit { guid, library, made_from, data })
+    }
+
+    /// Writes the data of the scene to a copy of its library.
+    ///
+    /// # Errors
+    /// [`FillError`]; part of the data may then be written.
+    pub fn fill(&self, library: &mut [u8]) -> Result<(), FillError> {
+        fill::fill(library, identity_of(&self.made_from), self.data)
+    }
+}
