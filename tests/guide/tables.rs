@@ -183,7 +183,7 @@ fn tables_are_those_of_the_model_description() {
 
 /// The keys of a table in a scene file: the public fields of this struct of the exporter.
 fn fields(structure: &str) -> Vec<String> {
-    let source = read(Path::new("src/scene/file.rs"));
+    let source = read(Path::new("crates/exporter/src/scene/file.rs"));
     let (_, rest) = source.split_once(&format!("struct {structure} {{")).unwrap_or_else(|| panic!("no {structure}"));
     let fields = rest.split("\n}").next().unwrap().lines().filter_map(|line| line.trim().strip_prefix("pub "));
     fields.map(|field| field.split(':').next().unwrap().to_string()).collect()
