@@ -1,9 +1,7 @@
 //! The first test program, because cargo runs them in alphabetical order: this machine has what the tests need, and the list of
 //! what is skipped begins anew. docs/guide/tests.md lists the packages for each system.
 
-#[path = "support/skips.rs"]
-mod skips;
-
+use brinell_testing::skips;
 use std::process::{Command, Output, Stdio};
 
 /// Oldest version of Python that the tests support: their packages have no files for older ones.

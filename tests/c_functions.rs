@@ -1,14 +1,10 @@
 //! The C functions for scenes without an exported library: states, derivatives, phases.
 
-#[path = "support/physics.rs"]
-mod physics;
-#[path = "support/scenes.rs"]
-mod scenes;
-
 use brinell_contact::damped::AnyDamped;
 use brinell_fmu::fmi2::abi::{fmi2CallbackFunctions, fmi2Component, fmi2FMUstate, fmi2Status};
 use brinell_fmu::fmi2::{lifecycle, states, stepping, variables};
 use brinell_fmu::scene::{Absent, Coupled, Present, Scene};
+use brinell_testing::{physics, scenes};
 use physics::{all_models, mild};
 use scenes::{Choice, Chosen, Damped, Elastoplastic, Massive, OUTPUTS, choose};
 use std::marker::PhantomData;

@@ -8,23 +8,7 @@
 //! the C compiler's libraries for them; what is missing is skipped with a message.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
-#[path = "support/child.rs"]
-mod child;
-#[path = "support/driver.rs"]
-mod driver;
-#[path = "support/python.rs"]
-mod python;
-#[path = "support/rebuilt.rs"]
-mod rebuilt;
-#[path = "support/skips.rs"]
-mod skips;
-#[path = "support/suites.rs"]
-mod suites;
-#[path = "support/targets.rs"]
-mod targets;
-#[path = "support/unit.rs"]
-mod unit;
-
+use brinell_testing::{child, driver, rebuilt, skips, suites, targets, unit};
 use driver::{arguments, has_valgrind, valgrind};
 use rebuilt::{Sources, TRIPLE, Way};
 use std::fs;

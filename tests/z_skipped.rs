@@ -1,8 +1,6 @@
 //! The last test program, because cargo runs them in alphabetical order: prints what the run has skipped, and why.
 
-#[path = "support/skips.rs"]
-mod skips;
-
+use brinell_testing::skips;
 use std::io::{Write as _, stderr};
 
 #[test]

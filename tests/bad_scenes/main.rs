@@ -5,11 +5,7 @@ mod contacts;
 mod friction;
 mod laws;
 
-#[path = "../support/command.rs"]
-mod command;
-#[path = "../support/refusal.rs"]
-mod refusal;
-
+use brinell_testing::{command, refusal};
 use command::{contents, empty_folder, run};
 use refusal::{message_of, refused_text};
 use std::fs;

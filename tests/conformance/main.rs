@@ -9,27 +9,14 @@
 //! `cargo test --release --test conformance -- --ignored every_law --nocapture`.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
-#[path = "../support/arithmetic.rs"]
-mod arithmetic;
-#[path = "../support/child.rs"]
-mod child;
-#[path = "../support/face.rs"]
-mod face;
-#[path = "../support/functions.rs"]
-mod functions;
-#[path = "../fuzz/judge.rs"]
-mod judge;
 #[path = "../../src/parallel.rs"]
 mod parallel;
-#[path = "../support/targets.rs"]
-mod targets;
-#[path = "../support/unit.rs"]
-mod unit;
 
 mod checks;
 mod importer;
 mod table;
 
+use brinell_testing::{arithmetic, child, face, functions, judge, targets, unit};
 use checks::CHECKS;
 use face::Face;
 use importer::CALLS;

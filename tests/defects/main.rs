@@ -8,21 +8,7 @@
 //! `BRINELL_DEFECTS=TEXT,TEXT` makes those with one of these texts in their names.
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 
-#[path = "../support/child.rs"]
-mod child;
-#[path = "../support/driver.rs"]
-mod driver;
-#[path = "../support/python.rs"]
-mod python;
-#[path = "../support/rebuilt.rs"]
-mod rebuilt;
-#[path = "../support/skips.rs"]
-mod skips;
-#[path = "../support/suites.rs"]
-mod suites;
-#[path = "../support/unit.rs"]
-mod unit;
-
+use brinell_testing::{child, driver, rebuilt, suites, unit};
 use driver::{arguments, has_valgrind, valgrind};
 use rebuilt::{Sources, Way};
 use std::collections::HashSet;

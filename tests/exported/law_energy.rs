@@ -1,13 +1,13 @@
 //! Passivity of the laws: the table of laws describes it for all bodies that an FMU accepts.
 
 use crate::command::{empty_folder, run};
-use crate::physics::laws::{entry, text};
 use crate::physics::{
     self, AnyModel, Random, belong_together, corners, logarithmic, pair_of, passive_from, random_bodies, unit,
 };
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Loading, Model, Pair, Surface};
+use brinell_testing::laws::{entry, text};
 use std::fs;
 
 /// A surplus up to this fraction of the work is attributed to rounding and to the integrals.

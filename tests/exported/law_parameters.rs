@@ -1,10 +1,10 @@
 //! The constants of the laws: as data, in a scene, and in an exported FMU.
 
 use crate::command::{empty_folder, run};
-use crate::physics::laws::{self, text};
 use brinell_contact::loading::{AnyLoading, Power};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Body, Loading, Pair};
+use brinell_testing::laws::{self, text};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;

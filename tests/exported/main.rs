@@ -2,34 +2,9 @@
 //!
 //! `cargo test --release --test exported every_law` runs one of them.
 
-#[path = "../support/both_ways.rs"]
-mod both_ways;
-#[path = "../support/command.rs"]
-mod command;
-#[path = "../support/courses.rs"]
-mod courses;
-#[path = "../support/hosts.rs"]
-mod hosts;
-#[path = "../support/kinds.rs"]
-mod kinds;
-#[path = "../support/loaded.rs"]
-mod loaded;
-#[path = "../support/physics.rs"]
-mod physics;
-#[path = "../support/prebuilt.rs"]
-mod prebuilt;
-#[path = "../support/pytest.rs"]
-mod pytest;
-#[path = "../support/python.rs"]
-mod python;
-#[path = "../support/refusal.rs"]
-mod refusal;
-#[path = "../support/skips.rs"]
-mod skips;
-#[path = "../support/standalone.rs"]
-mod standalone;
-#[path = "../support/unit.rs"]
-mod unit;
+use brinell_testing::{
+    both_ways, command, courses, hosts, kinds, loaded, physics, prebuilt, pytest, refusal, skips, standalone, unit,
+};
 
 mod bad_units;
 mod contact_groups;

@@ -8,23 +8,10 @@
 //! makes 1e8 calls. `BRINELL_FUZZ_SEED` sets the first script.
 #![cfg(target_os = "linux")]
 
-#[path = "../support/arithmetic.rs"]
-mod arithmetic;
-#[path = "../support/child.rs"]
-mod child;
-#[path = "../support/face.rs"]
-mod face;
-#[path = "../support/functions.rs"]
-mod functions;
-#[path = "../support/targets.rs"]
-mod targets;
-#[path = "../support/unit.rs"]
-mod unit;
-
 mod call;
-mod judge;
 mod run;
 
+use brinell_testing::{arithmetic, child, face, functions, judge, targets, unit};
 use call::{Call, script};
 use child::Failure;
 use face::Face;

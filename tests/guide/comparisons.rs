@@ -1,6 +1,5 @@
 //! The laws beside finite elements and measurements: the tables of the guide, and the accuracy in the table of laws.
 
-use crate::physics::laws::{entries, entry, says, text};
 use crate::physics::{self, AnyModel, mild, passive_from, unit};
 use crate::tables::{heading, row, shows};
 use crate::{is_writing, read, root};
@@ -9,6 +8,7 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::rate::{Rate, STEPS, TABOR};
 use brinell_contact::regime::LARGEST_INDENTATION;
 use brinell_contact::{Body, Loading, Model, Pair, Surface};
+use brinell_testing::laws::{entries, entry, says, text};
 use std::fs;
 use std::path::Path;
 

@@ -10,15 +10,10 @@ mod links;
 mod markdown;
 #[path = "../../src/parallel.rs"]
 mod parallel;
-#[path = "../support/physics.rs"]
-mod physics;
 mod promises;
-#[path = "../support/python.rs"]
-mod python;
-#[path = "../support/skips.rs"]
-mod skips;
 mod tables;
 
+use brinell_testing::{physics, python, skips};
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};

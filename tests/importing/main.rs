@@ -2,24 +2,7 @@
 //!
 //! `cargo test --release --test importing fmpy` runs one of them.
 
-#[path = "../support/command.rs"]
-mod command;
-#[path = "../support/driver.rs"]
-mod driver;
-#[path = "../support/fmi_crate.rs"]
-mod fmi_crate;
-#[path = "../support/importer_table.rs"]
-mod importer_table;
-#[path = "../support/loaded.rs"]
-mod loaded;
-#[path = "../support/pytest.rs"]
-mod pytest;
-#[path = "../support/python.rs"]
-mod python;
-#[path = "../support/skips.rs"]
-mod skips;
-#[path = "../support/unit.rs"]
-mod unit;
+use brinell_testing::{command, driver, fmi_crate, importer_table, loaded, pytest, python, skips, unit};
 
 mod abi;
 mod c_interface;

@@ -2,13 +2,6 @@
 //!
 //! The same tests run under the address sanitizer, see `tests/c_functions.rs`.
 
-#[path = "../support/masters.rs"]
-mod masters;
-#[path = "../support/physics.rs"]
-mod physics;
-#[path = "../support/scenes.rs"]
-mod scenes;
-
 mod damped_motion;
 mod derivatives;
 mod exceptions;
@@ -30,6 +23,7 @@ use brinell_contact::losses::{AnyLoss, Fitted, Plate, Solid, Waves};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_fmu::instance::{FASTEST, Fault, Instance, LATEST, Phase, Plain, SHORTEST};
 use brinell_fmu::scene::{Coupled, Present, Real, Scene};
+use brinell_testing::{masters, physics, scenes};
 use brinell_unit::exported::Exported;
 use physics::{Random, all_models, mild};
 use scenes::{

@@ -5,6 +5,7 @@ use crate::physics::{self, Random, all_models, is_passive, mild, unit};
 use brinell_contact::History;
 use brinell_contact::tangential::{Friction, RoughModel, Sliding, Springs};
 use brinell_contact::{loading::AnyLoading, unloading::AnyUnloading};
+use brinell_testing::laws;
 
 pub const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const LATTICE: bool = true;
@@ -15,7 +16,7 @@ pub type Model = RoughModel<AnyLoading, AnyUnloading>;
 pub fn models() -> Vec<(String, Model)> {
     let models = all_models(mild()).into_iter().filter(|(name, model)| {
         let unloading = name.rsplit(' ').next().expect("a law's name");
-        is_passive(model) && physics::laws::entry("unloading", unloading).get("no_friction").is_none()
+        is_passive(model) && laws::entry("unloading", unloading).get("no_friction").is_none()
     });
     models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION })).collect()
 }
@@ -23,7 +24,7 @@ pub fn models() -> Vec<(String, Model)> {
 /// The allowed error of friction for the pair of laws called `name`, relative to Coulomb's limit.
 pub fn allowed(name: &str) -> f64 {
     let (loading, unloading) = name.split_once(" with ").expect("two laws");
-    let entry = physics::laws::entry("unloading", unloading);
+    let entry = laws::entry("unloading", unloading);
     let of_pair = entry.get("friction_error_of").and_then(|errors| errors.get(loading));
     let error = of_pair.or(entry.get("friction_error")).and_then(|error| error.as_float());
     error.unwrap_or_else(|| panic!("{unloading} has an error of friction"))

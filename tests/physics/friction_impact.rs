@@ -6,6 +6,7 @@ use brinell_contact::loading::AnyLoading;
 use brinell_contact::tangential::impact::{Ball, Rebound, in_steps, predict};
 use brinell_contact::tangential::{Friction, RoughModel, Sliding};
 use brinell_contact::unloading::AnyUnloading;
+use brinell_testing::laws;
 
 const FRICTION: Friction = Friction { coefficient: 0.3, stiffness_ratio: 1.4 / 1.7 };
 const MASS: f64 = 4.11e-3;
@@ -17,7 +18,7 @@ type Model = RoughModel<AnyLoading, AnyUnloading>;
 fn models() -> Vec<(String, Model)> {
     let supports = |(name, _): &(String, _)| {
         let unloading = name.rsplit(' ').next().expect("a law's name");
-        physics::laws::entry("unloading", unloading).get("no_friction").is_none()
+        laws::entry("unloading", unloading).get("no_friction").is_none()
     };
     let models = all_models(mild()).into_iter().filter(supports);
     models.map(|(name, normal)| (name, RoughModel { normal, friction: FRICTION })).collect()
@@ -97,7 +98,7 @@ fn friction_takes_exactly_the_kinetic_energy_that_it_reports_and_never_returns_a
 /// The error of friction with the pair of laws called `name`, relative to Coulomb's limit.
 fn allowed(name: &str) -> f64 {
     let (loading, unloading) = name.split_once(" with ").expect("two laws");
-    let entry = physics::laws::entry("unloading", unloading);
+    let entry = laws::entry("unloading", unloading);
     let of_pair = entry.get("friction_error_of").and_then(|errors| errors.get(loading));
     of_pair.or(entry.get("friction_error")).and_then(|error| error.as_float()).expect("an error of friction")
 }

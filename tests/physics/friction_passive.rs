@@ -1,10 +1,10 @@
 //! Friction makes no force and no energy, whatever the history: every pairing of laws that has friction, growing dents, rates
 //! over ten decades.
 
-use crate::physics::laws;
 use crate::physics::{AnyModel, Random, all_models, is_passive, unit};
 use brinell_contact::tangential::{Friction, RoughContact, RoughModel};
 use brinell_contact::{Body, Contact, Pair, loading::AnyLoading, unloading::AnyUnloading};
+use brinell_testing::laws;
 
 type Model = RoughModel<AnyLoading, AnyUnloading>;
 type Rough = RoughContact<12>;

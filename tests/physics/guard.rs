@@ -1,9 +1,10 @@
 //! The passivity guard: no impact gains energy, and laws that need no guard do not change.
 
-use crate::physics::{AnyModel, MASS, laws, loading_force, logarithmic, mild, model, unit, unloading, unloading_force};
+use crate::physics::{AnyModel, MASS, loading_force, logarithmic, mild, model, unit, unloading, unloading_force};
 use brinell_contact::impact::{Impact, predict};
 use brinell_contact::unloading::AnyUnloading;
 use brinell_contact::{Loading, Pair};
+use brinell_testing::laws;
 
 /// Loading laws that are not passive with some unloading law.
 fn making_energy() -> impl Iterator<Item = &'static str> {

@@ -1,6 +1,5 @@
 //! The statements of the table of laws about a curve hold for the curve, for any bodies.
 
-use crate::physics::laws::{self, entry, says, text};
 use crate::physics::{
     AnyModel, Random, belong_together, corners, loading_force, logarithmic, model, pair_of, passive_from,
     random_bodies, unit,
@@ -8,6 +7,7 @@ use crate::physics::{
 use brinell_contact::Model;
 use brinell_contact::loading::AnyLoading;
 use brinell_contact::unloading::AnyUnloading;
+use brinell_testing::laws::{self, entry, says, text};
 
 /// The law of this name, with an arbitrary unloading law.
 fn of(name: &str) -> AnyModel {

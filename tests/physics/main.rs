@@ -2,15 +2,7 @@
 //!
 //! `cargo test --release --test physics law_suite` runs one of them.
 
-#[path = "../support/arithmetic.rs"]
-#[cfg(target_arch = "x86_64")]
-mod arithmetic;
-#[path = "../support/friction.rs"]
-mod friction;
-#[path = "../support/physics.rs"]
-mod physics;
-#[path = "../support/printed.rs"]
-mod printed;
+use brinell_testing::{arithmetic, friction, physics, printed};
 
 mod arithmetic_modes;
 mod corners;

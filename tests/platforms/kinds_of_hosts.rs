@@ -1,7 +1,7 @@
 //! FMUs with other C libraries and in unusual Linux hosts: the same history gives the same bits as in an ordinary program.
 //!
 //! Each test compiles the program in tests/platforms/ for its kind of host. The dependencies of a host are unpacked in the
-//! target folder (tests/support/debian.rs). If a host is not available, it is skipped with a message.
+//! target folder (crates/testing/src/debian.rs). If a host is not available, it is skipped with a message.
 #![cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
 
 use crate::courses;

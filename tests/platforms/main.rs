@@ -2,32 +2,9 @@
 //!
 //! `cargo test --release --test platforms cross_compiled wheel` runs one of them.
 
-#[path = "../support/command.rs"]
-mod command;
-#[path = "../support/courses.rs"]
-mod courses;
-#[path = "../support/debian.rs"]
-mod debian;
-#[path = "../support/hosts.rs"]
-mod hosts;
-#[path = "../support/kinds.rs"]
-mod kinds;
-#[path = "../support/prebuilt.rs"]
-mod prebuilt;
-#[path = "../support/programs.rs"]
-mod programs;
-#[path = "../support/python.rs"]
-mod python;
-#[path = "../support/skips.rs"]
-mod skips;
-#[path = "../support/standalone.rs"]
-mod standalone;
-#[path = "../support/systems.rs"]
-mod systems;
-#[path = "../support/toolchain.rs"]
-mod toolchain;
-#[path = "../support/unit.rs"]
-mod unit;
+use brinell_testing::{
+    command, courses, debian, hosts, kinds, prebuilt, programs, python, skips, standalone, systems, toolchain, unit,
+};
 
 mod arm64_program;
 mod cross_compiled;

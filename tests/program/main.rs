@@ -2,15 +2,7 @@
 //!
 //! `cargo test --release --test program commands` runs one of them.
 
-#[path = "../support/command.rs"]
-mod command;
-#[path = "../support/laws.rs"]
-#[allow(dead_code)] // the topics use a part of it
-mod laws;
-#[path = "../support/skips.rs"]
-mod skips;
-#[path = "../support/unit.rs"]
-mod unit;
+use brinell_testing::{command, laws, skips, unit};
 
 mod build_failures;
 mod commands;

@@ -1,3 +1,38 @@
-//! What the tests share.
+//! What the tests share: places and commands, units for tests and their libraries, masters, models and random numbers.
 
+pub mod arithmetic;
+pub mod both_ways;
+pub mod child;
+pub mod command;
+pub mod courses;
+pub mod debian;
+pub mod driver;
+pub mod face;
+pub mod fmi_crate;
+pub mod friction;
+pub mod functions;
+pub mod hosts;
+pub mod importer_table;
+pub mod judge;
+pub mod kinds;
+pub mod laws;
+pub mod loaded;
+pub mod masters;
 pub mod mutations;
+pub mod physics;
+pub mod places;
+pub mod prebuilt;
+pub mod printed;
+pub mod programs;
+pub mod pytest;
+pub mod python;
+pub mod rebuilt;
+pub mod refusal;
+pub mod scenes;
+pub mod skips;
+pub mod standalone;
+pub mod suites;
+pub mod systems;
+pub mod targets;
+pub mod toolchain;
+pub mod unit;

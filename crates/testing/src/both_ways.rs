@@ -1,0 +1,296 @@
+//! A compiled and a prebuilt FMU of one scene: the same calls give the same bits and the same messages.
+
+use super::loaded::{Instance, OK, Unit, take_message};
+use super::physics::Random;
+use super::prebuilt::{export, export_by_kind};
+use super::unit;
+use std::fs;
+use std::path::Path;
+
+/// The two FMUs of a scene.
+pub struct Both {
+    /// The prebuilt one.
+    pub kind: String,
+    compiled: Unit,
+    prebuilt: Unit,
+    variables: Vec<Variable>,
+}
+
+#[derive(Clone, Debug)]
+struct Variable {
+    name: String,
+    reference: u32,
+    causality: String,
+    is_real: bool,
+    start: f64,
+    minimum: f64,
+    maximum: f64,
+}
+
+/// The model description of an FMU.
+fn description(fmu: &Path) -> String {
+    let library = unit::library(fmu);
+    let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+    fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library")
+}
+
+/// The text of an attribute.
+fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
+    element.split_once(&format!(" {name}=\""))?.1.split('"').next()
+}
+
+fn variables(description: &str) -> Vec<Variable> {
+    let elements = description.split("<ScalarVariable").skip(1);
+    let number = |element, name| attribute(element, name).map_or(f64::NAN, |text| text.parse().expect("a number"));
+    elements
+        .map(|element| {
+            let element = element.split("</ScalarVariable>").next().unwrap();
+            Variable {
+                name: attribute(element, "name").unwrap().into(),
+                reference: attribute(element, "valueReference").unwrap().parse().unwrap(),
+                causality: attribute(element, "causality").unwrap().into(),
+                is_real: element.contains("<Real"),
+                start: number(element, "start"),
+                minimum: number(element, "min"),
+                maximum: number(element, "max"),
+            }
+        })
+        .collect()
+}
+
+impl Both {
+    pub fn of(text: String, store: &Path) -> Both {
+        let (compiled, (prebuilt, kind)) = (export(&text, None), export_by_kind(&text, store));
+        let [one, other] = [&compiled, &prebuilt].map(|fmu| {
+            let text = description(fmu);
+            let guid = attribute(&text, "guid").unwrap().to_string();
+            assert_eq!(guid.len(), 32);
+            (text.replace(&guid, "GUID"), guid)
+        });
+        assert!(one.0 == other.0, "the model descriptions differ in more than the GUID: {text}");
+        assert_ne!(one.1, other.1, "{text}");
+        let variables = variables(&one.0);
+        Both { kind, compiled: Unit::open(&compiled), prebuilt: Unit::open(&prebuilt), variables }
+    }
+
+    fn of_causality(&self, causality: &str) -> Vec<Variable> {
+        self.variables.iter().filter(|variable| variable.causality == causality).cloned().collect()
+    }
+
+    /// Makes the same calls, `calls` in number, on both, and compares all messages and outputs. Returns the number of
+    /// messages.
+    pub fn compare(&self, calls: usize, random: &mut Random) -> usize {
+        let outputs = self.of_causality("output");
+        let reals: Vec<u32> = outputs.iter().filter(|output| output.is_real).map(|output| output.reference).collect();
+        let regime = outputs.iter().find(|output| !output.is_real);
+        let parameters = self.of_causality("parameter");
+        let inputs = self.of_causality("input");
+        let mut pair = Pair::new(&self.compiled, &self.prebuilt);
+        // outputs that the scene does not request are missing, whatever the library supports
+        let beyond = self.variables.len() as u32;
+        assert_ne!(pair.both(|unit| unit.set(&[beyond], &[1.0])), OK);
+        pair.both(|unit| unit.status_of("fmi2Reset"));
+        pair.begin(&parameters, random);
+        let (mut time, mut step) = (0.0, 1e-6);
+        let mut depth_of_state = None;
+        for _ in 0..calls {
+            for input in &inputs {
+                let value = match input.name.as_str() {
+                    "effective_mass" => positive(random, -6.0, 2.0),
+                    _ => signed(random, -6.0, 2.0),
+                };
+                if below(random, 4) != 0 || input.name == "indentation_rate" {
+                    pair.both(|unit| unit.set(&[input.reference], &[value]));
+                }
+            }
+            if below(random, 5) == 0 {
+                let derivative = signed(random, 0.0, 6.0);
+                pair.both(|unit| unit.set_derivatives(&[0], 1, &[derivative]));
+            }
+            if below(random, 3) == 0 {
+                step = positive(random, -9.0, -4.0);
+            }
+            if pair.both(|unit| unit.step(time, step)) == OK {
+                time += step;
+            } else {
+                // too deep, or too long: only a reset is possible
+                pair.both(|unit| unit.status_of("fmi2Reset"));
+                pair.begin(&parameters, random);
+                (time, depth_of_state) = (0.0, None);
+                continue;
+            }
+            pair.read(|unit, values| unit.get(&reals, values), reals.len());
+            if let Some(regime) = regime {
+                pair.both(|unit| unit.integer(&regime.name));
+            }
+            match below(random, 12) {
+                0 => pair.read(|unit, values| unit.output_derivatives(&reals, 1, values), reals.len()),
+                1 => pair.read(|unit, values| unit.output_derivatives(&reals, 2, values), reals.len()),
+                2 => pair.read(|unit, values| unit.directional(&reals, 0, values), reals.len()),
+                3 => {
+                    pair.save();
+                    depth_of_state = Some(time);
+                }
+                4 => {
+                    if let Some(saved) = depth_of_state {
+                        pair.restore();
+                        time = saved;
+                    }
+                }
+                5 => {
+                    // rejected with the same message
+                    let any = &parameters.get(below(random, parameters.len().max(1)));
+                    let reference = any.map_or(99, |parameter| parameter.reference);
+                    let value = positive(random, -9.0, 12.0);
+                    if pair.both(|unit| unit.set(&[reference], &[value])) != OK {
+                        pair.both(|unit| unit.status_of("fmi2Reset"));
+                        pair.begin(&parameters, random);
+                        (time, depth_of_state) = (0.0, None);
+                    }
+                }
+                _ => {}
+            }
+        }
+        pair.messages
+    }
+}
+
+impl Both {
+    /// Lets an importer move a body of this `mass` [kg] in steps that are far too long, on both; the messages, which must be
+    /// the same.
+    pub fn drive_with_long_steps(&self, mass: f64) -> Vec<String> {
+        let mut pair = Pair::new(&self.compiled, &self.prebuilt);
+        pair.both(|unit| unit.enter_initialization());
+        assert_eq!(pair.both(|unit| unit.status_of("fmi2ExitInitializationMode")), OK);
+        let reference =
+            |name: &str| self.variables.iter().find(|variable| variable.name == name).map(|it| it.reference);
+        let [rate, force] = ["indentation_rate", "force"].map(|name| [reference(name).expect("every scene has it")]);
+        let (mut speed, step, mut messages) = (1.0, 2e-3, Vec::new());
+        for index in 0..4 {
+            pair.both(|unit| unit.set(&rate, &[speed]));
+            messages.push(pair.both(|unit| (unit.step(f64::from(index) * step, step), take_message())).1);
+            let mut now = [0.0];
+            assert_eq!(pair.compiled.get(&force, &mut now), OK);
+            speed -= step * now[0] / mass;
+        }
+        messages
+    }
+}
+
+/// A random number below `count`.
+fn below(random: &mut Random, count: usize) -> usize {
+    (random.next() * count as f64) as usize
+}
+
+/// A random number between two others.
+fn between(random: &mut Random, from: f64, to: f64) -> f64 {
+    from + (to - from) * random.next()
+}
+
+/// A number of random size, between powers of ten.
+fn positive(random: &mut Random, from: f64, to: f64) -> f64 {
+    10f64.powf(between(random, from, to))
+}
+
+/// The same with a random sign.
+fn signed(random: &mut Random, from: f64, to: f64) -> f64 {
+    let size = positive(random, from, to);
+    if below(random, 2) == 0 { size } else { -size }
+}
+
+/// Two instances that receive the same calls.
+struct Pair<'a> {
+    compiled: Instance<'a>,
+    prebuilt: Instance<'a>,
+    states: Option<[*mut std::ffi::c_void; 2]>,
+    /// Number of messages.
+    messages: usize,
+}
+
+impl<'a> Pair<'a> {
+    fn new(compiled: &'a Unit, prebuilt: &'a Unit) -> Pair<'a> {
+        let [mut compiled, mut prebuilt] = [compiled, prebuilt].map(Unit::instantiate);
+        compiled.log_everything();
+        prebuilt.log_everything();
+        Pair { compiled, prebuilt, states: None, messages: 0 }
+    }
+
+    /// Makes the same call on both; result and message must be equal.
+    fn both<T: PartialEq + std::fmt::Debug>(&mut self, call: impl Fn(&mut Instance) -> T) -> T {
+        take_message();
+        let one = (call(&mut self.compiled), take_message());
+        let other = (call(&mut self.prebuilt), take_message());
+        assert_eq!(one, other);
+        self.messages += usize::from(!one.1.is_empty());
+        one.0
+    }
+
+    /// Reads the same variables of both; the bits must be equal.
+    fn read(&mut self, call: impl Fn(&mut Instance, &mut [f64]) -> i32, count: usize) {
+        self.both(|unit| {
+            let mut values = vec![0.0; count];
+            let status = call(unit, &mut values);
+            (status, values.into_iter().map(f64::to_bits).collect::<Vec<_>>())
+        });
+    }
+
+    /// Sets parameters and initializes, until the parameters are accepted.
+    fn begin(&mut self, parameters: &[Variable], random: &mut Random) {
+        self.states = None;
+        loop {
+            let mut taken = true;
+            for Variable { name, reference, start, minimum, maximum, .. } in parameters {
+                if below(random, 3) == 0 {
+                    continue;
+                }
+                let value = match name.rsplit('.').next().unwrap() {
+                    "poissons_ratio" => between(random, -0.2, 0.5),
+                    "initial_gap" => signed(random, -8.0, -5.0),
+                    "restitution" => between(random, 0.2, 1.0),
+                    _ => start * positive(random, -0.5, 0.5),
+                };
+                // occasionally beyond the limits
+                let value = if below(random, 40) == 0 { 2.0 * maximum + 1.0 } else { value.clamp(*minimum, *maximum) };
+                taken &= self.both(|unit| unit.set(&[*reference], &[value])) == OK;
+            }
+            if taken {
+                self.both(|unit| unit.enter_initialization());
+                if self.both(|unit| unit.status_of("fmi2ExitInitializationMode")) == OK {
+                    return;
+                }
+            }
+            self.both(|unit| unit.status_of("fmi2Reset"));
+        }
+    }
+
+    fn save(&mut self) {
+        self.forget();
+        let states = [&self.compiled, &self.prebuilt].map(|unit| {
+            let state = unit.save();
+            // through bytes and back
+            let bytes = unit.serialize(state);
+            unit.free(state);
+            unit.deserialize(&bytes).expect("its own state")
+        });
+        self.states = Some(states);
+    }
+
+    fn restore(&mut self) {
+        let [one, other] = self.states.expect("a saved state");
+        self.compiled.restore(one);
+        self.prebuilt.restore(other);
+    }
+
+    fn forget(&mut self) {
+        if let Some([one, other]) = self.states.take() {
+            self.compiled.free(one);
+            self.prebuilt.free(other);
+        }
+    }
+}
+
+impl Drop for Pair<'_> {
+    fn drop(&mut self) {
+        self.forget();
+    }
+}

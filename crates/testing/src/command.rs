@@ -1,0 +1,130 @@
+//! The program, called like by a user, with a separate folder for each test.
+
+use crate::places::program;
+use crate::places::{root, temporary};
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tempfile::TempDir;
+
+/// The result of a run of the program.
+#[derive(Debug)]
+pub struct Run {
+    pub status: Option<i32>,
+    pub out: String,
+    pub err: String,
+}
+
+impl Run {
+    /// The run, which must have ended with `status`.
+    #[track_caller]
+    pub fn with_status(self, status: i32) -> Run {
+        assert_eq!(self.status, Some(status), "wrong exit status of {self:#?}");
+        self
+    }
+
+    /// The single JSON document on standard output.
+    #[track_caller]
+    pub fn json(&self) -> serde_json::Value {
+        serde_json::from_str(&self.out).unwrap_or_else(|error| panic!("no JSON ({error}): {self:#?}"))
+    }
+}
+
+/// The program, to run in `folder` with a separate cache and without a downloaded toolchain.
+pub fn brinell(folder: &Path) -> Command {
+    let mut command = Command::new(program());
+    command.current_dir(folder).env("BRINELL_CACHE", cache()).env("BRINELL_TOOLCHAIN", cache().join("none"));
+    command
+}
+
+/// The cache of the tests.
+pub fn cache() -> PathBuf {
+    temporary().join("cache")
+}
+
+/// Runs `command` to its end. What our program says on standard error must fit the width of a page; `err` is without the ends of lines
+/// that come from that.
+#[track_caller]
+pub fn output(command: &mut Command) -> Run {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?} can't be started: {error}"));
+    let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    // what another program asks for stays as it is
+    let for_people = !command.get_args().any(|argument| argument == "--json");
+    if for_people && command.get_program() == program() {
+        check_width(&err);
+    }
+    Run { status: output.status.code(), out, err: if for_people { unwrapped(&err) } else { err } }
+}
+
+/// Runs the program in `folder` with `arguments`.
+#[track_caller]
+pub fn run<A: AsRef<OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = A>) -> Run {
+    output(brinell(folder).args(arguments))
+}
+
+/// Whether the lines of a message fit a page, but for lines of a scene and for single words, such as paths.
+#[track_caller]
+fn check_width(text: &str) {
+    for line in text.lines().filter(|line| line.chars().count() > WIDTH) {
+        let is_shown = line.trim_start().trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ').starts_with('|');
+        assert!(is_shown || !line.trim().contains(' '), "{} columns: {line}", line.chars().count());
+    }
+}
+
+/// The widest line of a message.
+const WIDTH: usize = 100;
+
+/// `text` with those lines put together again that one line was too short for.
+fn unwrapped(text: &str) -> String {
+    let (mut all, mut last, mut depth) = (String::new(), 0, 0);
+    for line in text.lines() {
+        let (words, size) = (line.trim_start(), line.chars().count());
+        let indent = line.len() - words.len();
+        let word = words.split(' ').next().unwrap_or_default().chars().count();
+        if indent == depth + 2 && last + 1 + word > WIDTH && !words.is_empty() {
+            all += &format!(" {words}");
+        } else {
+            all += &format!("{}{line}", if all.is_empty() { "" } else { "\n" });
+            depth = indent;
+        }
+        last = size;
+    }
+    if text.ends_with('\n') { all + "\n" } else { all }
+}
+
+/// An empty folder.
+pub fn empty_folder() -> TempDir {
+    tempfile::tempdir().expect("a folder for temporary files")
+}
+
+/// The names of the entries of `folder`, including hidden files.
+pub fn contents(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a readable folder");
+    let mut names: Vec<_> = entries.map(|e| e.expect("a readable folder").file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+/// A scene file of the project by its name without `.toml`.
+pub fn scene(name: &str) -> PathBuf {
+    root().join("scenes").join(name).with_extension("toml")
+}
+
+/// The bytes of an FMU of the default scene, exported under other circumstances.
+#[track_caller]
+pub fn exported(circumstances: impl FnOnce(&mut Command) -> &mut Command) -> Vec<u8> {
+    let folder = empty_folder();
+    let mut command = brinell(folder.path());
+    command.arg("export").arg(scene("steel_ball"));
+    circumstances(&mut command);
+    output(&mut command).with_status(0);
+    fs::read(folder.path().join("steel_ball.fmu")).expect("NAME.fmu in the current folder")
+}
+
+/// `assert_eq` would print both archives.
+#[track_caller]
+pub fn assert_same(left: &[u8], right: &[u8]) {
+    let first = left.iter().zip(right).position(|(left, right)| left != right);
+    assert!(left == right, "{} and {} bytes, different from byte {first:?} on", left.len(), right.len());
+}

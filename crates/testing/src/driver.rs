@@ -1,0 +1,91 @@
+//! The C program of `tests/c`, which uses an FMU as an importer in C does.
+
+use super::{python, skips, unit};
+use crate::places::{root, temporary};
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// The files of the program.
+const SOURCES: [&str; 5] = ["driver.c", "null_pointers.c", "instances.c", "memory.c", "counting.c"];
+
+/// The exit status of valgrind for its own errors.
+const VALGRIND_ERROR: i32 = 9;
+
+/// The folder of the standard's headers, which are part of fmpy.
+pub fn headers() -> String {
+    let program = "import fmpy, os; print(os.path.join(os.path.dirname(fmpy.__file__), 'c-code'))";
+    let output = Command::new(python::python()).args(["-c", program]).output().expect("python can be started");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8_lossy(&output.stdout).trim().into()
+}
+
+/// Compiles the program as `name` with additional `options`.
+pub fn compile(name: &str, options: &[&str]) -> PathBuf {
+    let program = temporary().join(name);
+    let folder = root().join("tests/c");
+    let mut compiler = Command::new("cc");
+    compiler.args(["-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-pthread"]);
+    // the compiler must not replace functions of the program by its knowledge of calloc and free
+    compiler.args(["-rdynamic", "-fno-builtin-malloc", "-fno-builtin-calloc", "-fno-builtin-free", "-I"]);
+    compiler.arg(headers()).args(options).arg("-o").arg(&program);
+    compiler.args(SOURCES.map(|source| folder.join(source))).args(["-ldl", "-lm"]);
+    let output = compiler.output().expect("there is a C compiler");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    program
+}
+
+/// The scene of the FMU on which the program runs.
+pub fn scene() -> PathBuf {
+    unit::steel_ball_with_regime()
+}
+
+/// The program's arguments: the library of the FMU of [`scene`], its GUID, and four value references.
+pub fn arguments() -> Vec<String> {
+    let library = unit::library(&unit::export(&scene()));
+    let root = library.ancestors().nth(3).expect("binaries/PLATFORM/LIBRARY");
+    let description = fs::read_to_string(root.join("modelDescription.xml")).expect("unpacked beside the library");
+    let guid = attribute(&description, "guid").expect("a unit has a GUID");
+    let variables = ["indentation_rate", "force", "target.yield_strength", "regime"];
+    let references = variables.map(|name| {
+        let mut elements = description.split("<ScalarVariable").skip(1);
+        let element = elements.find(|element| attribute(element, "name") == Some(name));
+        let element = element.unwrap_or_else(|| panic!("the unit has no {name}"));
+        attribute(element, "valueReference").expect("every variable has a reference")
+    });
+    let path = library.to_str().expect("a path of plain characters");
+    [path, guid].into_iter().chain(references).map(str::to_string).collect()
+}
+
+pub fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
+    element.split_once(&format!(" {name}=\""))?.1.split('"').next()
+}
+
+/// Verifies the list of checks; returns their number.
+#[track_caller]
+pub fn assert_good(output: &Output) -> usize {
+    let list = String::from_utf8_lossy(&output.stdout);
+    let failed: Vec<_> = list.lines().filter(|line| !line.starts_with("ok ")).collect();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(failed.is_empty() && output.status.success(), "{}: {failed:#?}\n{errors}", output.status);
+    list.lines().count()
+}
+
+/// Whether valgrind is installed; a message says if it isn't.
+pub fn has_valgrind() -> bool {
+    let has = Command::new("valgrind").arg("--version").output().is_ok();
+    if !has {
+        skips::skipped("the memory checker", "valgrind isn't installed (Debian and Ubuntu: apt install valgrind)");
+    }
+    has
+}
+
+/// valgrind with one of its tools, which fails where it finds something.
+pub fn valgrind(tool: &str) -> Command {
+    let mut valgrind = Command::new("valgrind");
+    valgrind.arg(format!("--tool={tool}")).arg(format!("--error-exitcode={VALGRIND_ERROR}")).arg("--quiet");
+    if tool == "memcheck" {
+        valgrind.arg("--leak-check=full");
+    }
+    valgrind
+}
