@@ -2,8 +2,8 @@
 
 use crate::arguments::Arguments;
 use crate::files::FileError;
-use crate::package;
-use crate::prebuilt_folder::{self, PrebuiltFolder};
+use crate::prebuilt::{self, PrebuiltFolder};
+use crate::sources;
 use brinell_exporter::layout::{json_line, shown};
 use brinell_exporter::platform;
 use clap::CommandFactory;
@@ -17,9 +17,9 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// `brinell --version`: program, library, platform, and the prebuilt libraries that an export would use.
 pub fn version(as_json: bool) {
-    let library = package::library_identity();
+    let library = sources::library_identity();
     let platform = platform::here().ok().map(|platform| (platform.folder, platform.targets[0].triple));
-    let prebuilt = prebuilt_folder::find();
+    let prebuilt = prebuilt::find();
     if as_json {
         let platform = platform.map(|(folder, target)| json!({ "folder": folder, "target": target }));
         let prebuilt = prebuilt.map(|it| json!({ "platforms": folders(&it), "folder": it.path.to_string_lossy() }));

@@ -1,10 +1,10 @@
 //! `brinell curve`: force, radius, pressure and energies along a path of loading, unloading and reloading.
 
 use crate::files::{self, deliver, ending};
+use crate::messages::WrongCall;
 use crate::scene_file;
 use crate::tangential_curve::{Loops, Wanted};
 use crate::truth;
-use crate::wrong_call::WrongCall;
 use brinell_contact::damped::{self, AnyDamped, Damped};
 use brinell_contact::impact::Impact;
 use brinell_contact::{History, Loading, TooDeep};

@@ -1,6 +1,7 @@
 //! `brinell export`: builds the FMU of a scene and lists what it contains.
 
-use crate::files;
+use crate::files::{self, FileError, folder_of};
+use crate::importer;
 use crate::messages::tell;
 use crate::package::{self, ExportError, Way};
 use crate::summary::Summary;
@@ -9,6 +10,7 @@ use brinell_exporter::plan::Plan;
 use brinell_exporter::platform::Platform;
 use brinell_exporter::scene::Scene;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// The command: makes the FMU of `scene`, the file at `source`, in this `way` for `platforms`, and writes it to `output` or to the
 /// current folder. Returns its path.
@@ -25,7 +27,7 @@ pub fn run(
         files::check_kept(&path, source)?;
     }
     if output.is_none() {
-        files::check_own(&path, None, &scene.text, source)?;
+        check_own(&path, None, &scene.text, source)?;
     }
     tell(&format!("building {} ...", shown(&path)));
     let plan = Plan::of(scene);
@@ -41,4 +43,33 @@ pub fn run(
         summary.print(&exported);
     }
     Ok(exported.path)
+}
+
+/// Rejects a `path` that nobody has named if another file is there than an FMU of the scene with this `text`, which is in the
+/// file `source`, or a system with that FMU as its `unit`. What was made from an earlier text of the scene is replaced, but not what
+/// belongs to a scene beside it which has the same name.
+///
+/// # Errors
+/// [`FileError`]
+pub fn check_own(path: &Path, unit: Option<&str>, text: &str, source: Option<&Path>) -> Result<(), FileError> {
+    let what = if unit.is_some() { "system" } else { "FMU" };
+    let kept = |whose: &str| {
+        let said = format!("this is {whose}, which isn't replaced; `-o FILE` names the file to write");
+        Err(FileError::at(path)(io::Error::new(io::ErrorKind::AlreadyExists, said)))
+    };
+    if !path.exists() {
+        return Ok(());
+    }
+    let Some(old) = importer::scene_in(path, unit) else { return kept(&format!("no {what} of a scene")) };
+    if old == text {
+        return Ok(());
+    }
+    let folders = [Some(path), source].into_iter().flatten().map(folder_of);
+    let files = folders.filter_map(|folder| fs::read_dir(folder).ok()).flatten().flatten().map(|entry| entry.path());
+    // the scene itself has another text
+    let mut scenes = files.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
+    match scenes.find(|file| file.is_file() && fs::read(file).is_ok_and(|bytes| bytes == old.as_bytes())) {
+        Some(other) => kept(&format!("the {what} of {}, which has the same name", shown(&other))),
+        None => Ok(()),
+    }
 }

@@ -1,12 +1,25 @@
 //! Reading and writing of files for the user.
 
-pub use crate::file_error::FileError;
-use crate::importer;
 use brinell_exporter::layout::shown;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, TempDir};
+
+/// A file that cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+#[error("{path}: {source}", path = shown(path))]
+pub struct FileError {
+    pub path: PathBuf,
+    pub source: io::Error,
+}
+
+impl FileError {
+    /// For `map_err`: the error at `path`.
+    pub fn at(path: &Path) -> impl Fn(io::Error) -> FileError {
+        move |source| FileError { path: path.into(), source }
+    }
+}
 
 /// Writes a temporary file and renames it. The target is never incomplete. A symbolic link is kept, and the file it points to is
 /// written. A device or a pipe is written to, not replaced. A new file gets the permissions of the umask.
@@ -152,35 +165,6 @@ pub fn check_kept(path: &Path, input: &Path) -> Result<(), FileError> {
     Ok(())
 }
 
-/// Rejects a `path` that nobody has named if another file is there than an FMU of the scene with this `text`, which is in the
-/// file `source`, or a system with that FMU as its `unit`. What was made from an earlier text of the scene is replaced, but not what
-/// belongs to a scene beside it which has the same name.
-///
-/// # Errors
-/// [`FileError`]
-pub fn check_own(path: &Path, unit: Option<&str>, text: &str, source: Option<&Path>) -> Result<(), FileError> {
-    let what = if unit.is_some() { "system" } else { "FMU" };
-    let kept = |whose: &str| {
-        let said = format!("this is {whose}, which isn't replaced; `-o FILE` names the file to write");
-        Err(FileError::at(path)(io::Error::new(io::ErrorKind::AlreadyExists, said)))
-    };
-    if !path.exists() {
-        return Ok(());
-    }
-    let Some(old) = importer::scene_in(path, unit) else { return kept(&format!("no {what} of a scene")) };
-    if old == text {
-        return Ok(());
-    }
-    let folders = [Some(path), source].into_iter().flatten().map(folder_of);
-    let files = folders.filter_map(|folder| fs::read_dir(folder).ok()).flatten().flatten().map(|entry| entry.path());
-    // the scene itself has another text
-    let mut scenes = files.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
-    match scenes.find(|file| file.is_file() && fs::read(file).is_ok_and(|bytes| bytes == old.as_bytes())) {
-        Some(other) => kept(&format!("the {what} of {}, which has the same name", shown(&other))),
-        None => Ok(()),
-    }
-}
-
 /// Rejects a folder that cannot be written to or created.
 ///
 /// # Errors
@@ -197,7 +181,7 @@ pub fn check_folder(path: &Path) -> Result<(), FileError> {
 }
 
 /// The folder that contains `path`.
-fn folder_of(path: &Path) -> &Path {
+pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),

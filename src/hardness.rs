@@ -1,7 +1,7 @@
 //! `brinell hardness`: dent and hardness of a test, or the yield strength from a hardness.
 
+use crate::messages::WrongCall;
 use crate::scene_file;
-use crate::wrong_call::WrongCall;
 use brinell_contact::validity::LARGEST_RADIUS_RATIO;
 use brinell_exporter::hardness::{ADMITTED, Dent, load_ratio, run_test, strength_of};
 use brinell_exporter::laws::{self, Choice};

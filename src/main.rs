@@ -6,7 +6,6 @@ mod arguments;
 mod check;
 mod curve;
 mod export;
-mod file_error;
 mod files;
 mod hardness;
 mod importer;
@@ -17,26 +16,26 @@ mod messages;
 mod new;
 mod package;
 mod parallel;
+mod prebuild;
 mod prebuilt;
-mod prebuilt_folder;
 mod predict;
 mod report;
 mod scene_file;
+mod sources;
 mod ssp;
 mod summary;
 mod tangential_curve;
 mod truth;
-mod wrong_call;
 
 use arguments::{Arguments, Command, PlatformArguments};
 use brinell_exporter::plan::Plan;
 use brinell_exporter::prebuilt::Library;
 use brinell_exporter::{constants, numbers};
 use clap::Parser;
+use messages::WrongCall;
 use package::Way;
 use std::error::Error;
 use std::process::ExitCode;
-use wrong_call::WrongCall;
 
 fn main() -> ExitCode {
     leave_when_nothing_can_be_printed();
@@ -121,7 +120,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             let scene = (&scene_file::read_aloud(scene)?, Some(scene.as_path()));
             export::run(scene, (way, &platforms.chosen(way)?), output.as_deref(), json)?;
         }
-        Some(Command::Prebuild(arguments)) => prebuilt::command::run(arguments, json)?,
+        Some(Command::Prebuild(arguments)) => prebuild::run(arguments, json)?,
         Some(Command::New(arguments)) => new::run(arguments, json)?,
         Some(Command::Ssp(arguments)) => ssp::run(arguments, json)?,
         Some(Command::Predict(arguments)) => predict::run(arguments, json)?,

@@ -1,7 +1,8 @@
-//! Messages on standard error.
+//! Messages on standard error, and the error of a wrong command line.
 
 use brinell_exporter::layout::{WIDTH, harmless, without_middle};
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::io::{self, Write};
 use textwrap::{Options, WordSeparator, WordSplitter};
 
@@ -38,6 +39,18 @@ fn wrapped(message: &str) -> String {
         if is_shown || line.chars().count() <= WIDTH { line.to_string() } else { textwrap::fill(text, options) }
     };
     message.split('\n').map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Description of the error in the arguments.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct WrongCall(pub String);
+
+impl WrongCall {
+    /// For `map_err`.
+    pub fn of(error: impl Display) -> WrongCall {
+        WrongCall(error.to_string())
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! `brinell new`: a commented scene to start from.
 
 use crate::files::{self, FileError};
-use crate::wrong_call::WrongCall;
+use crate::messages::WrongCall;
 use brinell_exporter::layout::{json_line, shown};
 use brinell_exporter::scene::check_name;
 use serde_json::json;

@@ -2,8 +2,8 @@
 
 mod text;
 
+use crate::messages::WrongCall;
 use crate::scene_file;
-use crate::wrong_call::WrongCall;
 use brinell_contact::damped::{self, AnyDamped};
 use brinell_contact::impact::Impact;
 use brinell_contact::loading::AnyLoading;

@@ -3,8 +3,8 @@
 use super::error::ExportError;
 use super::link::Linker;
 use super::rustc::Rustc;
-use super::toolchain::{Toolchain, help};
 use brinell_exporter::platform::{System, Target};
+use std::env;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -73,4 +73,34 @@ impl Compilers {
             _ => ExportError::NoTarget { triple, reason, help: help(target) },
         }
     }
+}
+
+/// The cross toolchain in the folder that `BRINELL_TOOLCHAIN` names: a compiler for all platforms. `packaging/toolchain.py` makes it
+/// and has its layout.
+struct Toolchain {
+    folder: PathBuf,
+}
+
+impl Toolchain {
+    /// The toolchain in the folder of `BRINELL_TOOLCHAIN`, if it is complete.
+    fn find() -> Option<Toolchain> {
+        let chosen = env::var_os("BRINELL_TOOLCHAIN").filter(|value| !value.is_empty())?;
+        let folder = std::path::absolute(&chosen).unwrap_or(chosen.into());
+        folder.join("packages.json").is_file().then_some(Toolchain { folder })
+    }
+
+    /// The compiler.
+    fn rustc(&self) -> PathBuf {
+        self.folder.join("usr/bin/rustc")
+    }
+
+    /// The linker for ELF files: it takes the arguments of a C compiler.
+    fn driver(&self) -> PathBuf {
+        self.folder.join("usr/bin/cc-lld")
+    }
+}
+
+/// How to get a compiler for `target`.
+fn help(target: &Target) -> String {
+    format!("`rustup target add {}` installs it", target.triple)
 }

@@ -1,9 +1,9 @@
 //! The build folder. Compiler and linker run there. Whoever can write to it controls their results; it is therefore
 //! below a folder that only the user can write to.
 
-use super::Hash;
 use super::error::{ExportError, FolderError};
 use crate::files::{FileError, private_folder};
+use brinell_exporter::package::Hash;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};

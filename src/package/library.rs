@@ -6,9 +6,9 @@ use super::folder::{Cache, LIBRARY};
 use super::link::{self, Linker};
 use super::parts::Parts;
 use super::rustc::Rustc;
-use super::sources_hash;
 use crate::files::FileError;
 use crate::parallel;
+use crate::sources;
 use brinell_exporter::package::{Hash, join, resource};
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform::{self, Platform, System, Target};
@@ -194,7 +194,7 @@ impl Build<'_> {
         let all = all
             .chain(arguments.iter().map(String::as_str))
             .chain(link::files().into_iter().flat_map(|(name, text)| [name, text]));
-        format!("{LIBRARY}{}", Hash::default().with_all(all.chain([sources_hash()])).digits())
+        format!("{LIBRARY}{}", Hash::default().with_all(all.chain([sources::hash()])).digits())
     }
 
     /// Compiles the library in the folder.

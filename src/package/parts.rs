@@ -4,8 +4,8 @@
 use super::error::ExportError;
 use super::folder::Cache;
 use super::rustc::Rustc;
-use super::{CONTACT_SOURCE, FMU_SOURCE, LIBM_SOURCE, UNIT_SOURCE};
 use crate::files::FileError;
+use crate::sources::{CONTACT_SOURCE, FMU_SOURCE, LIBM_SOURCE, UNIT_SOURCE};
 use brinell_exporter::package::Hash;
 use brinell_exporter::platform::Target;
 use std::path::Path;

@@ -1,11 +1,12 @@
 //! The folder of prebuilt libraries, and the FMUs that are made from it.
 
-pub mod command;
+mod folder;
 mod store;
 
-pub use store::StoreError;
+pub use folder::{PrebuiltFolder, find};
+pub use store::{StoreError, Written, write};
 
-use crate::package;
+use crate::sources;
 use brinell_exporter::package::join;
 use brinell_exporter::plan::Plan;
 use brinell_exporter::platform::{Platform, Target};
@@ -40,7 +41,7 @@ impl Unit {
     /// # Errors
     /// [`PrebuiltError`] if there are no prebuilt libraries, or none that fits the scene.
     pub fn of(plan: &Plan) -> Result<Unit, PrebuiltError> {
-        let unit = prebuilt::Unit::of(plan, package::sources_hash())?;
+        let unit = prebuilt::Unit::of(plan, sources::hash())?;
         Ok(Unit { unit, store: Store::find()? })
     }
 

@@ -3,9 +3,9 @@
 //! The libraries of a kind are compressed as one stream, because most of their code is the same. Reading one library
 //! takes unpacking a fraction of the archive.
 
+use super::folder::{self, LIST, PrebuiltFolder};
 use crate::files::{FileError, write_whole};
-use crate::package::sources_hash;
-use crate::prebuilt_folder::{self, LIST, PrebuiltFolder};
+use crate::sources;
 use brinell_exporter::layout::shown;
 use brinell_exporter::platform::{Platform, Target};
 use brinell_exporter::prebuilt::Library;
@@ -96,7 +96,7 @@ impl Store {
     /// # Errors
     /// [`StoreError::NoFolder`]
     pub fn find() -> Result<Store, StoreError> {
-        let found = prebuilt_folder::find().ok_or(StoreError::NoFolder)?;
+        let found = folder::find().ok_or(StoreError::NoFolder)?;
         let platforms = found.platforms();
         if platforms.is_empty() {
             return Err(StoreError::Empty { folder: found.path });
@@ -124,7 +124,7 @@ impl Store {
         let text = fs::read_to_string(&path).map_err(FileError::at(&path))?;
         let list: List = serde_json::from_str(&text)
             .map_err(|error| StoreError::Damaged { path: path.clone(), reason: error.to_string() })?;
-        if list.sources != sources_hash() {
+        if list.sources != sources::hash() {
             return Err(StoreError::OtherVersion { folder: self.folder(), version: list.brinell });
         }
         Ok(list)
@@ -196,7 +196,7 @@ pub fn write(path: &Path, target: &Target, libraries: &[(&Library, Vec<u8>)]) ->
     let name = format!("{}.{ARCHIVE}", target.triple);
     let list = List {
         brinell: env!("CARGO_PKG_VERSION").into(),
-        sources: sources_hash().into(),
+        sources: sources::hash().into(),
         archive: Listed::new(name, &archive),
         streams,
     };

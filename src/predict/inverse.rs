@@ -4,7 +4,7 @@
 //! have several explanations or none, and the search finds all of them within a range.
 
 use super::Question;
-use crate::wrong_call::WrongCall;
+use crate::messages::WrongCall;
 use brinell_contact::impact::Impact;
 use brinell_exporter::laws::Choice;
 use brinell_exporter::layout::{json_line, paragraph};

@@ -7,8 +7,8 @@ mod text;
 
 use self::oblique_text::ObliqueAnswer;
 use crate::files::{self, deliver, ending};
+use crate::messages::WrongCall;
 use crate::scene_file;
-use crate::wrong_call::WrongCall;
 use brinell_contact::impact::Impact;
 use brinell_exporter::laws::{self, Choice};
 use brinell_exporter::layout::{json_line, shown};

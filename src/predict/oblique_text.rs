@@ -1,7 +1,7 @@
 //! An oblique impact: its arguments, and its rebound as text for people and as JSON for programs.
 
 use super::Arguments;
-use crate::wrong_call::WrongCall;
+use crate::messages::WrongCall;
 use brinell_contact::impact::Impact;
 use brinell_exporter::laws::Choice;
 use brinell_exporter::layout::{self, paragraph};

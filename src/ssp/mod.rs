@@ -8,10 +8,11 @@ mod values;
 mod wiring;
 
 use crate::arguments::SspArguments;
-use crate::files::{check_goal, check_kept, check_own, ending, write_whole};
+use crate::export::check_own;
+use crate::files::{check_goal, check_kept, ending, write_whole};
+use crate::messages::WrongCall;
 use crate::package::{self, Exported};
 use crate::scene_file;
-use crate::wrong_call::WrongCall;
 use brinell_exporter::interface::Entry;
 use brinell_exporter::layout::{json_line, paragraph, shown};
 use brinell_exporter::package::archive;

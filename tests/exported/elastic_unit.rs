@@ -90,7 +90,7 @@ fn with_names(scene: &Path) -> Vec<u8> {
         fs::copy(root.join(part), folder.path().join(part)).unwrap();
     }
     // listed in the manifest, but not compiled
-    for named in ["src", "build.rs", "benches", "examples", "tests"] {
+    for named in ["src", "modelDescription", "build.rs", "benches", "examples", "tests"] {
         std::os::unix::fs::symlink(root.join(named), folder.path().join(named)).unwrap();
     }
     copy(&root.join("crates"), &folder.path().join("crates"));

@@ -1,10 +1,11 @@
 //! `brinell prebuild`: compiles the libraries that need no compiler afterwards.
 
-use super::store::{self, Written};
 use crate::arguments::PrebuildArguments;
 use crate::files::FileError;
-use crate::package::{self, Builder, ExportError, Source, Way};
+use crate::package::{Builder, ExportError, Source, Way};
 use crate::parallel;
+use crate::prebuilt::{self, Written};
+use crate::sources;
 use brinell_exporter::layout::json_line;
 use brinell_exporter::package::PackError;
 use brinell_exporter::platform::{self, Target};
@@ -28,7 +29,7 @@ pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn E
     for target in targets {
         let built = build_all(&builder, &libraries, target)?;
         let listed: Vec<_> = libraries.iter().zip(built).collect();
-        let Written { libraries, unpacked, packed } = store::write(&arguments.output, target, &listed)?;
+        let Written { libraries, unpacked, packed } = prebuilt::write(&arguments.output, target, &listed)?;
         let triple = target.triple;
         if as_json {
             let object = json!({ "target": triple, "libraries": libraries, "size": unpacked, "compressed": packed });
@@ -68,7 +69,7 @@ fn refuse_unknown(what: &str, asked: &[String], known: &[String]) -> Result<(), 
 fn build_all(builder: &Builder, libraries: &[Library], target: &'static Target) -> Result<Vec<Vec<u8>>, ExportError> {
     let progress = ProgressBar::new(libraries.len() as u64);
     let built = parallel::each(libraries, |library| {
-        let (text, _) = library.source(package::sources_hash());
+        let (text, _) = library.source(sources::hash());
         let bytes = builder.build(&Source::Kind { text: &text }, target)?;
         let refused = |reason| PackError::Symbols { platform: target.triple, reason };
         symbols::check(&bytes, &target.alone(), false).map_err(refused)?;
