@@ -1,12 +1,11 @@
 //! The `.ssv` file: the values of the parameters.
 
-use super::wiring::base_of;
 use super::{COMMON, COMPONENT, TOOL, Xml, of_kind};
 use crate::importer::Base;
 use brinell_exporter::interface::Entry;
 use brinell_exporter::model_description::number;
 use brinell_exporter::plan::Plan;
-use brinell_exporter::table::Causality;
+use brinell_exporter::table::{self, Causality};
 use std::collections::BTreeMap;
 use std::io;
 
@@ -40,6 +39,15 @@ pub fn write(xml: &mut Xml, plan: &Plan) -> io::Result<()> {
 /// The units of these variables by name.
 pub fn units_of<'a>(entries: impl Iterator<Item = &'a Entry<'a>>) -> BTreeMap<&'a str, Base> {
     entries.filter_map(|entry| Some((entry.variable.unit.as_deref()?, base_of(entry.variable)))).collect()
+}
+
+/// The unit of a variable of the contact in base units. One without a unit is a plain number.
+pub fn base_of(variable: &table::Variable) -> Base {
+    let mut powers = [0; 8];
+    if let Some(unit) = table::UNITS.iter().find(|unit| Some(&unit.name) == variable.unit.as_ref()) {
+        powers[..3].copy_from_slice(&[unit.kg, unit.m, unit.s]);
+    }
+    Base { powers, factor: 1.0, offset: 0.0 }
 }
 
 /// The list of these units. Without any, there is no list, because the schema allows no empty one.

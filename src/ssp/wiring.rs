@@ -1,13 +1,13 @@
 //! The other FMUs of a system, and their connections.
 
-use super::values::units_of;
+use super::values::{base_of, units_of};
 use super::{COMPONENT, of_kind};
 use crate::importer::{self, Archive, Base, ImportError, VariableUnit};
 use brinell_exporter::layout::{shortened, shown};
 use brinell_exporter::nearest::nearest_first;
 use brinell_exporter::numbers::in_message;
 use brinell_exporter::plan::Plan;
-use brinell_exporter::table::{self, Causality, Type};
+use brinell_exporter::table::{Causality, Type};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -164,15 +164,6 @@ fn contact(plan: &Plan) -> Unit {
             .collect()
     };
     Unit { name: COMPONENT.into(), inputs: names(Causality::Input), outputs: names(Causality::Output) }
-}
-
-/// The unit of a variable of the contact in base units. One without a unit is a plain number.
-pub fn base_of(variable: &table::Variable) -> Base {
-    let mut powers = [0; 8];
-    if let Some(unit) = table::UNITS.iter().find(|unit| Some(&unit.name) == variable.unit.as_ref()) {
-        powers[..3].copy_from_slice(&[unit.kg, unit.m, unit.s]);
-    }
-    Base { powers, factor: 1.0, offset: 0.0 }
 }
 
 /// Compares the units of the two `ends` of a connection. Returns a warning if one of them is unknown.

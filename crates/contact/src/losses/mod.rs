@@ -8,6 +8,8 @@
 //!
 //! `F_s` and `K_s` are force and stiffness of the elastoplastic law, `v` is the rate of indentation. The contact never
 //! pulls.
+//!
+//! A contact on a plate is moved as bodies of no mass are: [`history`] calls [`bodies`], which moves a history.
 
 pub mod bodies;
 mod held;

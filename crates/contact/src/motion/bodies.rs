@@ -1,8 +1,8 @@
 //! The motion of the bodies through a step, from event to event: touch, corner of the law, turning point, separation.
 
 use super::field::Start;
+use super::field::{Ended, Stretch};
 use super::flight::Flight;
-use super::stretch::{Ended, Stretch};
 use super::{COSTLY, Drive, MOST_EVALUATIONS, MOST_PERIODS, NoMotion, Outcome};
 use crate::history::History;
 use crate::loading::Loading;

@@ -28,6 +28,34 @@ pub struct Start {
     pub time: f64,
 }
 
+/// The result of a stretch.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch {
+    /// Distance from its start \[m\]; positive is deeper.
+    pub way: f64,
+    /// Closing speed at its end \[m/s\].
+    pub speed: f64,
+    /// Change of the closing speed \[m/s\]. Over a short time it has more digits than the difference of the speeds.
+    pub gain: f64,
+    /// Duration \[s\].
+    pub time: f64,
+    /// The reason why it ended.
+    pub ended: Ended,
+}
+
+/// The reason why a stretch ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ended {
+    /// The bodies have turned.
+    Turned,
+    /// It reached the end of the piece.
+    AtBorder,
+    /// It stopped within the piece, as far as could be computed at once.
+    Within,
+    /// The step ended.
+    WithStep,
+}
+
 /// A point of a stretch.
 #[derive(Clone, Copy, Debug)]
 pub struct Mark {

@@ -28,8 +28,8 @@ use super::regime::{Regime, TooDeep};
 use super::unloading::Unloading;
 use bodies::Bodies;
 use field::Start;
+use field::{Ended, Stretch};
 use flight::Flight;
-use stretch::{Ended, Stretch};
 
 /// The inputs of the motion of the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,10 +2,9 @@
 
 use super::SMALLEST;
 use super::curve::Curve;
-use super::field::Start;
+use super::field::{Ended, Start, Stretch};
 use super::line::{LONGEST, Line, POWERS};
 use super::moments::{Moments, Point};
-use super::stretch::{Ended, Stretch};
 use crate::numbers::{quotient, root, smallest};
 use crate::segment::Segment;
 use libm::{fabs, sqrt};

@@ -1,6 +1,6 @@
 //! A stretch: a motion in one direction on one smooth piece of the law, until the bodies turn, or the piece or the step ends.
 
-use super::field::{Field, Place, Start};
+use super::field::{Ended, Field, Place, Start, Stretch};
 use super::fit::fitted;
 use super::travel::Travel;
 use super::turning::{End, end, fastest};
@@ -12,34 +12,6 @@ use crate::piece::Piece;
 use crate::unloading::Unloading;
 use core::cell::Cell;
 use libm::fabs;
-
-/// The result of a stretch.
-#[derive(Clone, Copy, Debug)]
-pub struct Stretch {
-    /// Distance from its start \[m\]; positive is deeper.
-    pub way: f64,
-    /// Closing speed at its end \[m/s\].
-    pub speed: f64,
-    /// Change of the closing speed \[m/s\]. Over a short time it has more digits than the difference of the speeds.
-    pub gain: f64,
-    /// Duration \[s\].
-    pub time: f64,
-    /// The reason why it ended.
-    pub ended: Ended,
-}
-
-/// The reason why a stretch ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ended {
-    /// The bodies have turned.
-    Turned,
-    /// It reached the end of the piece.
-    AtBorder,
-    /// It stopped within the piece, as far as could be computed at once.
-    Within,
-    /// The step ended.
-    WithStep,
-}
 
 /// A distance, as a fraction of the indentation, over which a law without segments equals its tangent: the error of the change
 /// of force is then as small as the rounding error of the force.

@@ -2,7 +2,7 @@
 
 use super::bodies::{Body, Both};
 use super::file::{BodyTable, ContactTable, File, Impactor};
-use super::fmu::check_identifier;
+use super::names::check_identifier;
 use super::strength::{self, PowerLaw, Rate};
 use crate::layout::shortened;
 use crate::mistake::{Mistake, check_limits, check_range};

@@ -10,6 +10,7 @@ mod friction;
 mod hostile_tests;
 mod laws;
 mod losses;
+mod names;
 mod parser_words;
 pub mod plausible;
 mod strength;
@@ -36,7 +37,7 @@ pub use strength::{InImpact, PowerLaw, Rate};
 /// # Errors
 /// The reason in words.
 pub fn check_name(name: &str) -> Result<(), String> {
-    fmu::check_name(&Spanned::new(0..0, name.into())).map(drop).map_err(|Mistake(_, message)| message)
+    names::check_name(&Spanned::new(0..0, name.into())).map(drop).map_err(|Mistake(_, message)| message)
 }
 
 /// A checked scene.
