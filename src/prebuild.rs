@@ -2,6 +2,7 @@
 
 use crate::arguments::PrebuildArguments;
 use crate::files::FileError;
+use crate::messages::tell;
 use crate::package::{Builder, ExportError, Source, Way};
 use crate::parallel;
 use crate::prebuilt::{self, Written};
@@ -11,7 +12,6 @@ use brinell_exporter::package::PackError;
 use brinell_exporter::platform::{self, Target};
 use brinell_exporter::prebuilt::{KINDS, Laws, Library};
 use brinell_exporter::symbols;
-use indicatif::ProgressBar;
 use serde_json::json;
 use std::error::Error;
 use std::fs;
@@ -67,15 +67,12 @@ fn refuse_unknown(what: &str, asked: &[String], known: &[String]) -> Result<(), 
 
 /// The libraries for `target`.
 fn build_all(builder: &Builder, libraries: &[Library], target: &'static Target) -> Result<Vec<Vec<u8>>, ExportError> {
-    let progress = ProgressBar::new(libraries.len() as u64);
-    let built = parallel::each(libraries, |library| {
+    tell(&format!("compiling {} libraries for {} ...", libraries.len(), target.triple));
+    parallel::each(libraries, |library| {
         let (text, _) = library.source(sources::hash());
         let bytes = builder.build(&Source::Kind { text: &text }, target)?;
         let refused = |reason| PackError::Symbols { platform: target.triple, reason };
         symbols::check(&bytes, &target.alone(), false).map_err(refused)?;
-        progress.inc(1);
         Ok(bytes)
-    });
-    progress.finish_and_clear();
-    built
+    })
 }

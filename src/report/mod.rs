@@ -26,7 +26,6 @@ use brinell_exporter::plot::{Picture, View};
 use brinell_exporter::scene::Scene;
 use brinell_exporter::validity;
 use card::Fact;
-use indicatif::ProgressBar;
 use laws::Laws;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, context};
@@ -37,7 +36,7 @@ use stability::Setting;
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use units::Units;
 use ways::Needs;
 
@@ -315,30 +314,18 @@ fn cell(value: &Value) -> String {
 const NOT_FOR_SEVERAL: &str = "The scene has several contacts: this page measures the first contact. If contacts share a body, \
      an FMU that knows the mass moves each contact's bodies alone, and is exact only while one of them is closed.";
 
-/// The current activity: a message that turns on a terminal, lines elsewhere.
+/// What the report does, line by line, with the time since it began.
 pub struct Progress {
-    bar: ProgressBar,
     began: Instant,
 }
 
 impl Progress {
     fn new() -> Progress {
-        let bar = ProgressBar::new_spinner();
-        bar.enable_steady_tick(Duration::from_millis(200));
-        Progress { bar, began: Instant::now() }
+        Progress { began: Instant::now() }
     }
 
     /// Shows the current activity.
     pub fn say(&self, what: &str) {
-        self.bar.set_message(what.to_string());
-        if self.bar.is_hidden() {
-            tell(&format!("{:5.1} s  {what} ...", self.began.elapsed().as_secs_f64()));
-        }
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        tell(&format!("{:5.1} s  {what} ...", self.began.elapsed().as_secs_f64()));
     }
 }
