@@ -1,6 +1,6 @@
 //! The command line.
 
-use crate::package::Way;
+use crate::package::LibraryWay;
 use crate::prebuilt;
 use crate::{check, curve, hardness, law_list, new, predict, report};
 use brinell_exporter::platform::{self, Platform};
@@ -129,7 +129,7 @@ impl PlatformArguments {
     ///
     /// # Errors
     /// A sentence about a platform that doesn't exist.
-    pub fn chosen(&self, way: Way) -> Result<Vec<Platform>, String> {
+    pub fn chosen(&self, way: LibraryWay) -> Result<Vec<Platform>, String> {
         let mut chosen = Vec::new();
         for name in &self.platforms {
             match name.as_str() {
@@ -165,11 +165,11 @@ pub struct WayArguments {
 }
 
 impl WayArguments {
-    pub fn chosen(&self) -> Way {
+    pub fn chosen(&self) -> LibraryWay {
         match (self.compile, self.prebuilt) {
-            (true, _) => Way::Compiled,
-            (_, true) => Way::Prebuilt,
-            _ => Way::Any,
+            (true, _) => LibraryWay::Compiled,
+            (_, true) => LibraryWay::Prebuilt,
+            _ => LibraryWay::Any,
         }
     }
 }

@@ -134,7 +134,7 @@ fn table(columns: &Columns) -> String {
 }
 
 /// A point of the curve, in SI units.
-struct Row {
+struct CurveRow {
     indentation: f64,
     force: f64,
     contact_radius: f64,
@@ -147,7 +147,7 @@ struct Row {
 
 /// The curve of `choice` up to `largest` [m]: loading to two thirds of it, unloading to the dent, loading to `largest`,
 /// unloading.
-fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooDeep> {
+fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<CurveRow>, TooDeep> {
     let model = match choice.model {
         // the curve of a slow motion: losses begin with the speed
         AnyModel::Elastoplastic(model) => model,
@@ -163,7 +163,7 @@ fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooD
         for point in 1..=POINTS {
             let to = from + (goal - from) * f64::from(point) / f64::from(POINTS);
             history.advance(&model, to - history.indentation())?;
-            rows.push(Row {
+            rows.push(CurveRow {
                 indentation: history.indentation(),
                 force: history.force(),
                 contact_radius: history.contact_radius(&model),
@@ -179,7 +179,7 @@ fn rows(choice: &Choice, largest: f64, impact: &Impact) -> Result<Vec<Row>, TooD
 }
 
 /// The motion during `impact` with a rate-dependent law, which has no curve without a motion.
-fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<Row> {
+fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<CurveRow> {
     let mut rows = Vec::new();
     let factors = model.law.factors(&model.pair, model.restitution, model.mass);
     let energy = 0.5 * impact.mass * impact.speed * impact.speed;
@@ -191,7 +191,7 @@ fn damped_rows(model: &damped::Model<AnyDamped>, impact: &Impact) -> Vec<Row> {
         let elastic_energy = factors.elastic * shape.integral;
         let contact_radius = (model.pair.radius * indentation).sqrt();
         let area = PI * contact_radius * contact_radius;
-        rows.push(Row {
+        rows.push(CurveRow {
             indentation,
             force,
             contact_radius,
@@ -223,9 +223,9 @@ fn columns(choices: &[Choice], largest: f64, impact: &Impact) -> Result<Columns,
         ("dissipated energy", "J"),
         ("regime", ""),
     ];
-    let numbers = |row: &Row| {
+    let numbers = |row: &CurveRow| {
         let work = row.elastic_energy + row.dissipated_energy;
-        let Row {
+        let CurveRow {
             indentation,
             force,
             contact_radius,

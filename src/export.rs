@@ -3,7 +3,7 @@
 use crate::files::{self, FileError, folder_of};
 use crate::importer;
 use crate::messages::tell;
-use crate::package::{self, ExportError, Way};
+use crate::package::{self, ExportError, LibraryWay};
 use crate::summary::Summary;
 use brinell_exporter::layout::{json_line, shown};
 use brinell_exporter::plan::Plan;
@@ -16,7 +16,7 @@ use std::{fs, io};
 /// current folder. Returns its path.
 pub fn run(
     (scene, source): (&Scene, Option<&Path>),
-    (way, platforms): (Way, &[Platform]),
+    (way, platforms): (LibraryWay, &[Platform]),
     output: Option<&Path>,
     as_json: bool,
 ) -> Result<PathBuf, ExportError> {

@@ -35,7 +35,7 @@ pub struct Arguments {
 }
 
 /// The result with one law.
-struct Answer {
+struct HardnessAnswer {
     laws: String,
     /// Yield strength [Pa], if it was requested.
     yield_strength: Option<f64>,
@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let all = arguments.laws.iter().any(|name| name == "all");
     let choices: Vec<_> = choices.into_iter().filter(|choice| !all || choice.laws != "hertz").collect();
     let ball = 2.0 * scene.group_value(0, "impactor.radius").unwrap_or(f64::NAN);
-    let answer = |choice: &Choice| -> Result<Answer, String> {
+    let answer = |choice: &Choice| -> Result<HardnessAnswer, String> {
         let (yield_strength, dent) = match hardness {
             Some(hardness) => {
                 let (strength, dent) = strength_of(choice, load, ball, hardness)?;
@@ -73,7 +73,7 @@ pub fn run(arguments: &Arguments, as_json: bool) -> Result<(), Box<dyn Error>> {
             }
             None => (None, run_test(choice, load, ball)?),
         };
-        Ok(Answer { laws: choice.laws.clone(), yield_strength, dent })
+        Ok(HardnessAnswer { laws: choice.laws.clone(), yield_strength, dent })
     };
     let mut answers = Vec::new();
     let mut left_out = Vec::new();
@@ -137,14 +137,14 @@ impl Doubt {
 }
 
 /// The warnings about the dent with one law.
-fn warnings(answer: &Answer) -> Vec<String> {
+fn warnings(answer: &HardnessAnswer) -> Vec<String> {
     let dent = &answer.dent;
     let doubts = Doubt::ALL.into_iter().filter(|doubt| doubt.is_about(dent));
     doubts.map(|doubt| doubt.words(Some(dent.radius_ratio))).collect()
 }
 
 /// The warnings about the dents with several laws. Each names its laws.
-fn warnings_of_all(answers: &[Answer]) -> Vec<String> {
+fn warnings_of_all(answers: &[HardnessAnswer]) -> Vec<String> {
     let warning = |doubt: Doubt| {
         let laws = answers.iter().filter(|answer| doubt.is_about(&answer.dent)).map(|answer| answer.laws.as_str());
         let laws: Vec<_> = laws.collect();
@@ -154,7 +154,7 @@ fn warnings_of_all(answers: &[Answer]) -> Vec<String> {
 }
 
 /// The results as text.
-fn text(answers: &[Answer], left_out: &[String], load: f64, ball: f64, hardness: Option<f64>) -> String {
+fn text(answers: &[HardnessAnswer], left_out: &[String], load: f64, ball: f64, hardness: Option<f64>) -> String {
     let ratio = significant(load_ratio(load, ball), 3);
     let ball_words = quantity(ball, "m");
     let load_words = quantity(load, "N");
@@ -184,8 +184,8 @@ fn text(answers: &[Answer], left_out: &[String], load: f64, ball: f64, hardness:
 }
 
 /// All results with one law.
-fn single(answer: &Answer) -> String {
-    let Answer { laws, yield_strength, dent } = answer;
+fn single(answer: &HardnessAnswer) -> String {
+    let HardnessAnswer { laws, yield_strength, dent } = answer;
     let number = |value: Option<f64>| value.map_or("none".into(), |value| format!("{} HBW", significant(value, 4)));
     let meyer = dent.meyer.map_or("none".into(), |value| quantity(value, "Pa"));
     let diameter = format!("{} ({} of the ball's)", quantity(dent.diameter, "m"), significant(dent.radius_ratio, 3));
@@ -207,12 +207,12 @@ fn single(answer: &Answer) -> String {
 }
 
 /// A row for each law.
-fn rows(answers: &[Answer], turned_round: bool) -> String {
+fn rows(answers: &[HardnessAnswer], turned_round: bool) -> String {
     let mut lines = vec![["law", "HBW", "Meyer", "diameter", "depth", "a/R"].map(String::from).to_vec()];
     if turned_round {
         lines[0].push("yield strength".into());
     }
-    for Answer { laws, yield_strength, dent } in answers {
+    for HardnessAnswer { laws, yield_strength, dent } in answers {
         let mut line = vec![
             laws.clone(),
             dent.brinell.map_or("none".into(), |value| significant(value, 4)),
@@ -228,9 +228,9 @@ fn rows(answers: &[Answer], turned_round: bool) -> String {
 }
 
 /// The results as JSON: all digits, SI units.
-fn as_value(answers: &[Answer], left_out: &[String], load: f64, ball: f64, hardness: Option<f64>) -> Value {
-    let law = |answer: &Answer| {
-        let Answer { laws, yield_strength, dent } = answer;
+fn as_value(answers: &[HardnessAnswer], left_out: &[String], load: f64, ball: f64, hardness: Option<f64>) -> Value {
+    let law = |answer: &HardnessAnswer| {
+        let HardnessAnswer { laws, yield_strength, dent } = answer;
         let mut law = json!({
             "law": laws, "brinell_hardness": dent.brinell, "meyer_hardness": dent.meyer, "dent_diameter": dent.diameter,
             "dent_depth": dent.depth, "max_indentation": dent.max_indentation, "mean_pressure": dent.mean_pressure,

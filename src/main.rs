@@ -33,7 +33,7 @@ use brinell_exporter::prebuilt::Library;
 use brinell_exporter::{constants, numbers};
 use clap::Parser;
 use messages::WrongCall;
-use package::Way;
+use package::LibraryWay;
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -104,9 +104,9 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     }
     match &arguments.command {
         None => {
-            let platforms = PlatformArguments::default().chosen(Way::Any)?;
+            let platforms = PlatformArguments::default().chosen(LibraryWay::Any)?;
             let scene = scene_file::default_scene()?;
-            let unit = export::run((&scene, None), (Way::Any, &platforms), None, json)?;
+            let unit = export::run((&scene, None), (LibraryWay::Any, &platforms), None, json)?;
             let agrees = check::exported(&unit, json)?;
             if !json {
                 print!("\n{}", brinell_exporter::predict::by_the_default_law(&scene)?);

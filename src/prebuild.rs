@@ -3,14 +3,14 @@
 use crate::arguments::PrebuildArguments;
 use crate::files::FileError;
 use crate::messages::tell;
-use crate::package::{Builder, ExportError, Source, Way};
+use crate::package::{Builder, ExportError, LibraryWay, Source};
 use crate::parallel;
 use crate::prebuilt::{self, Written};
 use crate::sources;
 use brinell_exporter::layout::json_line;
 use brinell_exporter::package::PackError;
 use brinell_exporter::platform::{self, Target};
-use brinell_exporter::prebuilt::{KINDS, Laws, Library};
+use brinell_exporter::prebuilt::{KINDS, Library, LibraryLaws};
 use brinell_exporter::symbols;
 use serde_json::json;
 use std::error::Error;
@@ -22,7 +22,7 @@ use std::fs;
 /// Unknown laws and kinds; the first library that can't be built or written.
 pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn Error>> {
     let libraries = chosen(arguments)?;
-    let targets = platform::targets(&arguments.platforms.chosen(Way::Compiled)?);
+    let targets = platform::targets(&arguments.platforms.chosen(LibraryWay::Compiled)?);
     let builder = Builder::new()?;
     builder.check(&targets)?;
     fs::create_dir_all(&arguments.output).map_err(FileError::at(&arguments.output))?;
@@ -43,7 +43,7 @@ pub fn run(arguments: &PrebuildArguments, as_json: bool) -> Result<(), Box<dyn E
 
 /// The requested libraries.
 fn chosen(arguments: &PrebuildArguments) -> Result<Vec<Library>, String> {
-    let known: Vec<_> = Laws::all().iter().flat_map(|laws| [laws.loading.to_string(), laws.name()]).collect();
+    let known: Vec<_> = LibraryLaws::all().iter().flat_map(|laws| [laws.loading.to_string(), laws.name()]).collect();
     refuse_unknown("law", &arguments.laws, &known)?;
     let kinds: Vec<_> = KINDS.iter().map(|kind| kind.name.to_string()).collect();
     refuse_unknown("kind", &arguments.kinds, &kinds)?;

@@ -8,7 +8,7 @@ use brinell_contact::unloading::AnyUnloading;
 use brinell_exporter::interface::Entry;
 use brinell_exporter::layout::{paragraph, shown};
 use brinell_exporter::package::Packed;
-use brinell_exporter::plan::{Constant, Plan};
+use brinell_exporter::plan::{FixedParameter, Plan};
 use brinell_exporter::scene::{Group, Parameter, Scene};
 use brinell_exporter::table::{self, Causality, VARIABLES};
 use serde_json::{Value, json};
@@ -139,7 +139,7 @@ impl Summary<'_> {
         }
         line("variables", &format!("{}: {}", self.variable_count(), self.variables_by_kind().join(", ")));
         // constants of a group are in the line of the group
-        for Constant { name, value, unit, .. } in constants.iter().filter(|constant| constant.shared) {
+        for FixedParameter { name, value, unit, .. } in constants.iter().filter(|constant| constant.shared) {
             line("constant", format!("{name} = {value:?} {unit}").trim_end());
         }
         let OtherLaws { loading, unloading, damped } = &self.laws;

@@ -41,7 +41,7 @@ pub enum LoopError {
 }
 
 /// The contact at a point of a loop, in SI units.
-struct Point {
+struct LoopPoint {
     displacement: f64,
     force: f64,
     energy: f64,
@@ -54,7 +54,7 @@ struct Point {
 struct Loop {
     law: String,
     amplitude: f64,
-    points: Vec<Point>,
+    points: Vec<LoopPoint>,
 }
 
 /// All loops.
@@ -106,8 +106,8 @@ impl Loops {
             ("stick radius", "m"),
             ("sliding", ""),
         ];
-        let row = |amplitude: f64, point: &Point| {
-            let Point { displacement, force, energy, work, stick_radius, sliding } = *point;
+        let row = |amplitude: f64, point: &LoopPoint| {
+            let LoopPoint { displacement, force, energy, work, stick_radius, sliding } = *point;
             vec![amplitude, displacement, force, energy, work, stick_radius, sliding]
         };
         let law = |(law, ..): &(String, f64, f64)| {
@@ -174,7 +174,7 @@ impl<'a> Pressed<'a> {
     }
 
     /// Moves the contact to the displacement `goal` [m]; the points of the way.
-    fn go(&mut self, goal: f64, points: &mut Vec<Point>) {
+    fn go(&mut self, goal: f64, points: &mut Vec<LoopPoint>) {
         let from = self.displacement;
         for point in 1..=POINTS {
             let to = from + (goal - from) * f64::from(point) / f64::from(POINTS);
@@ -188,10 +188,10 @@ impl<'a> Pressed<'a> {
         }
     }
 
-    fn point(&self) -> Point {
+    fn point(&self) -> LoopPoint {
         let (friction, depth) = (&self.model.friction, self.contact.indentation());
         let energy = self.springs.energy(friction, depth);
-        Point {
+        LoopPoint {
             displacement: self.displacement,
             force: self.springs.force(friction, depth),
             energy,
@@ -202,7 +202,7 @@ impl<'a> Pressed<'a> {
     }
 
     /// To the displacement `amplitude` [m], back to the opposite one, and to `amplitude` again.
-    fn around(mut self, amplitude: f64) -> Vec<Point> {
+    fn around(mut self, amplitude: f64) -> Vec<LoopPoint> {
         let mut points = vec![self.point()];
         for goal in [amplitude, -amplitude, amplitude] {
             self.go(goal, &mut points);

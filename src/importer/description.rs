@@ -38,7 +38,7 @@ impl Base {
 
 /// A unit that variables have.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unit {
+pub struct VariableUnit {
     pub name: String,
     /// Unknown if the file doesn't define the unit.
     pub base: Option<Base>,
@@ -72,7 +72,7 @@ pub struct Description {
     pub output_derivatives: u32,
     /// Variables with their names, in the order of the names. There may be millions of them.
     pub variables: Vec<(Box<str>, Variable)>,
-    units: Vec<Unit>,
+    units: Vec<VariableUnit>,
 }
 
 impl Description {
@@ -117,7 +117,7 @@ impl Description {
                             let reference = number(&get("valueReference"), &get("name"), "valueReference")?;
                             current = Some((get("name"), reference, Causality::named(&get("causality"))));
                         }
-                        "Unit" => description.units.push(Unit { name: get("name"), base: None }),
+                        "Unit" => description.units.push(VariableUnit { name: get("name"), base: None }),
                         "BaseUnit" => {
                             if let Some(unit) = description.units.last_mut() {
                                 unit.base = Some(base(&attributes, &unit.name)?);
@@ -154,7 +154,7 @@ impl Description {
     /// The index of the unit with this name; a new one has no definition.
     fn unit(&mut self, name: &str) -> u32 {
         let index = self.units.iter().position(|unit| unit.name == name).unwrap_or_else(|| {
-            self.units.push(Unit { name: name.into(), base: None });
+            self.units.push(VariableUnit { name: name.into(), base: None });
             self.units.len() - 1
         });
         u32::try_from(index).unwrap_or(u32::MAX)
@@ -168,7 +168,7 @@ impl Description {
     }
 
     /// Names of the Real variables of this causality, with their units.
-    pub fn reals(&self, causality: Causality) -> impl Iterator<Item = (&str, Option<&Unit>)> {
+    pub fn reals(&self, causality: Causality) -> impl Iterator<Item = (&str, Option<&VariableUnit>)> {
         let reals =
             self.variables.iter().filter(move |(_, variable)| variable.is_real && variable.causality == causality);
         reals.map(|(name, variable)| (&**name, variable.unit.and_then(|index| self.units.get(index as usize))))

@@ -20,7 +20,7 @@ use std::{env, fs, io};
 use tempfile::TempDir;
 
 pub use bounded::{Bound, open};
-pub use description::{Base, Causality, Description, Unit as VariableUnit};
+pub use description::{Base, Causality, Description, VariableUnit};
 pub use unit::{Instance, Unit};
 
 /// An FMU that cannot be loaded, or a call that failed.

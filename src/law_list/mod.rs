@@ -15,7 +15,7 @@ use brinell_exporter::layout::json_line;
 use brinell_exporter::model::Dampings;
 use brinell_exporter::nearest::unknown;
 use brinell_exporter::pairing::unloading_of;
-use brinell_exporter::parameters::{self, Constant};
+use brinell_exporter::parameters::{self, LawConstant};
 use brinell_exporter::scene::Scene;
 use serde::Serialize;
 use std::error::Error;
@@ -45,7 +45,7 @@ pub fn run(Arguments { name }: &Arguments, as_json: bool) -> Result<(), Box<dyn 
 
 /// Laws of each kind.
 #[derive(Debug, Serialize)]
-pub struct List {
+pub struct LawList {
     pub loading: Vec<Loads>,
     pub unloading: Vec<Unloads>,
     pub damped: Vec<Rated>,
@@ -56,7 +56,7 @@ pub struct List {
 pub struct Told {
     pub title: &'static str,
     pub formulas: Vec<String>,
-    pub parameters: Vec<Constant>,
+    pub parameters: Vec<LawConstant>,
     pub validity: String,
     pub notes: String,
     pub reference: &'static str,
@@ -108,14 +108,14 @@ pub struct Rated {
 const ASKED: f64 = 0.5;
 
 impl Told {
-    fn of(text: LawText, parameters: Vec<Constant>) -> Told {
+    fn of(text: LawText, parameters: Vec<LawConstant>) -> Told {
         let LawText { law, formulas, notes, validity, .. } = text;
         Told { title: &law.title, formulas, parameters, validity, notes, reference: &law.reference }
     }
 }
 
 /// The laws whose names are `wanted`. The rate-dependent ones are tried on the bodies of `scene`.
-fn those(scene: &Scene, wanted: impl Fn(&str) -> bool) -> List {
+fn those(scene: &Scene, wanted: impl Fn(&str) -> bool) -> LawList {
     let loading = AnyLoading::ALL.into_iter().filter(|(name, _)| wanted(name));
     let unloading = AnyUnloading::ALL.into_iter().filter(|(name, _)| wanted(name));
     let unloading = unloading.map(|(name, law)| {
@@ -130,7 +130,7 @@ fn those(scene: &Scene, wanted: impl Fn(&str) -> bool) -> List {
         let variants = if variants.is_empty() { vec![(name.to_string(), law)] } else { variants };
         variants.into_iter().map(move |(variant, law)| rate(scene, name, variant, law))
     });
-    List {
+    LawList {
         loading: loading.map(|(name, law)| load(name, &law)).collect(),
         unloading: unloading.collect(),
         damped: damped.collect(),

@@ -1,16 +1,16 @@
 //! The laws as text: tables, and a paragraph for each law.
 
-use super::{ASKED, List, Loads, Rated, Told};
+use super::{ASKED, LawList, Loads, Rated, Told};
 use brinell_exporter::layout::{WIDTH, paragraph, table};
 use brinell_exporter::numbers::significant;
 use brinell_exporter::pairing;
-use brinell_exporter::parameters::Constant;
+use brinell_exporter::parameters::LawConstant;
 
 /// Where the errors are compared.
 const TABLES: &str = "tables of all laws: docs/guide/laws.md and docs/guide/validation.md of the project";
 
 /// All laws.
-pub fn list(list: &List) -> String {
+pub fn list(list: &LawList) -> String {
     let mut text = paragraph(
         "",
         &"Loading laws. Error of the force against finite elements up to 1000 yield indentations d_y: the worst, and the root mean \
@@ -47,7 +47,7 @@ pub fn list(list: &List) -> String {
 }
 
 /// The laws of one name, with formulas and constants.
-pub fn one(list: &List) -> String {
+pub fn one(list: &LawList) -> String {
     let mut parts = Vec::new();
     for law in &list.loading {
         let accuracy = format!("force against finite elements: {}; {TABLES}", law.accuracy);
@@ -102,9 +102,9 @@ fn damped_table(laws: &[Rated]) -> String {
     table(&rows, 1, 0)
 }
 
-fn values(constants: &[Constant]) -> String {
+fn values(constants: &[LawConstant]) -> String {
     let value =
-        |constant: &Constant| format!("{} = {} {}", constant.name, constant.value, constant.unit).trim_end().into();
+        |constant: &LawConstant| format!("{} = {} {}", constant.name, constant.value, constant.unit).trim_end().into();
     let all: Vec<String> = constants.iter().map(value).collect();
     if all.is_empty() { "none".into() } else { all.join(", ") }
 }
@@ -123,12 +123,12 @@ fn whole(told: &Told) -> String {
 }
 
 /// The constants, with their ranges and meanings.
-fn constants(constants: &[Constant]) -> String {
+fn constants(constants: &[LawConstant]) -> String {
     if constants.is_empty() {
         return entry("constants", "none that a scene can change");
     }
-    let row = |constant: &Constant| {
-        let Constant { name, value, unit, minimum, maximum, .. } = constant;
+    let row = |constant: &LawConstant| {
+        let LawConstant { name, value, unit, minimum, maximum, .. } = constant;
         vec![(*name).to_string(), format!("{value} {unit}").trim_end().into(), format!("{minimum} to {maximum}")]
     };
     let rows: Vec<_> = constants.iter().map(row).collect();

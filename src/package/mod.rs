@@ -14,7 +14,7 @@ pub use library::{Builder, Source};
 
 use crate::files::write_whole;
 use crate::parallel;
-use crate::prebuilt::{PrebuiltError, Unit};
+use crate::prebuilt::{PrebuiltError, StoredUnit};
 use crate::sources;
 use brinell_exporter::constants;
 use brinell_exporter::package::{GUID_TO_COME, Packed, guid, identified, pack};
@@ -57,7 +57,7 @@ impl Exported {
 ///
 /// # Errors
 /// [`ExportError`]; nothing is written then.
-pub fn export(plan: &Plan, way: Way, platforms: &[Platform], path: &Path) -> Result<Exported, ExportError> {
+pub fn export(plan: &Plan, way: LibraryWay, platforms: &[Platform], path: &Path) -> Result<Exported, ExportError> {
     let (archive, exported) = build(plan, way, platforms)?;
     write_whole(path, &archive)?;
     Ok(Exported { path: path.into(), ..exported })
@@ -68,7 +68,7 @@ pub fn export(plan: &Plan, way: Way, platforms: &[Platform], path: &Path) -> Res
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, Exported), ExportError> {
+pub fn build(plan: &Plan, way: LibraryWay, platforms: &[Platform]) -> Result<(Vec<u8>, Exported), ExportError> {
     let Libraries { guid, libraries, origin } = make(plan, way, platforms)?;
     let (archive, libraries) = pack(plan, &guid, platforms, &libraries)?;
     let size = archive.len();
@@ -77,7 +77,7 @@ pub fn build(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<(Vec<u8>, 
 
 /// The way to make the library of an FMU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum LibraryWay {
     /// Compile if there is a compiler, otherwise use a prebuilt library.
     Any,
     Compiled,
@@ -105,11 +105,11 @@ pub struct Origin {
 ///
 /// # Errors
 /// [`ExportError`]
-pub fn make(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<Libraries, ExportError> {
+pub fn make(plan: &Plan, way: LibraryWay, platforms: &[Platform]) -> Result<Libraries, ExportError> {
     match way {
-        Way::Compiled => compile(plan, platforms),
-        Way::Prebuilt => Ok(fill_in(plan, platforms)?),
-        Way::Any => match no_compiler() {
+        LibraryWay::Compiled => compile(plan, platforms),
+        LibraryWay::Prebuilt => Ok(fill_in(plan, platforms)?),
+        LibraryWay::Any => match no_compiler() {
             None => compile(plan, platforms),
             // a prebuilt library needs neither a compiler nor a folder to build in
             Some(error) => fill_in(plan, platforms).map_err(|reason| match error {
@@ -120,10 +120,10 @@ pub fn make(plan: &Plan, way: Way, platforms: &[Platform]) -> Result<Libraries, 
     }
 }
 
-impl Way {
+impl LibraryWay {
     /// Whether this way compiles the libraries.
     pub fn compiles(self) -> bool {
-        self == Way::Compiled || self == Way::Any && no_compiler().is_none()
+        self == LibraryWay::Compiled || self == LibraryWay::Any && no_compiler().is_none()
     }
 }
 
@@ -148,7 +148,7 @@ fn compile(plan: &Plan, platforms: &[Platform]) -> Result<Libraries, ExportError
 /// Uses a prebuilt library.
 fn fill_in(plan: &Plan, platforms: &[Platform]) -> Result<Libraries, PrebuiltError> {
     let begin = Instant::now();
-    let unit = Unit::of(plan)?;
+    let unit = StoredUnit::of(plan)?;
     let libraries = parallel::each(platforms, |platform| unit.library(platform))?;
     let (guid, name) = unit.named();
     Ok(Libraries { guid, libraries, origin: Origin { prebuilt: Some(name), time: begin.elapsed() } })

@@ -30,19 +30,19 @@ pub fn platforms() -> Vec<Platform> {
 }
 
 /// An FMU from a library of the folder.
-pub struct Unit {
-    unit: prebuilt::Unit,
+pub struct StoredUnit {
+    unit: prebuilt::PrebuiltUnit,
     store: Store,
 }
 
-impl Unit {
+impl StoredUnit {
     /// The planned FMU.
     ///
     /// # Errors
     /// [`PrebuiltError`] if there are no prebuilt libraries, or none that fits the scene.
-    pub fn of(plan: &Plan) -> Result<Unit, PrebuiltError> {
-        let unit = prebuilt::Unit::of(plan, sources::hash())?;
-        Ok(Unit { unit, store: Store::find()? })
+    pub fn of(plan: &Plan) -> Result<StoredUnit, PrebuiltError> {
+        let unit = prebuilt::PrebuiltUnit::of(plan, sources::hash())?;
+        Ok(StoredUnit { unit, store: Store::find()? })
     }
 
     /// Its GUID, and the name of its library.

@@ -38,7 +38,7 @@ pub enum StoreError {
 /// The list of the libraries for one target.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct List {
+struct LibraryList {
     /// Version of the program.
     brinell: String,
     /// A hash of the sources that all libraries share.
@@ -115,14 +115,14 @@ impl Store {
     }
 
     /// The list for `target`, for this version.
-    fn list(&self, target: &Target) -> Result<List, StoreError> {
+    fn list(&self, target: &Target) -> Result<LibraryList, StoreError> {
         let path = self.folder.file(target, LIST);
         if !path.is_file() {
             let known = self.platforms.iter().map(|platform| platform.folder).collect::<Vec<_>>().join(", ");
             return Err(StoreError::NoTarget { folder: self.folder(), target: target.triple, known });
         }
         let text = fs::read_to_string(&path).map_err(FileError::at(&path))?;
-        let list: List = serde_json::from_str(&text)
+        let list: LibraryList = serde_json::from_str(&text)
             .map_err(|error| StoreError::Damaged { path: path.clone(), reason: error.to_string() })?;
         if list.sources != sources::hash() {
             return Err(StoreError::OtherVersion { folder: self.folder(), version: list.brinell });
@@ -194,7 +194,7 @@ pub fn write(path: &Path, target: &Target, libraries: &[(&Library, Vec<u8>)]) ->
     }
     let folder = PrebuiltFolder { path: path.into() };
     let name = format!("{}.{ARCHIVE}", target.triple);
-    let list = List {
+    let list = LibraryList {
         brinell: env!("CARGO_PKG_VERSION").into(),
         sources: sources::hash().into(),
         archive: Listed::new(name, &archive),

@@ -59,7 +59,7 @@ impl Question<'_> {
             return Err(WrongCall::of(PredictError::Restitution(goal)).into());
         }
         let rebounds = explain(choices, &impact, goal)?;
-        for (choice, Rebound { speeds, strengths, .. }) in choices.iter().zip(&rebounds) {
+        for (choice, ExplainedRebound { speeds, strengths, .. }) in choices.iter().zip(&rebounds) {
             self.doubt(choice, &speeds.numbers(), &strengths.numbers());
         }
         match as_json {
@@ -161,7 +161,7 @@ struct Search {
 }
 
 /// Both explanations of a rebound with one law.
-struct Rebound {
+struct ExplainedRebound {
     law: String,
     speeds: Search,
     strengths: Search,
@@ -171,7 +171,7 @@ struct Rebound {
 ///
 /// # Errors
 /// [`PredictError::NoRebound`] if no law has an explanation.
-fn explain(choices: &[Choice], impact: &Impact, goal: f64) -> Result<Vec<Rebound>, PredictError> {
+fn explain(choices: &[Choice], impact: &Impact, goal: f64) -> Result<Vec<ExplainedRebound>, PredictError> {
     if let Some(damped) = choices.iter().find(|choice| choice.model.elastoplastic().is_none()) {
         return Err(PredictError::NoDent(damped.laws.clone()));
     }
@@ -189,14 +189,14 @@ fn explain(choices: &[Choice], impact: &Impact, goal: f64) -> Result<Vec<Rebound
 
 const STRENGTH: &str = "yield strength";
 
-fn explain_by(choice: &Choice, impact: &Impact, goal: f64) -> Rebound {
+fn explain_by(choice: &Choice, impact: &Impact, goal: f64) -> ExplainedRebound {
     let model = choice.model;
     let modulus = model.pair().modulus;
     let speeds = search(SPEEDS, goal, |speed| model.restitution(&Impact { speed, ..*impact }));
     let range = (STRENGTHS.0 * modulus, STRENGTHS.1 * modulus);
     let strengths =
         search(range, goal, |yield_strength| model.with_yield_strength(yield_strength)?.restitution(impact));
-    Rebound { law: choice.laws.clone(), speeds, strengths }
+    ExplainedRebound { law: choice.laws.clone(), speeds, strengths }
 }
 
 /// All places in `range` where the function `of` has the value `goal`. The function may be undefined in places.
@@ -336,10 +336,10 @@ impl Search {
 }
 
 /// The explanations as text.
-fn text(rebounds: &[Rebound], impact: &Impact, goal: f64) -> String {
+fn text(rebounds: &[ExplainedRebound], impact: &Impact, goal: f64) -> String {
     let mut text = String::new();
     let (mass, speed) = (quantity(impact.mass, "kg"), quantity(impact.speed, "m/s"));
-    for Rebound { law, speeds, strengths } in rebounds {
+    for ExplainedRebound { law, speeds, strengths } in rebounds {
         text.push_str(&paragraph(
             "",
             &format!("by {law}, {mass} has a restitution of {goal} on the target of the scene"),
@@ -352,8 +352,8 @@ fn text(rebounds: &[Rebound], impact: &Impact, goal: f64) -> String {
 }
 
 /// The explanations as JSON.
-fn json(rebounds: &[Rebound], impact: &Impact, goal: f64) -> Value {
-    let law = |Rebound { law, speeds, strengths }: &Rebound| json!({ "law": law, "speed": speeds.json(), "yield_strength": strengths.json() });
+fn json(rebounds: &[ExplainedRebound], impact: &Impact, goal: f64) -> Value {
+    let law = |ExplainedRebound { law, speeds, strengths }: &ExplainedRebound| json!({ "law": law, "speed": speeds.json(), "yield_strength": strengths.json() });
     let laws: Vec<_> = rebounds.iter().map(law).collect();
     json!({ "restitution": goal, "mass": impact.mass, "impact_speed": impact.speed, "laws": laws })
 }

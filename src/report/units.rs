@@ -47,7 +47,7 @@ impl Units {
         let path = |name: &str| folder.path().join(format!("{name}.fmu"));
         let build = |(needs, name): &(Needs, &str)| {
             progress.say(&format!("building {name}"));
-            package::export(&Plan::of(&first_contact(scene, *needs)), package::Way::Any, &here, &path(name))
+            package::export(&Plan::of(&first_contact(scene, *needs)), package::LibraryWay::Any, &here, &path(name))
         };
         // the first one also makes what they share
         let (first, others) = kinds.split_at(1);

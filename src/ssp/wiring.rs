@@ -18,7 +18,7 @@ pub enum WiringError {
     #[error("{path}: {source}", path = shown(path))]
     Unreadable { path: PathBuf, source: io::Error },
     #[error("{path}: {source}", path = shown(path))]
-    Unit { path: PathBuf, source: ImportError },
+    Component { path: PathBuf, source: ImportError },
     #[error("{path}: its fmiVersion is `{version}`; a system takes FMUs of 2.0 for co-simulation", path = shown(path))]
     Version { path: PathBuf, version: String },
     #[error("{path}: the FMU would be called `{name}`; only letters, digits, `_` and `-` are allowed", path = shown(path))]
@@ -51,7 +51,7 @@ impl WiringError {
 }
 
 /// What can be connected.
-struct Unit {
+struct Component {
     name: String,
     inputs: Variables,
     outputs: Variables,
@@ -152,7 +152,7 @@ impl Wiring {
 }
 
 /// The contact itself.
-fn contact(plan: &Plan) -> Unit {
+fn contact(plan: &Plan) -> Component {
     let names = |causality| {
         let entries = of_kind(plan, causality).filter(|entry| entry.variable.r#type == Type::Real);
         entries
@@ -163,7 +163,7 @@ fn contact(plan: &Plan) -> Unit {
             })
             .collect()
     };
-    Unit { name: COMPONENT.into(), inputs: names(Causality::Input), outputs: names(Causality::Output) }
+    Component { name: COMPONENT.into(), inputs: names(Causality::Input), outputs: names(Causality::Output) }
 }
 
 /// Compares the units of the two `ends` of a connection. Returns a warning if one of them is unknown.
@@ -197,8 +197,8 @@ fn compared(text: &str, ends: [&End; 2], units: [Option<&VariableUnit>; 2]) -> R
 }
 
 /// The FMU at `path`, named after its file.
-fn unit(path: &Path, plan: &Plan, others: &[Unit]) -> Result<Unit, WiringError> {
-    let archive = Archive::open(path).map_err(|source| WiringError::Unit { path: path.into(), source })?;
+fn unit(path: &Path, plan: &Plan, others: &[Component]) -> Result<Component, WiringError> {
+    let archive = Archive::open(path).map_err(|source| WiringError::Component { path: path.into(), source })?;
     let description = archive.description;
     if description.fmi_version != "2.0" || description.identifier.is_empty() {
         return Err(WiringError::Version { path: path.into(), version: description.fmi_version });
@@ -213,10 +213,10 @@ fn unit(path: &Path, plan: &Plan, others: &[Unit]) -> Result<Unit, WiringError> 
     }
     let names =
         |causality| description.reals(causality).map(|(name, unit)| (name.to_string(), unit.cloned())).collect();
-    Ok(Unit { name, inputs: names(importer::Causality::Input), outputs: names(importer::Causality::Output) })
+    Ok(Component { name, inputs: names(importer::Causality::Input), outputs: names(importer::Causality::Output) })
 }
 
-fn connection(text: &str, units: &[Unit]) -> Result<(End, End), WiringError> {
+fn connection(text: &str, units: &[Component]) -> Result<(End, End), WiringError> {
     let form = || WiringError::Form(text.into());
     let end = |part: &str, kind: &'static str| {
         let (name, variable) = part.split_once('.').ok_or_else(form)?;

@@ -7,7 +7,7 @@ use crate::html::{TEXT_STYLE, begin, escape};
 use crate::interface::Entry;
 use crate::law_text::{self, LawText};
 use crate::numbers::{digits, in_message};
-use crate::parameters::{self, Constant};
+use crate::parameters::{self, LawConstant};
 use crate::plan::{self, Plan};
 use crate::plot::{Picture, Series};
 use crate::scene::{Loss, Parameter, Scene};
@@ -225,13 +225,13 @@ fn law(page: &mut String, heading: &str, text: &LawText) -> std::fmt::Result {
 }
 
 /// The constants of a law in this FMU.
-fn law_constants(page: &mut String, text: &LawText, constants: &[Constant]) -> std::fmt::Result {
+fn law_constants(page: &mut String, text: &LawText, constants: &[LawConstant]) -> std::fmt::Result {
     if constants.is_empty() {
         return Ok(());
     }
     let others = if text.is_published { "" } else { " (the text above describes those of the reference)" };
     writeln!(page, "<p>Its constants in this FMU{others}:</p>\n<table>")?;
-    for Constant { name, value, unit, description, .. } in constants {
+    for LawConstant { name, value, unit, description, .. } in constants {
         writeln!(
             page,
             "<tr><td><code>{name}</code></td><td class=\"n\">{}</td><td>{unit}</td><td>{}</td></tr>",
@@ -274,12 +274,12 @@ fn variables(page: &mut String, entries: &[Entry]) -> std::fmt::Result {
 }
 
 /// The parameters that cannot be set in this FMU.
-fn constants(page: &mut String, constants: &[plan::Constant]) -> std::fmt::Result {
+fn constants(page: &mut String, constants: &[plan::FixedParameter]) -> std::fmt::Result {
     if constants.is_empty() {
         return Ok(());
     }
     writeln!(page, "<p>Constants of this FMU:</p>\n<table>")?;
-    for plan::Constant { name, value, unit, .. } in constants {
+    for plan::FixedParameter { name, value, unit, .. } in constants {
         let value = digits(*value);
         writeln!(page, "<tr><td><code>{name}</code></td><td class=\"n\">{value}</td><td>{unit}</td></tr>")?;
     }

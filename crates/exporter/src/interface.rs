@@ -2,7 +2,7 @@
 
 use crate::nominal;
 use crate::scene::{Group, Parameter, Scene};
-use crate::table::{self, Causality, Follows, Kind, VARIABLES, Variable};
+use crate::table::{self, Causality, Feature, Follows, VARIABLES, Variable};
 use brinell_contact::damped::Damped;
 
 /// Variables of one kind: one for each contact of a group, or a parameter. Value references number them all in the order of the
@@ -79,7 +79,7 @@ impl Entry<'_> {
 }
 
 /// The variables of the FMU of the scene, which has these `kinds`.
-pub fn entries<'a>(scene: &'a Scene, kinds: &[Kind]) -> Vec<Entry<'a>> {
+pub fn entries<'a>(scene: &'a Scene, kinds: &[Feature]) -> Vec<Entry<'a>> {
     let shown = |variable: &&'static Variable| match variable.causality {
         Causality::Input => variable.name == "indentation_rate" || scene.has_input(&variable.name),
         Causality::Output => match &variable.second_of {

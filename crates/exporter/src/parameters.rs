@@ -15,7 +15,7 @@ pub type ConstantTable = Spanned<BTreeMap<Spanned<String>, Spanned<toml::Value>>
 
 /// A constant of a law with its value, for output.
 #[derive(Clone, Debug, Serialize)]
-pub struct Constant {
+pub struct LawConstant {
     pub name: &'static str,
     pub value: f64,
     pub unit: &'static str,
@@ -65,11 +65,11 @@ pub fn with_parameters<T: Serialize + DeserializeOwned>(law: &T, given: &[(Strin
 }
 
 /// The constants of `law` that a scene can change, in the order of the `table`.
-pub fn constants(law: &impl Serialize, table: &'static table::Law) -> Vec<Constant> {
+pub fn constants(law: &impl Serialize, table: &'static table::Law) -> Vec<LawConstant> {
     let constant = |parameter: &'static table::LawParameter| {
         let value = value_of(law, &parameter.name).expect("a test compares the table with the laws");
         let table::LawParameter { name, unit, minimum, maximum, description, .. } = parameter;
-        Constant { name, value, unit, minimum: *minimum, maximum: *maximum, description }
+        LawConstant { name, value, unit, minimum: *minimum, maximum: *maximum, description }
     };
     table.parameters.iter().map(constant).collect()
 }

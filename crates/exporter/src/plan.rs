@@ -5,7 +5,7 @@ use crate::guard::Guard;
 use crate::interface::{Entry, entries};
 use crate::nominal::{Experiment, experiment};
 use crate::scene::{Group, Parameter, Scene};
-use crate::table::{self, Kind};
+use crate::table::{self, Feature};
 use crate::validity;
 use brinell_contact::impact::Prediction;
 
@@ -15,7 +15,7 @@ pub struct Plan<'a> {
     /// Its variables, in order.
     pub variables: Vec<Entry<'a>>,
     /// The parameters that cannot be set.
-    pub constants: Vec<Constant>,
+    pub constants: Vec<FixedParameter>,
     /// Whether its laws can return more energy than they took.
     pub makes_energy: bool,
     /// Step size and stop time that suit the scene.
@@ -35,7 +35,7 @@ const SHARED_BODIES: &str = "the FMU moves the bodies of each contact separately
                              between two walls, would be moved twice. For such contacts use FMUs without [coupling], and short steps";
 
 /// A parameter that cannot be set.
-pub struct Constant {
+pub struct FixedParameter {
     pub name: String,
     pub value: f64,
     /// Unit; empty for a dimensionless number.
@@ -69,26 +69,26 @@ impl Plan<'_> {
 }
 
 /// The kinds of the FMU of `scene`, whose laws have this `energy` balance.
-fn kinds(scene: &Scene, energy: Energy) -> Vec<Kind> {
+fn kinds(scene: &Scene, energy: Energy) -> Vec<Feature> {
     let coupling = scene.coupling;
     // a loss adds heat to that of yielding
     let heats = scene.loss.is_some() && coupling.is_none() && energy == Energy::Passive;
     let kinds = [
-        (Kind::RateDependent, scene.damped.is_some() || heats),
-        (Kind::HeldInputs, !scene.input_derivatives),
-        (Kind::Parallel, coupling.is_some_and(|coupling| coupling.parallel)),
-        (Kind::AccelerationInput, coupling.is_some_and(|coupling| coupling.acceleration_input)),
-        (Kind::MassKnown, coupling.is_some()),
-        (Kind::DentsAboveSurface, energy::dents_above_surface(scene, energy)),
-        (Kind::MakesEnergy, matches!(energy, Energy::MayBeMade { .. })),
-        (Kind::LosesLess, energy == Energy::Guarded),
-        (Kind::FindsStrength, scene.finds_strength()),
+        (Feature::RateDependent, scene.damped.is_some() || heats),
+        (Feature::HeldInputs, !scene.input_derivatives),
+        (Feature::Parallel, coupling.is_some_and(|coupling| coupling.parallel)),
+        (Feature::AccelerationInput, coupling.is_some_and(|coupling| coupling.acceleration_input)),
+        (Feature::MassKnown, coupling.is_some()),
+        (Feature::DentsAboveSurface, energy::dents_above_surface(scene, energy)),
+        (Feature::MakesEnergy, matches!(energy, Energy::MayBeMade { .. })),
+        (Feature::LosesLess, energy == Energy::Guarded),
+        (Feature::FindsStrength, scene.finds_strength()),
     ];
     kinds.into_iter().filter_map(|(kind, is)| is.then_some(kind)).collect()
 }
 
 /// The parameters of `scene` that cannot be set: first those of all contacts, then those of each group.
-fn constants(scene: &Scene) -> Vec<Constant> {
+fn constants(scene: &Scene) -> Vec<FixedParameter> {
     let mut constants = Vec::new();
     let mass_is_input = scene.coupling.is_some_and(|coupling| coupling.mass_input);
     let mut add = |group: Option<&Group>, parameters: &[Parameter]| {
@@ -100,7 +100,7 @@ fn constants(scene: &Scene) -> Vec<Constant> {
             let unit = table::variable(name).unit.as_deref().unwrap_or("");
             let shared = group.is_none();
             let name = group.map_or((*name).into(), |group| group.variable(name));
-            constants.push(Constant { name, value: *value, unit, shared });
+            constants.push(FixedParameter { name, value: *value, unit, shared });
         }
     };
     add(None, &scene.parameters);

@@ -63,7 +63,7 @@ pub struct Item {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Instead {
-    pub of: Kind,
+    pub of: Feature,
     pub description: String,
     /// It may be negative, whatever the table says.
     #[serde(default)]
@@ -73,7 +73,7 @@ pub struct Instead {
 /// A kind of FMU in which variables have another meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum Feature {
     /// The force depends on the rate.
     RateDependent,
     /// Its inputs have no derivatives, as the scene wants it.
@@ -96,12 +96,12 @@ pub enum Kind {
 
 impl Variable {
     /// The description of the variable in an FMU of these `kinds`.
-    pub fn description(&self, kinds: &[Kind]) -> &str {
+    pub fn description(&self, kinds: &[Feature]) -> &str {
         self.instead(kinds).map_or(&self.description, |instead| &instead.description)
     }
 
     /// Its minimum in an FMU of these `kinds`.
-    pub fn minimum(&self, kinds: &[Kind]) -> Option<f64> {
+    pub fn minimum(&self, kinds: &[Feature]) -> Option<f64> {
         self.minimum.filter(|_| !self.instead(kinds).is_some_and(|instead| instead.negative))
     }
 
@@ -117,7 +117,7 @@ impl Variable {
         }
     }
 
-    fn instead(&self, kinds: &[Kind]) -> Option<&Instead> {
+    fn instead(&self, kinds: &[Feature]) -> Option<&Instead> {
         self.instead.iter().find(|instead| kinds.contains(&instead.of))
     }
 }
@@ -223,7 +223,7 @@ struct Materials {
 }
 
 #[derive(Deserialize)]
-struct Laws {
+struct LawTables {
     loading: Vec<Law>,
     unloading: Vec<Law>,
     damped: Vec<Law>,
@@ -258,7 +258,7 @@ const _: () = {
     assert!(lists(brinell_tables::LAWS, "[[damped]]", [&first(&AnyDamped::ALL)]));
 };
 
-static LAWS: LazyLock<Laws> = LazyLock::new(|| toml::from_str(brinell_tables::LAWS).expect(PART_OF_THE_PROGRAM));
+static LAWS: LazyLock<LawTables> = LazyLock::new(|| toml::from_str(brinell_tables::LAWS).expect(PART_OF_THE_PROGRAM));
 
 /// The entries of the laws that a scene names under `law.loading`: elastoplastic and rate-dependent ones.
 pub fn loading_laws() -> Vec<&'static Law> {

@@ -1,14 +1,14 @@
 //! Numbers written with a unit.
 
 /// A kind of quantity: its SI unit, its name, and other units with their sizes.
-struct Kind {
+struct Dimension {
     unit: &'static str,
     name: &'static str,
     others: &'static [(&'static str, f64)],
 }
 
-const KINDS: [Kind; 7] = [
-    Kind {
+const KINDS: [Dimension; 7] = [
+    Dimension {
         unit: "m",
         name: "metres",
         others: &[
@@ -23,7 +23,7 @@ const KINDS: [Kind; 7] = [
             ("in", 0.0254),
         ],
     },
-    Kind {
+    Dimension {
         unit: "Pa",
         name: "pascals",
         others: &[
@@ -37,23 +37,23 @@ const KINDS: [Kind; 7] = [
             ("ksi", 6_894_757.293_168),
         ],
     },
-    Kind {
+    Dimension {
         unit: "kg",
         name: "kilograms",
         others: &[("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("t", 1e3), ("lb", 0.453_592_37)],
     },
-    Kind {
+    Dimension {
         unit: "m/s",
         name: "metres per second",
         others: &[("m/s", 1.0), ("mm/s", 1e-3), ("cm/s", 1e-2), ("km/s", 1e3), ("km/h", 1.0 / 3.6)],
     },
-    Kind {
+    Dimension {
         unit: "kg/m^3",
         name: "kilograms per cubic metre",
         others: &[("kg/m^3", 1.0), ("kg/m3", 1.0), ("g/cm^3", 1e3), ("g/cm3", 1e3), ("kg/dm3", 1e3)],
     },
-    Kind { unit: "J", name: "joules", others: &[("J", 1.0), ("mJ", 1e-3), ("uJ", 1e-6), ("kJ", 1e3)] },
-    Kind {
+    Dimension { unit: "J", name: "joules", others: &[("J", 1.0), ("mJ", 1e-3), ("uJ", 1e-6), ("kJ", 1e3)] },
+    Dimension {
         unit: "N",
         name: "newtons",
         others: &[
@@ -69,7 +69,7 @@ const KINDS: [Kind; 7] = [
     },
 ];
 
-fn kind(unit: &str) -> &'static Kind {
+fn kind(unit: &str) -> &'static Dimension {
     KINDS.iter().find(|kind| kind.unit == unit).expect("a unit of the program")
 }
 

@@ -18,7 +18,7 @@ const VOS_NT_WINDOWS32: u32 = 0x0004_0004;
 const VFT_DLL: u32 = 2;
 
 /// Contents of a block.
-enum Value<'a> {
+enum ResourceValue<'a> {
     Nothing,
     Text(&'a str),
     Bytes(&'a [u8]),
@@ -35,13 +35,15 @@ pub fn version(name: &str) -> Vec<u8> {
         ("ProductName", "Brinell"),
         ("ProductVersion", version),
     ];
-    let strings: Vec<_> = strings.iter().map(|(key, text)| block(key, &Value::Text(text), &[])).collect();
-    let table = block(&format!("{LANGUAGE:04X}{CODE_PAGE:04X}"), &Value::Nothing, &strings);
+    let strings: Vec<_> = strings.iter().map(|(key, text)| block(key, &ResourceValue::Text(text), &[])).collect();
+    let table = block(&format!("{LANGUAGE:04X}{CODE_PAGE:04X}"), &ResourceValue::Nothing, &strings);
     let translation: Vec<u8> = [LANGUAGE, CODE_PAGE].into_iter().flat_map(u16::to_le_bytes).collect();
-    let translation = block("Translation", &Value::Bytes(&translation), &[]);
-    let children =
-        [block("StringFileInfo", &Value::Nothing, &[table]), block("VarFileInfo", &Value::Nothing, &[translation])];
-    let data = block("VS_VERSION_INFO", &Value::Bytes(&fixed(version)), &children);
+    let translation = block("Translation", &ResourceValue::Bytes(&translation), &[]);
+    let children = [
+        block("StringFileInfo", &ResourceValue::Nothing, &[table]),
+        block("VarFileInfo", &ResourceValue::Nothing, &[translation]),
+    ];
+    let data = block("VS_VERSION_INFO", &ResourceValue::Bytes(&fixed(version)), &children);
     // every resource file begins with an empty resource
     [resource(0, 0, 0, &[]), resource(RT_VERSION, NAME, LANGUAGE, &data)].concat()
 }
@@ -83,13 +85,13 @@ fn fixed(version: &str) -> Vec<u8> {
 }
 
 /// A block: its length, that of its value, whether this is text, its key, the value, and the blocks in it.
-fn block(key: &str, value: &Value, children: &[Vec<u8>]) -> Vec<u8> {
+fn block(key: &str, value: &ResourceValue, children: &[Vec<u8>]) -> Vec<u8> {
     let utf16 = |text: &str| -> Vec<u8> { text.encode_utf16().chain([0]).flat_map(u16::to_le_bytes).collect() };
     let (value, length, is_text) = match value {
-        Value::Nothing => (Vec::new(), 0, 1u16),
+        ResourceValue::Nothing => (Vec::new(), 0, 1u16),
         // the length of text counts characters
-        Value::Text(text) => (utf16(text), utf16(text).len() / 2, 1),
-        Value::Bytes(bytes) => (bytes.to_vec(), bytes.len(), 0),
+        ResourceValue::Text(text) => (utf16(text), utf16(text).len() / 2, 1),
+        ResourceValue::Bytes(bytes) => (bytes.to_vec(), bytes.len(), 0),
     };
     let mut bytes: Vec<u8> = [0, length as u16, is_text].into_iter().flat_map(u16::to_le_bytes).collect();
     bytes.extend(utf16(key));

@@ -1,6 +1,6 @@
 //! Fits a scene to a prebuilt library, and turns it into the data of that library.
 
-use super::kinds::{Laws, Library};
+use super::kinds::{Library, LibraryLaws};
 use crate::constants::{parameters, start_value};
 use crate::interface::Entry;
 use crate::plan::Plan;
@@ -72,8 +72,8 @@ fn library_for(scene: &Scene) -> Result<Library, NeedsCompiler> {
 }
 
 /// The prebuilt laws of `scene`, regardless of their constants.
-fn laws_of(scene: &Scene) -> Result<Laws, NeedsCompiler> {
-    let all = Laws::all();
+fn laws_of(scene: &Scene) -> Result<LibraryLaws, NeedsCompiler> {
+    let all = LibraryLaws::all();
     if let Some((name, law)) = scene.damped {
         let of_name: Vec<_> = all.into_iter().filter(|laws| laws.loading == name).collect();
         // the damping selects the variant; constants are compared later
@@ -91,7 +91,7 @@ fn laws_of(scene: &Scene) -> Result<Laws, NeedsCompiler> {
 }
 
 /// The rate-dependent law with these names and its reference constants.
-fn damped_of(laws: &Laws) -> Option<AnyDamped> {
+fn damped_of(laws: &LibraryLaws) -> Option<AnyDamped> {
     use crate::model::Dampings;
     let (_, law) = AnyDamped::ALL.into_iter().find(|(name, _)| *name == laws.loading)?;
     laws.partner.map_or(Some(law), |damping| law.with_damping(damping))

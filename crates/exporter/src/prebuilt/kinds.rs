@@ -11,7 +11,7 @@ use brinell_contact::loading::AnyLoading;
 use std::path::Path;
 
 /// Outputs of a library, and its co-simulation algorithm.
-pub struct Kind {
+pub struct LibraryKind {
     pub name: &'static str,
     outputs: Outputs,
     /// `None` if the library doesn't know the mass.
@@ -36,36 +36,36 @@ enum Outputs {
 
 /// The kinds, in ascending order of cost. `impulse` and `mean_force` are computed in every step; all other outputs
 /// only when they are read. In the first, the impactor never yields.
-pub const KINDS: [Kind; 5] = [
-    Kind {
+pub const KINDS: [LibraryKind; 5] = [
+    LibraryKind {
         name: "force",
         outputs: Outputs::These(&["indentation", "residual_indentation", "dissipated_energy"]),
         master: None,
         watches: false,
         two_strengths: false,
     },
-    Kind {
+    LibraryKind {
         name: "state",
         outputs: Outputs::AllBut(&["impulse", "mean_force", "closing_speed"]),
         master: None,
         watches: true,
         two_strengths: true,
     },
-    Kind {
+    LibraryKind {
         name: "everything",
         outputs: Outputs::AllBut(&["closing_speed"]),
         master: None,
         watches: true,
         two_strengths: true,
     },
-    Kind {
+    LibraryKind {
         name: "serial",
         outputs: Outputs::AllBut(&[]),
         master: Some(Master::Serial),
         watches: false,
         two_strengths: true,
     },
-    Kind {
+    LibraryKind {
         name: "parallel",
         outputs: Outputs::AllBut(&[]),
         master: Some(Master::Parallel),
@@ -74,7 +74,7 @@ pub const KINDS: [Kind; 5] = [
     },
 ];
 
-impl Kind {
+impl LibraryKind {
     /// Whether this kind has libraries with rate-dependent laws. These laws don't support a known mass.
     fn goes_with_damped(&self) -> bool {
         self.master.is_none()
@@ -111,24 +111,24 @@ impl Kind {
 
 /// The laws of a library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Laws {
+pub struct LibraryLaws {
     pub loading: &'static str,
     /// The unloading law, or the damping of a rate-dependent law with several.
     pub partner: Option<&'static str>,
 }
 
-impl Laws {
+impl LibraryLaws {
     /// Every loading law with its default unloading law, and every rate-dependent law with each of its dampings. The law of
     /// scenes that name none comes first: the first laws of a kind say what compiling saves.
-    pub fn all() -> Vec<Laws> {
+    pub fn all() -> Vec<LibraryLaws> {
         let loading = AnyLoading::ALL.into_iter().map(|(loading, _)| {
             let partner = (loading != "hertz").then(|| pairing::default_unloading(loading));
-            Laws { loading, partner }
+            LibraryLaws { loading, partner }
         });
         let damped = AnyDamped::ALL.into_iter().flat_map(|(loading, law)| {
             let dampings = law.dampings();
             let partners = if dampings.is_empty() { vec![None] } else { dampings.into_iter().map(Some).collect() };
-            partners.into_iter().map(move |partner| Laws { loading, partner })
+            partners.into_iter().map(move |partner| LibraryLaws { loading, partner })
         });
         let mut all: Vec<_> = loading.chain(damped).collect();
         all.sort_by_key(|laws| laws.loading != pairing::DEFAULT_LOADING);
@@ -161,14 +161,14 @@ impl Laws {
 
 /// One prebuilt library.
 pub struct Library {
-    pub laws: Laws,
-    pub kind: &'static Kind,
+    pub laws: LibraryLaws,
+    pub kind: &'static LibraryKind,
     /// A scene with everything that the library has.
     pub scene: Scene,
 }
 
 impl Library {
-    fn new(laws: Laws, kind: &'static Kind) -> Library {
+    fn new(laws: LibraryLaws, kind: &'static LibraryKind) -> Library {
         let outputs = kind.outputs().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
         let strength = if kind.two_strengths { "material = \"mild steel\"\nyield_strength = 1e9\n" } else { "" };
         let mut text = format!(
@@ -190,8 +190,8 @@ impl Library {
 
     /// All libraries, grouped by kind.
     pub fn all() -> Vec<Library> {
-        let laws = Laws::all();
-        let of_kind = |kind: &'static Kind| {
+        let laws = LibraryLaws::all();
+        let of_kind = |kind: &'static LibraryKind| {
             let fitting = laws.iter().filter(|laws| laws.damped().is_none() || kind.goes_with_damped());
             fitting.map(|laws| Library::new(*laws, kind)).collect::<Vec<_>>()
         };
@@ -199,7 +199,7 @@ impl Library {
     }
 
     /// The smallest prebuilt library with these laws that has everything the scene needs; `None` for other laws.
-    pub fn for_scene(laws: Laws, scene: &Scene) -> Option<Library> {
+    pub fn for_scene(laws: LibraryLaws, scene: &Scene) -> Option<Library> {
         KINDS.iter().find(|kind| kind.takes(scene)).map(|kind| Library::new(laws, kind))
     }
 
@@ -218,7 +218,7 @@ impl Library {
 
 #[cfg(test)]
 mod tests {
-    use super::{KINDS, Laws, Library};
+    use super::{KINDS, Library, LibraryLaws};
     use crate::scene::Scene;
     use std::collections::HashSet;
     use std::path::Path;
@@ -228,15 +228,15 @@ mod tests {
         let all = Library::all();
         let names: HashSet<_> = all.iter().map(Library::name).collect();
         assert_eq!(names.len(), all.len(), "each has a name of its own");
-        let damped = Laws::all().iter().filter(|laws| laws.damped().is_some()).count();
-        assert_eq!(all.len(), (Laws::all().len() - damped) * KINDS.len() + damped * 3);
+        let damped = LibraryLaws::all().iter().filter(|laws| laws.damped().is_some()).count();
+        assert_eq!(all.len(), (LibraryLaws::all().len() - damped) * KINDS.len() + damped * 3);
     }
 
     #[test]
     fn of_each_kind_the_library_of_a_scene_without_a_law_comes_first() {
         let text = "name = \"plain\"\nimpactor = { radius = 5e-3 }\ntarget = { material = \"mild steel\" }\n";
         let scene = Scene::parse(text.into(), Path::new("plain.toml")).expect("a scene");
-        let laws = Laws { loading: scene.loading.0, partner: scene.unloading.map(|(name, _)| name) };
+        let laws = LibraryLaws { loading: scene.loading.0, partner: scene.unloading.map(|(name, _)| name) };
         let all = Library::all();
         for kind in &KINDS {
             let first = all.iter().find(|library| library.kind.name == kind.name).expect("no kind is empty");

@@ -12,7 +12,7 @@ mod macho_tests;
 
 pub use fill::FillError;
 pub use fit::NeedsCompiler;
-pub use kinds::{KINDS, Laws, Library};
+pub use kinds::{KINDS, Library, LibraryLaws};
 
 use crate::package::{GUID_TO_COME, guid};
 use crate::plan::Plan;
@@ -20,7 +20,7 @@ use brinell_fmu::scene::identity_of;
 use brinell_fmu::scene::prebuilt::block::{Block, Data};
 
 /// An FMU from a prebuilt library.
-pub struct Unit {
+pub struct PrebuiltUnit {
     pub guid: String,
     /// Its library.
     pub library: Library,
@@ -28,12 +28,12 @@ pub struct Unit {
     data: Data,
 }
 
-impl Unit {
+impl PrebuiltUnit {
     /// The planned FMU, for libraries of these `sources`: a hash.
     ///
     /// # Errors
     /// [`NeedsCompiler`] if no prebuilt library fits the scene.
-    pub fn of(plan: &Plan, sources: &str) -> Result<Unit, NeedsCompiler> {
+    pub fn of(plan: &Plan, sources: &str) -> Result<PrebuiltUnit, NeedsCompiler> {
         let library = Library::of(plan.scene)?;
         let (source, made_from) = library.source(sources);
         // the size of the data does not depend on the value of the GUID
@@ -41,7 +41,7 @@ impl Unit {
         let words: String = block.words().map(|word| format!("{word:016x}")).collect();
         let guid = guid(plan, &[&words, &source], sources);
         let data = fit::data_of(plan, &guid)?;
-        Ok(Unit { guid, library, made_from, data })
+        Ok(PrebuiltUnit { guid, library, made_from, data })
     }
 
     /// Writes the data of the scene to a copy of its library.

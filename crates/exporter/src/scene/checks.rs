@@ -3,10 +3,10 @@
 use super::Scene;
 use super::bodies::{self, Body, Both};
 use super::contacts::{Contacts, Group, Parameter};
-use super::file::{File, ImpactTable, NamesName};
+use super::file::{ImpactTable, NamesName, SceneFile};
 use super::fmu::{self, check_description, check_input_derivatives, check_outputs, choose_settable};
 use super::friction;
-use super::laws::{self, Laws};
+use super::laws::{self, SceneLaws};
 use super::losses::{self, Loss};
 use super::names::check_name;
 use crate::mistake::{Mistake, check_limits, positive};
@@ -24,12 +24,12 @@ use toml::Spanned;
 ///
 /// # Errors
 /// The first mistake.
-pub fn check(file: File) -> Result<Scene, Mistake> {
+pub fn check(file: SceneFile) -> Result<Scene, Mistake> {
     let name = check_name(&file.name)?;
     let description = check_description(file.description.as_ref())?;
     let mut contacts = Contacts::of(&file)?;
-    let laws = Laws::of(&file.law, &contacts)?;
-    let Laws { damped, loading, unloading, passivity_guard } = laws;
+    let laws = SceneLaws::of(&file.law, &contacts)?;
+    let SceneLaws { damped, loading, unloading, passivity_guard } = laws;
     let yield_strength = contacts.yield_strength(0);
     if laws.has_no_strength() {
         contacts.forget_strength();

@@ -1,7 +1,7 @@
 //! The contacts: the numbers that a scene gives for all of them, and those that one gives for itself, directly or by a material.
 
 use super::bodies::{Body, Both};
-use super::file::{BodyTable, ContactTable, File, Impactor};
+use super::file::{BodyTable, ContactTable, Impactor, SceneFile};
 use super::names::check_identifier;
 use super::strength::{self, PowerLaw, Rate};
 use crate::layout::shortened;
@@ -217,7 +217,7 @@ struct Contact {
 }
 
 /// The contacts of `file`; those without their own surface have `surface`.
-fn contacts_of(file: &File, surface: Surface, shared: &Numbers) -> Result<Vec<Contact>, Mistake> {
+fn contacts_of(file: &SceneFile, surface: Surface, shared: &Numbers) -> Result<Vec<Contact>, Mistake> {
     let Some(contacts) = &file.contact else {
         let own = Numbers::default();
         return Ok(vec![Contact { name: None, count: None, surface, own, per_contact: Vec::new(), span: 0..0 }]);
@@ -304,7 +304,7 @@ pub struct Contacts {
 
 impl Contacts {
     /// The contacts of the scene `file`, all of them complete.
-    pub fn of(file: &File) -> Result<Contacts, Mistake> {
+    pub fn of(file: &SceneFile) -> Result<Contacts, Mistake> {
         let none = BodyTable::default();
         let bodies = Both {
             impactor: file.impactor.as_ref().map_or(&none, |impactor| &impactor.get_ref().0),
@@ -535,7 +535,7 @@ impl Contacts {
 }
 
 /// Rejects a scene without `[[contact]]` whose tables are incomplete.
-fn check_tables(file: &File, contacts: &Contacts) -> Result<(), Mistake> {
+fn check_tables(file: &SceneFile, contacts: &Contacts) -> Result<(), Mistake> {
     let span =
         |table: Option<Range<usize>>, name| table.ok_or_else(|| Mistake(0..0, format!("missing table `{name}`")));
     let impactor = span(file.impactor.as_ref().map(Spanned::span), "impactor")?;

@@ -9,13 +9,13 @@ use toml::Spanned;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct File {
+pub struct SceneFile {
     pub name: Spanned<String>,
     pub description: Option<Spanned<String>>,
     pub impactor: Option<Spanned<Impactor>>,
     pub target: Option<Spanned<BodyTable>>,
     #[serde(default)]
-    pub law: Law,
+    pub law: LawTable,
     #[serde(default)]
     pub fmu: Fmu,
     pub impact: Option<Spanned<ImpactTable>>,
@@ -103,7 +103,7 @@ impl From<SurfaceName> for Surface {
 
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Law {
+pub struct LawTable {
     pub loading: Option<Spanned<String>>,
     pub loading_parameters: Option<ConstantTable>,
     pub unloading: Option<Spanned<String>>,
@@ -197,13 +197,13 @@ pub struct ContactTable {
     pub parameters_per_contact: Vec<Spanned<String>>,
 }
 
-impl File {
+impl SceneFile {
     /// Reads the `text` of a scene.
     ///
     /// # Errors
     /// Text that is not TOML, has a wrong type, or is unknown, with its place.
-    pub fn read(text: &str) -> Result<File, Mistake> {
-        toml::from_str::<File>(text).map_err(|error| {
+    pub fn read(text: &str) -> Result<SceneFile, Mistake> {
+        toml::from_str::<SceneFile>(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
             let line = text[..span.start].rfind('\n').map_or(0, |end| end + 1);
             let line = text[line..].lines().next().unwrap_or_default().trim();

@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::contacts::Contacts;
-use super::file::Law;
+use super::file::LawTable;
 use crate::law_check;
 use crate::mistake::Mistake;
 use crate::model::Dampings;
@@ -16,7 +16,7 @@ use brinell_contact::unloading::AnyUnloading;
 use toml::Spanned;
 
 /// The laws of a scene.
-pub struct Laws {
+pub struct SceneLaws {
     /// The law of a contact whose force depends on the rate; `loading` is then without effect.
     pub damped: Option<(&'static str, AnyDamped)>,
     pub loading: (&'static str, AnyLoading),
@@ -25,9 +25,9 @@ pub struct Laws {
     pub passivity_guard: bool,
 }
 
-impl Laws {
+impl SceneLaws {
     /// The laws of the table `law`, which suit the `contacts`, and each other.
-    pub fn of(law: &Law, contacts: &Contacts) -> Result<Laws, Mistake> {
+    pub fn of(law: &LawTable, contacts: &Contacts) -> Result<SceneLaws, Mistake> {
         let damped = find_damped(law)?;
         let loading = match damped {
             Some(_) => ("hertz", AnyLoading::Hertz(Hertz)),
@@ -40,7 +40,7 @@ impl Laws {
         let unloading = check_unloading(law, loading.0, elastic)?;
         check_parameters(law, &loading, unloading.as_ref())?;
         let passivity_guard = check_guard(law.passivity_guard.as_ref(), unloading)?;
-        Ok(Laws { damped, loading, unloading, passivity_guard })
+        Ok(SceneLaws { damped, loading, unloading, passivity_guard })
     }
 
     /// Whether nothing yields, or the force depends on the rate.
@@ -55,7 +55,7 @@ impl Laws {
 }
 
 /// The rate-dependent law of the scene, with its damping variant and constants.
-fn find_damped(law: &Law) -> Result<Option<(&'static str, AnyDamped)>, Mistake> {
+fn find_damped(law: &LawTable) -> Result<Option<(&'static str, AnyDamped)>, Mistake> {
     let asked = law.loading.as_ref();
     let found = asked.and_then(|asked| AnyDamped::ALL.into_iter().find(|(name, _)| name == asked.get_ref()));
     let needs_restitution = found.is_some_and(|(_, law)| law.needs_restitution());
@@ -114,7 +114,7 @@ fn with_damping(name: &str, law: AnyDamped, asked: &Spanned<String>) -> Result<A
 }
 
 /// The loading law of a scene without a rate-dependent law.
-fn check_loading(given: &Law, contacts: &Contacts) -> Result<(&'static str, AnyLoading), Mistake> {
+fn check_loading(given: &LawTable, contacts: &Contacts) -> Result<(&'static str, AnyLoading), Mistake> {
     let name = given.loading.as_ref();
     let yields = contacts.any_yields();
     let default = if yields { pairing::DEFAULT_LOADING } else { "hertz" };
@@ -138,7 +138,11 @@ fn check_loading(given: &Law, contacts: &Contacts) -> Result<(&'static str, AnyL
 }
 
 /// The unloading law; `None` if the contact is `elastic`.
-fn check_unloading(given: &Law, loading: &str, elastic: bool) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
+fn check_unloading(
+    given: &LawTable,
+    loading: &str,
+    elastic: bool,
+) -> Result<Option<(&'static str, AnyUnloading)>, Mistake> {
     let name = given.unloading.as_ref();
     let parameters = given.unloading_parameters.as_ref();
     let span = name.map_or(0..0, Spanned::span);
@@ -163,13 +167,13 @@ fn check_unloading(given: &Law, loading: &str, elastic: bool) -> Result<Option<(
 }
 
 /// The place of the constants that the scene gives to its laws, if any.
-fn parameters_span(given: &Law) -> Option<std::ops::Range<usize>> {
+fn parameters_span(given: &LawTable) -> Option<std::ops::Range<usize>> {
     given.loading_parameters.as_ref().or(given.unloading_parameters.as_ref()).map(Spanned::span)
 }
 
 /// Rejects constants of the two laws that contradict each other.
 fn check_parameters(
-    given: &Law,
+    given: &LawTable,
     loading: &(&'static str, AnyLoading),
     unloading: Option<&(&'static str, AnyUnloading)>,
 ) -> Result<(), Mistake> {
@@ -178,7 +182,7 @@ fn check_parameters(
 }
 
 /// Rejects laws whose constants from the scene make them useless on the bodies of `group`.
-pub fn check_curves(given: &Law, scene: &Scene, group: usize) -> Result<(), Mistake> {
+pub fn check_curves(given: &LawTable, scene: &Scene, group: usize) -> Result<(), Mistake> {
     let Some(span) = parameters_span(given).filter(|_| scene.unloading.is_some()) else { return Ok(()) };
     let model = scene.model_of(group);
     let unloading = given.unloading_parameters.as_ref().map_or(span.clone(), Spanned::span);

@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::contacts::Contacts;
-use super::file::{BodyTable, File};
+use super::file::{BodyTable, SceneFile};
 use crate::mistake::Mistake;
 use crate::model::AnyModel;
 use crate::numbers::{in_message, out_of_range, quantity};
@@ -36,7 +36,7 @@ const RESTITUTIONS: RangeInclusive<f64> = 0.001..=1.0;
 const THICKNESSES: RangeInclusive<f64> = 1e-9..=1e6;
 
 /// The loss of the scene `file`; `damped` is the name of its law if that has a damping of its own.
-pub fn check(file: &File, contacts: &Contacts, damped: Option<&str>) -> Result<Option<Loss>, Mistake> {
+pub fn check(file: &SceneFile, contacts: &Contacts, damped: Option<&str>) -> Result<Option<Loss>, Mistake> {
     let target = file.target.as_ref().map(Spanned::get_ref);
     let thickness = target.and_then(|target| target.plate_thickness.as_ref());
     let restitution = file.law.elastic_restitution.as_ref();

@@ -122,7 +122,7 @@ impl Scene {
     }
 
     fn parse_with_doubts(text: String, path: &Path) -> Result<(Scene, Vec<Mistake>), SceneError> {
-        let checked = file::File::read(&text).and_then(|file| {
+        let checked = file::SceneFile::read(&text).and_then(|file| {
             let doubts = plausible::doubts(&file);
             Ok((checks::check(file)?, doubts))
         });

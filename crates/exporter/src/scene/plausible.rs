@@ -1,7 +1,7 @@
 //! Warnings about numbers that are allowed but implausible: a radius of 5 m, a Young's modulus of 210 Pa.
 
 use super::bodies::Body;
-use super::file::{BodyTable, File, PowerLawTable};
+use super::file::{BodyTable, PowerLawTable, SceneFile};
 use crate::mistake::Mistake;
 use crate::numbers::{plain, quantity};
 use std::ops::RangeInclusive;
@@ -69,7 +69,7 @@ const DROP_HEIGHT: Expected<'static> =
     Expected { range: 0.0..=200.0, unit: "m", factors: &[1e-3, 1e-6], why: "drop towers have up to 200 m" };
 
 /// The doubts about `file`, each with its place.
-pub fn doubts(file: &File) -> Vec<Mistake> {
+pub fn doubts(file: &SceneFile) -> Vec<Mistake> {
     let mut doubts = Vec::new();
     if let Some(impactor) = &file.impactor {
         doubts.extend(of_body("", Body::Impactor, &impactor.get_ref().0));
