@@ -76,10 +76,6 @@ pub trait Contact<M>: Copy {
         Ok((self.step(course, step, model)?, mean_force))
     }
 
-    /// Mean force \[N\] of the last step, a [short step](Contact::short_step) along `course` that began at the indentation
-    /// `from` \[m\]. The rate must keep its sign over the step.
-    fn mean_force_of_short_course(&self, from: f64, course: &Course, step: f64) -> f64;
-
     /// [`Contact::step`] with a constant `rate` \[m/s\], mostly for a step that is not a [short step](Contact::short_step).
     /// `kept` is the cached part of the model; `model` is called only if the law is needed.
     ///

@@ -69,11 +69,6 @@ impl<L: Loading, U: Unloading> Contact<Model<L, U>> for History {
         Ok((self.step(course, step, model)?, impulse / step))
     }
 
-    #[inline]
-    fn mean_force_of_short_course(&self, from: f64, course: &Course, step: f64) -> f64 {
-        self.mean_force_along(from, course, step)
-    }
-
     #[inline(always)]
     fn step_held(
         &mut self,

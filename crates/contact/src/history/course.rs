@@ -44,15 +44,6 @@ impl Way<'_> {
 }
 
 impl History {
-    /// Mean force \[N\] of the last step, which stayed on this branch along `course` and began at the indentation `from` \[m\].
-    #[inline]
-    pub(super) fn mean_force_along(&self, from: f64, course: &Course, step: f64) -> f64 {
-        match self.regime {
-            Regime::Apart => 0.0,
-            _ => impulse_on(&self.segment, course, (0.0, from), (step, self.indentation())) / step,
-        }
-    }
-
     /// Moves the contact along `course` for `step` \[s\]. Returns the largest indentation of the step \[m\] and the impulse
     /// \[N.s\]. The law must have segments.
     ///

@@ -49,10 +49,6 @@ impl<L: Loading + Copy, U: Unloading + Copy> Contact<Model<L, U>> for History {
         self.plastic.step(course, step, || model().borrow().at(factor))
     }
 
-    fn mean_force_of_short_course(&self, from: f64, course: &Course, step: f64) -> f64 {
-        Contact::<Plastic<L, U>>::mean_force_of_short_course(&self.plastic, from, course, step)
-    }
-
     fn step_held(&mut self, rate: f64, step: f64, (): &(), model: impl Fn() -> Model<L, U>) -> Result<(), TooDeep> {
         self.plastic.advance(&model().at(self.factor), rate * step)
     }

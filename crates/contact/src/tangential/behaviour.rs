@@ -106,10 +106,6 @@ impl<L: Loading, U: Unloading, K: Shear<D>, const D: usize, const MEAN: bool> Co
         Ok((self.step(course, step, model)?, mean))
     }
 
-    fn mean_force_of_short_course(&self, from: f64, course: &Course, step: f64) -> f64 {
-        Contact::<Model<L, U>>::mean_force_of_short_course(&self.normal, from, course, step)
-    }
-
     fn step_held(
         &mut self,
         rate: f64,

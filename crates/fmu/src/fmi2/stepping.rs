@@ -48,27 +48,7 @@ pub unsafe fn do_step<S: Scene>(
             }
             Plain::Other => {}
         }
-        if component.instance.is_on_course() {
-            return do_course_step::<S>(c, currentCommunicationPoint, communicationStepSize);
-        }
         do_any_step::<S>(c, currentCommunicationPoint, communicationStepSize)
-    }
-}
-
-/// A step with derivatives of the input that is otherwise plain.
-///
-/// # Safety
-/// The caller's component.
-#[inline(never)]
-unsafe fn do_course_step<S: Scene>(c: fmi2Component, time: f64, step: f64) -> fmi2Status {
-    // SAFETY: guaranteed by the caller.
-    unsafe {
-        if let Some(component) = Component::<S>::behind(c)
-            && component.instance.do_course_step(time, step)
-        {
-            return fmi2OK;
-        }
-        do_any_step::<S>(c, time, step)
     }
 }
 

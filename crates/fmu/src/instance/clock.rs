@@ -107,12 +107,6 @@ impl Clock {
         self.follows(time, step - shortest) && !beyond
     }
 
-    /// The same for a step while plain steps are [held off](Clock::hold), if [inputs may be set](Clock::takes_rate).
-    #[inline(always)]
-    pub fn takes_held(&self, time: f64, end: f64, step: f64, shortest: f64) -> bool {
-        self.follows(time, step - shortest) && end <= self.stop && end <= LATEST
-    }
-
     /// Whether an input may be set to `rate` \[m/s\] without further checks.
     #[inline(always)]
     pub fn takes_rate(&self, rate: f64) -> bool {

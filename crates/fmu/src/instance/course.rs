@@ -7,41 +7,6 @@ impl<S: Scene> Instance<S> {
     pub(super) const ALONE: bool =
         S::CONTACTS == 1 && Self::PLAIN && S::Course::IS_PRESENT && !S::Contact::HAS_FRICTION;
 
-    /// A step with derivatives of the input that is otherwise plain. It is fastest if the rate keeps its sign and the contact
-    /// stays on its branch. The result is the same as that of [`Instance::do_step`]. Returns false if it is not such a step,
-    /// without changing anything, or if the step has led [too deep](Instance::is_deep).
-    #[inline(always)]
-    pub fn do_course_step(&mut self, time: f64, step: f64) -> bool {
-        let end = time + step;
-        let Contacts { histories, rates, curves, momenta, last_step, .. } = &mut self.contacts;
-        let (Some(history), Some(&rate)) = (histories.as_mut().first_mut(), rates.as_ref().first()) else {
-            return false;
-        };
-        let (Some(curve), Some(bodies)) = (curves.as_mut().first_mut(), self.settings.bodies.as_ref().first()) else {
-            return false;
-        };
-        let course = curve.course(rate);
-        let from = if S::Momentum::IS_PRESENT { history.indentation() } else { 0.0 };
-        let in_order =
-            self.clock.curved && self.clock.takes_held(time, end, step, Self::SHORTEST) && self.clock.takes_rate(rate);
-        if !Self::ALONE || S::GUARD.is_some() || !in_order || course.is_held() {
-            return false;
-        }
-        let short =
-            course.keeps_direction(step) && history.stays_within(bodies.depth) && history.short_step(course.way(step));
-        if !short {
-            // a step that led too deep needs a warning
-            return self.advance_on_course(end, step).is_ok() && !self.is_deep();
-        }
-        for momentum in momenta.as_mut() {
-            momentum.add(history.mean_force_of_short_course(from, &course, step), step);
-        }
-        curve.end_of(&course, step);
-        last_step.as_mut().fill(step);
-        self.clock.time = end;
-        true
-    }
-
     /// Moves the single contact for `step` \[s\], to the time `end` \[s\], along the course of its input.
     #[inline(never)]
     pub(super) fn advance_on_course(&mut self, end: f64, step: f64) -> Result<(), Fault> {

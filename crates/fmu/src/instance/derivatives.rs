@@ -76,12 +76,6 @@ impl<S: Scene> Instance<S> {
         in_order
     }
 
-    /// Whether a single contact follows its input and the input has derivatives, or had some in the last step.
-    #[inline(always)]
-    pub fn is_on_course(&self) -> bool {
-        Self::ALONE && self.clock.curved
-    }
-
     /// Prepares the inputs for derivatives; none is set yet.
     #[inline(always)]
     fn curve(&mut self) {

@@ -38,11 +38,6 @@ impl<D: Damped + Copy> Contact<Model<D>> for History<D> {
         0.0
     }
 
-    /// Zero: a short step has no contact.
-    fn mean_force_of_short_course(&self, _from: f64, _course: &Course, _step: f64) -> f64 {
-        0.0
-    }
-
     /// The rate must be constant: the inputs of these laws have no derivatives.
     fn step<B: Borrow<Model<D>>>(
         &mut self,

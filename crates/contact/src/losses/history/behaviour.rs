@@ -37,11 +37,6 @@ impl<L: Loading, U: Unloading, K: Loss> Contact<Model<L, U, K>> for History<K> {
         0.0
     }
 
-    /// Zero: a short step has no contact.
-    fn mean_force_of_short_course(&self, _from: f64, _course: &Course, _step: f64) -> f64 {
-        0.0
-    }
-
     /// The rate must be constant: the inputs of these contacts have no derivatives.
     fn step<B: Borrow<Model<L, U, K>>>(
         &mut self,
