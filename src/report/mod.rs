@@ -112,7 +112,7 @@ struct Report {
 }
 
 /// The impact of the runs, and how it is run.
-struct Plan<'a> {
+struct Runs<'a> {
     /// Name of the scene.
     name: &'a str,
     impact: Impact,
@@ -128,7 +128,7 @@ struct Plan<'a> {
     progress: &'a Progress,
 }
 
-impl Plan<'_> {
+impl Runs<'_> {
     /// `sqrt(K/m)` for the largest stiffness `K` [1/s].
     fn frequency(&self) -> f64 {
         (self.stiffness / self.impact.mass).sqrt()
@@ -182,7 +182,7 @@ impl Report {
         let follows_rate = scene.is_rate_dependent();
         let stiffness = model.stiffness(prediction.max_indentation);
         let name = &scene.name;
-        let plan = Plan { name, impact, prediction, stiffness, most, phases, follows_rate, progress };
+        let runs = Runs { name, impact, prediction, stiffness, most, phases, follows_rate, progress };
         let units = units::build(scene, progress)?;
         let mut contacts = BTreeMap::new();
         for (needs, (unit, archive)) in &units {
@@ -191,12 +191,12 @@ impl Report {
         let (mut lines, mut stability) = (Vec::new(), Stability::default());
         for way in &WAYS {
             if let Some(contact) = contacts.get_mut(&way.needs) {
-                lines.push(precision::measure(&plan, contact, way, None)?);
-                stability.measure(&plan, contact, way)?;
+                lines.push(precision::measure(&runs, contact, way, None)?);
+                stability.measure(&runs, contact, way)?;
             }
         }
         for peer in &peers {
-            lines.extend(peer.measure(&alone, &plan)?);
+            lines.extend(peer.measure(&alone, &runs)?);
         }
         let plain = contacts.get_mut(&Needs::Force).expect("every report has the FMU with its force alone");
         let extremes = extremes::measure(plain, &alone, quick, progress);

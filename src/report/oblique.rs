@@ -20,7 +20,7 @@ const PLACES: u32 = 4;
 
 /// Root-mean-square error over angles and places.
 #[derive(Serialize)]
-pub struct Error {
+pub struct ObliqueError {
     steps_per_contact: u32,
     error_of_tangential_restitution: f64,
 }
@@ -29,7 +29,7 @@ pub struct Error {
 #[derive(Serialize)]
 pub struct Oblique {
     #[serde(rename = "oblique-error")]
-    errors: Vec<Error>,
+    errors: Vec<ObliqueError>,
     #[serde(rename = "oblique")]
     words: String,
     /// The impacts, in words.
@@ -70,7 +70,7 @@ pub fn measure(
             squares += (rebound(contact, outcome, steps_per_contact)? - outcome.tangential_restitution()).powi(2);
         }
         let error_of_tangential_restitution = (squares / exact.len() as f64).sqrt();
-        errors.push(Error { steps_per_contact, error_of_tangential_restitution });
+        errors.push(ObliqueError { steps_per_contact, error_of_tangential_restitution });
     }
     // frequency of the tangential motion of a sticking ball over that of its normal motion: `sqrt(4 G*/E* m/m_t)`
     let Outcome { friction, before: ball, .. } = &exact[0];

@@ -1,7 +1,7 @@
 //! Other FMUs with the same variables, measured together with the scene's.
 
 use super::precision::{self, Line};
-use super::{Plan, ReportError};
+use super::{ReportError, Runs};
 use crate::importer::{Archive, Unit};
 use crate::master::{Contact, Needs, WAYS, Way};
 use brinell_exporter::scene::Scene;
@@ -52,12 +52,12 @@ impl Peer {
     ///
     /// # Errors
     /// [`ReportError::Peer`] if it rejects a call.
-    pub fn measure(&self, scene: &Scene, plan: &Plan) -> Result<Vec<Line>, ReportError> {
+    pub fn measure(&self, scene: &Scene, runs: &Runs) -> Result<Vec<Line>, ReportError> {
         let mut parameters: Vec<(&str, f64)> = scene.parameters.iter().map(|known| (known.name, known.value)).collect();
         parameters.push(("effective_mass", scene.impact.mass));
         let lines = Contact::new(&self.archive, &self.unit, "", &parameters).and_then(|mut contact| {
             contact.start(&[])?;
-            self.ways().into_iter().map(|way| precision::measure(plan, &mut contact, way, Some(&self.name))).collect()
+            self.ways().into_iter().map(|way| precision::measure(runs, &mut contact, way, Some(&self.name))).collect()
         });
         lines.map_err(|error| ReportError::Peer { path: self.path.clone(), reason: error.to_string() })
     }

@@ -1,6 +1,6 @@
 //! Error against run time: every way to couple, for different numbers of steps per contact.
 
-use super::{Figure, Plan};
+use super::{Figure, Runs};
 use crate::importer::ImportError;
 use crate::master::{Contact, Way, gaps};
 use brinell_exporter::plot::{Picture, Series, View};
@@ -70,20 +70,20 @@ pub fn doubled(fewest: u32, most: u32) -> impl Iterator<Item = u32> {
 ///
 /// # Errors
 /// [`ImportError`] if the FMU rejects a call.
-pub fn measure(plan: &Plan, contact: &mut Contact, way: &'static Way, peer: Option<&str>) -> Result<Line, ImportError> {
-    plan.progress.say(&format!("error against run time: {}", way.name));
-    let unit = peer.unwrap_or(plan.name);
-    let points = doubled(2, plan.most).map(|steps| point(plan, contact, unit, way, steps));
+pub fn measure(runs: &Runs, contact: &mut Contact, way: &'static Way, peer: Option<&str>) -> Result<Line, ImportError> {
+    runs.progress.say(&format!("error against run time: {}", way.name));
+    let unit = peer.unwrap_or(runs.name);
+    let points = doubled(2, runs.most).map(|steps| point(runs, contact, unit, way, steps));
     let points = points.collect::<Result<_, _>>()?;
     Ok(Line { unit: unit.into(), way, is_peer: peer.is_some(), points })
 }
 
-fn point(plan: &Plan, contact: &mut Contact, unit: &str, way: &Way, steps: u32) -> Result<Point, ImportError> {
-    let Plan { impact, prediction, .. } = plan;
+fn point(runs: &Runs, contact: &mut Contact, unit: &str, way: &Way, steps: u32) -> Result<Point, ImportError> {
+    let Runs { impact, prediction, .. } = runs;
     let step = prediction.contact_time() / f64::from(steps);
     // sums of squared errors of restitution, force, dent and contact time
     let (mut squares, mut calls, mut run_time) = ([0.0; 4], 0, f64::INFINITY);
-    for gap in gaps(impact.speed, step, plan.phases) {
+    for gap in gaps(impact.speed, step, runs.phases) {
         contact.start_apart(gap, step)?;
         let began = Instant::now();
         let rebound = way.impact(contact, impact.mass, impact.speed, step)?;
@@ -97,12 +97,12 @@ fn point(plan: &Plan, contact: &mut Contact, unit: &str, way: &Way, steps: u32) 
             rebound.max_force / prediction.max_force - 1.0,
             dent / prediction.residual_indentation - 1.0,
             // the end of a force that follows the rate is independent of the surface
-            if plan.follows_rate { f64::NAN } else { contact_time / prediction.contact_time() - 1.0 },
+            if runs.follows_rate { f64::NAN } else { contact_time / prediction.contact_time() - 1.0 },
         ];
         squares.iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * error);
         calls += contact.calls;
     }
-    let count = f64::from(plan.phases);
+    let count = f64::from(runs.phases);
     let [restitution, max_force, dent, contact_time] = squares.map(|sum: f64| (sum / count).sqrt());
     let (unit, way, calls) = (unit.into(), way.name, calls as f64 / count);
     Ok(Point { unit, way, steps, step, restitution, max_force, dent, contact_time, calls, run_time })

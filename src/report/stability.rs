@@ -1,7 +1,7 @@
 //! Stability: the energy gain of rebounds with large steps, and the largest step that keeps a pressed body at rest.
 //! Steps are `h sqrt(K/m)`, with the largest stiffness `K` of the impact: that of the unloading at the largest indentation.
 
-use super::{Figure, Plan};
+use super::{Figure, Runs};
 use crate::importer::ImportError;
 use crate::master::{Body, Contact, Needs, Way, gaps};
 use brinell_contact::impact::Impact;
@@ -60,12 +60,12 @@ pub struct Stability {
 }
 
 /// Rebound energies of `way` for the step at this `point` of the range.
-fn energy(plan: &Plan, contact: &mut Contact, way: &Way, point: u32) -> Result<Energy, ImportError> {
-    let Impact { mass, speed } = plan.impact;
+fn energy(runs: &Runs, contact: &mut Contact, way: &Way, point: u32) -> Result<Energy, ImportError> {
+    let Impact { mass, speed } = runs.impact;
     let relative = RANGE.0 * (RANGE.1 / RANGE.0).powf(f64::from(point) / f64::from(POINTS));
-    let step = relative / plan.frequency();
+    let step = relative / runs.frequency();
     let (mut lowest, mut highest) = (f64::INFINITY, 0.0);
-    for gap in gaps(speed, step, plan.phases) {
+    for gap in gaps(speed, step, runs.phases) {
         contact.start(&[("initial_gap", gap)])?;
         let ratio = (way.impact(contact, mass, speed, step)?.speed / speed).powi(2);
         lowest = f64::min(lowest, ratio);
@@ -76,24 +76,24 @@ fn energy(plan: &Plan, contact: &mut Contact, way: &Way, point: u32) -> Result<E
 }
 
 /// The stable range in words, and its end if it has one, by bisection.
-fn limit(plan: &Plan, contact: &mut Contact, way: &Way) -> Result<(&'static str, Option<f64>), ImportError> {
+fn limit(runs: &Runs, contact: &mut Contact, way: &Way) -> Result<(&'static str, Option<f64>), ImportError> {
     let (mut low, mut high) = RANGE;
-    if !stays(plan, contact, way, low)? {
+    if !stays(runs, contact, way, low)? {
         return Ok(("at no step that was tried", None));
     }
-    if stays(plan, contact, way, high)? {
+    if stays(runs, contact, way, high)? {
         return Ok((EVERY, None));
     }
     for _ in 0..20 {
         let middle = (low * high).sqrt();
-        if stays(plan, contact, way, middle)? { low = middle } else { high = middle }
+        if stays(runs, contact, way, middle)? { low = middle } else { high = middle }
     }
     Ok(("up to a step", Some(low)))
 }
 
 /// Whether a body keeps to a small motion about the deepest indentation, into which a constant load presses it.
-fn stays(plan: &Plan, contact: &mut Contact, way: &Way, relative: f64) -> Result<bool, ImportError> {
-    let (prediction, frequency) = (&plan.prediction, plan.frequency());
+fn stays(runs: &Runs, contact: &mut Contact, way: &Way, relative: f64) -> Result<bool, ImportError> {
+    let (prediction, frequency) = (&runs.prediction, runs.frequency());
     let step = relative / frequency;
     let elastic = prediction.max_indentation - prediction.residual_indentation;
     // an FMU that moves the mass itself goes to that position before any force can change it
@@ -105,7 +105,7 @@ fn stays(plan: &Plan, contact: &mut Contact, way: &Way, relative: f64) -> Result
     contact.set_rate(-0.01 * elastic / moment)?;
     contact.step(moment)?;
     contact.set_rate(0.0)?;
-    let mut body = Body::pressed(plan.impact.mass, contact.force()?);
+    let mut body = Body::pressed(runs.impact.mass, contact.force()?);
     if way.needs == Needs::LateMass {
         body.owed = contact.mean_force()?;
     }
@@ -157,17 +157,17 @@ impl Stability {
     ///
     /// # Errors
     /// [`ImportError`] if the FMU rejects a call.
-    pub fn measure(&mut self, plan: &Plan, contact: &mut Contact, way: &Way) -> Result<(), ImportError> {
-        plan.progress.say(&format!("stability: {}", way.name));
-        let own = (0..=POINTS).map(|point| energy(plan, contact, way, point));
+    pub fn measure(&mut self, runs: &Runs, contact: &mut Contact, way: &Way) -> Result<(), ImportError> {
+        runs.progress.say(&format!("stability: {}", way.name));
+        let own = (0..=POINTS).map(|point| energy(runs, contact, way, point));
         let own = own.collect::<Result<Vec<Energy>, _>>()?;
-        let (stable, limit) = limit(plan, contact, way)?;
+        let (stable, limit) = limit(runs, contact, way)?;
         self.limits.push(Limit {
             way: way.name,
             stable,
             limit,
             elastic_theory: Some(way.stable).filter(|limit| limit.is_finite()),
-            largest_stable_step_s: limit.map(|limit| limit / plan.frequency()),
+            largest_stable_step_s: limit.map(|limit| limit / runs.frequency()),
             gains_from: own.iter().find(|energy| makes_energy(energy.highest)).map(|energy| energy.relative),
         });
         self.energies.extend(own);

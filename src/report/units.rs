@@ -1,4 +1,4 @@
-//! The FMUs of a report: the scene's first contact, once for each kind of coupling, each with only the features that its ways need.
+//! The FMUs of a report: the scene's first contact, once for each kind of coupling, with only the features that its ways need.
 
 use super::{Progress, ReportError};
 use crate::files::private_folder;
